@@ -282,6 +282,41 @@ def test_every_limit_stands_in_limits():
     assert found == set()
 
 
+# Where a name may stand again, by the module's name and a name.
+OF_THE_SAME_THING = [
+    (r"documents/.*", r".*"),  # a result as JSON has it
+    (r"(commands|library)/\w+\.py", "|".join([*COMMANDS, "main"])),  # doors to what is computed
+    (r"(__main__|cli)\.py", r"main"),
+    # tables of files, which are built into the same in SI units
+    (r"enginefile/(model|\w+_tables)\.py|torsion/chain_file\.py", r".*"),
+    (r"render/\w+\.py", r"document|sheet|sheet_parts|rows|columns"),  # one of each a result
+    (
+        r"(mounting|torque|torsion|forces)/\w*quantity\.py",  # chapters, as sweeps call them
+        r"Variants|evaluate_engine|list_names|parse_quantity|refuse_unknown",
+    ),
+    (r"\w+/starting_file\.py", r"read_starting_file"),  # one of each kind, for `new`
+    (r"core/mechanisms/\w+\.py", r".*"),  # the same figure by another method
+]
+
+
+def test_a_public_name_stands_for_one_thing():
+    """In the whole house; what only a module knows has a name that begins with an underscore."""
+    rooms: dict[str, list[str]] = {}
+    for file in sorted(PACKAGE.rglob("*.py")):
+        for node in tree(file).body:
+            if isinstance(node, ast.ClassDef | ast.FunctionDef) and node.name[0] != "_":
+                rooms.setdefault(node.name, []).append(name_of(file))
+
+    def count(name: str) -> int:
+        return sum(
+            not any(re.fullmatch(where, room) and re.fullmatch(what, name) for where, what in known)
+            for room in rooms[name]
+        )
+
+    known = OF_THE_SAME_THING
+    assert {name: rooms[name] for name in rooms if count(name) > 1} == {}
+
+
 @pytest.mark.parametrize("file", sorted(PACKAGE.rglob("*.py")), ids=name_of)
 def test_files_speak_for_themselves(file):
     """A docstring, and none of what fails silently: blanket except (but at the process's end, where

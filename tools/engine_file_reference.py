@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from balcli.enginefile.messages import find_table, import_lists, import_tables
-from balcli.enginefile.model import EngineFile, Override, Table
+from balcli.enginefile.model import EngineFile, FileTable, Override
 from balcli.enginefile.schema import describe_engine_file
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "engine-file.md"
@@ -51,7 +51,7 @@ def document() -> str:
 def _part(
     heading: str,
     about: str,
-    table: type[Table],
+    table: type[FileTable],
     definition: dict[str, Any],
     keys: tuple[str, ...] = (),
 ) -> str:
@@ -70,7 +70,7 @@ def _part(
     )
 
 
-def _row(key: str, table: type[Table], definition: dict[str, Any]) -> str:
+def _row(key: str, table: type[FileTable], definition: dict[str, Any]) -> str:
     shown, field = definition["properties"][key], table.model_fields[key]
     unit = shown.get("unit") or shown.get("items", {}).get("unit", "")
     meaning = field.description or ""
@@ -83,7 +83,7 @@ def _row(key: str, table: type[Table], definition: dict[str, Any]) -> str:
     )
 
 
-def _left_out(key: str, table: type[Table], definition: dict[str, Any]) -> str:
+def _left_out(key: str, table: type[FileTable], definition: dict[str, Any]) -> str:
     """What counts where a key is left out."""
     others = [
         " and ".join(f"`{k}`" for k in group)
@@ -102,9 +102,11 @@ def _left_out(key: str, table: type[Table], definition: dict[str, Any]) -> str:
     return "–" if default is None or default in ((), "") else f"{_toml(default)}"
 
 
-def _describe_inner(heading: str, table: type[Table], definitions: dict[str, Any]) -> Iterator[str]:
+def _describe_inner(
+    heading: str, table: type[FileTable], definitions: dict[str, Any]
+) -> Iterator[str]:
     """The tables within a table, each once, and those within these."""
-    found: dict[type[Table], list[str]] = {}
+    found: dict[type[FileTable], list[str]] = {}
     for key, field in table.model_fields.items():
         if inner := find_table(field.annotation):
             found.setdefault(inner, []).append(key)

@@ -29,7 +29,7 @@ class Result:
 
     def _repr_html_(self) -> str:
         """What the command prints, for a notebook."""
-        return import_module("balcli.render.notebook").show(self)
+        return import_module("balcli.render.notebook").show_in_notebook(self)
 
     def to_dict(self) -> dict[str, Any]:
         """The document that the command writes as JSON (docs/json.md): its keys name SI units."""

@@ -191,7 +191,7 @@ def test_a_folder_that_cannot_be_written_is_named(monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("balcli.commands.sweep_folder.write_parquet", full)
+    monkeypatch.setattr("balcli.commands.sweep_folder.write_sweep_parquet", full)
     assert refusal(*ASKED, "-o", "out/") == "out/: cannot be written (No space left on device)"
     assert os.listdir() == ["good.toml"]
 

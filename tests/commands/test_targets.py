@@ -210,7 +210,7 @@ def test_a_disk_that_fills_up_during_a_sweep(balcli, good, monkeypatch):
         yield "crank.stroke,force.2.major\n"
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("balcli.commands.sweep_output.csv_text", full)
+    monkeypatch.setattr("balcli.commands.sweep_output.sweep_csv", full)
     assert balcli("sweep", good, "--vary", "crank.stroke=80,90", "-o", "out.csv") == (
         2,
         "",

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
+import re
 import tomllib
 
 import numpy as np
@@ -194,6 +197,51 @@ def test_the_load_takes_its_share(curve, tmp_path):
     assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in err
 
 
+IN_OTHER_UNITS = {  # NIST SP 811 (2008), appendix B.8, but for the last: pound times square inch
+    "N": ("lbf", 4.4482216152605),
+    "N·m": ("lbf·ft", 1.3558179483314004),
+    "J": ("lbf·ft", 1.3558179483314004),
+    "Pa": ("psi", 6894.757293168361),
+    "W": ("hp", 745.6998715822702),
+    "kg·m²": ("lb·in²", 0.45359237 * 0.0254**2),
+}
+
+
+def test_imperial_figures_are_the_metric_ones_in_other_units(four):
+    """Pressure, power, work and inertia, too: in tables and CSV."""
+    bearings = "[bearing]\npin_diameter = 48\npin_width = 20\nmain_diameter = 60\nmain_width = 22\n"
+    with open(four, "a") as file:
+        file.write(bearings)
+    asked = (four, "--fluctuation", "1/300", "--loads", "pin,main")
+
+    def rows(*more):
+        return list(csv.DictReader(io.StringIO(torque(*asked, "-f", "csv", *more))))
+
+    units = set()
+    for si, imperial in zip(rows(), rows("--units", "imperial"), strict=True):
+        name, size = IN_OTHER_UNITS.get(si["unit"], (si["unit"], 1.0))
+        assert imperial | {"value": "", "unit": si["unit"]} == si | {"value": ""}
+        assert imperial["unit"] == name
+        if name != si["unit"]:
+            assert float(imperial["value"]) == pytest.approx(float(si["value"]) / size, rel=1e-14)
+            units.add(name)
+    assert units == {name for name, _ in IN_OTHER_UNITS.values()}
+    table = torque(*asked, "--units", "imperial")
+    assert not re.search(r"\b(N|J|kJ|N·m|bar|kW|kg·m²|N/mm²)\b", table)
+    assert re.search(r"^mean pressure +130\.53 psi indicated, 104\.43 psi brake$", table, re.M)
+    metric = torque(*asked)
+    assert re.search(r"^mean pressure +9 bar indicated, 7\.2 bar brake$", metric, re.M)
+
+
+def test_with_imperial_units_a_bare_inertia_asks_for_its_unit(curve):
+    asked = ("torque", "--curve", curve, "--speed", "3000", "--units", "imperial", "--inertia")
+    told = (
+        '"3": with --units imperial a moment of inertia needs its unit: "3 lb in^2" or "3 kg mm^2"'
+    )
+    assert run_here(*asked, "3").err == f"balcli: --inertia {told}\n"
+    assert "inertia      800 lb·in²" in run_here(*asked, "800 lb in^2").out
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
@@ -283,7 +331,9 @@ def test_knuckle_pins_are_told_beside_the_crank_pin(tmp_path):
     status, out, err = run_here("torque", str(path), "--loads", "pin,main")
     assert (status, err) == (0, f"warning: {path}: main bearings: {why}\n")
     assert "Knuckle pins" in out
-    assert "Main bearings" not in out
+    assert f"\nMain bearings\nNot known: {why}.\n" in out
+    markdown = run_here("torque", str(path), "--loads", "pin,main", "-f", "markdown").out
+    assert f"\n## Main bearings\n\nNot known: {why}.\n" in markdown
     both = json.loads(run_here("torque", str(path), "--loads", "pin,main", "-f", "json").out)
     assert both["loads"] == loads | {"obstacle": why}
     rows = run_here("torque", str(path), "--loads", "pin,main", "-f", "csv").out.splitlines()
@@ -370,6 +420,35 @@ def test_pictures_of_gas(four, tmp_path, what):
     status, _, err = run_here("plot", four, "--what", what, "-o", str(target))
     assert (status, err) == (0, "")
     assert target.read_text().startswith("<?xml")
+
+
+@pytest.mark.parametrize(
+    ("what", "metric", "imperial"),
+    [
+        ("pressure", ["pressure, bar"], ["pressure, psi"]),
+        ("p-v", ["pressure, bar", "volume, cm³"], ["pressure, psi", "volume, in³"]),
+        ("inner", ["z, mm", "moment, N·m"], ["z, in", "moment, lbf·ft"]),
+    ],
+)
+def test_axes_name_the_units_asked_for(four, tmp_path, what, metric, imperial):
+    target = tmp_path / "x.svg"
+    for units, names in (("si", metric), ("imperial", imperial)):
+        run_here("plot", four, "--what", what, "-o", str(target), "--units", units)
+        picture = target.read_text(encoding="utf-8")
+        assert [name in picture for name in names] == [True] * len(names)
+
+
+def test_the_page_runs_pressure_in_the_units_asked_for(four, tmp_path):
+    target = tmp_path / "x.html"
+    highest = []
+    for units, name in (("si", "bar"), ("imperial", "psi")):
+        assert run_here("report", four, str(target), "--units", units).status == 0
+        page = target.read_text(encoding="utf-8")
+        found = json.loads(re.search(r'id="running">(.*?)</script>', page, re.DOTALL)[1])
+        pressure = next(each for each in found["curves"] if each["id"] == "pressure")
+        assert pressure["unit"] == name
+        highest.append(max(pressure["total"]))
+    assert highest[0] == pytest.approx(highest[1] * 6894.757293168361 / 1e5, rel=1e-4)
 
 
 def test_pictures_that_cannot_be(tmp_path):

@@ -22,7 +22,7 @@ from balcli.core.cylinder_pressure import (
 from balcli.core.gas_cycle import Goal, Process, gas_cycle
 from balcli.core.mechanisms import harmonics
 from balcli.core.piecewise import polyline
-from balcli.core.pressure_diagram import PressureDiagram, mistakes, pressure_diagram
+from balcli.core.pressure_diagram import PressureDiagram, find_diagram_mistakes, pressure_diagram
 from balcli.core.tangential_force import tangential_torque
 
 ENGINES = Path(__file__).parents[2] / "engines"
@@ -281,7 +281,7 @@ WRONG = {
 @pytest.mark.parametrize("case", WRONG)
 def test_mistakes_of_a_diagram(case):
     angle, pressure, expected = WRONG[case]
-    found = [tuple(mistake) for mistake in mistakes(angle, pressure)]
+    found = [tuple(mistake) for mistake in find_diagram_mistakes(angle, pressure)]
     if case == "pressure":
         found = [mistake for mistake in found if "apart" not in mistake[1]]
     assert found == expected
@@ -323,10 +323,10 @@ def test_a_gap_may_be_wider_where_the_pressure_hardly_changes():
     angle = [*range(0, 676, 15), 709]
     values = np.full(len(angle), 1e5)
     values[1] = 20e5
-    assert list(mistakes(angle, values)) == []
+    assert list(find_diagram_mistakes(angle, values)) == []
     values[-1] = 4e5
-    (wrong,) = mistakes(angle, values)
+    (wrong,) = find_diagram_mistakes(angle, values)
     assert wrong.row == len(angle) - 1
     assert wrong.message.startswith("lies 34° after the row before it")
-    assert list(mistakes(angle[:-1], values[:-1])) == []
-    assert [m.row for m in mistakes(angle[:-2], values[:-2])] == [None]
+    assert list(find_diagram_mistakes(angle[:-1], values[:-1])) == []
+    assert [m.row for m in find_diagram_mistakes(angle[:-2], values[:-2])] == [None]

@@ -10,7 +10,7 @@ from support.pistons import slider_crank_piston
 
 from balcli.core.combustion import Diesel, Dual, Otto, Wiebe
 from balcli.core.cylinder_pressure import GasError, PressureOnPiston
-from balcli.core.gas_cycle import Goal, Process, gas_cycle, mistakes
+from balcli.core.gas_cycle import Goal, Process, find_cycle_mistakes, gas_cycle
 
 OF_THE_LARGEST = 1e-13  # harmonics
 RELATIVE = 1e-13  # imep
@@ -325,7 +325,7 @@ def test_what_cannot_be_is_refused_by_the_name_of_the_value(case):
 
 def test_all_mistakes_at_once():
     process = Process(0.5, expansion_index=0.9, exhaust_opens_deg=-3.0, intake_closes_deg=900.0)
-    found = mistakes(PISTON, process, Otto(), Goal("cut_off", 2.0))
+    found = find_cycle_mistakes(PISTON, process, Otto(), Goal("cut_off", 2.0))
     assert [mistake.field for mistake in found] == [
         "cut_off",
         "compression_ratio",

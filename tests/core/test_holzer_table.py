@@ -13,7 +13,7 @@ from support.chains import (
 
 from balcli.core.holzer_table import tabulate_holzer
 from balcli.core.torsional_chain import (
-    Shaft,
+    ChainShaft,
     join_chain,
 )
 from balcli.core.torsional_modes import find_chain_modes
@@ -47,7 +47,7 @@ def test_holzers_table_away_from_them_is_the_response():
 
 def test_holzers_table_in_full():
     """Two wheels on a shaft 6 and a third through gears 1:2 on a shaft 4 in its own speed."""
-    chain = join_chain([1, 1, 0.5], [Shaft(0, 1, 6), Shaft(1, 2, 4, 2)])
+    chain = join_chain([1, 1, 0.5], [ChainShaft(0, 1, 6), ChainShaft(1, 2, 4, 2)])
     table = tabulate_holzer(chain, 2.0)
     assert table.angle == pytest.approx([1, 1 / 3, 2 / 3 - 2 / 3])
     assert table.torque == pytest.approx([4, 4 / 3, 0])
@@ -58,7 +58,7 @@ def test_holzers_table_in_full():
 
 
 def test_a_branch_to_a_clamp_is_a_spring_to_ground():
-    chain = join_chain([1, 1, 1], [Shaft(0, 1, 6), Shaft(0, 2, 3)], clamped=[2])
+    chain = join_chain([1, 1, 1], [ChainShaft(0, 1, 6), ChainShaft(0, 2, 3)], clamped=[2])
     table = tabulate_holzer(chain, 1.0, 0, 1)
     assert table.angle == pytest.approx([1, 1 - (1 - 3) / 6, 0])
     assert table.total == pytest.approx([-2, -2 + 4 / 3, -3])
@@ -74,7 +74,7 @@ def test_a_branch_to_a_clamp_is_a_spring_to_ground():
             "Holzer's table can lead to a clamped node, but not over it",
         ),
         (
-            join_chain([1, 1, 1], [Shaft(0, 2, 6), Shaft(0, 1, 4)]),
+            join_chain([1, 1, 1], [ChainShaft(0, 2, 6), ChainShaft(0, 1, 4)]),
             "the branch of node 1 is at resonance by itself",
         ),
     ],

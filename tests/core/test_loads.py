@@ -15,7 +15,7 @@ from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.spectrum import compute_spectra
-from balcli.studies.parameters import parse as parameter
+from balcli.studies.parameters import parse_parameter as parameter
 from balcli.studies.sweep import Sweep
 
 QUANTITIES = ("force", "moment", "couple", "torque", "roll")

@@ -7,8 +7,8 @@ import pytest
 from support.chains import chain_matrices
 
 from balcli.core.torsional_chain import (
+    ChainShaft,
     Damping,
-    Shaft,
     find_pieces,
     follow_gears,
     incidence,
@@ -18,21 +18,21 @@ from balcli.core.torsional_chain import (
 
 
 def test_gears_that_lock():
-    shafts = [Shaft(0, 1, np.inf, 2), Shaft(1, 2, np.inf, 2), Shaft(0, 2, np.inf, 3)]
+    shafts = [ChainShaft(0, 1, np.inf, 2), ChainShaft(1, 2, np.inf, 2), ChainShaft(0, 2, np.inf, 3)]
     with pytest.raises(ValueError, match=r"^the gears at node 0 lock each other$"):
         join_chain([1, 1, 1], shafts)
-    assert join_chain([1, 1, 1], [*shafts[:2], Shaft(0, 2, np.inf, 4)])
+    assert join_chain([1, 1, 1], [*shafts[:2], ChainShaft(0, 2, np.inf, 4)])
 
 
 def test_a_massless_node_that_turns_freely():
     with pytest.raises(ValueError, match=r"^massless node 2 turns freely$"):
-        join_chain([1, 1, 0], [Shaft(0, 1, 5), Shaft(1, 2, 0)])
-    assert join_chain([1, 1, 0], [Shaft(0, 1, 5), Shaft(1, 2, 7)])
-    assert join_chain([0, 0], [Shaft(0, 1, 5)], clamped=[1])
+        join_chain([1, 1, 0], [ChainShaft(0, 1, 5), ChainShaft(1, 2, 0)])
+    assert join_chain([1, 1, 0], [ChainShaft(0, 1, 5), ChainShaft(1, 2, 7)])
+    assert join_chain([0, 0], [ChainShaft(0, 1, 5)], clamped=[1])
 
 
 def test_pieces_that_hang_together():
-    chain = join_chain([1, 1, 1, 1], [Shaft(2, 0, 5, 4.0), Shaft(1, 3, 5)])
+    chain = join_chain([1, 1, 1, 1], [ChainShaft(2, 0, 5, 4.0), ChainShaft(1, 3, 5)])
     pieces = find_pieces(chain)
     assert pieces.first.tolist() == [0, 1, 0, 1]
     assert pieces.pace.tolist() == [1, 1, 0.25, 1]
@@ -42,20 +42,22 @@ def test_pieces_that_hang_together():
 
 
 def test_contradicting_ratios_of_a_loop_lock_its_piece():
-    loop = [Shaft(0, 1, 5), Shaft(1, 2, 5), Shaft(0, 2, 5, 2.0)]
+    loop = [ChainShaft(0, 1, 5), ChainShaft(1, 2, 5), ChainShaft(0, 2, 5, 2.0)]
     chain = join_chain([1, 1, 1, 1], loop)
     assert find_pieces(chain).locked.tolist() == [True, True, True, False]
     assert rigid_motions(chain).tolist() == [[0, 0, 0, 1]]
 
 
 def test_rigid_motions_turn_at_the_ratios():
-    chain = join_chain([1, 1, 1], [Shaft(0, 1, np.inf, -2), Shaft(1, 2, 7, 1.5)])
+    chain = join_chain([1, 1, 1], [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 7, 1.5)])
     assert rigid_motions(chain).tolist() == [[1, -2, -3]]
     assert incidence(chain) @ [1, -2, -3] == pytest.approx([0, 0])
 
 
 def test_independent_angles():
-    chain = join_chain([1, 1, 1, 1], [Shaft(0, 1, np.inf, -2), Shaft(1, 2, 7), Shaft(2, 3, 7)], [3])
+    chain = join_chain(
+        [1, 1, 1, 1], [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 7), ChainShaft(2, 3, 7)], [3]
+    )
     follow, independent = follow_gears(chain)
     assert independent.tolist() == [0, 2]
     assert follow.tolist() == [[1, 0], [-2, 0], [0, 1], [0, 0]]
@@ -63,7 +65,7 @@ def test_independent_angles():
 
 def test_matrices_by_hand():
     """x1 = -2 x0: the shaft 3 twists by x1 - x2, dashpots stand at node 1 and along the shaft."""
-    chain = join_chain([1, 10, 100], [Shaft(0, 1, np.inf, -2), Shaft(1, 2, 3)])
+    chain = join_chain([1, 10, 100], [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 3)])
     damping = Damping(np.array([0, 0.1]), np.array([0, 5.0]), np.array([0, 7.0, 0]))
     found = chain_matrices(chain, damping)
     shaft = np.array([[4, 2], [2, 1]])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.chains import no_damping
 
-from balcli.core.torsional_chain import Damping, Shaft, join_chain
+from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
 from balcli.core.torsional_dampers import (
     best_viscous_damping,
     pendulum_inertia,
@@ -16,7 +16,7 @@ from balcli.core.torsional_response import respond_chain
 
 W = np.array([50.0, 300, 1000])
 LOAD = np.array([1.0, -2j, 0.5])
-CHAIN = join_chain([0.1, 0.2, 2], [Shaft(0, 1, 1e5), Shaft(1, 2, 2e5)])
+CHAIN = join_chain([0.1, 0.2, 2], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5)])
 DAMPING = Damping(np.full(2, 0.02), np.zeros(2), np.zeros(3))
 
 
@@ -29,7 +29,8 @@ def at_first_node(inertia):
 def with_a_ring(inertia, stiffness, loss, dashpot):
     """The same chain with the damper as a fourth node on a shaft of its own."""
     chain = join_chain(
-        [0.1, 0.2, 2, inertia], [Shaft(0, 1, 1e5), Shaft(1, 2, 2e5), Shaft(0, 3, stiffness)]
+        [0.1, 0.2, 2, inertia],
+        [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 3, stiffness)],
     )
     damping = Damping(np.array([0.02, 0.02, loss]), np.array([0, 0, dashpot]), np.zeros(4))
     return respond_chain(chain, damping, W, np.append(LOAD, 0))
@@ -80,7 +81,7 @@ def test_the_best_viscous_damper_magnifies_by_1_plus_2_over_its_ratio(ratio):
     """Den Hartog, Houdaille damper: the highest peak at w^2 = 2/(2 + ratio), and with any other
     damping it is higher.
     """
-    chain = join_chain([1.0, 1.0], [Shaft(0, 1, 1.0)], clamped=[0])
+    chain = join_chain([1.0, 1.0], [ChainShaft(0, 1, 1.0)], clamped=[0])
     w = np.append(np.linspace(0.05, 2, 4000), np.sqrt(2 / (2 + ratio)))
 
     def peak(damping):

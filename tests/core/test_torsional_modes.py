@@ -15,8 +15,8 @@ from support.chains import (
 )
 
 from balcli.core.torsional_chain import (
+    ChainShaft,
     Damping,
-    Shaft,
     follow_gears,
     incidence,
     join_chain,
@@ -48,7 +48,12 @@ def test_frequencies_against_50_digits(kind, seed, spread):
 
 def test_frequencies_that_spread_over_5e5():
     """Light inertias on stiff shafts and heavy ones on soft shafts, in one chain with a branch."""
-    shafts = [Shaft(0, 1, 1e9), Shaft(1, 2, 1e2), Shaft(2, 3, 1e7, 4.0), Shaft(1, 4, 3e3)]
+    shafts = [
+        ChainShaft(0, 1, 1e9),
+        ChainShaft(1, 2, 1e2),
+        ChainShaft(2, 3, 1e7, 4.0),
+        ChainShaft(1, 4, 3e3),
+    ]
     chain = join_chain([1e-4, 3e-3, 70, 2000, 5e2], shafts)
     found, exact = find_chain_modes(chain).omega, exact_frequencies(chain)
     assert exact[-1] > 5e5 * exact[1]
@@ -86,7 +91,7 @@ def test_rigid_gears_are_one_inertia(ratio):
     """A wheel on another is an inertia ratio^2 times its own."""
     geared = join_chain(
         [0.2, 0.1, 0.3, 0.5],
-        [Shaft(0, 1, 1e5), Shaft(1, 2, np.inf, ratio), Shaft(2, 3, 2e5)],
+        [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, np.inf, ratio), ChainShaft(2, 3, 2e5)],
     )
     single = chain_of([0.2, 0.1 + 0.3 * ratio**2, 0.5 * ratio**2], [1e5, 2e5 * ratio**2])
     found, expected = find_chain_modes(geared), find_chain_modes(single)
@@ -96,7 +101,7 @@ def test_rigid_gears_are_one_inertia(ratio):
 
 
 def test_a_clamp_holds_all_that_meshes_with_it():
-    chain = join_chain([1, 2, 3], [Shaft(0, 1, np.inf, 2), Shaft(1, 2, 12)], clamped=[0])
+    chain = join_chain([1, 2, 3], [ChainShaft(0, 1, np.inf, 2), ChainShaft(1, 2, 12)], clamped=[0])
     assert find_chain_modes(chain).omega == pytest.approx([2])
     assert find_chain_modes(chain).shapes[0].tolist()[:2] == [0, 0]
 
@@ -109,7 +114,9 @@ def test_a_massless_node_moves_with_its_shafts():
     """Of two shafts in line the twist divides as their flexibilities; a dangling one does not
     count.
     """
-    chain = join_chain([2, 0, 3, 0], [Shaft(0, 1, 30), Shaft(1, 2, 60), Shaft(2, 3, 5)])
+    chain = join_chain(
+        [2, 0, 3, 0], [ChainShaft(0, 1, 30), ChainShaft(1, 2, 60), ChainShaft(2, 3, 5)]
+    )
     modes = find_chain_modes(chain)
     assert modes.omega == pytest.approx([0, np.sqrt(20 * (1 / 2 + 1 / 3))])
     left, middle, right, end = modes.shapes[1]
@@ -138,7 +145,7 @@ def test_a_node_at_rest_hides_no_node_of_vibration():
 
 
 def test_gears_that_reverse_are_no_nodes():
-    chain = join_chain([1, 2], [Shaft(0, 1, 5, -1.5)])
+    chain = join_chain([1, 2], [ChainShaft(0, 1, 5, -1.5)])
     shapes = scale_shapes(find_chain_modes(chain).shapes)
     assert shapes[0] == pytest.approx([-1 / 1.5, 1])
     assert [count_nodes(chain, shape) for shape in shapes] == [0, 1]
@@ -166,7 +173,9 @@ def test_poles_of_two_inertias_and_a_massless_node():
     """Loss, dashpot and massless node, by hand: `s^2 + (k (1 + i loss) + s c)(1/J1 + 1/J2) = 0`,
     springs of 2 k in series; a loss factor is meant for `Im s > 0` alone.
     """
-    chain = join_chain([2.0, 0.0, 3.0], [Shaft(0, 1, 2e5), Shaft(1, 2, 2e5), Shaft(0, 2, 0.0)])
+    chain = join_chain(
+        [2.0, 0.0, 3.0], [ChainShaft(0, 1, 2e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 2, 0.0)]
+    )
     loss, oil = np.array([0.02, 0.02, 0.0]), np.array([0.0, 0.0, 5.0])
     poles = find_chain_poles(chain, Damping(loss, oil, np.zeros(3)))
     per_inertia = 1 / 2 + 1 / 3

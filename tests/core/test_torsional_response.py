@@ -16,8 +16,8 @@ from support.chains import (
 )
 
 from balcli.core.torsional_chain import (
+    ChainShaft,
     Damping,
-    Shaft,
     join_chain,
 )
 from balcli.core.torsional_modes import chain_loss, find_chain_modes
@@ -109,7 +109,7 @@ def test_rigid_shafts_share_the_load_as_their_inertias():
 
 def test_torque_through_a_gear():
     """A motor 1 drives 4 through 1:-2, rigidly: the mesh passes on what the wheel needs."""
-    chain = join_chain([1, 4], [Shaft(0, 1, np.inf, -2.0)])
+    chain = join_chain([1, 4], [ChainShaft(0, 1, np.inf, -2.0)])
     twist = respond_chain(chain, no_damping(chain), 1.0, np.array([17.0, 0]))
     assert twist.angle == pytest.approx([-1, 2])
     assert twist.torque == pytest.approx([-8])
@@ -216,14 +216,14 @@ def test_nodes_held_at_both_ends_of_a_shaft():
 
 
 def test_a_mesh_with_a_clamped_gear_holds():
-    chain = join_chain([1, 1, 1], [Shaft(0, 1, np.inf, -3), Shaft(1, 2, 9)], clamped=[0])
+    chain = join_chain([1, 1, 1], [ChainShaft(0, 1, np.inf, -3), ChainShaft(1, 2, 9)], clamped=[0])
     twist = respond_chain(chain, no_damping(chain), 1.0, np.array([1, 1, 16.0]))
     assert twist.angle == pytest.approx([0, 0, 2])
     assert twist.torque == pytest.approx([0, -18])
 
 
 def test_pieces_vibrate_by_themselves():
-    chain = join_chain([1, 2, 4], [Shaft(0, 2, 5)])
+    chain = join_chain([1, 2, 4], [ChainShaft(0, 2, 5)])
     twist = respond_chain(chain, no_damping(chain), 2.0, np.array([0, 8.0, 0]))
     assert twist.angle == pytest.approx([0, -1, 0])
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.engines import engine, refused
 
-from balcli.engine.figures import Figures
+from balcli.engine.figures import FileFigures
 from balcli.engine.layout import bank_angles, cycle_deg, plan_cylinders
 from balcli.enginefile.model import Crank, Layout
 
@@ -34,7 +34,7 @@ def where(found):
     ],
 )
 def test_bank_angles(layout, angles):
-    assert bank_angles(Layout(**layout), Figures()) == angles
+    assert bank_angles(Layout(**layout), FileFigures()) == angles
 
 
 def test_cycle():

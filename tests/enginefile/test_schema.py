@@ -10,11 +10,11 @@ from pydantic import ValidationError
 from support.commands import run_python
 
 from balcli.enginefile.messages import import_lists, import_tables
-from balcli.enginefile.model import Override, Pendulum, Ripple, Table
+from balcli.enginefile.model import FileTable, Override, Pendulum, Ripple
 from balcli.enginefile.schema import DIALECT, describe_engine_file
 
 DOCUMENT = describe_engine_file()
-MODELS: list[type[Table]] = [
+MODELS: list[type[FileTable]] = [
     *import_tables().values(),
     *import_lists().values(),
     *(Override, Pendulum, Ripple),

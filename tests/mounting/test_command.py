@@ -13,7 +13,7 @@ from support.commands import refusal, run_here, run_in_terminal
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
 
-from balcli.mounting.response import Worst
+from balcli.mounting.response import LargestAmplitude
 from balcli.render.mounts import _less
 
 DAMPED = ENGINE + block("loss = 0.1") + '[[point]]\nname = "lever"\nat = [100, 0, 300]\n'
@@ -114,7 +114,7 @@ def test_the_point_that_moves_most_is_told_with_a_scheme_and_without(four):
 )
 def test_what_hardly_anything_is_left_of_is_not_told_as_all(after, told):
     """It said "100% less" of what was there."""
-    before, worst = (Worst(value, 3000.0, 2.0, value) for value in (100.0, after))
+    before, worst = (LargestAmplitude(value, 3000.0, 2.0, value) for value in (100.0, after))
     assert _less(worst, before) == told
 
 

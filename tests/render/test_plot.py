@@ -25,7 +25,7 @@ from balcli.engine.load import parse
 from balcli.render.plot import style, torsion
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import draw_locus, find_period_deg
-from balcli.render.plot.pages import PAGES, Subject, draw_page, draw_panel, make_page
+from balcli.render.plot.pages import PAGES, PageSubject, draw_page, draw_panel, make_page
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import QUANTITIES, analyze
 from balcli.torque.pictures import PAGES as PAGES_OF_GAS
@@ -48,7 +48,7 @@ def four():
 @pytest.fixture(scope="module")
 def drawn(four):
     """The pages of the four, each drawn once: a function of the page and the form."""
-    return cache(lambda what, form: draw_page(Subject(four), what, form))
+    return cache(lambda what, form: draw_page(PageSubject(four), what, form))
 
 
 @pytest.mark.parametrize("what", ANALYSES)
@@ -59,7 +59,7 @@ def test_every_page_is_drawn(what, drawn):
 @pytest.mark.stress
 @pytest.mark.parametrize("what", ANALYSES)
 def test_before_and_after(what, four):
-    compared = ET.fromstring(draw_page(Subject(four.sizing.after, four), what, "svg"))
+    compared = ET.fromstring(draw_page(PageSubject(four.sizing.after, four), what, "svg"))
     assert ("before" in " ".join(compared.itertext())) == (what != "orders")
 
 
@@ -71,12 +71,12 @@ def test_every_form_says_what_it_is(form, drawn):
 @pytest.mark.stress
 @pytest.mark.parametrize("form", get_args(style.Form))
 def test_the_same_picture_is_the_same_bytes(form, drawn, four):
-    assert drawn("all", form) == draw_page(Subject(four), "all", form)
+    assert drawn("all", form) == draw_page(PageSubject(four), "all", form)
 
 
 @pytest.mark.parametrize("form", get_args(style.Form))
 def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
-    subject = Subject(replace(four, engine=replace(four.engine, name=HOSTILE)))
+    subject = PageSubject(replace(four, engine=replace(four.engine, name=HOSTILE)))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         data = draw_page(subject, "polar", form)
@@ -90,7 +90,7 @@ def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
 def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
     """A five has a free force of 1e-6 of one cylinder's, and a moment."""
     five = analyze(inline_engine([0, 144, 216, 288, 72]))
-    root = ET.fromstring(draw_page(Subject(five), "polar", "svg"))
+    root = ET.fromstring(draw_page(PageSubject(five), "polar", "svg"))
     texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
     assert len([text for text in texts if text.startswith("negligible (")]) == 1
     assert "moment along x, N·m" in texts
@@ -104,7 +104,7 @@ def texts_of(svg: bytes) -> list[str]:
 def test_orders_that_are_negligible_have_no_picture():
     """Orders 10 of the force and 4 of the moment of a five; 1 and 2 of its moment are drawn."""
     five = analyze(inline_engine([0, 144, 216, 288, 72]))
-    titles = [text for text in texts_of(draw_page(Subject(five), "orders", "svg")) if text]
+    titles = [text for text in texts_of(draw_page(PageSubject(five), "orders", "svg")) if text]
     assert [text for text in titles if ", order" in text] == [
         "moment, order 1, at crank angle 36°",
         "moment, order 2, at crank angle 18°",
@@ -116,7 +116,7 @@ def test_what_is_nothing_is_said_and_not_drawn():
     """A six is balanced in force and moment; about the crank it is not."""
     six = analyze(inline_engine([0, 240, 120, 120, 240, 0]), only=QUANTITIES)
     for what, panels in (("all", 6), ("polar", 2), ("curves", 2), ("spectrum", 2), ("orders", 2)):
-        found = texts_of(draw_page(Subject(six), what, "svg"))
+        found = texts_of(draw_page(PageSubject(six), what, "svg"))
         told = [text for text in found if text == "balanced" or text.startswith("negligible (")]
         assert len(told) == panels
         assert "force, N" not in found
@@ -133,7 +133,7 @@ def test_legends_end_with_their_axes(form, four, monkeypatch):
                 beyond.append(legend.get_window_extent().x1 - ax.get_window_extent().x1)
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", measure)
-    draw_page(Subject(four.sizing.after, four), "all", form)
+    draw_page(PageSubject(four.sizing.after, four), "all", form)
     assert len(beyond) == 5
     assert max(beyond) <= 0.5
 
@@ -152,7 +152,7 @@ def test_a_picture_is_laid_out_and_drawn_once(four, monkeypatch):
             return own(self, *args)
 
         monkeypatch.setattr(owner, name, count)
-    draw_page(Subject(four), "all", "svg")
+    draw_page(PageSubject(four), "all", "svg")
     assert calls == ["execute", "draw"]
 
 
@@ -161,10 +161,10 @@ def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
     orders would be no torque.
     """
     fired = analyze(build_text(GAS_FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"))
-    bars = re.findall(r">([^<>]*)</text>", draw_panel(Subject(fired), "spectrum", "about"))
+    bars = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(fired), "spectrum", "about"))
     assert {"inertia torque T", "gas torque", "total roll", "½"} <= set(bars)
     assert "About the crank, with gas" in bars
-    curves = re.findall(r">([^<>]*)</text>", draw_panel(Subject(fired), "curves", "about"))
+    curves = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(fired), "curves", "about"))
     assert {"About the crank, of inertia alone", "couple C", "roll C − T", "360"} <= set(curves)
     assert "720" not in curves
 
@@ -193,7 +193,7 @@ def test_one_order_does_not_leave_half_a_page_empty():
     """Of a twin with a long rod: a moment of one order, and no force."""
     text = changed(("throws = [0, 180, 180, 0]", "throws = [0, 180]"), ("firing_order", "# "))
     twin = analyze(engine(text.replace("length = 160", "length = 100000")))
-    page = make_page(Subject(twin), "orders", "svg")
+    page = make_page(PageSubject(twin), "orders", "svg")
     assert page.get_figwidth() < 5
 
 
@@ -334,7 +334,7 @@ def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     fired = build_text(GAS_FOUR + WIEBE)
-    page = make_page(Subject(analyze(fired), gas=compute_pictures(fired, what)), what, "png")
+    page = make_page(PageSubject(analyze(fired), gas=compute_pictures(fired, what)), what, "png")
     style.save_figure(page, "png")
     canvas = FigureCanvasAgg(page)
     canvas.draw()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 from io import StringIO
 from pathlib import Path
 
@@ -140,6 +141,16 @@ def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
     assert [found["at_x"], found["at_y"], found["position"]] == [
         (pytest.approx(v / length), names[1]) for v in (-60, 80, 12)
     ]
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_imperial_units_reach_reasons_and_notes(file, scheme):
+    """Grams stand on the bobweight card in either system, as on the scales of a shop."""
+    for form in ("table", "markdown"):
+        for text in (GOOD, SINGLE, changed(("throws = [0, 180, 180, 0]", "throws = [0, 0, 0, 0]"))):
+            options = ("--scheme", scheme, "--units", "imperial", "--format", form)
+            told = run("-", *options, text=text.partition("firing_order")[0]).out
+            assert not re.search(r"\d (N|kN|N·m|kN·m|kg|mm|kg·m|g·mm)\b", told)
 
 
 def test_imperial_units(file):

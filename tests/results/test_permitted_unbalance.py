@@ -36,7 +36,9 @@ def test_it_is_shown_beside_each():
     assert "Permitted residual unbalance, ISO 21940-11, G 16\n" in out
     assert "A crankshaft of 31 kg at 6000 rpm; all share alike." in out
     assert f"{WHOLE / 2:.1f}" in out
-    assert "oz·in" in run_here(*ASKED, "--mass", "31 kg", "--units", "imperial").out
+    pounds = run_here(*ASKED, "--mass", "68.5 lb", "--units", "imperial").out
+    assert "oz·in" in pounds
+    assert "A crankshaft of 68.5 lb at 6000 rpm; all share alike." in pounds
 
 
 def test_a_grade_may_be_written_as_the_standard_writes_it():

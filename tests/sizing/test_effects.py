@@ -14,12 +14,12 @@ from support.remedies import write_engine
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
-from balcli.sizing.effects import Slot, find_effect, solve, solve_exactly
+from balcli.sizing.effects import Slot, find_effect, size_unbalances, solve_exactly
 from balcli.sizing.remedy import Remedy, fit_devices
-from balcli.sizing.residual import Part, Point, Residual, find_residual
+from balcli.sizing.residual import ReferencePoint, Residual, ResidualPart, find_residual
 
-FORCE, MOMENT = Part("force", 1), Part("moment", 1)
-BACK, ROLL = Part("force", -1), Part("roll", 0)
+FORCE, MOMENT = ResidualPart("force", 1), ResidualPart("moment", 1)
+BACK, ROLL = ResidualPart("force", -1), ResidualPart("roll", 0)
 VECTOR = st.complex_numbers(
     min_magnitude=1e-3, max_magnitude=1e3, allow_nan=False, allow_infinity=False
 )
@@ -29,15 +29,15 @@ def residual(noise: float = 1e-16, **parts: complex) -> Residual:
     """Parts by name: forward, backward, moment, roll."""
     names = {"forward": FORCE, "backward": BACK, "moment": MOMENT, "roll": ROLL}
     found = {names[name]: value for name, value in parts.items()}
-    return Residual(2, found, dict.fromkeys(found, noise), Point(0j, 0.0), 1.0)
+    return Residual(2, found, dict.fromkeys(found, noise), ReferencePoint(0j, 0.0), 1.0)
 
 
 @given(VECTOR, VECTOR)
 def test_two_planes_take_any_force_and_moment(force, moment):
     slots = [Slot("shaft", 2, 1, z) for z in (-0.3, 0.2)]
-    fit = solve(slots, residual(forward=force, moment=moment), (FORCE, MOMENT))
+    fit = size_unbalances(slots, residual(forward=force, moment=moment), (FORCE, MOMENT))
     left = sum(
-        find_effect(s.make_device(u), (FORCE, MOMENT), Point(0j, 0.0))
+        find_effect(s.make_device(u), (FORCE, MOMENT), ReferencePoint(0j, 0.0))
         for s, u in zip(slots, fit.unbalances, strict=True)
     )
     assert left == pytest.approx(
@@ -48,7 +48,7 @@ def test_two_planes_take_any_force_and_moment(force, moment):
 @given(VECTOR, VECTOR)
 def test_sliders_in_two_directions_take_any_ellipse(forward, backward):
     slots = [Slot("slider", 2, 0, 0.0, 0j, direction) for direction in (20, 75)]
-    fit = solve(slots, residual(forward=forward, backward=backward), (FORCE, BACK))
+    fit = size_unbalances(slots, residual(forward=forward, backward=backward), (FORCE, BACK))
     assert fit.left <= 1e-14
 
 
@@ -62,9 +62,9 @@ def test_a_force_and_a_roll_by_shafts_at_three_places():
     ]
     parts = (FORCE, BACK, ROLL)
     asked = residual(forward=1 + 2j, backward=0.5 - 1j, roll=0.3 + 0.1j)
-    fit = solve(slots, asked, parts)
+    fit = size_unbalances(slots, asked, parts)
     total = sum(
-        find_effect(s.make_device(u), parts, Point(0j, 0.0))
+        find_effect(s.make_device(u), parts, ReferencePoint(0j, 0.0))
         for s, u in zip(slots, fit.unbalances, strict=True)
     )
     assert total == pytest.approx([-asked.parts[p] for p in parts], rel=1e-13)
@@ -83,14 +83,14 @@ def test_effect_is_what_the_analysis_says(slot):
     throws.
     """
     engine = build(parse(write_engine(0, 180, 180, 0, frame="reference = [40, -25, 130]")))
-    reference = Point(complex(*engine.reference_m[:2]), float(engine.reference_m[2]))
+    reference = ReferencePoint(complex(*engine.reference_m[:2]), float(engine.reference_m[2]))
     u = cmath.rect(2e-3, 0.4)
     table = slot.make_table(u, 0.0)
     with_it = fit_devices(
         engine,
         Remedy("", sliders=(table,)) if slot.kind == "slider" else Remedy("", shafts=(table,)),
     )
-    parts = [Part(q, s) for q in ("force", "moment") for s in (1, -1)] + [ROLL]
+    parts = [ResidualPart(q, s) for q in ("force", "moment") for s in (1, -1)] + [ROLL]
     before, after = find_residual(engine, 2), find_residual(with_it, 2)
     change = np.array([after.parts[p] - before.parts[p] for p in parts])
     assert change == pytest.approx(find_effect(slot.make_device(u), parts, reference), abs=1e-14)
@@ -98,7 +98,7 @@ def test_effect_is_what_the_analysis_says(slot):
 
 def test_more_slots_than_needed_share_the_work():
     """The least sum of squares: at every throw of a row, equal weights for a force."""
-    fit = solve(
+    fit = size_unbalances(
         [Slot("counterweight", 1, 1, z) for z in (-0.1, 0.0, 0.1)],
         residual(forward=3, moment=0),
         (FORCE, MOMENT),
@@ -111,7 +111,7 @@ def test_of_more_slots_than_needed_the_far_ones_do_most():
     / sum z^2`.
     """
     places = np.array([-0.1, 0.2, 0.4])
-    fit = solve(
+    fit = size_unbalances(
         [Slot("counterweight", 1, 1, z) for z in places], residual(moment=0.21 - 0.42j), (MOMENT,)
     )
     assert fit.unbalances == pytest.approx(-(0.21 - 0.42j) * places / 0.21, rel=1e-14)
@@ -130,7 +130,7 @@ def test_what_is_not_needed_is_exactly_nothing(force):
 def test_one_slot_does_what_it_can(scale):
     """Least squares of force and of moment over the arm: u = -(f + m/z)/2 at z."""
     asked = residual(noise=1e-16 * scale, forward=scale, moment=0.6 * scale)
-    fit = solve([Slot("counterweight", 1, 1, 0.2)], asked, (FORCE, MOMENT))
+    fit = size_unbalances([Slot("counterweight", 1, 1, 0.2)], asked, (FORCE, MOMENT))
     assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2 * scale])
     assert fit.left == pytest.approx(1 / 5**0.5)  # (f - m/z)/sqrt 2 of |f, m/z|, f = 1, m/z = 3
     with pytest.raises(BalcliError, match="the reason"):
@@ -141,11 +141,11 @@ def test_arms_count_from_the_point_of_reference_in_all_directions():
     """A slot beside the crank on that point's own axis has no arm but along it: u = -(f + m/z)/2 at
     z from there.
     """
-    asked = residual(forward=1, moment=0.6)._replace(reference=Point(0.3 + 0.4j, 0.1))
-    fit = solve([Slot("shaft", 2, 1, 0.3, 0.3 + 0.4j)], asked, (FORCE, MOMENT))
+    asked = residual(forward=1, moment=0.6)._replace(reference=ReferencePoint(0.3 + 0.4j, 0.1))
+    fit = size_unbalances([Slot("shaft", 2, 1, 0.3, 0.3 + 0.4j)], asked, (FORCE, MOMENT))
     assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2])
 
 
 def test_a_slot_without_an_arm_can_do_nothing_about_a_moment():
-    fit = solve([Slot("shaft", 2, 1, 0.0)], residual(moment=1), (MOMENT,))
+    fit = size_unbalances([Slot("shaft", 2, 1, 0.0)], residual(moment=1), (MOMENT,))
     assert fit == ((0,), math.inf, 1)

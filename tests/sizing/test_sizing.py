@@ -242,12 +242,14 @@ def test_what_a_single_plane_leaves_is_said(place):
     engine = build(parse(SMALL["vee"]))
     remedy = size(engine, "counterweights", SchemeOptions(planes=(place,)))
     after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
-    assert figures(remedy)["left force"] == pytest.approx(
+    assert figures(remedy)["force with crank left"] == pytest.approx(
         abs(after.force.forward[0]), rel=1e-9, abs=1e-9
     )
-    assert (figures(remedy)["left force"] > 1) == (place != 0)
-    assert figures(remedy)["left moment"] == pytest.approx(abs(after.moment.forward[0]), rel=1e-12)
-    assert figures(remedy)["left moment"] > 1
+    assert (figures(remedy)["force with crank left"] > 1) == (place != 0)
+    assert figures(remedy)["moment with crank left"] == pytest.approx(
+        abs(after.moment.forward[0]), rel=1e-12
+    )
+    assert figures(remedy)["moment with crank left"] > 1
     assert remedy.note.startswith("one plane, or planes at the same z, cannot take a moment")
 
 
@@ -377,6 +379,13 @@ def test_the_geometry_of_a_pair_in_the_details():
     assert told["roll before"] == pytest.approx(before.roll.major[0], rel=1e-12)
     assert told["roll left"] == pytest.approx(after.roll.major[0], rel=1e-12)
     assert told["moment left"] == pytest.approx(after.moment.major[0], rel=1e-9)
+
+
+def test_shafts_on_the_crank_axis_have_no_direction_there():
+    """One was told to stand at 0 mm, in a direction of 180 degrees."""
+    told = figures(size(build(parse(SMALL["four"])), "two-shaft"), "order 2")
+    assert (told["radius against crank"], told["radius with crank"]) == (0, 0)
+    assert not {"direction with crank", "direction against crank", "radius ratio"} & set(told)
 
 
 def test_four_shafts_are_for_the_orders_that_are_there():

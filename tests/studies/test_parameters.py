@@ -10,7 +10,7 @@ from support.paths import ENGINES
 
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.studies.parameters import find_numbers, ladder, parse
+from balcli.studies.parameters import find_numbers, ladder, parse_parameter
 
 DEVICES = """
 [[shaft]]
@@ -26,7 +26,7 @@ piston_mass = 0.51
 
 
 def values(text: str, engine: str = GOOD) -> list[float]:
-    return parse(text, load(engine)).values.tolist()
+    return parse_parameter(text, load(engine)).values.tolist()
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ def values(text: str, engine: str = GOOD) -> list[float]:
 )
 def test_numbers_beyond_number_are_refused_in_words(asked, told):
     with pytest.raises(BalcliError) as caught:
-        parse(asked, load(GOOD))
+        parse_parameter(asked, load(GOOD))
     assert told in str(caught.value)
     assert len(str(caught.value)) < 300
 
@@ -138,12 +138,12 @@ def test_a_bank_angle_is_that_of_a_vee() -> None:
     assert "layout.bank_angle" in find_numbers(load(vee))
     for other in (GOOD, changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]"))):
         with pytest.raises(BalcliError, match=r"^layout\.bank_angle: unknown parameter"):
-            parse("layout.bank_angle=0:90:10", load(other))
+            parse_parameter("layout.bank_angle=0:90:10", load(other))
 
 
 def test_more_values_than_are_kept_are_refused_before_there_are_any() -> None:
     with pytest.raises(BalcliError) as found:
-        parse("rod.ratio=0.2:0.3:1e-10", load(GOOD))
+        parse_parameter("rod.ratio=0.2:0.3:1e-10", load(GOOD))
     assert str(found.value) == (
         '"rod.ratio=0.2:0.3:1e-10": has 1000000001 values; give a step that leads from the first to '
         "the last in at most 1e+07 steps"
@@ -153,7 +153,7 @@ def test_more_values_than_are_kept_are_refused_before_there_are_any() -> None:
 def test_names_that_begin_as_an_unknown_one_are_told():
     """A vee's `bank` is its bank angle rather than that of one cylinder."""
     with pytest.raises(BalcliError) as caught:
-        parse("bank=30,60", load((ENGINES / "vtwin45.toml").read_text()))
+        parse_parameter("bank=30,60", load((ENGINES / "vtwin45.toml").read_text()))
     assert str(caught.value) == (
         "bank: unknown parameter; did you mean layout.bank_angle or cylinder.1.bank or "
         "cylinder.2.bank?"

@@ -15,7 +15,7 @@ from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.render.plot.bank_angle import place_labels
-from balcli.render.plot.pages import Subject, draw_page
+from balcli.render.plot.pages import PageSubject, draw_page
 from balcli.sizing.options import SchemeOptions
 from balcli.studies.pictures import compute_study, swing_banks
 
@@ -113,12 +113,12 @@ def test_only_a_vee_has_a_bank_angle(text, reason):
     ],
 )
 def test_pictures_of_studies_are_the_same_each_time(what, text):
-    subject = Subject(**compute_study(engine(text), what)._asdict())
+    subject = PageSubject(**compute_study(engine(text), what)._asdict())
     assert draw_page(subject, what, "svg") == draw_page(subject, what, "svg")
 
 
 def test_the_page_of_factors_tells_the_best():
-    subject = Subject(**compute_study(engine(CROSS), "factor")._asdict())
+    subject = PageSubject(**compute_study(engine(CROSS), "factor")._asdict())
     assert "best at 0.5 (" in draw_page(subject, "factor", "svg").decode()
 
 
@@ -173,7 +173,7 @@ def test_a_force_that_is_negligible_at_every_bank_angle_is_said():
         ("firing_order = [1, 3, 4, 2]", "bank_angle = 60"),
         ("length = 160", "length = 240"),
     )
-    drawn = draw_page(Subject(**compute_study(engine(text), "bank")._asdict()), "bank", "svg")
+    drawn = draw_page(PageSubject(**compute_study(engine(text), "bank")._asdict()), "bank", "svg")
     assert re.search(r"negligible \(\S+ N\), whatever the bank angle", drawn.decode())
 
 

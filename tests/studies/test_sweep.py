@@ -14,10 +14,10 @@ from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
-from balcli.render.sweep import csv_text, json_text
+from balcli.render.sweep import sweep_csv, sweep_json
 from balcli.render.sweep_plot import check_drawable
 from balcli.studies.boxes import Box, BoxSize, divide_grid, group_boxes
-from balcli.studies.parameters import Parameter, parse
+from balcli.studies.parameters import Parameter, parse_parameter
 from balcli.studies.sweep import (
     Array,
     Chunk,
@@ -27,8 +27,8 @@ from balcli.studies.sweep import (
     evaluate_box,
     evaluate_chunks,
     join_chunks,
-    list_columns,
     size_boxes,
+    split_columns,
 )
 
 SAME = 1e-12  # of the largest value of a column
@@ -62,7 +62,9 @@ UNSTEADY = "[[operation.speed_ripple]]\norder = 4\namplitude = 0.01\n"
 def asked(engine: str, *vary: str, of: str = "") -> Sweep:
     file = load(engine)
     return Sweep(
-        file, tuple(parse(v, file) for v in vary), parse_quantity_list(of) if of else EVERYTHING
+        file,
+        tuple(parse_parameter(v, file) for v in vary),
+        parse_quantity_list(of) if of else EVERYTHING,
     )
 
 
@@ -195,7 +197,7 @@ def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 2_500)
     several = list(evaluate_chunks(sweep))
     assert len(several) == 2
-    every = np.concatenate([np.stack(list_columns(sweep, chunk)) for chunk in several], axis=1)
+    every = np.concatenate([np.stack(split_columns(sweep, chunk)) for chunk in several], axis=1)
     assert every.shape == (4, 36_000)
     assert np.array_equal(every[2:], whole.values)
     assert every[:2, [0, 1, 200, -1]].T.tolist() == [[0, 0.2], [0, 0.201], [1, 0.2], [179, 0.399]]
@@ -227,7 +229,7 @@ def test_boxes_that_would_be_narrow_are_computed_in_tiles(
 
 def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:
     sweep = asked(GOOD, "piston.mass=0.1,0.5", of="force.2.major,force.2.axis,force.1.axis")
-    text = "".join(csv_text(sweep, evaluate_chunks(sweep)))
+    text = "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
     force = [repr(float(v)) for v in join_chunks(sweep, evaluate_chunks(sweep))[0]]
     assert (
         text
@@ -239,7 +241,7 @@ def test_json_is_one_document() -> None:
     import json
 
     sweep = asked(GOOD, "piston.mass=0.1,0.5", of="force.2.major,force.1.axis")
-    document = json.loads("".join(json_text(sweep, evaluate_chunks(sweep))))
+    document = json.loads("".join(sweep_json(sweep, evaluate_chunks(sweep))))
     assert document["format"] == "balcli.sweep/1"
     assert document["columns"] == ["piston.mass", "force.2.major", "force.1.axis"]
     assert [row[0] for row in document["rows"]] == [0.1, 0.5]
@@ -264,8 +266,8 @@ def test_threads_give_identical_rows(monkeypatch: pytest.MonkeyPatch, threads: i
     """From the first box on, many more boxes than threads or fewer."""
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 300)
     sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
-    there = "".join(csv_text(sweep, evaluate_chunks(sweep, threads, alone_s=0.0)))
-    assert there == "".join(csv_text(sweep, evaluate_chunks(sweep)))
+    there = "".join(sweep_csv(sweep, evaluate_chunks(sweep, threads, alone_s=0.0)))
+    assert there == "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
 
 
 def test_threads_end_with_who_asks_for_their_figures(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -309,5 +311,5 @@ def test_cluster_gives_identical_rows() -> None:
         ) as local,
         distributed.Client(local) as client,
     ):
-        there = "".join(csv_text(sweep, cluster.evaluate_on_cluster(sweep, client)))
-    assert there == "".join(csv_text(sweep, evaluate_chunks(sweep)))
+        there = "".join(sweep_csv(sweep, cluster.evaluate_on_cluster(sweep, client)))
+    assert there == "".join(sweep_csv(sweep, evaluate_chunks(sweep)))

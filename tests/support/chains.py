@@ -9,14 +9,21 @@ import numpy as np
 from numpy.typing import NDArray
 from support import high_precision
 
-from balcli.core.torsional_chain import Chain, Damping, Shaft, follow_gears, incidence, join_chain
+from balcli.core.torsional_chain import (
+    Chain,
+    ChainShaft,
+    Damping,
+    follow_gears,
+    incidence,
+    join_chain,
+)
 
 KINDS = ("plain", "geared", "branched", "clamped", "clamped at both ends", "massless", "looped")
 
 
 def chain_of(inertia, stiffness, clamped=()) -> Chain:
     """Nodes in a row."""
-    shafts = [Shaft(i, i + 1, k) for i, k in enumerate(stiffness)]
+    shafts = [ChainShaft(i, i + 1, k) for i, k in enumerate(stiffness)]
     return join_chain(inertia, shafts, clamped)
 
 
@@ -38,21 +45,21 @@ def random_chain(kind: str, seed: int, spread: float = 1.0) -> Chain:
     if kind == "massless":
         inertia[1 : count - 1 : 2] = 0
     shafts = [
-        Shaft(*ends, float(k), float(ratio)) if rng.random() < 0.7 else turned(*ends, k, ratio)
+        ChainShaft(*ends, float(k), float(ratio)) if rng.random() < 0.7 else turned(*ends, k, ratio)
         for *ends, k, ratio in zip(parents, range(1, count), stiffness, ratios, strict=True)
     ]
     if kind == "looped":
         pace = np.ones(count)
         for i, parent, ratio in zip(range(1, count), parents, ratios, strict=True):
             pace[i] = pace[parent] * ratio
-        shafts.append(Shaft(0, count - 1, 1e6, float(pace[-1])))
+        shafts.append(ChainShaft(0, count - 1, 1e6, float(pace[-1])))
     held = {"clamped": [0], "clamped at both ends": [0, count - 1]}.get(kind, [])
     return join_chain(inertia, shafts, held)
 
 
 def turned(start, end, stiffness, ratio):
     """The same shaft named from its other end: its stiffness then counts in the other speed."""
-    return Shaft(end, start, float(stiffness * ratio**2), 1 / float(ratio))
+    return ChainShaft(end, start, float(stiffness * ratio**2), 1 / float(ratio))
 
 
 def random_damping(chain: Chain, seed: int) -> Damping:

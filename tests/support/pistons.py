@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from balcli.core.cylinder_pressure import Piston, pistons
+from balcli.core.cylinder_pressure import GasPiston, pistons
 from balcli.core.cylinders import Cylinders
 
 
-def slider_crank_piston(radius: float, rod: float, bore: float, offset: float = 0.0) -> Piston:
+def slider_crank_piston(radius: float, rod: float, bore: float, offset: float = 0.0) -> GasPiston:
     """The piston on a crank and a rod of these lengths, m, its axis this far off the shaft's."""
     nothing = np.zeros(1)
     single = Cylinders(

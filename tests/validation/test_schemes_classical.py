@@ -95,8 +95,8 @@ def test_counterweights_in_any_planes(planes):
 def test_a_single_plane_does_what_it_can():
     e = engine([0], layout="bank_angle = 60\nstagger = 20")
     remedy = size(e, "counterweights", SchemeOptions(planes=(0.0,)))
-    assert figures(remedy)["left force"] == 0
-    assert figures(remedy)["left moment"] == pytest.approx(
+    assert figures(remedy)["force with crank left"] == 0
+    assert figures(remedy)["moment with crank left"] == pytest.approx(
         abs(left(e, [1]).moment.forward[0]), rel=1e-14
     )
 

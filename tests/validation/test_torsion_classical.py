@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.torsional_chain import Shaft, join_chain
+from balcli.core.torsional_chain import ChainShaft, join_chain
 from balcli.core.torsional_modes import find_chain_modes
 from balcli.core.vibration import scale_shapes
 
@@ -18,7 +18,7 @@ def hollow(diameter, bore=0.0):
 @pytest.mark.parametrize(("count", "inertia", "stiffness"), [(5, 20, 125), (1, 2, 8), (40, 3, 7e9)])
 def test_equal_discs_one_end_fixed(count, inertia, stiffness):
     """w_i = 2 sqrt(k/J) sin((2i - 1) pi/(2 (2n + 1))): classical."""
-    shafts = [Shaft(i, i + 1, stiffness) for i in range(count)]
+    shafts = [ChainShaft(i, i + 1, stiffness) for i in range(count)]
     modes = find_chain_modes(join_chain([inertia] * (count + 1), shafts, clamped=[0]))
     i = np.arange(1, count + 1)
     closed = 2 * np.sqrt(stiffness / inertia) * np.sin((2 * i - 1) * np.pi / (2 * (2 * count + 1)))
@@ -32,7 +32,9 @@ def test_equal_discs_one_end_fixed(count, inertia, stiffness):
 def test_equal_discs_both_ends_free():
     """w_i = 2 sqrt(k/J) sin(i pi/(2n)), shapes cos(i pi (2m - 1)/(2n)): classical."""
     n, i = 8, np.arange(8)[:, None]
-    modes = find_chain_modes(join_chain([0.3] * n, [Shaft(m, m + 1, 5e4) for m in range(n - 1)]))
+    modes = find_chain_modes(
+        join_chain([0.3] * n, [ChainShaft(m, m + 1, 5e4) for m in range(n - 1)])
+    )
     assert modes.omega == pytest.approx(
         2 * np.sqrt(5e4 / 0.3) * np.sin(i[:, 0] * np.pi / (2 * n)), rel=1e-14
     )
@@ -50,11 +52,11 @@ def test_two_rotors_on_a_stepped_shaft():
     inertia = np.array([1500, 1000]) * 144 / (32.2 * 12)  # lb in s^2
     lengths, diameters = np.array([11, 10, 15, 4, 10]), np.array([3, 5, 3.5, 7, 5])
     pieces = 12e6 * hollow(diameters) / lengths
-    steps = [Shaft(i, i + 1, k) for i, k in enumerate(pieces)]
+    steps = [ChainShaft(i, i + 1, k) for i, k in enumerate(pieces)]
     modes = find_chain_modes(join_chain([inertia[0], 0, 0, 0, 0, inertia[1]], steps))
     assert modes.omega / (2 * np.pi) == pytest.approx([0, 22.25625042], rel=1e-9)
     rest = 12e6 * hollow(3) / (11 + 15 * (3 / 3.5) ** 4)
-    companion = find_chain_modes(join_chain(inertia, [Shaft(0, 1, rest)]))
+    companion = find_chain_modes(join_chain(inertia, [ChainShaft(0, 1, rest)]))
     assert round(companion.omega[1] / (2 * np.pi), 1) == 23.8
 
 
@@ -65,7 +67,9 @@ def test_three_rotors():
     Printed 961 and 1784 a minute; the second from the first rounded to 16 a second: 1787.5.
     """
     inertia = np.array([2.5, 7.5, 3]) * 2240 * 144 / (32.2 * 12)
-    shafts = [Shaft(i, i + 1, 11.8e6 * hollow(8.5) / (12 * ft)) for i, ft in enumerate([9.5, 25])]
+    shafts = [
+        ChainShaft(i, i + 1, 11.8e6 * hollow(8.5) / (12 * ft)) for i, ft in enumerate([9.5, 25])
+    ]
     _, first, second = find_chain_modes(join_chain(inertia, shafts)).omega * 60 / (2 * np.pi)
     assert round(first) == 961
     assert second * 16 * 60 / first == pytest.approx(1784, rel=0.002)
@@ -76,7 +80,7 @@ def test_flywheel_on_a_cantilever():
     3 in by 36 in, C = 12e6 lb/in^2: 786 torsional vibrations a minute.
     """
     inertia = 0.3 * 2240 * 15**2 / (32.2 * 12)
-    chain = join_chain([0, inertia], [Shaft(0, 1, 12e6 * hollow(3) / 36)], clamped=[0])
+    chain = join_chain([0, inertia], [ChainShaft(0, 1, 12e6 * hollow(3) / 36)], clamped=[0])
     per_minute = find_chain_modes(chain).omega[0] * 60 / (2 * np.pi)
     assert round(per_minute) == 786
     assert per_minute == pytest.approx(785.9517306, rel=1e-9)

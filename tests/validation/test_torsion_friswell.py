@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.torsional_chain import Shaft, join_chain
+from balcli.core.torsional_chain import ChainShaft, join_chain
 from balcli.core.torsional_modes import find_chain_modes
 
 INF = np.inf
@@ -18,24 +18,34 @@ def shaft_stiffness(length, diameter, shear_modulus=68e9):
     return shear_modulus * np.pi * diameter**4 / 32 / length
 
 
-TWO_DISCS = join_chain([211.4, 8.3], [Shaft(0, 1, 9.775e6)])
+TWO_DISCS = join_chain([211.4, 8.3], [ChainShaft(0, 1, 9.775e6)])
 THREE_CYLINDERS = join_chain(
     [0.0035, 0.0035, 0.0035, 0.15, 0.05],
-    [Shaft(0, 1, 12e3), Shaft(1, 2, 12e3), Shaft(2, 3, 14e3), Shaft(3, 4, 10e3)],
+    [
+        ChainShaft(0, 1, 12e3),
+        ChainShaft(1, 2, 12e3),
+        ChainShaft(2, 3, 14e3),
+        ChainShaft(3, 4, 10e3),
+    ],
 )
 PAIR_OF_GEARS = join_chain(
     [0.0004, 2.5e-5, 2.5e-5, 0.0007, 0.0007],
-    [Shaft(0, 1, 10e3), Shaft(1, 2, INF, -1), Shaft(2, 3, 5e3), Shaft(1, 4, 5e3)],
+    [
+        ChainShaft(0, 1, 10e3),
+        ChainShaft(1, 2, INF, -1),
+        ChainShaft(2, 3, 5e3),
+        ChainShaft(1, 4, 5e3),
+    ],
 )
 BRANCHES = join_chain(
     [3200, 200, 200, 800, 800, 450, 450],
     [
-        Shaft(0, 1, shaft_stiffness(2.5, 0.2)),
-        Shaft(1, 2, INF, -1),
-        Shaft(1, 3, INF, -0.5 / 0.8),
-        Shaft(2, 4, INF, -0.5 / 0.8),
-        Shaft(3, 5, shaft_stiffness(3.5, 0.25)),
-        Shaft(4, 6, shaft_stiffness(3.5, 0.25)),
+        ChainShaft(0, 1, shaft_stiffness(2.5, 0.2)),
+        ChainShaft(1, 2, INF, -1),
+        ChainShaft(1, 3, INF, -0.5 / 0.8),
+        ChainShaft(2, 4, INF, -0.5 / 0.8),
+        ChainShaft(3, 5, shaft_stiffness(3.5, 0.25)),
+        ChainShaft(4, 6, shaft_stiffness(3.5, 0.25)),
     ],
 )
 

@@ -14,7 +14,7 @@ from support.chains import balance_power
 from support.paths import ROOT
 
 from balcli.core.cycle_peaks import find_swing, sum_amplitudes
-from balcli.core.torsional_chain import Damping, Shaft, join_chain
+from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
 from balcli.core.torsional_modes import count_nodes, find_chain_modes
 from balcli.core.torsional_response import respond_chain
 from balcli.core.vibration import frequencies
@@ -24,7 +24,7 @@ LOSS = 0.035
 STIFFNESS = np.array([1.106e6, 1.631e6, 1.253e6, 1.253e6, 1.678e6, 1.253e6, 1.253e6, 1.976e6])
 CHAIN = join_chain(
     [0.017, 0.009, 0.0467, 0.0327, 0.0467, 0.0467, 0.0327, 0.0487, 2.075],
-    [Shaft(i, i + 1, k) for i, k in enumerate(STIFFNESS)],
+    [ChainShaft(i, i + 1, k) for i, k in enumerate(STIFFNESS)],
 )
 DAMPING = Damping(np.full(8, LOSS), np.zeros(8), np.array([0, 0, 2, 2, 2, 2, 2, 2, 0.0]))
 BORE, RADIUS, ROD, RECIPROCATING = 0.105, 0.137 / 2, 0.207, 2.521

@@ -38,7 +38,7 @@ FORCES = "force.1.major,force.2.major"
 OFFSETS = "".join(f"[cylinder.{n}]\npiston_offset = {3 * n}\n" for n in range(1, 9))
 
 
-class Sample(NamedTuple):
+class TimedSweep(NamedTuple):
     """A sweep that is timed, by name, and the number of what each variant has of what counts."""
 
     name: str
@@ -46,15 +46,17 @@ class Sample(NamedTuple):
     each: int
 
 
-def sample_sweeps(vee: str) -> list[Sample]:
+def sample_sweeps(vee: str) -> list[TimedSweep]:
     """Sweeps of mechanisms that are sampled; `vee` is the text of a V8 in line with its axes."""
     one, all_of_them, rods = "cylinder.1.piston_offset", "crank.stroke", "rod.length"
     pins, rotary = "articulation.knuckle_radius", RADIAL + "rotary = true\n"
     return [
-        Sample("offset of one cylinder of a V8", _vary(vee, one, 1, 12), 8),
-        Sample("stroke of a V8, eight offsets", _vary(vee + OFFSETS, all_of_them, 80, 90), 8),
-        Sample("rods of a rotary engine", _vary(rotary, rods, 220, 260, FORCES), 7),
-        Sample("knuckle pins of a radial engine", _vary(RADIAL + HUNG, pins, 50, 54, FORCES), 7),
+        TimedSweep("offset of one cylinder of a V8", _vary(vee, one, 1, 12), 8),
+        TimedSweep("stroke of a V8, eight offsets", _vary(vee + OFFSETS, all_of_them, 80, 90), 8),
+        TimedSweep("rods of a rotary engine", _vary(rotary, rods, 220, 260, FORCES), 7),
+        TimedSweep(
+            "knuckle pins of a radial engine", _vary(RADIAL + HUNG, pins, 50, 54, FORCES), 7
+        ),
     ]
 
 
@@ -66,10 +68,10 @@ def sweep_peaks(vee: str) -> Sweep:
 def _vary(
     text: str, path: str, first: float, last: float, quantities: str = DEFAULT_QUANTITIES
 ) -> Sweep:
-    return make_sweep(parse(text), {path: np.linspace(first, last, 2_000)}, quantities)
+    return build_timed_sweep(parse(text), {path: np.linspace(first, last, 2_000)}, quantities)
 
 
-def make_sweep(file: EngineFile, values: dict[str, Array], quantities: str) -> Sweep:
+def build_timed_sweep(file: EngineFile, values: dict[str, Array], quantities: str) -> Sweep:
     """A sweep over these values of some numbers."""
     parameters = tuple(Parameter(path, array) for path, array in values.items())
     return Sweep(file, parameters, parse_quantity_list(quantities))

@@ -1,8 +1,8 @@
 """Lengths, angles, speeds, masses and shares as users type them on the command line: as in an
 engine file, `40`, `2.5 in`, `1/7 turn`, `9000 rpm`, and shares as `0.51` or `51%`.
 
-A bare number is in mm, kg, degrees or rpm. With `--units imperial` nobody means mm or kg by it, nor
-is it certain that they mean inches or pounds: it has to say.
+A bare number is in mm, kg, degrees or rpm. With `--units imperial` nobody means mm, kg or kg mm2
+by it, nor is it certain that they mean inches or pounds: it has to say.
 """
 
 from __future__ import annotations
@@ -16,7 +16,12 @@ from ..limits import LARGEST_INERTIA, LONGEST_SHOWN
 from ..render.formats import Units
 
 _SCALES = MASS._replace(unit="g", examples=("812 g", "1.8 lb"))
-_IMPERIAL_AND_SI = {LENGTH: ("in", "mm"), MASS: ("lb", "kg"), _SCALES: ("oz", "g")}
+_IMPERIAL_AND_SI = {
+    LENGTH: ("in", "mm"),
+    MASS: ("lb", "kg"),
+    _SCALES: ("oz", "g"),
+    INERTIA: ("lb in^2", "kg mm^2"),
+}
 
 
 def read_length(option: str, text: str, units: Units = Units.SI) -> float:
@@ -60,11 +65,11 @@ def read_mass_on_scales(option: str, text: str, units: Units = Units.SI) -> floa
     return _read(option, text, _SCALES, units) / 1e3
 
 
-def read_inertia(option: str, text: str) -> float:
+def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
     """A moment of inertia in kg m2; BalcliError with the option and its text, or for one that is
     not above 0.
     """
-    found = _read(option, text, INERTIA, Units.SI) / 1e6
+    found = _read(option, text, INERTIA, units) / 1e6
     if not 0 < found < LARGEST_INERTIA:
         raise BalcliError(f"{_shown(option, text)}: {wanted(INERTIA)}, above 0")
     return found

@@ -101,7 +101,7 @@ class Request(NamedTuple):
         return None if self.quantities is None else self.parts
 
 
-def choose_format(
+def choose_analysis_format(
     output: Path | None, asked: Sequence[AnalysisFormat] | None
 ) -> tuple[Format, bool]:
     """How to write, and whether it is the marine sheet; errors as `file_names.format_of`."""

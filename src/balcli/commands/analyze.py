@@ -41,7 +41,7 @@ def analyze(
       balcli analyze s50.toml --format marine --speed 60:124:8
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
-    chosen, marine = analysis_options.choose_format(output, form)
+    chosen, marine = analysis_options.choose_analysis_format(output, form)
     asked = analysis_options.parse_request(
         speed, orders, only, whole, by, why, plot, guide_height, misfire, units, marine
     )

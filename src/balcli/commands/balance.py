@@ -49,7 +49,7 @@ def balance(
       balcli balance twin.toml --measured "812 g"
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
-    form = balance_options.choose_format(output, form)
+    form = balance_options.choose_balance_format(output, form)
     require_ending(write, ".toml", "--write")
     from ..results.balance import balance as balance_engine
     from ..results.permitted_unbalance import permit_unbalance
@@ -64,7 +64,7 @@ def balance(
     asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
-        result = balance_options.balance_knuckles(scheme, options, even, model, engine, asked)
+        result = balance_options.answer_knuckles(scheme, options, even, model, engine, asked)
     else:
         result = balance_engine(engine, scheme, options, asked, tools)
     result = permit_unbalance(result, *grading)

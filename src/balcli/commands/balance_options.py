@@ -145,7 +145,7 @@ Write = Annotated[
 ]
 
 
-def choose_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFormat:
+def choose_balance_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFormat:
     """How to write the balance; errors as `file_names.format_of`."""
     if asked is BalanceFormat.CARD:
         return format_of(output, asked, {".txt": asked}, asked)
@@ -212,7 +212,7 @@ def _parse_grade(text: str) -> float:
     return read_number("--grade", figure, "a grade of ISO 21940-11 such as G16 or 6.3")
 
 
-def balance_knuckles(
+def answer_knuckles(
     scheme: str,
     options: SchemeOptions,
     even: str | None,

@@ -28,7 +28,7 @@ P = TypeVar("P")
 T = TypeVar("T")
 
 
-class Source(NamedTuple):
+class LoadedEngine(NamedTuple):
     """An engine file that has been read: its text, what it says, and the engine."""
 
     text: bytes
@@ -38,7 +38,7 @@ class Source(NamedTuple):
 
 def read_engine(
     path: str, speed_rpm: float | None = None, asked: Collection[str] | None = None
-) -> Source:
+) -> LoadedEngine:
     """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
 
     Args:
@@ -66,7 +66,7 @@ def read_engine(
         warn(f"{name_file(path)}: {warning}")
     if speed_rpm is not None:
         engine = replace(engine, speed_rpm=speed_rpm, model=None)
-    return Source(text, model, engine)
+    return LoadedEngine(text, model, engine)
 
 
 def _tell_what_was_read(name: str, text: bytes, model: EngineFile) -> None:

@@ -52,7 +52,9 @@ FormatOption = Annotated[
 UnitsOption = Annotated[
     Units,
     typer.Option(
-        "--units", case_sensitive=False, help="imperial: lbf, lbf·ft, oz·in; JSON stays SI."
+        "--units",
+        case_sensitive=False,
+        help="imperial: lbf, lbf·ft, oz·in, psi, hp; JSON stays SI.",
     ),
 ]
 Output = Annotated[

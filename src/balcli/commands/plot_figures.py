@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..render.formats import Units
-from ..render.plot.pages import Subject, make_page
+from ..render.plot.pages import PageSubject, make_page
 from ..render.units import SYSTEMS
 from ..sizing.options import SchemeOptions
 from ..studies.pictures import compute_study, refuse_scheme
@@ -58,7 +58,7 @@ def _make_pages(path: str, pages: Sequence[What], asked: Asked, form: Form) -> l
     figures = []
     for page, scheme in zip(pages, schemes, strict=True):
         study = compute_study(engine, page, orders, scheme, asked.options)
-        subject = Subject(system=SYSTEMS[asked.units], **study._asdict())
+        subject = PageSubject(system=SYSTEMS[asked.units], **study._asdict())
         figures.append(make_page(subject, page, form))
     return figures
 

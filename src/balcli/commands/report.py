@@ -98,13 +98,13 @@ def _turn_gas(engine: Engine) -> Running:
 
 def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
     """How its crankshaft twists; None, with a warning, where that cannot be told."""
-    from ..torsion.analysis import Question, answer_question
+    from ..torsion.analysis import TorsionQuestion, answer_question
     from ..torsion.load import make_source
-    from ..torsion.quantity import choose_speeds
+    from ..torsion.quantity import choose_torsion_speeds
 
     try:
         source = make_source(model, engine, name)
-        return answer_question(source, Question(choose_speeds(engine)))
+        return answer_question(source, TorsionQuestion(choose_torsion_speeds(engine)))
     except BalcliError as error:
         warn(f"the page does not show the torsion: {error}")
         return None

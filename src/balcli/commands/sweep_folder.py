@@ -15,9 +15,9 @@ from typing import TypeAlias
 from ..errors import BalcliError
 from ..files import follow_link, make_folder, making_beside, name_hidden, name_part
 from ..process import discard, keep_freed_memory
-from ..render.sweep_parquet import write_parquet
+from ..render.sweep_parquet import write_sweep_parquet
 from ..studies.boxes import BoxSize, group_boxes
-from ..studies.sweep import Chunk, Sweep, divide_sweep, evaluate_box, list_columns, size_boxes
+from ..studies.sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes, split_columns
 from .progress import Progress
 
 ROWS_A_PART = 1 << 20
@@ -87,8 +87,8 @@ def _write_part(folder: Path, size: BoxSize, task: Task) -> int:
     name = _name_part(number)
     place = name_hidden(folder / name)
     every = (Chunk(box.whole, evaluate_box(box, box.whole, size)) for box in boxes)
-    rows = (list_columns(box, chunk) for box, chunk in zip(boxes, every, strict=True))
-    write_parquet(boxes[0], rows, place)
+    rows = (split_columns(box, chunk) for box, chunk in zip(boxes, every, strict=True))
+    write_sweep_parquet(boxes[0], rows, place)
     place.replace(folder / name)
     return sum(box.variants for box in boxes)
 

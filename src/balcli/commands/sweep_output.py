@@ -15,10 +15,10 @@ from ..errors import BalcliError
 from ..files import follow_link, name_part, replacing
 from ..limits import MOST_ROWS_READ
 from ..render.formats import Format, lay_out
-from ..render.sweep import csv_text, json_text
-from ..render.sweep_parquet import write_parquet
+from ..render.sweep import sweep_csv, sweep_json
+from ..render.sweep_parquet import write_sweep_parquet
 from ..render.sweep_table import Ends, make_sheet
-from ..studies.sweep import Chunk, Sweep, list_columns
+from ..studies.sweep import Chunk, Sweep, split_columns
 from .file_names import VariantsFormat
 from .output import is_seen, standard_output
 from .progress import Progress
@@ -49,7 +49,7 @@ def write_sweep(
         return ""
     with replacing(output) as place:
         if kind is VariantsFormat.PARQUET:
-            write_parquet(sweep, (list_columns(sweep, chunk) for chunk in chunks), place)
+            write_sweep_parquet(sweep, (split_columns(sweep, chunk) for chunk in chunks), place)
         else:
             with place.open("w", encoding="utf-8", newline="\n") as stream:
                 stream.writelines(_make_text(sweep, chunks, kind))
@@ -65,12 +65,12 @@ def _make_text(
     whole = _first_at_once(chunks)
     match kind:
         case VariantsFormat.JSON:
-            return json_text(sweep, whole)
+            return sweep_json(sweep, whole)
         case VariantsFormat.TABLE | VariantsFormat.MARKDOWN:
             sheet = make_sheet(sweep, _take_ends(sweep, whole))
             return iter([lay_out([sheet], Format(kind), seen=seen)])
         case _:
-            return csv_text(sweep, whole)
+            return sweep_csv(sweep, whole)
 
 
 def _take_ends(sweep: Sweep, chunks: Iterable[Chunk]) -> Ends:
@@ -79,7 +79,7 @@ def _take_ends(sweep: Sweep, chunks: Iterable[Chunk]) -> Ends:
     last: deque[tuple[float, ...]] = deque(maxlen=_LAST)
     seen = 0
     for chunk in chunks:
-        columns = list_columns(sweep, chunk)
+        columns = split_columns(sweep, chunk)
         first += zip(*(column[: max(MOST_ROWS_READ - seen, 0)] for column in columns), strict=True)
         last += zip(*(column[-_LAST:] for column in columns), strict=True)
         seen += len(columns[0])

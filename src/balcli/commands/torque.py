@@ -47,7 +47,7 @@ def torque(
     alone = {"--misfire": misfire, "--write": write, "--cylinder": cylinder != 1, "--loads": loads}
     own.refuse_mixture(path, curve, alone, {"--load": load, "--inertia": inertia})
     if curve is not None:
-        given = own.analyze_given(curve, load, inertia, speed, orders, fluctuation)
+        given = own.analyze_given(curve, load, inertia, speed, orders, fluctuation, units)
         show([given], renderer, form, output, units)
         return
     text, result = own.analyze_file(

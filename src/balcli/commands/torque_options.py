@@ -13,6 +13,7 @@ import typer
 from ..core.speeds import RPM
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
+from ..render.formats import Units
 from .amounts import read_inertia
 from .declare import optional
 from .named_files import refuse_leaving_files
@@ -148,14 +149,15 @@ def analyze_given(
     speed: str | None,
     orders: str | None,
     fluctuation: str | None,
+    units: Units,
 ) -> CurveAnalysis:
     """A torque from a file."""
-    from ..torque.given_curve import Shaft, analyze_curve, read_curve
+    from ..torque.given_curve import DrivenShaft, analyze_curve, read_curve
 
     rpm = parse_speed(speed)
-    shaft = Shaft(
+    shaft = DrivenShaft(
         None if rpm is None else rpm * RPM,
-        None if inertia is None else read_inertia("--inertia", inertia),
+        None if inertia is None else read_inertia("--inertia", inertia, units),
     )
     return analyze_curve(
         curve.stem,

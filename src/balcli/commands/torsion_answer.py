@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
 from ..render.plot.torsion import draw_torsion, make_torsion
-from ..torsion.analysis import Question, TorsionAnalysis, answer_question
+from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import ChainSource, Source, load_source
-from ..torsion.quantity import choose_speeds
+from ..torsion.quantity import choose_torsion_speeds
 from ..torsion.write_damper import insert_damper
 from .progress import reporting
 from .speed_range import parse_speeds
@@ -23,7 +23,9 @@ if TYPE_CHECKING:
     from ..render.plot.style import Form
 
 
-def require_options(asked: Question, write: Path | None, plot: Path | None, what: str) -> None:
+def require_options(
+    asked: TorsionQuestion, write: Path | None, plot: Path | None, what: str
+) -> None:
     """Refuse options without those that they belong to.
 
     Raises:
@@ -43,7 +45,7 @@ def require_options(asked: Question, write: Path | None, plot: Path | None, what
         raise _range_missing(what)
 
 
-def _lacks_range(asked: Question, what: str) -> bool:
+def _lacks_range(asked: TorsionQuestion, what: str) -> bool:
     """Whether a picture is over speed, and no range of speeds was given."""
     return asked.speeds_rpm is None and what in ("response", "waterfall")
 
@@ -53,7 +55,7 @@ def _range_missing(what: str) -> BalcliError:
 
 
 def find_answer(
-    path: str, asked: Question, misfires: Sequence[int], progress: bool
+    path: str, asked: TorsionQuestion, misfires: Sequence[int], progress: bool
 ) -> tuple[Source, TorsionAnalysis]:
     """The file and what was asked about it."""
     source = load_source(path, asked.orders, misfires)
@@ -81,13 +83,13 @@ def make_figures_of_torsion(
     Args:
         speeds: range, as typed; None: that of an engine's own speed.
     """
-    asked = Question(parse_speeds(speeds), parse_half_orders(orders))
+    asked = TorsionQuestion(parse_speeds(speeds), parse_half_orders(orders))
     source = load_source(path, asked.orders)
     without = [page for page in pages if _lacks_range(asked, page)]
     if without:
         if isinstance(source, ChainSource):
             raise _range_missing(without[0])
-        asked = asked._replace(speeds_rpm=choose_speeds(source.engine))
+        asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
     found = answer_question(source, asked)
     for page in pages:
         _refuse_without_shafts(found, page)

@@ -10,7 +10,7 @@ from ..core.singular_values import Real
 from ..enginefile.units import Dimension, Powers, convert
 from ..errors import BalcliError
 from ..limits import HIGHEST_TORSION_ORDER
-from ..torsion.analysis import HolzerAsked, Question
+from ..torsion.analysis import HolzerAsked, TorsionQuestion
 from ..torsion.damper_sizing import DamperAsked
 from .amounts import read_inertia
 from .speed_range import parse_speeds
@@ -78,7 +78,7 @@ def parse_question(
     damper: str | None,
     damper_at: str | None,
     damper_inertia: str | None,
-) -> Question:
+) -> TorsionQuestion:
     """What the options of these names ask.
 
     Raises:
@@ -92,4 +92,6 @@ def parse_question(
     elif damper_at is not None or damper_inertia is not None:
         option = "--damper-inertia" if damper_at is None else "--damper-at"
         raise BalcliError(f"{option}: say which damper, such as --damper viscous")
-    return Question(parse_speeds(speeds), parse_half_orders(orders), parse_holzer(holzer), asked)
+    return TorsionQuestion(
+        parse_speeds(speeds), parse_half_orders(orders), parse_holzer(holzer), asked
+    )

@@ -18,7 +18,7 @@ from typing import ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .cylinder_pressure import GasError, Piston
+from .cylinder_pressure import GasError, GasPiston
 from .phasors import Array
 from .piecewise import Function, resolved
 
@@ -62,7 +62,7 @@ Burn: TypeAlias = Otto | Diesel | Dual | Wiebe
 
 
 # ---------------------------------------------------------------- what follows
-class Piece(NamedTuple):
+class PressureLaw(NamedTuple):
     """A law of pressure (Pa at cycle angles, rad), and where it ends."""
 
     end: float
@@ -76,7 +76,7 @@ class Charge(NamedTuple):
     volume: float  # m3
     exponent: float  # n
     final: float  # volume when the exhaust opens, m3
-    piston: Piston
+    piston: GasPiston
     volume_at: Function  # m3 at cycle angles
 
     @property
@@ -92,7 +92,7 @@ class Combustion(NamedTuple):
     most: float
     released: float  # share of the heat
     after: Callable[[float], tuple[float, float]]  # p V^n after the burn, and its rate by the heat
-    pieces: Callable[[float], list[Piece]]  # from the charge to the end of the burn
+    pieces: Callable[[float], list[PressureLaw]]  # from the charge to the end of the burn
     heat_for: Callable[[float], float]  # of the goal that is neither heat nor imep
 
 
@@ -147,9 +147,9 @@ def _at_limited_pressure(charge: Charge, limit: float) -> Combustion:
         last = last_volume(heat)
         return limit * last**n, (n - 1) * last ** (n - 1)
 
-    def pieces(heat: float) -> list[Piece]:
+    def pieces(heat: float) -> list[PressureLaw]:
         end = piston.angle_of((last_volume(heat) - volume) / piston.area)
-        return [Piece(end, constant(limit))]
+        return [PressureLaw(end, constant(limit))]
 
     return Combustion(
         least=least,
@@ -192,8 +192,8 @@ def _gradual(charge: Charge, burn: Wiebe) -> Combustion:
         released=-math.expm1(-_BURNT),
         after=lambda heat: (charge.constant + unit * heat, unit),
         pieces=lambda heat: [
-            Piece(start, unburnt),
-            Piece(end, lambda angle: unburnt(angle) + heat * by_heat(angle)),
+            PressureLaw(start, unburnt),
+            PressureLaw(end, lambda angle: unburnt(angle) + heat * by_heat(angle)),
         ],
         heat_for=heat_for,
     )

@@ -43,7 +43,7 @@ class GasError(ValueError):
 
 # ---------------------------------------------------------------- the piston
 @dataclass(frozen=True)
-class Piston:
+class GasPiston:
     """The mechanism of one cylinder, as the gas in it knows it.
 
     Attributes:
@@ -89,7 +89,7 @@ class Piston:
         return float(high)
 
 
-def pistons(cylinders: Cylinders, area: ArrayLike) -> list[Piston]:
+def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
     """The piston of every cylinder, for arrays without trailing axes; `area` of the bores, m2, one
     or one each.
     """
@@ -113,7 +113,7 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[Piston]:
         stroke, top, bottom = (float(values[row]) for values in travel)
         moves, rate = _slung(radius, own, lam[pair], eps[pair], math.radians(top))
         bottom = math.radians(bottom + 180 - top)
-        found.append(Piston(float(areas[row]), stroke, math.radians(top), bottom, moves, rate))
+        found.append(GasPiston(float(areas[row]), stroke, math.radians(top), bottom, moves, rate))
     return found
 
 
@@ -126,9 +126,9 @@ def _articulation(linkage: Linkage | None) -> Articulated | None:
     return linkage if isinstance(linkage, Articulated) else None
 
 
-def _plain_piston(radius: float, lam: float, eps: float, area: float) -> Piston:
+def _plain_piston(radius: float, lam: float, eps: float, area: float) -> GasPiston:
     top, bottom = math.asin(eps / (1 + lam)), math.pi + math.asin(eps / (1 - lam))
-    return Piston(
+    return GasPiston(
         area=float(area),
         stroke=radius * float(slidercrank.displacement(bottom, lam, eps)),
         top=top,
@@ -256,7 +256,7 @@ class GasTorque(ABC):
 class PressureOnPiston(GasTorque):
     """The gas of one cylinder, with its piston; `crankcase` is the pressure under it, Pa."""
 
-    piston: Piston
+    piston: GasPiston
     pressure: CylinderPressure
     crankcase: float = 1e5
 

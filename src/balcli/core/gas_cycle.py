@@ -20,8 +20,17 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .combustion import Burn, Charge, Combustion, Piece, Wiebe, combustion, constant, polytrope
-from .cylinder_pressure import CylinderPressure, GasError, Piston
+from .combustion import (
+    Burn,
+    Charge,
+    Combustion,
+    PressureLaw,
+    Wiebe,
+    combustion,
+    constant,
+    polytrope,
+)
+from .cylinder_pressure import CylinderPressure, GasError, GasPiston
 from .phasors import Array
 from .piecewise import Function, piece_of, wrapped
 
@@ -70,9 +79,9 @@ class GasCycle(CylinderPressure):
     laws: tuple[Function, ...]
     heat: float
     imep: float
-    asked: tuple[Piston, Process, Burn, Goal]
+    asked: tuple[GasPiston, Process, Burn, Goal]
 
-    def __reduce__(self) -> tuple[Callable[..., GasCycle], tuple[Piston, Process, Burn, Goal]]:
+    def __reduce__(self) -> tuple[Callable[..., GasCycle], tuple[GasPiston, Process, Burn, Goal]]:
         return gas_cycle, self.asked
 
     @property
@@ -89,13 +98,13 @@ class GasCycle(CylinderPressure):
         return found
 
 
-def gas_cycle(piston: Piston, process: Process, burn: Burn, goal: Goal) -> GasCycle:
+def gas_cycle(piston: GasPiston, process: Process, burn: Burn, goal: Goal) -> GasCycle:
     """The cycle that has what `goal` asks for.
 
     Raises:
-        GasError: the first of `mistakes`, or a goal that no heat can reach.
+        GasError: the first that `find_cycle_mistakes` finds, or a goal that no heat can reach.
     """
-    for mistake in mistakes(piston, process, burn, goal):
+    for mistake in find_cycle_mistakes(piston, process, burn, goal):
         raise mistake
     cycle = _Cycle(piston, process, getattr(burn, "start_deg", 0.0))
     burning = combustion(cycle.charge, burn)
@@ -110,7 +119,9 @@ def gas_cycle(piston: Piston, process: Process, burn: Burn, goal: Goal) -> GasCy
 
 
 # ---------------------------------------------------------------- what is wrong
-def mistakes(piston: Piston, process: Process, burn: Burn, goal: Goal) -> Iterator[GasError]:
+def find_cycle_mistakes(
+    piston: GasPiston, process: Process, burn: Burn, goal: Goal
+) -> Iterator[GasError]:
     """All that is wrong with a cycle before it is computed."""
     p = process
     if goal.name not in burn.goals:
@@ -129,7 +140,7 @@ def mistakes(piston: Piston, process: Process, burn: Burn, goal: Goal) -> Iterat
         yield from _wrong_burn(piston, p, burn)
 
 
-def _wrong_valves(piston: Piston, process: Process) -> Iterator[GasError]:
+def _wrong_valves(piston: GasPiston, process: Process) -> Iterator[GasError]:
     opens, closes = process.exhaust_opens_deg, process.intake_closes_deg
     latest, dead_centre = 360.0, "gas-exchange"
     if process.strokes == 2:
@@ -154,7 +165,7 @@ def _wrong_valves(piston: Piston, process: Process) -> Iterator[GasError]:
         )
 
 
-def _wrong_burn(piston: Piston, process: Process, burn: Wiebe) -> Iterator[GasError]:
+def _wrong_burn(piston: GasPiston, process: Process, burn: Wiebe) -> Iterator[GasError]:
     if not burn.shape >= 0:
         yield GasError("burn_shape", f"is {burn.shape:g}: give 0 or more")
     if not burn.duration_deg > 0:
@@ -175,7 +186,7 @@ def _wrong_burn(piston: Piston, process: Process, burn: Wiebe) -> Iterator[GasEr
 
 
 # ---------------------------------------------------------------- what is known before the heat
-def _valves(piston: Piston, process: Process) -> tuple[float, float]:
+def _valves(piston: GasPiston, process: Process) -> tuple[float, float]:
     """Cycle angles (rad) at which the exhaust opens, and at which, before the firing dead centre,
     compression begins.
     """
@@ -191,7 +202,7 @@ def _valves(piston: Piston, process: Process) -> tuple[float, float]:
 class _Cycle:
     """A cycle without its heat."""
 
-    def __init__(self, piston: Piston, process: Process, start_deg: float) -> None:
+    def __init__(self, piston: GasPiston, process: Process, start_deg: float) -> None:
         self.piston, self.process = piston, process
         self.opens, self.closes = _valves(piston, process)
         begins = min(math.radians(start_deg), 0.0)
@@ -228,18 +239,18 @@ class _Cycle:
         gained = burning.after(heat)[1] * c.final ** (1 - n)
         return (burning.released - gained / (n - 1)) / self.piston.swept
 
-    def pieces(self, burning: Combustion, heat: float) -> list[Piece]:
+    def pieces(self, burning: Combustion, heat: float) -> list[PressureLaw]:
         """The laws of pressure from the begin of compression on; some may be of no length."""
         p, period = self.process, self.process.strokes * math.pi
         expansion = polytrope(self.volume_at, burning.after(heat)[0], p.expansion_index)
         compression = polytrope(self.volume_at, self.compression, p.compression_index)
-        opened = [Piece(2 * math.pi, constant(p.exhaust))] if p.strokes == 4 else []
+        opened = [PressureLaw(2 * math.pi, constant(p.exhaust))] if p.strokes == 4 else []
         return [
-            Piece(self.begins, compression),
+            PressureLaw(self.begins, compression),
             *burning.pieces(heat),
-            Piece(self.opens, expansion),
+            PressureLaw(self.opens, expansion),
             *opened,
-            Piece(self.closes + period, constant(p.intake)),
+            PressureLaw(self.closes + period, constant(p.intake)),
         ]
 
     def _compression_work(self, closed: float) -> float:

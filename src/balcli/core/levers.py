@@ -39,6 +39,6 @@ def find_arms(z: Array, sections: Array) -> Array:
     return find_ahead(z, sections) * (z - sections[:, None])
 
 
-def find_reach(z: Array, sections: Array) -> Array:
+def bound_arms(z: Array, sections: Array) -> Array:
     """What `find_arms` computes them from, which bounds their rounding."""
     return find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))

@@ -62,7 +62,7 @@ def pressure_diagram(
     strokes: int = 4,
     firing_deg: float = 0.0,
 ) -> PressureDiagram:
-    """The diagram of rows without `mistakes`.
+    """The diagram of rows without what `find_diagram_mistakes` finds.
 
     Args:
         angle_deg: rising angles, shape (rows,).
@@ -82,7 +82,7 @@ def pressure_diagram(
     )
 
 
-def mistakes(
+def find_diagram_mistakes(
     angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4
 ) -> Iterator[DiagramMistake]:
     """All that is wrong with the rows of a diagram; arguments as of `pressure_diagram`."""

@@ -11,7 +11,7 @@ speed that repeats itself after two revolutions.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,16 @@ from numpy.typing import NDArray
 from .peaks import Peak, find_peak
 from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 
-Line: TypeAlias = tuple[float, Figure, Figure]  # order, amplitude, angle in degrees
 Number = TypeVar("Number", np.float64, np.complex128)
 _FELT = 1e-13  # share of an order over the angle below which an order of the time does not feel it
+
+
+class RippleLine(NamedTuple):
+    """One line of an uneven speed: `mean amplitude cos(order theta - angle)`."""
+
+    order: float
+    amplitude: Figure
+    angle_deg: Figure
 
 
 def find_step(orders: Iterable[float]) -> float:
@@ -29,7 +36,7 @@ def find_step(orders: Iterable[float]) -> float:
     return 0.5 if any(order % 1 for order in orders) else 1.0
 
 
-def find_speed(lines: Iterable[Line], step: float = 1.0) -> Complex:
+def find_speed(lines: Iterable[RippleLine], step: float = 1.0) -> Complex:
     """Coefficients of W for both signs of the order, shape (2 k + 1, *trailing): k steps below 0 to
     k steps above it. All orders are whole steps.
     """
@@ -46,13 +53,14 @@ def find_speed(lines: Iterable[Line], step: float = 1.0) -> Complex:
     return w
 
 
-def find_slowest(lines: Sequence[tuple[float, float, float]]) -> Peak:
-    """The least W over a cycle, to rounding, and a crank angle (rad) at which it is reached.
+def find_slowest(lines: Sequence[RippleLine]) -> Peak:
+    """The least W over a cycle, to rounding, and a crank angle (rad) at which it is reached; of
+    lines without trailing axes.
 
     It is where `sum |amplitude| + 1 - W`, which is nowhere negative, has its peak.
     """
     step = find_step(order for order, _, _ in lines)
-    w, size = find_speed(lines, step), sum(abs(amplitude) for _, amplitude, _ in lines)
+    w, size = find_speed(lines, step), sum(abs(float(amplitude)) for _, amplitude, _ in lines)
     orders = np.arange(len(w) // 2 + 1.0) * step
     rest = np.where(orders, -w[len(w) // 2 :], size)
     top = find_peak(Phasors.of(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))

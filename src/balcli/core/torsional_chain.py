@@ -20,7 +20,7 @@ from .sorted_sets import are_among, sort_distinct, sort_others
 _SAME_RATIO = 1e-9  # two ways round a loop of gears that differ by less turn alike
 
 
-class Shaft(NamedTuple):
+class ChainShaft(NamedTuple):
     """A shaft between two nodes (their indices), N m/rad in the speed of its end; inf: rigid."""
 
     start: int
@@ -86,7 +86,9 @@ class Branch(NamedTuple):
     far: float
 
 
-def join_chain(inertia: ArrayLike, shafts: Iterable[Shaft], clamped: Sequence[int] = ()) -> Chain:
+def join_chain(
+    inertia: ArrayLike, shafts: Iterable[ChainShaft], clamped: Sequence[int] = ()
+) -> Chain:
     """The chain of nodes with these moments of inertia (kg m2, 0: massless), joined by shafts. What
     meshes with a clamped node is clamped, too.
 
@@ -94,7 +96,7 @@ def join_chain(inertia: ArrayLike, shafts: Iterable[Shaft], clamped: Sequence[in
         ValueError: meshes of gears that form a loop and cannot turn; massless nodes that turn
             freely. Whether all nodes hang together, `find_pieces` tells.
     """
-    table = np.array(list(shafts), float).reshape(-1, len(Shaft._fields))
+    table = np.array(list(shafts), float).reshape(-1, len(ChainShaft._fields))
     start, end = table[:, 0].astype(np.intp), table[:, 1].astype(np.intp)
     j = np.asarray(inertia, float)
     held = np.array([k in clamped for k in range(len(j))], bool)

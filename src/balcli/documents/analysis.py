@@ -11,11 +11,11 @@ from .figures import (
     Devices,
     Document,
     EngineSize,
-    Figures,
     Harmonic,
     NamedEngine,
     Order,
     OrderFigures,
+    OrdersAndPeaks,
     Peaks,
     Place,
     Vector,
@@ -25,7 +25,7 @@ from .figures import (
 class Sizing(Devices):
     """Devices of the scheme `auto`, and what is left with them."""
 
-    after: Figures
+    after: OrdersAndPeaks
 
 
 class OfCylinder(TypedDict):
@@ -255,7 +255,7 @@ class Practical(TypedDict):
     hole_angle_deg: NotRequired[float | None]
 
 
-class Permitted(TypedDict):
+class PermittedUnbalance(TypedDict):
     """What a balance grade permits in each plane."""
 
     grade: float
@@ -274,6 +274,6 @@ class Balance(Devices, Document):
     practical: list[Practical]
     details: dict[str, Any]
     assumed: NotRequired[Assumed]
-    before: Figures
-    after: Figures
-    permitted: NotRequired[Permitted]
+    before: OrdersAndPeaks
+    after: OrdersAndPeaks
+    permitted: NotRequired[PermittedUnbalance]

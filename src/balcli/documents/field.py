@@ -59,7 +59,7 @@ class PermittedInPlane(TypedDict):
     after_g_mm: float | None
 
 
-class PermittedUnbalance(TypedDict):
+class Permitted(TypedDict):
     """Of ISO 21940-11."""
 
     specific_mm: float | None
@@ -88,4 +88,4 @@ class Field(Document):
     condition: float | None
     bound: NotRequired[float | None]
     trimmed: NotRequired[int | str]
-    permitted: NotRequired[PermittedUnbalance]
+    permitted: NotRequired[Permitted]

@@ -73,7 +73,7 @@ class Peaks(TypedDict):
     moment_deg: NotRequired[float | None]
 
 
-class Figures(TypedDict):
+class OrdersAndPeaks(TypedDict):
     """Peaks and orders of an engine that is known."""
 
     peak: Peaks

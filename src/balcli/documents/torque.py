@@ -70,7 +70,7 @@ class MainLoad(TypedDict):
     pressure_Pa: NotRequired[float]
 
 
-class Loads(TypedDict):
+class CycleLoads(TypedDict):
     """Of pins and bearings, as asked for; obstacle: why those of main bearings are not known."""
 
     pin: NotRequired[list[PinLoad]]
@@ -96,4 +96,4 @@ class Torque(Document):
     orders: list[TorqueOrder]
     energy: Energy
     flywheel: NotRequired[Flywheel]
-    loads: NotRequired[Loads]
+    loads: NotRequired[CycleLoads]

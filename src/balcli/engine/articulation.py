@@ -26,7 +26,7 @@ from .layout import Plan
 _AT_ONCE = 1 << 17  # rods x crank angles that are looked at together
 
 
-class Knuckles(NamedTuple):
+class KnucklePins(NamedTuple):
     """Knuckle pins of the articulated cylinders.
 
     Attributes:
@@ -48,7 +48,7 @@ def find_masters(articulation: Articulation, plan: Plan) -> dict[int, int]:
 
 
 def build_linkage(
-    knuckles: Knuckles,
+    knuckles: KnucklePins,
     numbers: Sequence[int],
     axes_deg: Mapping[int, Figure],
     on_knuckle: Sequence[Figure],

@@ -7,19 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Figure
+from ..core.speed_ripple import RippleLine
 from ..enginefile.model import EngineFile
 from . import firing
 from .arrays import column, shared_column
 from .figures import (
     NOTHING,
-    Figures,
+    FileFigures,
     OwnFigures,
     RodFigures,
     either,
@@ -36,16 +37,6 @@ if TYPE_CHECKING:
     from .gas import EngineGas
 
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
-
-
-class Ripple(NamedTuple):
-    """One line of an uneven crank speed: `omega = mean (1 + sum amplitude cos(order theta -
-    angle))`.
-    """
-
-    order: float
-    amplitude: Figure
-    angle_deg: Figure
 
 
 class Assembly:
@@ -71,7 +62,7 @@ class Assembly:
         known_gas: EngineGas | None = None,
     ) -> None:
         self.model, self._known_gas = model, known_gas
-        self.figures = Figures(varied or {}, model)
+        self.figures = FileFigures(varied or {}, model)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
         self.legible = frozenset(legible)
         self._gears: dict[tuple[int, bool], RunningGear] = {}
@@ -296,11 +287,11 @@ class Assembly:
 
     # ------------------------------------------------------------------ speed
     @cached_property
-    def ripple(self) -> tuple[Ripple, ...]:
+    def ripple(self) -> tuple[RippleLine, ...]:
         """Lines of the uneven speed; empty for a steady one."""
         take, path = self.figures.take, "operation.speed_ripple"
         return tuple(
-            Ripple(
+            RippleLine(
                 line.order,
                 take(f"{path}.{k}.amplitude", line.amplitude),
                 take(f"{path}.{k}.angle", line.angle),
@@ -400,14 +391,14 @@ class Assembly:
         table, masters, axes = self.model.articulation, self.masters, self.axes_deg
         if table is None:
             return None
-        from .articulation import Knuckles, build_linkage
+        from .articulation import KnucklePins, build_linkage
 
         angles = {n: axes[n] - axes[master] for n, master in masters.items()}
         if (given := self.knuckle_angles_deg) is not None:
             angles = {c.number: given[c.bank] for c in self.plan.cells if c.number in masters}
         radius_mm = self.figures.take("articulation.knuckle_radius", table.knuckle_radius)
         stroke_mm = self.figures.take("crank.stroke", self.model.crank.stroke)
-        knuckles = Knuckles(radius_mm / (stroke_mm / 2), angles, masters)
+        knuckles = KnucklePins(radius_mm / (stroke_mm / 2), angles, masters)
         big_ends = [self.gears[n].big_end for n in self.numbers]
         return build_linkage(knuckles, self.numbers, axes, big_ends, self.sense, self.rank)
 

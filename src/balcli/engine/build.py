@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Cylinders, Device
 from ..core.phasors import Array, Figure, Phasors
+from ..core.speed_ripple import RippleLine
 from ..core.speeds import RPM
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import list_tables
 from ..errors import BalcliError, InputError, check_type, wrong_type
-from .assembly import Assembly, Ripple
+from .assembly import Assembly
 from .devices import build_devices
 from .positions import MOMENTS_UNKNOWN, are_places_known
 from .rules import find_contradictions
@@ -113,7 +114,7 @@ class Engine:
     bore_m: Figure
     throws_m: Array
     speed_rpm: Figure
-    ripple: tuple[Ripple, ...]
+    ripple: tuple[RippleLine, ...]
     reference_m: tuple[Figure, Figure, Figure]
     devices: tuple[Device, ...]
     weighed: tuple[Weighed, ...]
@@ -181,7 +182,7 @@ class Engine:
     def _repr_html_(self) -> str:
         from importlib import import_module
 
-        return import_module("balcli.render.notebook").show(self)
+        return import_module("balcli.render.notebook").show_in_notebook(self)
 
     @property
     def omega(self) -> Figure:

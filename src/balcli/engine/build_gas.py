@@ -12,16 +12,16 @@ from ..core.combustion import Burn, Diesel, Dual, Otto, Wiebe
 from ..core.cylinder_pressure import (
     CylinderPressure,
     GasError,
+    GasPiston,
     GasTorque,
-    Piston,
     PressureOnPiston,
     pistons,
 )
 from ..core.gas_cycle import Goal, Process, gas_cycle
-from ..core.gas_cycle import mistakes as cycle_mistakes
+from ..core.gas_cycle import find_cycle_mistakes as cycle_mistakes
 from ..core.phasors import Figure
 from ..core.tangential_force import tangential_torque
-from ..enginefile.csv_columns import Columns, locate_beside, read_columns
+from ..enginefile.csv_columns import NumberColumns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, Gas
 from ..enginefile.units import BAR
 from ..errors import BalcliError, InputError, Problem
@@ -60,7 +60,7 @@ class _Builder:
         self.strokes = parts.model.layout.strokes
         self.problems: list[Problem] = []
         self.doubts: list[str] = []
-        self._read: dict[str, Columns] = {}
+        self._read: dict[str, NumberColumns] = {}
 
     def build(self) -> EngineGas:
         self.problems += self._check_tables()
@@ -138,7 +138,7 @@ class _Builder:
             for row, (mechanism, number) in enumerate(each)
         ]
 
-    def _torque(self, number: int, piston: Piston) -> GasTorque | None:
+    def _torque(self, number: int, piston: GasPiston) -> GasTorque | None:
         """That of a cylinder; None after a mistake."""
         source = self._source(number)
         try:
@@ -148,7 +148,7 @@ class _Builder:
             self.problems.append(Problem(path, str(error)))
             return None
 
-    def _make(self, source: GasSource, piston: Piston) -> GasTorque | None:
+    def _make(self, source: GasSource, piston: GasPiston) -> GasTorque | None:
         gas = self.gas
         if source.indicator is not None:
             columns = self._columns(source.indicator, diagrams.HEADS)
@@ -161,14 +161,14 @@ class _Builder:
         pressure = self._cycle(piston)
         return None if pressure is None else PressureOnPiston(piston, pressure, gas.crankcase * BAR)
 
-    def _columns(self, name: str, wanted: tuple[tuple[str, ...], ...]) -> Columns:
+    def _columns(self, name: str, wanted: tuple[tuple[str, ...], ...]) -> NumberColumns:
         if name not in self._read:
             path = locate_beside(self.parts.model.folder, name)
             self._read[name] = read_columns(path, wanted)
         return self._read[name]
 
     # -------------------------------------------------------------- builders' tables
-    def _harmonics(self, name: str, piston: Piston) -> GasTorque:
+    def _harmonics(self, name: str, piston: GasPiston) -> GasTorque:
         columns = self._columns(name, (("order",), ("cos",), ("sin",)))
         orders, cosines, sines = (np.array(columns.column(k)) for k in range(3))
         if not len(orders):
@@ -200,7 +200,7 @@ class _Builder:
             raise BalcliError(f"{name}: {error}") from None
 
     # -------------------------------------------------------------- computed cycles
-    def _cycle(self, piston: Piston) -> CylinderPressure | None:
+    def _cycle(self, piston: GasPiston) -> CylinderPressure | None:
         process, burn, goal = self._process(), self._burn(), find_goal(self.gas)
         wrong = list(cycle_mistakes(piston, process, burn, goal))
         if not wrong:

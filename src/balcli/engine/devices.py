@@ -12,10 +12,12 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Complex, Figure, unit
 from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
 from .arrays import place_in_plane
-from .figures import AS_GIVEN, Figures, or_nothing
+from .figures import AS_GIVEN, FileFigures, or_nothing
 
 
-def build_devices(model: EngineFile, figures: Figures, first_axis_deg: Figure) -> Iterator[Device]:
+def build_devices(
+    model: EngineFile, figures: FileFigures, first_axis_deg: Figure
+) -> Iterator[Device]:
     """The devices of a file: its counterweights, shafts and sliders, in this order."""
     for path, table in model.tables():
         if isinstance(table, (Counterweight, Shaft, Slider)):
@@ -25,7 +27,7 @@ def build_devices(model: EngineFile, figures: Figures, first_axis_deg: Figure) -
 def build_device(
     table: Counterweight | Shaft | Slider,
     first_axis_deg: Figure,
-    figures: Figures = AS_GIVEN,
+    figures: FileFigures = AS_GIVEN,
     path: str = "",
 ) -> Device:
     """One device, SI.
@@ -46,7 +48,7 @@ def build_device(
 
 
 def _counterweight(
-    figures: Figures, path: str, weight: Counterweight, first_axis_deg: Figure
+    figures: FileFigures, path: str, weight: Counterweight, first_axis_deg: Figure
 ) -> Device:
     angle = figures.take(f"{path}.angle", weight.angle)
     forward = _unbalance(figures, path, weight) * unit(angle + first_axis_deg)
@@ -54,7 +56,7 @@ def _counterweight(
     return Device(1, forward, 0j, 0j, z, DeviceKind.COUNTERWEIGHT)
 
 
-def _shaft(figures: Figures, path: str, shaft: Shaft) -> Device:
+def _shaft(figures: FileFigures, path: str, shaft: Shaft) -> Device:
     angle = figures.take(f"{path}.angle", shaft.angle)
     turning = _unbalance(figures, path, shaft) * unit(angle)
     forward, backward = (turning, 0j) if shaft.ratio > 0 else (0j, turning)
@@ -62,7 +64,7 @@ def _shaft(figures: Figures, path: str, shaft: Shaft) -> Device:
     return Device(abs(shaft.ratio), forward, backward, place, z, DeviceKind.SHAFT)
 
 
-def _slider(figures: Figures, path: str, slider: Slider) -> Device:
+def _slider(figures: FileFigures, path: str, slider: Slider) -> Device:
     """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against
     each other.
     """
@@ -74,7 +76,7 @@ def _slider(figures: Figures, path: str, slider: Slider) -> Device:
     return Device(slider.order, forward, backward, place, z, DeviceKind.SLIDER)
 
 
-def _unbalance(figures: Figures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
+def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
     """Mass x radius, kg m."""
     unbalance = figures.take_optional(f"{path}.unbalance", device.unbalance)
     if unbalance is not None:
@@ -83,12 +85,12 @@ def _unbalance(figures: Figures, path: str, device: Counterweight | Shaft | Slid
     return mass * or_nothing(figures.take_optional(f"{path}.radius", device.radius)) / 1e3
 
 
-def _place(figures: Figures, path: str, at: Sequence[float]) -> complex | Complex:
+def _place(figures: FileFigures, path: str, at: Sequence[float]) -> complex | Complex:
     """x + iy of the device's axis, m."""
     x, y = figures.take_each(f"{path}.at", at)
     return place_in_plane(x / 1e3, y / 1e3)
 
 
-def _position(figures: Figures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
+def _position(figures: FileFigures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
     """z, m."""
     return figures.take(f"{path}.position", device.position) / 1e3

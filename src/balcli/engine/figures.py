@@ -12,11 +12,11 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, cast
 
 from ..core.phasors import Figure
-from ..enginefile.model import EngineFile, Override, Pendulum, Rod, Table
+from ..enginefile.model import EngineFile, FileTable, Override, Pendulum, Rod
 from ..errors import BalcliError
 
 
-class Figures:
+class FileFigures:
     """What to take for each figure of a file.
 
     Args:
@@ -78,7 +78,9 @@ class Figures:
                 yield from _find_rivals(start, key, tables[start], self._varied)
 
 
-def _find_rivals(start: str, key: str, table: Table, varied: Mapping[str, Figure]) -> Iterator[str]:
+def _find_rivals(
+    start: str, key: str, table: FileTable, varied: Mapping[str, Figure]
+) -> Iterator[str]:
     """Names of what else a table (at `start`) gives that says the same as its figure `key`, which
     varies.
     """
@@ -98,11 +100,11 @@ def _find_rivals(start: str, key: str, table: Table, varied: Mapping[str, Figure
         yield from (f"{start}.{other}" for other in displaced)
 
 
-AS_GIVEN = Figures()  # nothing varies
+AS_GIVEN = FileFigures()  # nothing varies
 
 
 # ------------------------------------------------------------------ rods and single cylinders
-class Swing(NamedTuple):
+class PendulumTest(NamedTuple):
     """A pendulum test of a rod: the bore about which it swings, and the period, s."""
 
     pivot: str
@@ -119,10 +121,10 @@ class RodFigures(NamedTuple):
     small_end: Figure | None = None
     big_end: Figure | None = None
     inertia: Figure | None = None
-    pendulum: Swing | None = None
+    pendulum: PendulumTest | None = None
 
     @property
-    def given(self) -> dict[str, Figure | Swing]:
+    def given(self) -> dict[str, Figure | PendulumTest]:
         """What is said, by key."""
         return {key: value for key, value in self._asdict().items() if value is not None}
 
@@ -172,7 +174,7 @@ def over(figure: Figure | None, divisor: float) -> Figure | None:
     return None if figure is None else figure / divisor
 
 
-def rod_figures(figures: Figures, rod: Rod, path: str = "rod") -> RodFigures:
+def rod_figures(figures: FileFigures, rod: Rod, path: str = "rod") -> RodFigures:
     """What the file says of rods, in the table of this name: [rod], or that of articulated rods."""
 
     def take(key: str) -> Figure | None:
@@ -190,7 +192,7 @@ def rod_figures(figures: Figures, rod: Rod, path: str = "rod") -> RodFigures:
     )
 
 
-def own_figures(figures: Figures, number: int, own: Override) -> OwnFigures:
+def own_figures(figures: FileFigures, number: int, own: Override) -> OwnFigures:
     """What the table of one cylinder says."""
     path, take = f"cylinder.{number}", figures.take_optional
     rod = RodFigures(
@@ -213,7 +215,7 @@ def own_figures(figures: Figures, number: int, own: Override) -> OwnFigures:
     )
 
 
-def _swing(figures: Figures, path: str, pendulum: Pendulum | None) -> Swing | None:
+def _swing(figures: FileFigures, path: str, pendulum: Pendulum | None) -> PendulumTest | None:
     if pendulum is None or figures.is_displaced(path):
         return None
-    return Swing(pendulum.pivot, figures.take(f"{path}.period", pendulum.period))
+    return PendulumTest(pendulum.pivot, figures.take(f"{path}.period", pendulum.period))

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.cylinder_pressure import GasTorque, Piston
+from ..core.cylinder_pressure import GasPiston, GasTorque
 from ..core.phasors import Array
 
 
@@ -30,7 +30,7 @@ class CylinderGas(NamedTuple):
             but for `nominal_deg` and `share` is equal.
     """
 
-    piston: Piston
+    piston: GasPiston
     torque: GasTorque
     nominal_deg: float
     share: float

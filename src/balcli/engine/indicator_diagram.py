@@ -10,8 +10,13 @@ import numpy as np
 
 from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array
-from ..core.pressure_diagram import ATMOSPHERE, PressureDiagram, mistakes, pressure_diagram
-from ..enginefile.csv_columns import Columns
+from ..core.pressure_diagram import (
+    ATMOSPHERE,
+    PressureDiagram,
+    find_diagram_mistakes,
+    pressure_diagram,
+)
+from ..enginefile.csv_columns import NumberColumns
 from ..enginefile.gas_tables import Gas
 from ..enginefile.suspicious import MAX_PRESSURE
 from ..enginefile.units import BAR, INCH, POUND_FORCE
@@ -41,14 +46,14 @@ class GasSource(NamedTuple):
     indicator: str | None
 
 
-def build_diagram(gas: Gas, name: str, columns: Columns, strokes: int) -> PressureDiagram:
+def build_diagram(gas: Gas, name: str, columns: NumberColumns, strokes: int) -> PressureDiagram:
     """The pressure over a cycle by the columns of the file of this name.
 
     Raises:
         BalcliError: the first mistake in the file, by its line.
     """
     angle, pressure = np.array(columns.column(0)), _read_pressure(gas, columns)
-    for wrong in mistakes(angle, pressure, strokes=strokes):
+    for wrong in find_diagram_mistakes(angle, pressure, strokes=strokes):
         line = "" if wrong.row is None else f"line {columns.lines[wrong.row]}: "
         below_zero = wrong.row is not None and pressure[wrong.row] < 0
         hint = ASK_GAUGE if below_zero and not _is_gauge(gas, columns) else ""
@@ -57,19 +62,19 @@ def build_diagram(gas: Gas, name: str, columns: Columns, strokes: int) -> Pressu
     return pressure_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
 
 
-def _read_pressure(gas: Gas, columns: Columns) -> Array:
+def _read_pressure(gas: Gas, columns: NumberColumns) -> Array:
     """Absolute, Pa, shape (rows,)."""
     unit = _PRESSURE_HEADS[columns.heads[1]]
     gauge = ATMOSPHERE if _is_gauge(gas, columns) else 0.0
     return np.array(columns.column(1)) * unit + gauge
 
 
-def _is_gauge(gas: Gas, columns: Columns) -> bool:
+def _is_gauge(gas: Gas, columns: NumberColumns) -> bool:
     return gas.pressure == "gauge" or columns.heads[1] in _GAUGE_HEADS
 
 
 def list_doubts(
-    gas: Gas, source: GasSource, columns: Columns, found: PressureOnPiston
+    gas: Gas, source: GasSource, columns: NumberColumns, found: PressureOnPiston
 ) -> Iterator[str]:
     """What is suspicious of a diagram, each with its path in the engine file."""
     pressure = _read_pressure(gas, columns) / BAR

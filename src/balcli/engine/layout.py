@@ -12,7 +12,7 @@ from ..enginefile.fields import counted
 from ..enginefile.model import Crank, Layout
 from ..errors import InputError, Problem
 from ..limits import MOST_PARTS
-from .figures import Figures
+from .figures import FileFigures
 
 
 class Cell(NamedTuple):
@@ -80,7 +80,7 @@ def count_banks(layout: Layout) -> int:
     return layout.radial or len(layout.banks or (0.0,))
 
 
-def bank_angles(layout: Layout, figures: Figures) -> tuple[Figure, ...]:
+def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
     """Angle of each bank from x, deg: a vee lies symmetrical to x, a radial begins on it."""
     angle = figures.take_optional("layout.bank_angle", layout.bank_angle)
     if angle is not None:

@@ -15,7 +15,7 @@ from ..enginefile.model import describe_quick_period
 from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import Problem
 from ..limits import NEAREST_TO_LOCK
-from .figures import RodFigures, Swing, or_nothing
+from .figures import PendulumTest, RodFigures, or_nothing
 
 ENDS = ("small_end", "big_end")
 
@@ -107,7 +107,7 @@ def check_ends(place: RodPlace) -> Iterator[Problem]:
         yield Problem(path, f"needs {beside} beside it: weigh the rod at both ends")
 
 
-def check_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
+def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     """A rod whose moment of inertia would be negative: by its pendulum test, or as two masses at
     its ends. Of variants the one counts that is least a rod.
     """
@@ -126,7 +126,7 @@ def check_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     )
 
 
-def _describe_pendulum(pendulum: Swing, gear: RunningGear) -> str:
+def _describe_pendulum(pendulum: PendulumTest, gear: RunningGear) -> str:
     whole = gear.small_end + gear.big_end
     from_big_end = gear.length * gear.small_end / whole
     arm = from_big_end if pendulum.pivot == "big_end" else gear.length - from_big_end

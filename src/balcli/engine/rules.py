@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core import speed_ripple
 from ..core.mechanisms import harmonics
+from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
 from .assembly import Assembly
@@ -22,7 +22,7 @@ from .rods import (
     RodPlace,
     RunningGear,
     check_ends,
-    check_inertia,
+    check_rod_inertia,
     check_turning,
     weigh_rod,
 )
@@ -121,7 +121,7 @@ def _check_rod(parts: Assembly, place: RodPlace) -> Iterator[Problem]:
     if gear is None:
         return
     if not one_end:
-        yield from check_inertia(place, gear)
+        yield from check_rod_inertia(place, gear)
     if "crank" in parts.legible and not place.articulated:
         yield from check_turning(place, gear, parts.radius)
 
@@ -158,7 +158,7 @@ def check_speed(parts: Assembly) -> Iterator[Problem]:
         amplitudes, angles = variant[::2], variant[1::2]
         if sum(map(abs, amplitudes)) < 1 - STANDSTILL:
             continue
-        slowest = speed_ripple.find_slowest(list(zip(orders, amplitudes, angles, strict=True)))
+        slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))
         if slowest.value <= STANDSTILL:
             told = _describe_standstill(slowest.value, slowest.theta)
             yield Problem("operation.speed_ripple", told)

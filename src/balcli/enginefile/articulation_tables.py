@@ -5,7 +5,7 @@ They are imported for files that have them (`messages.CHAPTERS`).
 
 from pydantic import Field
 
-from .model import Angles, Count, Length, Mass, Rod, Size, Table
+from .model import Angles, Count, FileTable, Length, Mass, Rod, Size
 
 
 class ArticulatedRod(Rod):
@@ -22,7 +22,7 @@ class ArticulatedRod(Rod):
     )
 
 
-class Articulation(Table):
+class Articulation(FileTable):
     """A radial with one master rod, to which the others are hinged."""
 
     master: Count = Field(

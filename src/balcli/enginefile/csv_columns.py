@@ -15,7 +15,7 @@ from .fields import shorten
 from .toml_text import read_bytes
 
 
-class Columns(NamedTuple):
+class NumberColumns(NamedTuple):
     """Numbers of a file.
 
     Attributes:
@@ -48,7 +48,7 @@ def locate_beside(folder: Path, name: str) -> Path:
     return folder / name
 
 
-def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> Columns:
+def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> NumberColumns:
     """Some columns of a CSV file; other columns, empty lines and lines that begin with # count for
     nothing. Where semicolons part the heading, they part the lines, and decimals may have commas;
     elsewhere a number to the right of the heading is refused: "0,5,1,3" might be two.
@@ -72,7 +72,7 @@ def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> Columns:
         raise BalcliError(f"{path}: {error}") from None
 
 
-def _parse(text: str, wanted: Sequence[Sequence[str]]) -> Columns:
+def _parse(text: str, wanted: Sequence[Sequence[str]]) -> NumberColumns:
     lines = [
         (number, line)
         for number, line in enumerate(text.splitlines(), 1)
@@ -93,7 +93,7 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> Columns:
     numbers = [number for number, _ in lines[1:]]
     width = None if semicolons else len(heading)
     rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
-    return Columns(tuple(heading[place] for place in places), rows, tuple(numbers))
+    return NumberColumns(tuple(heading[place] for place in places), rows, tuple(numbers))
 
 
 def _find_head(names: Sequence[str], heading: list[str], wanted: Sequence[Sequence[str]]) -> int:

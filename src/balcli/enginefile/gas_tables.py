@@ -11,7 +11,7 @@ from pydantic import Field
 
 from .exclusive import Choice, join_words
 from .fields import FileName, Number, OneOf
-from .model import Angle, Mass, Size, Table
+from .model import Angle, FileTable, Mass, Size
 from .units import ANGLE, ENERGY, INERTIA, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
@@ -36,7 +36,7 @@ _CYCLE_KEYS = (
 )
 
 
-class Gas(Table):
+class Gas(FileTable):
     """Pressure on the pistons over a cycle: measured, computed, or as harmonics of its torque."""
 
     choices = (Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),)
@@ -177,7 +177,7 @@ class Gas(Table):
             yield "has bmep without mechanical_efficiency; give both, or imep"
 
 
-class Flywheel(Table):
+class Flywheel(FileTable):
     """A flywheel, or all that turns with the crankshaft beyond it."""
 
     choices = (
@@ -193,7 +193,7 @@ class Flywheel(Table):
     )
 
 
-class Bearing(Table):
+class Bearing(FileTable):
     """Bearings of the crankshaft, for loads per area."""
 
     choices = (

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
 TEXTS = ("name", "source")
-TABLES: dict[str, type[model.Table]] = {
+TABLES: dict[str, type[model.FileTable]] = {
     "crank": model.Crank,
     "rod": model.Rod,
     "piston": model.Piston,
@@ -35,7 +35,7 @@ CHAPTERS = {
     "body": "mounting_tables",
 }
 CHAPTER_LISTS = {"mount": "mounting_tables", "point": "mounting_tables"}  # each several times
-DEVICES: dict[str, type[model.Table]] = {
+DEVICES: dict[str, type[model.FileTable]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
     "slider": model.Slider,
@@ -49,7 +49,7 @@ WORDS = {
 OTHER = "{value} does not fit here"
 
 
-def import_table(key: str) -> type[model.Table]:
+def import_table(key: str) -> type[model.FileTable]:
     """The table of a key; its module is imported, if it is of a chapter."""
     if key in TABLES or key in DEVICES:
         return (TABLES | DEVICES)[key]
@@ -57,12 +57,12 @@ def import_table(key: str) -> type[model.Table]:
     return getattr(module, key.capitalize())
 
 
-def import_tables() -> dict[str, type[model.Table]]:
+def import_tables() -> dict[str, type[model.FileTable]]:
     """All tables that stand once in a file, those of chapters too."""
     return TABLES | {key: import_table(key) for key in CHAPTERS}
 
 
-def import_lists() -> dict[str, type[model.Table]]:
+def import_lists() -> dict[str, type[model.FileTable]]:
     """All tables that may stand several times in a file, those of chapters too."""
     return DEVICES | {key: import_table(key) for key in CHAPTER_LISTS}
 
@@ -82,7 +82,7 @@ def is_miscounted(finding: ErrorDetails) -> bool:
     return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
 
 
-def describe_finding(path: str, finding: ErrorDetails, table: type[model.Table]) -> Problem:
+def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTable]) -> Problem:
     """One finding of pydantic in the table at `path`; a member of a list is named in words (`the
     2nd value`).
     """
@@ -104,7 +104,9 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.Table])
     return Problem(join_path(path, loc), message)
 
 
-def find_inner_table(table: type[model.Table], loc: Sequence[str | int]) -> type[model.Table]:
+def find_inner_table(
+    table: type[model.FileTable], loc: Sequence[str | int]
+) -> type[model.FileTable]:
     """The table in which the last part of a place stands: `table`, or one within it."""
     for part in loc[:-1]:
         field = table.keys().get(str(part))
@@ -112,21 +114,21 @@ def find_inner_table(table: type[model.Table], loc: Sequence[str | int]) -> type
     return table
 
 
-def find_table(annotation: object) -> type[model.Table] | None:
+def find_table(annotation: object) -> type[model.FileTable] | None:
     """The table of which a field's type is made, alone or in a list; None: it is none."""
-    if isinstance(annotation, type) and issubclass(annotation, model.Table):
+    if isinstance(annotation, type) and issubclass(annotation, model.FileTable):
         return annotation
     return next(filter(None, map(find_table, get_args(annotation))), None)
 
 
-def _find_example(table: type[model.Table], loc: Sequence[str | int]) -> str:
+def _find_example(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
     """A list that a key may hold."""
     field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
     listed = [each for each in (field.examples or () if field else ()) if isinstance(each, list)]
     return shorten(listed[0]) if listed else "[0, 180]"
 
 
-def _describe_missing(table: type[model.Table], loc: Sequence[str | int]) -> str:
+def _describe_missing(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
     """With an example of the key, which may stand in a table within the table."""
     key = loc[-1]
     examples = find_inner_table(table, loc).keys()[str(key)].examples

@@ -65,14 +65,14 @@ Place = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
 Triple = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
 
 
-class Table(BaseModel):
+class FileTable(BaseModel):
     """A table of the engine file: frozen, and an unknown key is a mistake."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
     choices: ClassVar[tuple[Choice, ...]] = ()
 
     @model_validator(mode="after")
-    def _consistent(self) -> "Table":
+    def _consistent(self) -> "FileTable":
         if found := self.list_faults():
             raise ValueError("; ".join(found))
         return self
@@ -95,12 +95,12 @@ class Table(BaseModel):
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
 
-def mistakes_of_choice(table: type[Table], given: Collection[str]) -> list[str]:
+def mistakes_of_choice(table: type[FileTable], given: Collection[str]) -> list[str]:
     """Keys given together that exclude each other, or missing where one of several is needed."""
     return [mistake for choice in table.choices for mistake in choice.mistakes(given)]
 
 
-class Crank(Table):
+class Crank(FileTable):
     """The crankshaft."""
 
     choices = (Choice((("spacing",), ("positions",))),)
@@ -149,7 +149,7 @@ class Crank(Table):
             )
 
 
-class Pendulum(Table):
+class Pendulum(FileTable):
     """A pendulum test of a rod: swung about one of its bores."""
 
     pivot: Annotated[Literal["small_end", "big_end"], OneOf("small_end", "big_end")] = Field(
@@ -158,7 +158,7 @@ class Pendulum(Table):
     period: Period = Field(description="one full swing, there and back", examples=[0.82])
 
 
-class Rod(Table):
+class Rod(FileTable):
     """The connecting rod."""
 
     choices = (
@@ -222,7 +222,7 @@ def describe_quick_period(period: float, arm_mm: float) -> str:
     )
 
 
-class Piston(Table):
+class Piston(FileTable):
     """One piston with its rings, pin and locks: weighed together, or part by part."""
 
     choices = (Choice((("mass",), ("piston", "pin", "rings", "locks")), required=True),)
@@ -255,7 +255,7 @@ class Piston(Table):
             )
 
 
-class Layout(Table):
+class Layout(FileTable):
     """Banks, rods on a throw, and firing."""
 
     choices = (Choice((("bank_angle",), ("banks",), ("radial",))),)
@@ -325,7 +325,7 @@ class Layout(Table):
             )
 
 
-class Bobweight(Table):
+class Bobweight(FileTable):
     """What turns with a crank pin besides rod and throw, for each rod; it counts as rotating."""
 
     rod_bearing: Mass = Field(
@@ -334,7 +334,7 @@ class Bobweight(Table):
     oil: Mass = Field(0.0, description="allowance for oil, for each rod", examples=[0.004])
 
 
-class Ripple(Table):
+class Ripple(FileTable):
     """One order of the uneven crank speed: mean speed times amplitude * cos(order * theta -
     angle).
     """
@@ -344,7 +344,7 @@ class Ripple(Table):
     angle: Angle = Field(0.0, description="of its first largest value", examples=[0])
 
 
-class Operation(Table):
+class Operation(FileTable):
     """How the engine runs."""
 
     speed: Speed = Field(1000.0, description="crank speed (mean over the angle)", examples=[3000])
@@ -361,7 +361,7 @@ class Operation(Table):
             )
 
 
-class Frame(Table):
+class Frame(FileTable):
     """The engine's frame."""
 
     reference: Triple | None = Field(
@@ -373,7 +373,7 @@ class Frame(Table):
     )
 
 
-class Override(Table):
+class Override(FileTable):
     """What differs in one cylinder."""
 
     choices = tuple(choice.for_overrides("rod_") for choice in Rod.choices)
@@ -401,7 +401,7 @@ class Override(Table):
     position: Length | None = Field(None, description="axial place of this cylinder", examples=[50])
 
 
-class Device(Table):
+class Device(FileTable):
     """What all devices share: how much, as unbalance or as mass and radius."""
 
     choices = (Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),)
@@ -447,7 +447,7 @@ class Slider(Device):
     at: Place = Field((0.0, 0.0), description="x, y of its middle", examples=[[0, 0]])
 
 
-def label_table(table: Table, number: int) -> str:
+def label_table(table: FileTable, number: int) -> str:
     """What stands for a table of several in dotted names: its name, if that is a word, with `_` for
     spaces; else its number.
     """
@@ -455,7 +455,7 @@ def label_table(table: Table, number: int) -> str:
     return name if name.isidentifier() else str(number)
 
 
-class EngineFile(Table):
+class EngineFile(FileTable):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
     name: str = Field("", description="what the engine is called", examples=["in-line four"])
@@ -495,12 +495,12 @@ class EngineFile(Table):
         """Where the file stands, and the files that it names."""
         return self._folder
 
-    def tables(self) -> Iterator[tuple[str, Table]]:
+    def tables(self) -> Iterator[tuple[str, FileTable]]:
         """Every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the file
         has it or it has defaults; not the tables within tables.
         """
         for key, part in self:
-            if isinstance(part, Table):
+            if isinstance(part, FileTable):
                 yield key, part
             elif isinstance(part, tuple):
                 for number, table in enumerate(part, 1):

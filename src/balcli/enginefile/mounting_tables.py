@@ -11,7 +11,7 @@ from pydantic import Field
 
 from .exclusive import Choice
 from .fields import Label, Number
-from .model import Angle, Table, Triple
+from .model import Angle, FileTable, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ Dampings = Annotated[
 _PERPENDICULAR = 1e-6  # cosine between two axes that are
 
 
-class Body(Table):
+class Body(FileTable):
     """All that rocks on the mounts: the engine with its gearbox, as one rigid body."""
 
     mass: Annotated[float, Number(MASS, above=0, most=1e12)] = Field(
@@ -114,7 +114,7 @@ def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
     yield from faults
 
 
-class Mount(Table):
+class Mount(FileTable):
     """A mount: three springs at a point, between the body and the frame."""
 
     choices = (Choice((("axes",), ("angles",))),)
@@ -162,7 +162,7 @@ class Mount(Table):
                 yield f"axes are {angle:.4g} degrees apart; they must be perpendicular"
 
 
-class Point(Table):
+class Point(FileTable):
     """A point of the body whose motion is wanted."""
 
     name: Name = Field(description="what to call it", examples=["seat rail"])

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, Problem
-from .model import EngineFile, Table, label_table
+from .model import EngineFile, FileTable, label_table
 
 
 def normalize_tables(tables: Mapping[Any, Any], name: str = "") -> dict[str, Any]:
@@ -56,7 +56,7 @@ def list_tables(model: EngineFile) -> dict[str, Any]:
 
 
 def _write(value: Any) -> Any:
-    if isinstance(value, Table):
+    if isinstance(value, FileTable):
         fields = type(value).model_fields
         given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
         return {fields[key].alias or key: _write(part) for key, part in given if part is not None}
@@ -85,7 +85,7 @@ def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, An
             place[_find_member(place, given, last, path)] = value
             continue
         start = path.removesuffix(last)
-        for rival in given.rivals(last) if isinstance(given, Table) else ():
+        for rival in given.rivals(last) if isinstance(given, FileTable) else ():
             if start + rival not in changes:
                 place.pop(rival, None)
         place[last] = value
@@ -112,7 +112,8 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
 def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
     """Which member of a list a number (from 1) or a name means."""
     labels = [
-        label_table(one, k) if isinstance(one, Table) else str(k) for k, one in enumerate(given, 1)
+        label_table(one, k) if isinstance(one, FileTable) else str(k)
+        for k, one in enumerate(given, 1)
     ]
     if key in labels:
         return labels.index(key)

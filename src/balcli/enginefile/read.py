@@ -33,7 +33,7 @@ from .messages import (
     is_miscounted,
     join_path,
 )
-from .model import EngineFile, Override, Table, mistakes_of_choice
+from .model import EngineFile, FileTable, Override, mistakes_of_choice
 from .toml_text import parse_toml
 from .unknown_keys import (
     INSTEAD,
@@ -48,7 +48,7 @@ CONTROL_CHARACTERS = {  # compiled when a text is met that is not all printable
     "name": rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]",
     "source": rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]",  # may have lines
 }
-T = TypeVar("T", bound=Table)
+T = TypeVar("T", bound=FileTable)
 
 
 class Draft(NamedTuple):
@@ -235,7 +235,7 @@ class _Reader:
         return bool(huge)
 
     def _translate(
-        self, path: str, error: ValidationError, value: Mapping[str, Any], table: type[Table]
+        self, path: str, error: ValidationError, value: Mapping[str, Any], table: type[FileTable]
     ) -> None:
         """Collect pydantic's findings, and the keys that exclude each other, at which it looks only
         where all else is right.

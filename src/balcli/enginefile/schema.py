@@ -6,7 +6,7 @@ from itertools import combinations, product
 from typing import Any, TypeAlias
 
 from .messages import CHAPTER_LISTS, CHAPTERS, DEVICES, TABLES, import_table
-from .model import EngineFile, Override, Table
+from .model import EngineFile, FileTable, Override
 
 Node: TypeAlias = dict[str, Any]  # of a JSON Schema, whose members are of many kinds
 
@@ -18,7 +18,7 @@ def describe_engine_file() -> Node:
     an example.
     """
     chapters = {key.capitalize(): import_table(key) for key in (*CHAPTERS, *CHAPTER_LISTS)}
-    tables: list[type[Table]] = [
+    tables: list[type[FileTable]] = [
         *TABLES.values(),
         *chapters.values(),
         *DEVICES.values(),
@@ -67,7 +67,7 @@ def _tidy_member(value: object) -> object:
     return [_tidy_member(item) for item in value] if isinstance(value, list) else value
 
 
-def _exclusions(table: type[Table]) -> Node:
+def _exclusions(table: type[FileTable]) -> Node:
     """What `Table.choices` says, in the words of JSON Schema."""
     rules: list[Node] = []
     for choice in table.choices:

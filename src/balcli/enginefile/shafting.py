@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from .fields import Number, OneOf
-from .model import Size, Table
+from .model import FileTable, Size
 from .units import (
     INERTIA,
     MASS,
@@ -58,7 +58,7 @@ _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
 
 
-class ShaftKeys(Table):
+class ShaftKeys(FileTable):
     """What a shaft is like: its stiffness, or the steel that makes it; its section gives stress."""
 
     stiffness: Stiffness | None = Field(
@@ -105,7 +105,7 @@ _KEYS_OF_KIND = {
 }
 
 
-class Damper(Table):
+class Damper(FileTable):
     """A damper on a node."""
 
     kind: Annotated[str, OneOf(*_KEYS_OF_KIND)] = Field(

@@ -14,9 +14,9 @@ from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN
 from .fields import nearest, shorten
 from .messages import is_miscounted, join_path
-from .model import Table
+from .model import FileTable
 
-T = TypeVar("T", bound=Table)
+T = TypeVar("T", bound=FileTable)
 
 
 class TableReader:
@@ -31,7 +31,7 @@ class TableReader:
     """
 
     def __init__(
-        self, file_kind: str, describe: Callable[[str, ErrorDetails, type[Table]], Problem]
+        self, file_kind: str, describe: Callable[[str, ErrorDetails, type[FileTable]], Problem]
     ) -> None:
         self._file_kind, self._describe = file_kind, describe
         self.problems: list[Problem] = []
@@ -71,7 +71,7 @@ class TableReader:
         more = max(len(self.problems) - MOST_MISTAKES_SHOWN, 0)
         return InputError(self.problems[:MOST_MISTAKES_SHOWN], name, more)
 
-    def _refuse_key(self, path: str, key: str, table: type[Table]) -> None:
+    def _refuse_key(self, path: str, key: str, table: type[FileTable]) -> None:
         place = f"in {_heading(path)}" if path else f"in {self._file_kind}"
         near = nearest(key, table.keys())
         hint = f"did you mean {near}?" if near else f"it has {', '.join(table.keys())}"

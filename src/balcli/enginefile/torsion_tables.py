@@ -11,7 +11,7 @@ from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
 from .fields import Label, Number, counted, shorten
-from .model import Size, Table
+from .model import FileTable, Size
 from .shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
 from .units import ANGLE, INERTIA, PLAIN, STRESS, TORSIONAL_STIFFNESS, Dimension
 
@@ -87,7 +87,7 @@ class Part(ShaftKeys):
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
 
 
-class Torsion(Table):
+class Torsion(FileTable):
     """Torsional vibration: a node for each throw, and the parts before and behind them."""
 
     throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = Field(

@@ -98,7 +98,7 @@ class UnknownKey(NamedTuple):
 
     path: str
     key: str
-    table: type[model.Table] | None
+    table: type[model.FileTable] | None
 
 
 def find_unknown_keys(data: Mapping[str, Any]) -> Iterator[UnknownKey]:

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ..enginefile.fields import Flag, Label, Number, OneOf, shorten
-from ..enginefile.model import Size, Speed, Table
+from ..enginefile.model import FileTable, Size, Speed
 from ..enginefile.units import (
     ANGLE,
     BARE_FIGURE,
@@ -168,7 +168,7 @@ PlacesOfPlane = Annotated[tuple[float, ...], PlaceAngles()]
 _PLANES = Field(min_length=1, max_length=MOST_BALANCING_PLANES)
 
 
-class Run(Table):
+class Run(FileTable):
     """One run of the machine."""
 
     name: Name | None = Field(None, examples=["trial front"], description="what to call it")
@@ -192,7 +192,7 @@ class Run(Table):
     )
 
 
-class RunsFile(Table):
+class RunsFile(FileTable):
     """Readings of a rotor with and without trial weights."""
 
     name: Name | None = Field(None, examples=["fan 3"], description="what to call the rotor")

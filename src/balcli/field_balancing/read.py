@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 
 from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.messages import describe_finding, join_path
-from ..enginefile.model import Table
+from ..enginefile.model import FileTable
 from ..enginefile.table_reader import TableReader
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..enginefile.units import MASS
@@ -62,7 +62,7 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
     return model
 
 
-def _describe(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
+def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
     last = str(finding["loc"][-1])
     if finding["type"] == "missing" and last in _NEEDED:
         return Problem(last, _NEEDED[last])

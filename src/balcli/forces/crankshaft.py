@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.levers import find_ahead, find_arms, find_reach, share_by_lever
+from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Phasors
 from ..core.sorted_sets import sort_distinct
@@ -92,7 +92,7 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     sections = sort_distinct(z)
     ahead = find_ahead(z, sections)
     shear = _sum_weighted(loads, ahead, ahead)
-    bending = 1j * _sum_weighted(loads, find_arms(z, sections), find_reach(z, sections))
+    bending = 1j * _sum_weighted(loads, find_arms(z, sections), bound_arms(z, sections))
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
     _refuse_too_many_results(len(orders), len(z))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.levers import find_ahead, find_arms, find_reach, share_by_lever
+from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import merged_breaks
@@ -77,7 +77,7 @@ class BearingsUnknownError(BalcliError):
         super().__init__(f"main bearings: {reason}")
 
 
-def add_gas(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
+def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
     """The inner loads of an engine with gas, with what gas does inside as far as it is known;
     arguments and errors else as of `compute_loads_with_gas`.
     """
@@ -232,7 +232,7 @@ def _cut_shaft(
     shear = find_ahead(z, sections) - find_ahead(span, sections) @ shares
     size = find_ahead(z, sections) + find_ahead(span, sections) @ sizes
     arms = find_arms(z, sections) - find_arms(span, sections) @ shares
-    reach = find_reach(z, sections) + find_reach(span, sections) @ sizes
+    reach = bound_arms(z, sections) + bound_arms(span, sections) @ sizes
     return (
         _Sums(sections, _beside(shear, more), _beside(size, more)),
         _Sums(sections, _beside(arms, more), _beside(reach, more), 1j),
@@ -248,7 +248,7 @@ def _cut_block(sections: Array, z: Array, span: Array, shares: Array) -> tuple[_
     sizes = np.abs(shares)
     ahead = find_ahead(span, sections), find_ahead(z, sections)
     arms = find_arms(span, sections), find_arms(z, sections)
-    reach = find_reach(span, sections), find_reach(z, sections)
+    reach = bound_arms(span, sections), bound_arms(z, sections)
     return (
         _Sums(sections, join(*ahead, shares), join(*ahead, sizes)),
         _Sums(sections, join(*arms, shares), join(*reach, sizes), 1j),

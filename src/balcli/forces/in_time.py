@@ -60,8 +60,7 @@ def _find_timetable(engine: Engine, step: float, waves: int, orders: int) -> Tim
     """Of so many samples that the fastest of so many waves in a cycle is followed where the crank
     is slowest, and the clock runs fastest; each is counted for so many orders.
     """
-    lines = [(line.order, float(line.amplitude), float(line.angle_deg)) for line in engine.ripple]
-    slowest = find_slowest(lines).value
+    slowest = find_slowest(engine.ripple).value
     samples = 1 << math.ceil(math.log2(16 * waves / slowest))
     if samples > MOST_SAMPLES or samples * orders > _MOST_COUNTED:
         raise BalcliError(
@@ -69,4 +68,4 @@ def _find_timetable(engine: Engine, step: float, waves: int, orders: int) -> Tim
             "what vibrates there in time takes more samples than are computed; give a smaller "
             "amplitude or lower orders"
         )
-    return find_timetable(find_speed(lines, step), step, samples)
+    return find_timetable(find_speed(engine.ripple, step), step, samples)

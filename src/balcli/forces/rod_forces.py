@@ -32,7 +32,7 @@ from .gas import take_gas
 
 if TYPE_CHECKING:
     from ..core.mechanisms.articulated import Articulated
-    from ..core.mechanisms.motion import Point
+    from ..core.mechanisms.motion import PointMass
     from ..core.mechanisms.rotary import Rotary
 
 
@@ -141,7 +141,7 @@ def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[
         acceleration = r * (z2 * motion.omega**2 + z1 * motion.xi)
         return _Course(r * z, np.asarray(acceleration, complex))
 
-    def follow_point(point: Point, turned: Complex | float = 1.0) -> _Course:
+    def follow_point(point: PointMass, turned: Complex | float = 1.0) -> _Course:
         return follow(turned * point.z, turned * point.z1, turned * point.z2)
 
     if linked is not None and engine.rotary:  # its points are seen from the direction of the pin

@@ -144,7 +144,7 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
         )
 
 
-def count_samples(engine: Engine) -> int:
+def count_engine_samples(engine: Engine) -> int:
     """About how many samples of revolutions the mechanisms of an engine, or of variants, take."""
     c = engine.cylinders
     sampled = c.linkage is not None or np.count_nonzero(c.eps)
@@ -260,10 +260,9 @@ def _compute_uneven(
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
     """Coefficients of the speed (`ripple.find_speed`), and the dense orders it mixes into these."""
-    lines = [(line.order, line.amplitude, line.angle_deg) for line in engine.ripple]
-    mixed = [order for order, _, _ in lines]
+    mixed = [line.order for line in engine.ripple]
     dense = dense_orders(orders.max(initial=0) + 2 * max(mixed), [*mixed, *orders])
-    return ripple.find_speed(lines, float(dense[1])), dense
+    return ripple.find_speed(engine.ripple, float(dense[1])), dense
 
 
 def dense_orders(highest: float, mixed: Iterable[float]) -> Array:

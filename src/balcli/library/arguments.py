@@ -55,7 +55,7 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
     return decorate
 
 
-def join_words(function: str, words: Words | None) -> str | None:
+def join_names(function: str, words: Words | None) -> str | None:
     """Names as the command line has them, with commas between; None as it is.
 
     Raises:
@@ -153,7 +153,7 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
     return int(value)
 
 
-def read_share(name: str, value: float | str) -> float:
+def check_share(name: str, value: float | str) -> float:
     """A share of 0 to 1: a number such as 0.005, or a text such as "0.5%".
 
     Raises:
@@ -170,7 +170,7 @@ def read_share(name: str, value: float | str) -> float:
     return float(value)
 
 
-def read_place(name: str, value: object) -> tuple[float, float, float]:
+def read_position(name: str, value: object) -> tuple[float, float, float]:
     """A place that a function was given, m: x, y and z.
 
     Raises:

@@ -9,7 +9,7 @@ import numpy as np
 from ..engine.build import Engine, check_engine
 from ..errors import check_type
 from ..results.two_engines import Arrangement, Combined, Load, check_arrangement, combine_engines
-from .arguments import read_place, tell_arguments
+from .arguments import read_position, tell_arguments
 
 
 @tell_arguments(phase="phase_deg", at="at_m", turn="turn_deg")
@@ -54,7 +54,7 @@ def combine(
         check_type(name, value, (int, float, np.number), "give an angle in degrees")
     check_type("reverse", reverse, bool, "give True or False")
     check_type("load", load, str, "give first, second or both")
-    place = read_place("at_m", at_m)
+    place = read_position("at_m", at_m)
     arrangement = Arrangement(float(phase_deg), place, float(turn_deg), reverse, load)
     check_arrangement(arrangement)
     return combine_engines(*checked, arrangement, orders)

@@ -17,18 +17,18 @@ from ..mounting.report import MountReport
 from ..render.plot import torsion as torsion_pages
 from ..render.plot.field_balancing import make_field
 from ..render.plot.mounts import make_mounts
-from ..render.plot.pages import PAGES, Subject, make_page
+from ..render.plot.pages import PAGES, PageSubject, make_page
 from ..render.plot.torsion import make_torsion
-from ..render.sweep_plot import check_drawable, make_sweep
+from ..render.sweep_plot import check_drawable, draw_sweep_figure
 from ..render.units import SI
 from ..results.analysis import Analysis
 from ..results.balance import Balance
 from ..studies.pictures import compute_study
 from ..studies.swept import Swept
 from ..torque.analysis import TorqueAnalysis
-from ..torsion.analysis import Question, TorsionAnalysis, answer_question
+from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
-from ..torsion.quantity import choose_speeds
+from ..torsion.quantity import choose_torsion_speeds
 from .arguments import check_speeds, check_torsion_orders, tell_arguments
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def plot(
             return _plot_engine(shown.engine, what or "all", asked, scheme, speeds_rpm)
         case Balance():
             page = _choose(what or "all", ("all", "polar", "orders", "spectrum", "curves"))
-            return make_page(Subject(shown.after, shown.before, shown.remedy), page, "png")
+            return make_page(PageSubject(shown.after, shown.before, shown.remedy), page, "png")
         case TorqueAnalysis():
             page = _choose(what or "torque", ("torque", "pressure", "p-v", "pin", "main"))
             return _plot_engine(shown.engine, page, None, None, None)
@@ -98,7 +98,7 @@ def plot(
     match shown:
         case Swept():
             check_drawable(shown.sweep)
-            return make_sweep(shown.sweep, shown.values, "png")
+            return draw_sweep_figure(shown.sweep, shown.values, "png")
         case MountReport():
             return make_mounts(shown, "png", SI)
         case FieldBalance():
@@ -130,13 +130,13 @@ def _plot_engine(
     if what not in _TORSION:
         asked = None if orders is None else check_orders(orders).tolist()
         study = compute_study(engine, what, asked, scheme)
-        return make_page(Subject(system=SI, **study._asdict()), what, "png")
+        return make_page(PageSubject(system=SI, **study._asdict()), what, "png")
     exciting = check_torsion_orders(orders)
     source = make_source(take_model(engine), engine, engine.name, exciting)
     speeds = check_speeds("plot", speeds_rpm)
     if speeds is None and what in ("response", "waterfall"):
-        speeds = np.asarray(choose_speeds(engine), dtype=float)
-    return _plot_torsion(answer_question(source, Question(speeds, exciting)), what)
+        speeds = np.asarray(choose_torsion_speeds(engine), dtype=float)
+    return _plot_torsion(answer_question(source, TorsionQuestion(speeds, exciting)), what)
 
 
 def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:

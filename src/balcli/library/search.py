@@ -9,7 +9,7 @@ from ..errors import wrong_type
 from ..limits import MOST_FOUND
 from ..studies.search.objective import parse_objective
 from ..studies.search.search import Search, search_arrangements
-from .arguments import Words, check_count, check_mapping, join_words, tell_arguments
+from .arguments import Words, check_count, check_mapping, join_names, tell_arguments
 
 
 @tell_arguments()
@@ -53,7 +53,7 @@ def search(
     if isinstance(minimise, Mapping):
         wanted = ",".join(f"{name}={weight!r}" for name, weight in _as_floats(minimise).items())
     else:
-        wanted = join_words("search", minimise) or ""
+        wanted = join_names("search", minimise) or ""
     bounds = check_mapping("search", limits or {}, '{"moment.2.major": 100}')
     texts = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
     goal = parse_objective(wanted, texts, with_gas=model.gas is not None)

@@ -12,7 +12,7 @@ from ..process import count_cores
 from ..studies.parameters import choose_values
 from ..studies.sweep import plan_sweep
 from ..studies.swept import Swept, compute_sweep
-from .arguments import Words, check_count, check_mapping, join_words, tell_arguments
+from .arguments import Words, check_count, check_mapping, join_names, tell_arguments
 
 
 @tell_arguments(quantity="quantities", jobs="threads")
@@ -61,6 +61,6 @@ def sweep(
         raise BalcliError(f"sweep: nothing varies; give numbers and values, such as {example}")
     wanted = min(count_cores(), MOST_THREADS) if threads is None else threads
     count = check_count("threads", wanted, most=MOST_THREADS)
-    asked = join_words("sweep", quantities)
+    asked = join_names("sweep", quantities)
     plan = plan_sweep(model, parameters, asked, engine.name or "engine")
     return compute_sweep(plan, count)

@@ -14,7 +14,7 @@ from ..engine.load import load
 from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..errors import BalcliError, wrong_type
-from ..torsion.analysis import Question, TorsionAnalysis, answer_question
+from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.damper_sizing import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
@@ -67,7 +67,7 @@ def analyze_torsion(
     asked = check_torsion_orders(orders)
     inertia = check_inertia("damper_inertia", damper_inertia)
     sized = None if damper is None else DamperAsked(damper, damper_at, inertia)
-    question = Question(check_speeds("analyze_torsion", speeds_rpm), asked, (), sized)
+    question = TorsionQuestion(check_speeds("analyze_torsion", speeds_rpm), asked, (), sized)
     return answer_question(_read_source(source, asked), question)
 
 

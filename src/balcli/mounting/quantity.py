@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.speeds import RPM
 from ..engine.variants import EngineVariants
-from ..enginefile.model import EngineFile, Table, label_table
+from ..enginefile.model import EngineFile, FileTable, label_table
 from ..errors import BalcliError, InputError, Problem
 from ..forces.target_quantity import (
     Subject,
@@ -21,8 +21,8 @@ from ..forces.target_quantity import (
 from .build import build_mounted_body
 from .modes import BodyModes, find_mounted_modes
 from .motions import AXES, ROLL
-from .report import choose_speeds
-from .response import find_loads, find_worst
+from .report import choose_mount_speeds
+from .response import find_largest_amplitudes, find_loads
 
 _SUBJECTS = {
     "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
@@ -90,7 +90,7 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
             has.
     """
     tables = dict(model.tables())
-    changed: dict[str, Table] = {}
+    changed: dict[str, FileTable] = {}
     for path, value in values.items():
         start = next((s for s in tables if path.startswith(f"{s}.")), "")
         if _begin(start) in _TABLES:
@@ -111,7 +111,7 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
     return model.model_copy(update={"body": changed.get("body", model.body), **rows})
 
 
-def _change(table: Table, key: str, value: float) -> Table:
+def _change(table: FileTable, key: str, value: float) -> FileTable:
     """With another figure: `mass`, or one of a list (`stiffness.2`)."""
     name, _, number = key.partition(".")
     if not number:
@@ -152,8 +152,10 @@ class Variants:
             loads = find_loads(engine, mounted.body.centre)
             modes = find_mounted_modes(mounted, loads.mean)
             if self._runs:
-                omega = choose_speeds(engine) * RPM
-                largest = [worst.value for worst in find_worst(mounted, modes, loads, omega)]
+                omega = choose_mount_speeds(engine) * RPM
+                largest = [
+                    worst.value for worst in find_largest_amplitudes(mounted, modes, loads, omega)
+                ]
                 count = len(mounted.names)
                 forces, motions = largest[:count], largest[count:]
         found = []

@@ -22,7 +22,7 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
-from .response import Loads, Meeting, Response, find_loads, find_meetings, respond
+from .response import BodyLoads, Meeting, MountingResponse, find_loads, find_meetings, respond
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
@@ -32,14 +32,14 @@ class Fitted(NamedTuple):
     """The same engine with the devices of a balance scheme."""
 
     remedy: Remedy
-    response: Response
+    response: MountingResponse
 
 
 class Other(NamedTuple):
     """What is shown beside: the engine with a scheme, or another engine on the same mounts."""
 
     name: str
-    response: Response
+    response: MountingResponse
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -58,7 +58,7 @@ class MountReport(Result):
     name: str
     mounted: MountedBody
     modes: BodyModes
-    response: Response | None = None
+    response: MountingResponse | None = None
     fitted: Fitted | None = None
     others: tuple[Other, ...] = ()
 
@@ -83,7 +83,7 @@ class MountReport(Result):
         return find_meetings(self.modes, self.response.loads, self.response.omega)
 
 
-def choose_speeds(engine: Engine) -> Real:
+def choose_mount_speeds(engine: Engine) -> Real:
     """(speeds,) rpm, where nobody says which: from an eighth of the engine's speed to this."""
     return np.asarray(np.linspace(_SLOWEST, 1.0, _SPEEDS) * float(engine.speed_rpm))
 
@@ -139,7 +139,7 @@ def _run(
     others: Sequence[tuple[str, Engine]],
     tell: Tell,
 ) -> MountReport:
-    rpm = choose_speeds(engine) if speeds_rpm is None else speeds_rpm
+    rpm = choose_mount_speeds(engine) if speeds_rpm is None else speeds_rpm
     omega = rpm * RPM
     asked = None if orders is None else check_orders(orders)
     if asked is not None and asked[0] == 0:
@@ -148,7 +148,7 @@ def _run(
     modes = find_mounted_modes(mounted, loads.mean)
     done, responses = count(), 1 + (remedy is not None) + len(others)
 
-    def respond_to(loads: Loads) -> Response:
+    def respond_to(loads: BodyLoads) -> MountingResponse:
         before = next(done)
         return respond(
             mounted, modes, loads, omega, lambda share: tell((before + share) / responses)

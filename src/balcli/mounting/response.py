@@ -48,7 +48,7 @@ _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them m
 
 
 @dataclass(frozen=True, eq=False)
-class Loads:
+class BodyLoads:
     """What an engine does to the body, by order.
 
     Attributes:
@@ -95,7 +95,7 @@ class Meeting(NamedTuple):
         return self.omega / RPM
 
 
-class Worst(NamedTuple):
+class LargestAmplitude(NamedTuple):
     """The largest value over all speeds.
 
     Attributes:
@@ -116,7 +116,7 @@ class Worst(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Response:
+class MountingResponse:
     """Of the body to its engine; speeds in rad/s.
 
     Attributes:
@@ -130,7 +130,7 @@ class Response:
         body: (orders, speeds, 6) motion of the centre of gravity, m and rad.
     """
 
-    loads: Loads
+    loads: BodyLoads
     omega: Real
     force: Real
     force_peak: Real
@@ -138,8 +138,8 @@ class Response:
     motion_peak: Real
     free: Real
     passed: Real
-    worst_force: tuple[Worst, ...]
-    worst_motion: tuple[Worst, ...]
+    worst_force: tuple[LargestAmplitude, ...]
+    worst_motion: tuple[LargestAmplitude, ...]
     body: Complex
 
     @property
@@ -148,7 +148,7 @@ class Response:
         return self.omega / RPM
 
 
-def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Loads:
+def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> BodyLoads:
     """Free forces and moments of an engine as a load on the body, about its centre of gravity.
 
     Args:
@@ -168,7 +168,7 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Load
         found = found.select_orders(choose_orders(found, engine))
     reference = np.array([float(value) for value in engine.reference_m])
     inertia = _find_load(found, reference, centre)
-    loads = Loads(found.orders, inertia, turns * float(engine.omega))
+    loads = BodyLoads(found.orders, inertia, turns * float(engine.omega))
     if engine.gas is not None:
         gas = np.zeros_like(inertia)
         gas[:, ROLL] = -found["gas"].x
@@ -185,7 +185,7 @@ def _compute_spectra(engine: Engine, orders: Real, kinds: Sequence[str]) -> tupl
     return compute_spectra_in_time(engine, np.asarray(orders, float), kinds)
 
 
-def _leave_out_none(loads: Loads) -> Loads:
+def _leave_out_none(loads: BodyLoads) -> BodyLoads:
     """Without orders that have no load, as far as some have."""
     there = loads.there
     if not there.any():
@@ -205,10 +205,10 @@ def _find_load(found: Spectra, reference: Real, centre: Real) -> Complex:
 def respond(
     mounted: MountedBody,
     modes: BodyModes,
-    loads: Loads,
+    loads: BodyLoads,
     omega: Real,
     tell: Tell = tell_nobody,
-) -> Response:
+) -> MountingResponse:
     """The response at every order and speed.
 
     Args:
@@ -220,7 +220,7 @@ def respond(
             within the range of speeds, with mode, order and speed.
     """
     _refuse_too_many(loads, omega, mounted)
-    refuse_resonance(modes, loads, omega)
+    refuse_mount_resonance(modes, loads, omega)
     found = _move(mounted, loads, omega)
     curves = _list_curves(mounted, found)
     count = len(mounted.names)
@@ -229,7 +229,7 @@ def respond(
     passed = np.einsum("pij,nspi->nsj", arms, curves[:, :, :count])
     by_order = largest_of_ellipse(curves)
     worst = _find_worst(mounted, modes, loads, omega, peak)
-    return Response(
+    return MountingResponse(
         loads,
         omega,
         by_order[:, :, :count],
@@ -254,7 +254,7 @@ def _find_peaks(orders: Real, curves: Complex, tell: Tell) -> Real:
     return np.concatenate(parts)
 
 
-def _move(mounted: MountedBody, loads: Loads, omega: Real) -> BodyResponse:
+def _move(mounted: MountedBody, loads: BodyLoads, omega: Real) -> BodyResponse:
     w = frequencies(loads.orders, omega)
     return respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
 
@@ -265,7 +265,7 @@ def _list_curves(mounted: MountedBody, found: BodyResponse) -> Complex:
     return np.concatenate([found.forces, moved], axis=2)
 
 
-def _refuse_too_many(loads: Loads, omega: Real, mounted: MountedBody) -> None:
+def _refuse_too_many(loads: BodyLoads, omega: Real, mounted: MountedBody) -> None:
     count = len(loads.orders) * len(omega) * (len(mounted.names) + len(mounted.point_names))
     if count > MOST_MOUNT_RESULTS:
         raise BalcliError(
@@ -275,7 +275,7 @@ def _refuse_too_many(loads: Loads, omega: Real, mounted: MountedBody) -> None:
         )
 
 
-def refuse_resonance(modes: BodyModes, loads: Loads, omega: Real) -> None:
+def refuse_mount_resonance(modes: BodyModes, loads: BodyLoads, omega: Real) -> None:
     """Nothing, unless the engine drives an undamped mode at its own frequency within the range.
 
     Raises:
@@ -293,22 +293,22 @@ def refuse_resonance(modes: BodyModes, loads: Loads, omega: Real) -> None:
     )
 
 
-def find_worst(
-    mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real
-) -> tuple[Worst, ...]:
+def find_largest_amplitudes(
+    mounted: MountedBody, modes: BodyModes, loads: BodyLoads, omega: Real
+) -> tuple[LargestAmplitude, ...]:
     """The largest force of each mount, then the largest motion of each point, over a range of
     speeds (rad/s, rising); as `respond` has them.
 
     Raises:
         BalcliError: an undamped mode that is driven within the range.
     """
-    refuse_resonance(modes, loads, omega)
+    refuse_mount_resonance(modes, loads, omega)
     curves = _list_curves(mounted, _move(mounted, loads, omega))
     peaks = _find_peaks(loads.orders, curves, tell_nobody)
     return _find_worst(mounted, modes, loads, omega, peaks)
 
 
-def find_meetings(modes: BodyModes, loads: Loads, omega: Real) -> tuple[Meeting, ...]:
+def find_meetings(modes: BodyModes, loads: BodyLoads, omega: Real) -> tuple[Meeting, ...]:
     """Orders that meet modes within a range of speeds (rad/s, rising), by mode and order."""
     met = [
         Meeting(k, float(order), mode.omega / float(order))
@@ -319,8 +319,8 @@ def find_meetings(modes: BodyModes, loads: Loads, omega: Real) -> tuple[Meeting,
 
 
 def _find_worst(
-    mounted: MountedBody, modes: BodyModes, loads: Loads, omega: Real, peaks: Real
-) -> tuple[Worst, ...]:
+    mounted: MountedBody, modes: BodyModes, loads: BodyLoads, omega: Real, peaks: Real
+) -> tuple[LargestAmplitude, ...]:
     """Of each curve (speeds, curves) of peaks its highest value, closer than the speeds are: every
     peak that may be the highest is approached. Where damping is little, a resonance is narrower
     than their step: the speeds at which an order meets a mode are looked at as well, and beside
@@ -347,7 +347,7 @@ def _find_worst(
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)
     return tuple(
-        Worst(
+        LargestAmplitude(
             float(value[k]),
             float(best[k]),
             float(loads.orders[leading[k]]),
@@ -357,7 +357,7 @@ def _find_worst(
     )
 
 
-def _press_some(mounted: MountedBody, loads: Loads, omega: Real) -> Iterator[Real]:
+def _press_some(mounted: MountedBody, loads: BodyLoads, omega: Real) -> Iterator[Real]:
     """Peaks (speeds, mounts + points) at any speeds, some speeds at a time."""
     for start in range(0, len(omega), _SPEEDS_AT_A_TIME):
         some = omega[start : start + _SPEEDS_AT_A_TIME]

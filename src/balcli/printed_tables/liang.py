@@ -38,7 +38,7 @@ piston = { mass = "6 lb" }
 """
 
 
-def tabulate_examples(printed: Print, ranges: Ranges) -> Table:
+def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers beside the printed ones, in the order of the book."""
     exact = (*_first(), *_second(), *_third())
     margin = [words[:-1] for words in printed.rows]

@@ -43,8 +43,8 @@ REGISTRY: dict[str, Entry] = {
     "wang-1": Entry(wang.tabulate_optimum),
     "kvasnikov-1": Entry(kvasnikov.tabulate_piston, ("lambda",)),
     "kvasnikov-2": Entry(kvasnikov.tabulate_rod, ("lambda",)),
-    "liang-examples": Entry(liang.tabulate_examples),
-    "torque-examples": Entry(torque_examples.tabulate_examples),
+    "liang-examples": Entry(liang.tabulate_liang_examples),
+    "torque-examples": Entry(torque_examples.tabulate_torque_examples),
     "series": Entry(series_coefficients.tabulate_series, ("power",)),
     "layouts": Entry(layouts.tabulate_layouts),
 }

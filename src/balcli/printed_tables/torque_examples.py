@@ -27,7 +27,7 @@ _UICKER = [  # N m, every 10 deg of two turns
 # fmt: on
 
 
-def tabulate_examples(printed: Print, ranges: Ranges) -> Table:
+def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers beside the printed ones."""
     uicker = _uicker_torque()
     energy = surplus(uicker).energy

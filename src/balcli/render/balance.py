@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..core.peaks import Peak
 from ..engine.positions import MOMENTS_UNKNOWN
-from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
 from .analysis_document import brief_document
@@ -41,7 +41,11 @@ from .sheet import (
     number,
     order_name,
 )
-from .units import SI, System, Unit
+from .units import SI, ShownUnit, System
+
+if TYPE_CHECKING:
+    from ..forces.spectrum import Spectra
+    from ..results.analysis import Analysis
 
 
 def sheet(result: Balance, system: System) -> Sheet:
@@ -100,7 +104,8 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
         (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
         rows,
-        f"A crankshaft of {result.permitted.mass:g} kg at {rpm:g} rpm; all share alike.",
+        f"A crankshaft of {number(system.mass.of(result.permitted.mass))} {system.mass.name} at "
+        f"{rpm:g} rpm; all share alike.",
     )
 
 
@@ -115,11 +120,14 @@ def _tolerance(unbalance: float, permitted: float) -> str:
 
 
 # ------------------------------------------------------------------ before and after
+_HEADS = {ROLL_TOTAL: "roll with gas"}
+
+
 def _orders(result: Balance, system: System) -> Grid:
     """Those that matter before or after; all that were asked for."""
-    columns = (FORCE, MOMENT, ROLL)
-    names = [kind.name for kind in columns]
-    states = [analysis.spectra.only(names) for analysis in (result.before, result.after)]
+    has_gas = result.before.engine.gas is not None
+    columns = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
+    states = [_pick(result.before, FORCE, MOMENT, ROLL), _pick(result.after, FORCE, MOMENT, ROLL)]
     orders, one = result.before.orders.tolist(), result.before.of_one_cylinder
     shown = {order for state in states for order in find_orders_that_matter(state, one)}
     rows = [k for k, order in enumerate(orders) if result.every_order or order in shown]
@@ -139,17 +147,32 @@ def _orders(result: Balance, system: System) -> Grid:
         return tuple(cells)
 
     heads = [
-        head for kind, unit in units.items() for head in (f"{kind.name}, {unit.name}", "after")
+        head
+        for kind, unit in units.items()
+        for head in (f"{_HEADS.get(kind, kind.name)}, {unit.name}", "after")
     ]
     return Grid(
         "Largest value by order, before and after",
         ("order", *heads),
         tuple(map(row, rows)),
-        tell_others(states, [orders[k] for k in rows], system, hints=False),
+        _tell_others(result, [orders[k] for k in rows], system),
     )
 
 
-def _fit(result: Balance, kind: Kind, system: System) -> Unit:
+def _pick(analysis: Analysis, *kinds: Kind) -> Spectra:
+    return analysis.spectra.only([kind.name for kind in kinds])
+
+
+def _tell_others(result: Balance, shown: list[float], system: System) -> str:
+    """On the orders that are not shown; no device changes what the gas does in them."""
+    has_gas = result.before.engine.gas is not None
+    kinds = (FORCE, MOMENT) if has_gas else (FORCE, MOMENT, ROLL)
+    states = [_pick(analysis, *kinds) for analysis in (result.before, result.after)]
+    of_gas = " In other orders the roll of the gas stays as it is." * has_gas
+    return (tell_others(states, shown, system, hints=False) + of_gas).strip()
+
+
+def _fit(result: Balance, kind: Kind, system: System) -> ShownUnit:
     """The unit for the largest value of the kind."""
     both = (result.before.spectra[kind.name], result.after.spectra[kind.name])
     return system.unit(kind).fit(max(float(p.major.max(initial=0)) for p in both))
@@ -175,7 +198,7 @@ def _peaks(result: Balance, system: System) -> Grid:
     )
 
 
-def _peak(peak: Peak, unit: Unit) -> tuple[str, str]:
+def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
     if not peak.value:
         return NOTHING, ""
     return number(unit.of(peak.value)), degrees(float(np.degrees(peak.theta)))

@@ -26,7 +26,7 @@ TITLES = {TORQUE: "inertia torque"}
 if TYPE_CHECKING:
     from ..forces.kinds import Kind
     from ..results.comparison import Comparison, Line
-    from .units import System, Unit
+    from .units import ShownUnit, System
 
 
 def document(result: Comparison) -> dict[str, Any]:
@@ -84,7 +84,7 @@ def sheet(result: Comparison, system: System) -> Sheet:
     return Sheet("Engines side by side", tuple(grids))
 
 
-def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> Unit:
+def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
     """The unit for the largest of all that is known."""
     return system.unit(kind).fit(max(v for line in lines for v in _list_known(line)))
 
@@ -108,7 +108,7 @@ def _matters(line: Line, least: float) -> bool:
     return max(known, default=0.0) > least and not all(_tell_negligible(line))
 
 
-def show_sizes(line: Line, unit: Unit, *, every: bool) -> list[str]:
+def show_sizes(line: Line, unit: ShownUnit, *, every: bool) -> list[str]:
     """Amplitudes in their unit, or a word where there is none that counts, unless `every` one is
     wanted.
     """
@@ -123,13 +123,13 @@ def _tell_negligible(line: Line) -> list[bool]:
     return [value == 0 or value < NEGLIGIBLE * one for value, one in pairs]
 
 
-def _show_size(value: float, unit: Unit, *, negligible: bool) -> str:
+def _show_size(value: float, unit: ShownUnit, *, negligible: bool) -> str:
     if not value:
         return NOTHING
     return "negligible" if negligible else number(unit.of(value))
 
 
-def _row(line: Line, unit: Unit, *, every: bool) -> tuple[str, ...]:
+def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
     """Sizes, and ratios to the first engine's unless that is negligible."""
     first, *others = show_sizes(line, unit, every=every)
     to_nothing = _tell_negligible(line)[0]

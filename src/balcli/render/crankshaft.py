@@ -15,7 +15,7 @@ from .sheet import NOTHING, Facts, Grid, Text, degrees, number, order_name, orde
 if TYPE_CHECKING:
     from ..forces.crankshaft import AlongCrank, InnerLoads
     from ..forces.in_bearings import LoadsWithGas
-    from .units import System, Unit
+    from .units import ShownUnit, System
 
 _OPEN_END = (
     "Without bearings: what stands at the last place is the free moment of the whole engine, which "
@@ -125,7 +125,11 @@ def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
 
 
 def _grid(
-    along: AlongCrank, title: str, unit: Unit, length: Unit, most_orders: int = ORDERS_SHOWN
+    along: AlongCrank,
+    title: str,
+    unit: ShownUnit,
+    length: ShownUnit,
+    most_orders: int = ORDERS_SHOWN,
 ) -> Grid:
     """One row a place: the peak over a revolution, and the largest value of each of the first
     orders.
@@ -171,7 +175,9 @@ def _entry(along: AlongCrank, k: int) -> dict[str, Any]:
     }
 
 
-def _rows_along(name: str, along: AlongCrank, unit: Unit, length: Unit) -> Iterator[FigureRow]:
+def _rows_along(
+    name: str, along: AlongCrank, unit: ShownUnit, length: ShownUnit
+) -> Iterator[FigureRow]:
     for k, z in enumerate(along.z_m):
         here, place = along.at(k), f"{name} {k + 1}"
         yield FigureRow(0, place, None, "position", clean(length.of(z)), length.name)

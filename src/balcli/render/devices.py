@@ -15,7 +15,7 @@ from .sheet import Grid, capitalized, degrees, number
 
 if TYPE_CHECKING:
     from ..sizing.workshop import Holes, Practical, Tools
-    from .units import System, Unit
+    from .units import ShownUnit, System
 
 _JSON_NAMES = {
     "unbalance": "unbalance_kg_m",
@@ -91,11 +91,11 @@ def _grid_row(device: DeviceTable, free: bool, system: System) -> tuple[str, ...
     )
 
 
-def _place(at: tuple[float, ...], unit: Unit) -> str:
+def _place(at: tuple[float, ...], unit: ShownUnit) -> str:
     return ", ".join(_length(coordinate, unit) for coordinate in at)
 
 
-def _length(millimetres: float, unit: Unit) -> str:
+def _length(millimetres: float, unit: ShownUnit) -> str:
     return number(unit.of(millimetres / 1e3))
 
 
@@ -164,7 +164,7 @@ def tell_rim(tools: Tools, radius: str) -> str:
     return f"from a rim at {radius} ({why})"
 
 
-def explain_holes(practical: Sequence[Practical], tools: Tools, unit: Unit) -> Iterator[str]:
+def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit) -> Iterator[str]:
     """What the largest row of holes takes of the crank's length, and that they go deep where nobody
     has said how deep they may.
     """
@@ -182,7 +182,7 @@ def explain_holes(practical: Sequence[Practical], tools: Tools, unit: Unit) -> I
         )
 
 
-def _holes_row(holes: Holes, unit: Unit) -> tuple[str, ...]:
+def _holes_row(holes: Holes, unit: ShownUnit) -> tuple[str, ...]:
     many = math.isnan(holes.depth)
     return (
         degrees(holes.angle_deg),
@@ -261,7 +261,7 @@ def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any,
                     yield f"at_{axis}", _convert(coordinate, 1e-3, length), length.name
 
 
-def _convert(value: float, size: float, unit: Unit) -> float:
+def _convert(value: float, size: float, unit: ShownUnit) -> float:
     """A value in units of this size (in SI units) in another unit; as it is where that is the
     same.
     """

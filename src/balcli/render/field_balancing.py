@@ -8,7 +8,7 @@ from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccent
 from ..field_balancing.shop import Piece, find_angle_deg
 from .field_balancing_document import document, find_senses, rows
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
-from .units import System, Unit
+from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -81,7 +81,7 @@ def _polar(value: complex, size: int = 4) -> tuple[str, str]:
     return number(abs(value), size), degrees(find_angle_deg(value)) if value else "–"
 
 
-def _work(result: FieldBalance, length: Unit) -> Grid:
+def _work(result: FieldBalance, length: ShownUnit) -> Grid:
     file = result.file
     drilled = file.drill is not None
     heads = ["plane", "hole" if drilled else "place", "at, deg", f"weight, {file.weight_unit}"]

@@ -13,7 +13,7 @@ from ..core.phasors import Array, Complex, Phasors
 from ..forces.kinds import EVERY_KIND, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
-from .units import System, Unit
+from .units import ShownUnit, System
 
 
 class Located(Protocol):
@@ -23,7 +23,7 @@ class Located(Protocol):
     def moments_known(self) -> bool: ...
 
 
-class Result(Located, Protocol):
+class OrdersAndPeaks(Located, Protocol):
     """What has orders and peaks: an analysis, or the sum of two engines."""
 
     @property
@@ -140,7 +140,7 @@ def order_entries(spectra: Spectra) -> list[Entry]:
     ]
 
 
-def peak_entries(result: Result) -> dict[str, float | None]:
+def peak_entries(result: OrdersAndPeaks) -> dict[str, float | None]:
     """What JSON says of the largest values over a revolution."""
     found: dict[str, float | None] = {}
     for kind, peak in result.peaks:
@@ -155,7 +155,7 @@ def peak_angle_deg(peak: Peak) -> float | None:
 
 
 # ------------------------------------------------------------------ as a list
-def figure_rows(result: Result, system: System) -> Iterator[FigureRow]:
+def figure_rows(result: OrdersAndPeaks, system: System) -> Iterator[FigureRow]:
     """Every figure of the orders and the peaks, one a row; none of moments that are not known."""
     told = [kind for kind in EVERY_KIND.values() if result.moments_known or kind is not MOMENT]
     for cylinder, spectra in ((0, result.spectra), *result.cylinders):
@@ -169,14 +169,14 @@ def figure_rows(result: Result, system: System) -> Iterator[FigureRow]:
         yield from peak_rows(kind.name, peak, system.unit(kind))
 
 
-def peak_rows(quantity: str, peak: Peak, unit: Unit) -> Iterator[FigureRow]:
+def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]:
     """The largest value over a revolution, and its crank angle."""
     yield FigureRow(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
     yield FigureRow(0, quantity, None, "peak_deg", peak_angle_deg(peak), "deg")
 
 
 def order_rows(
-    quantity: str, order: float, entry: Entry, unit: Unit, cylinder: int = 0
+    quantity: str, order: float, entry: Entry, unit: ShownUnit, cylinder: int = 0
 ) -> Iterator[FigureRow]:
     """All figures of one order; the entry is SI as in JSON, the rows are in the unit."""
     for figure in _flattened(entry, unit):
@@ -184,7 +184,7 @@ def order_rows(
 
 
 def _flattened(
-    entry: Entry, unit: Unit, prefix: str = ""
+    entry: Entry, unit: ShownUnit, prefix: str = ""
 ) -> Iterator[tuple[str, float | bool | None, str]]:
     """Name, value and unit of every figure of an entry: `x_amplitude` from `x` and `amplitude`."""
     for name, value in entry.items():

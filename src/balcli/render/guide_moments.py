@@ -11,7 +11,7 @@ from .sheet import NOTHING, UNKNOWN, Grid, number, order_name, order_number
 if TYPE_CHECKING:
     from ..core.phasors import Array, Phasors
     from ..forces.guide_moments import GuideMoments
-    from .units import System, Unit
+    from .units import ShownUnit, System
 
 _ALONE = "of inertia alone, without gas"
 
@@ -75,6 +75,6 @@ def _heights(height_m: Array, system: System) -> str:
     return f"{' to '.join(texts)} {system.length.name}"
 
 
-def _largest(moment: Phasors, k: int, unit: Unit) -> str:
+def _largest(moment: Phasors, k: int, unit: ShownUnit) -> str:
     size = float(moment.major[k])
     return number(unit.of(size)) if size else NOTHING

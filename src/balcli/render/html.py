@@ -14,7 +14,7 @@ from ..results.analysis import Analysis
 from ..results.balance import Balance
 from . import analysis, balance
 from .page_scene import scene
-from .plot.pages import Subject, draw_panel, has_picture
+from .plot.pages import PageSubject, draw_panel, has_picture
 from .plot.style import inline_svg
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
@@ -61,8 +61,8 @@ def page(
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
     compared = _COMPARED if fitted else ()
-    now = Subject(result, system=system)
-    after = Subject(balanced.after, balanced.before, balanced.remedy, system)
+    now = PageSubject(result, system=system)
+    after = PageSubject(balanced.after, balanced.before, balanced.remedy, system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
     pictures = []
@@ -129,10 +129,10 @@ def _read(name: str) -> Markup:
 
 
 def _choose_panels(
-    subject: Subject, panels: Sequence[tuple[str, str]], told: Collection[str]
-) -> list[tuple[Subject, str, str]]:
+    subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
+) -> list[tuple[PageSubject, str, str]]:
     """Those of the quantities that are told; of one without a picture the first, which says so."""
-    chosen: list[tuple[Subject, str, str]] = []
+    chosen: list[tuple[PageSubject, str, str]] = []
     for what, quantity in panels:
         is_first = all(quantity != other for _, _, other in chosen)
         if quantity in told and (is_first or has_picture(subject, quantity)):

@@ -28,7 +28,7 @@ from .sheet import (
 if TYPE_CHECKING:
     from ..core.phasors import Array
     from ..results.marine import MarineSheet
-    from .units import System, Unit
+    from .units import ShownUnit, System
 
 _NAMES = (
     "FnV, FnH, MnV, MnH: n is the order, so that M1V and M2V stand in column MnV. Amplitudes; a "
@@ -64,7 +64,7 @@ class _Column(NamedTuple):
     values: Array
     least: Array
 
-    def unit(self, system: System) -> Unit:
+    def unit(self, system: System) -> ShownUnit:
         """The unit of one value."""
         return system.force if self.force else system.moment
 
@@ -229,14 +229,14 @@ def _grid_by_speed(
     return Grid(f"{title}, {unit.name}", ("rpm", *heads), lines, words=())
 
 
-def _fit(columns: tuple[_Column, ...], force: bool, system: System) -> Unit:
+def _fit(columns: tuple[_Column, ...], force: bool, system: System) -> ShownUnit:
     """One unit for all forces or all moments of a table."""
     alike = [column for column in columns if column.force == force]
     largest = max(float(np.nan_to_num(column.values).max()) for column in alike)
     return alike[0].unit(system).fit(largest)
 
 
-def _cell(column: _Column, i: int, k: int, unit: Unit, every: bool) -> str:
+def _cell(column: _Column, i: int, k: int, unit: ShownUnit, every: bool) -> str:
     value = float(column.values[i, k])
     if not value:
         return NOTHING

@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator, Sequence
 from ..core.singular_values import Real
 from ..mounting.motions import AXES
 from ..mounting.report import MountReport
-from ..mounting.response import Response, Worst
+from ..mounting.response import LargestAmplitude, MountingResponse
 from .mounts_document import document, rows
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name
-from .units import System, Unit
+from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -40,7 +40,7 @@ def sheet(result: MountReport, system: System) -> Sheet:
     return Sheet(f"{result.name or NAMELESS}: on its mounts", tuple(parts))
 
 
-def _answer(result: MountReport, response: Response, system: System) -> Iterator[str]:
+def _answer(result: MountReport, response: MountingResponse, system: System) -> Iterator[str]:
     """In words: where it is worst, and why; what a scheme is worth there."""
     name, worst = _find_hardest(result, response)
     force = system.force
@@ -75,11 +75,11 @@ def _answer(result: MountReport, response: Response, system: System) -> Iterator
         yield f"With {other.name} {told}."
 
 
-def _tell(worst: Worst, unit: Unit) -> str:
+def _tell(worst: LargestAmplitude, unit: ShownUnit) -> str:
     return f"{number(unit.of(worst.value), 4)} {unit.name} at {number(worst.speed_rpm, 4)} rpm"
 
 
-def _less(after: Worst, before: Worst) -> str:
+def _less(after: LargestAmplitude, before: LargestAmplitude) -> str:
     """How much less that is, after a colon; nothing where there was nothing before."""
     if before.value == 0:
         return ""
@@ -92,19 +92,21 @@ def _less(after: Worst, before: Worst) -> str:
     return ": as much" if abs(change) < _SAME else f": {less}"
 
 
-def _find_farthest(result: MountReport, response: Response) -> tuple[str, Worst] | None:
+def _find_farthest(
+    result: MountReport, response: MountingResponse
+) -> tuple[str, LargestAmplitude] | None:
     """The point that moves most; None: none is asked for."""
     pairs = zip(result.mounted.point_names, response.worst_motion, strict=True)
     return max(pairs, key=lambda pair: pair[1].value, default=None)
 
 
-def _find_hardest(result: MountReport, response: Response) -> tuple[str, Worst]:
+def _find_hardest(result: MountReport, response: MountingResponse) -> tuple[str, LargestAmplitude]:
     """The mount with the largest force."""
     pairs = zip(result.mounted.names, response.worst_force, strict=True)
     return max(pairs, key=lambda pair: pair[1].value)
 
 
-def _explain(result: MountReport, response: Response, worst: Worst) -> str:
+def _explain(result: MountReport, response: MountingResponse, worst: LargestAmplitude) -> str:
     """Why it is worst at this speed."""
     hertz = worst.order * worst.omega / (2 * math.pi)
     nearest = min(
@@ -149,7 +151,7 @@ def _worst_motions(result: MountReport, system: System) -> Grid:
     )
 
 
-def _responses(result: MountReport) -> list[Response]:
+def _responses(result: MountReport) -> list[MountingResponse]:
     """Of the engine itself, and of all beside it."""
     own = [] if result.response is None else [result.response]
     return [*own, *(other.response for other in result.beside)]
@@ -160,7 +162,7 @@ def _worst(
     title: str,
     head: str,
     names: Sequence[str],
-    several: Sequence[Sequence[Worst]],
+    several: Sequence[Sequence[LargestAmplitude]],
     convert: Callable[[float], float],
 ) -> Grid:
     heads = [head, "all orders", "at, rpm", "largest order", "alone"]
@@ -286,7 +288,7 @@ def _by_speed(result: MountReport, system: System) -> Grid:
     return Grid(title, tuple(heads), tuple(rows))
 
 
-def _passed(response: Response, system: System) -> Grid:
+def _passed(response: MountingResponse, system: System) -> Grid:
     speeds = _pick(len(response.omega), _COLUMNS - 1)
     last = len(response.omega) - 1
     units = (system.force,) * 3 + (system.moment,) * 3
@@ -309,5 +311,5 @@ def _passed(response: Response, system: System) -> Grid:
     return Grid("Passed on to the frame", tuple(heads), tuple(rows), note, words=(0, 1))
 
 
-def _ratio(response: Response, n: int, s: int, k: int) -> float:
+def _ratio(response: MountingResponse, n: int, s: int, k: int) -> float:
     return float(response.passed[n, s, k] / response.free[n, s, k])

@@ -8,7 +8,7 @@ from typing import Any
 from ..core.singular_values import Real
 from ..mounting.motions import AXES
 from ..mounting.report import MountReport
-from ..mounting.response import Response, Worst
+from ..mounting.response import LargestAmplitude, MountingResponse
 from .csv import Rows, name_cell
 from .figures import clean, clean_each
 from .sheet import order_number
@@ -66,7 +66,7 @@ def document(result: MountReport) -> dict[str, Any]:
     return found
 
 
-def _response(result: MountReport, response: Response) -> dict[str, Any]:
+def _response(result: MountReport, response: MountingResponse) -> dict[str, Any]:
     orders = [order_number(order) for order in response.loads.orders]
 
     def curves(names: Sequence[str], key: str, values: Real, scale: float) -> list[dict[str, Any]]:
@@ -104,7 +104,7 @@ def _response(result: MountReport, response: Response) -> dict[str, Any]:
     }
 
 
-def _worst_entry(worst: Worst, key: str, scale: float) -> dict[str, Any]:
+def _worst_entry(worst: LargestAmplitude, key: str, scale: float) -> dict[str, Any]:
     return {
         key: clean(scale * worst.value),
         "speed_rpm": clean(worst.speed_rpm),
@@ -151,7 +151,7 @@ def _lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]]:
 
 
 def _curves(
-    result: MountReport, response: Response, part: str, system: System
+    result: MountReport, response: MountingResponse, part: str, system: System
 ) -> Iterator[tuple[Any, ...]]:
     force, length = system.force, system.length
     groups = (

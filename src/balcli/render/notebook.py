@@ -19,7 +19,7 @@ WORDS = "text-align: left"
 ENDS = 5  # rows of a long table that are shown, at its head and at its foot
 
 
-def show(result: Engine | Result) -> str:
+def show_in_notebook(result: Engine | Result) -> str:
     """An engine or an answer as a person reads it, in SI units."""
     if isinstance(result, Engine):
         facts = engine_facts(result, SI, higher=False, whole=False)

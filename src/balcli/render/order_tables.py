@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from ..core.phasors import Array, Phasors
     from ..forces.spectrum import Spectra
     from ..forces.textbook import Textbook
-    from .figures import Result
-    from .units import System, Unit
+    from .figures import OrdersAndPeaks
+    from .units import ShownUnit, System
 
 Cells = tuple[str, ...]
 WHOLE_TURN = 360 - 1e-6  # deg
@@ -109,7 +109,7 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
 
 
 def peak_facts(
-    result: Result, system: System, title: str, single: Mapping[str, float] = _UNKNOWN_SIZES
+    result: OrdersAndPeaks, system: System, title: str, single: Mapping[str, float] = _UNKNOWN_SIZES
 ) -> Facts:
     """The largest values over a revolution that were asked for.
 
@@ -137,7 +137,7 @@ def _shown_rows(
     )
 
 
-def _vector_table(kind: Kind, phasors: Phasors, unit: Unit, every: bool) -> Grid:
+def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) -> Grid:
     unit = _fit(unit, phasors)
 
     def cells(k: int) -> Cells:
@@ -157,7 +157,7 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: Unit, every: bool) -> Grid
     )
 
 
-def _scalar_table(spectra: Spectra, unit: Unit, roll: str, what: str, every: bool) -> Grid:
+def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every: bool) -> Grid:
     scalars = spectra.scalars()
     unit = _fit(unit, *(phasors for _, phasors in scalars))
 
@@ -175,7 +175,7 @@ def _scalar_table(spectra: Spectra, unit: Unit, roll: str, what: str, every: boo
     )
 
 
-def _amplitude(c: complex, order: float, unit: Unit) -> tuple[str, str]:
+def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
     """Amplitude, and where it is reached first."""
     if c == 0:
         return NOTHING, ""
@@ -188,7 +188,7 @@ def show_peak_deg(c: complex, order: float) -> str:
     return UNKNOWN if at is None else degrees(at)
 
 
-def _fit(unit: Unit, *columns: Phasors) -> Unit:
+def _fit(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
     """The unit for the largest of all that is known."""
     return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
 
@@ -238,13 +238,13 @@ def _ratio(value: float, size: float) -> str:
     return "–" if math.isnan(size) else number(value / size, 4)
 
 
-def _size_and_angle(v: complex, unit: Unit) -> str:
+def _size_and_angle(v: complex, unit: ShownUnit) -> str:
     if v == 0:
         return NOTHING
     return f"{number(unit.of(abs(v)), 4)} ∠ {degrees(float(np.degrees(np.angle(v))))}"
 
 
-def _peak(peak: Peak, unit: Unit, least: float) -> str:
+def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:
     if not peak.value:
         return NOTHING
     if peak.value < least:

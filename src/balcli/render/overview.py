@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ..core.phasors import Phasors
     from ..forces.spectrum import Spectra
     from ..results.analysis import Analysis, Sizing
-    from .units import System, Unit
+    from .units import ShownUnit, System
 
 
 def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[float]:
@@ -134,13 +134,13 @@ def sizing_in_brief(sizing: Sizing, system: System) -> Text:
     return Text("Sizing", (f"{capitalized(fitted)}.", result))
 
 
-def _tell_planes(devices: Iterable[DeviceTable], unit: Unit) -> str:
+def _tell_planes(devices: Iterable[DeviceTable], unit: ShownUnit) -> str:
     """`at z = -48, 48 mm`."""
     planes = sorted({device.position for device in devices})
     return f"at z = {', '.join(number(unit.of(z / 1e3)) for z in planes)} {unit.name}"
 
 
-def tell_sizes(unbalances: Iterable[float], unit: Unit) -> str:
+def tell_sizes(unbalances: Iterable[float], unit: ShownUnit) -> str:
     """`2 x 35057 g mm`, in the order in which they stand."""
     counted: dict[str, int] = {}
     for unbalance in unbalances:
@@ -170,11 +170,11 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System) -> str:
     return f"order {', '.join(sizes)} {unit.name}" if rows else NOTHING
 
 
-def _unit_of(kind: Kind, phasors: Phasors, system: System) -> Unit:
+def _unit_of(kind: Kind, phasors: Phasors, system: System) -> ShownUnit:
     return system.unit(kind).fit(float(np.nanmax(phasors.major, initial=0.0)))
 
 
-def _vector_cells(phasors: Phasors, k: int, unit: Unit) -> tuple[str, str, str]:
+def _vector_cells(phasors: Phasors, k: int, unit: ShownUnit) -> tuple[str, str, str]:
     if phasors.balanced[k]:
         return NOTHING, "", ""
     if np.isnan(phasors.forward[k]):

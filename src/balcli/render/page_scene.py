@@ -17,7 +17,7 @@ from ..forces.kinds import VECTORS, Kind
 from ..results.analysis import Analysis
 from .figures import clean
 from .sheet import NEGLIGIBLE, order_number
-from .units import System, Unit
+from .units import ShownUnit, System
 
 _SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
 ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to be drawn
@@ -93,7 +93,7 @@ def _variant_entry(label: str, result: Analysis, system: System, bore: float) ->
     }
 
 
-def _vector_rows(phasors: Phasors, unit: Unit) -> list[list[float]]:
+def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
     """A row an order: the order, forward x and y, backward x and y."""
     vectors = zip(phasors.orders, phasors.forward, phasors.backward, strict=True)
     return [
@@ -102,7 +102,7 @@ def _vector_rows(phasors: Phasors, unit: Unit) -> list[list[float]]:
     ]
 
 
-def _unit_entry(unit: Unit, kind: Kind, now: Analysis) -> dict[str, Any]:
+def _unit_entry(unit: ShownUnit, kind: Kind, now: Analysis) -> dict[str, Any]:
     """Names of the unit and of its thousand, and the value below which all is negligible."""
     least = unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name])
     return {

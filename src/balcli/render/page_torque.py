@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ..core.phasors import Array
-from ..enginefile.units import BAR
 from ..torque.pictures import Running
 from .units import System
 
@@ -39,9 +38,10 @@ def running(found: Running, system: System) -> dict[str, Any]:
         own = np.interp(
             np.remainder(angle - found.fires_deg + cycle / 2, cycle) - cycle / 2,
             found.pressures.cycle_deg,
-            found.pressures.pressure / BAR,
+            found.pressures.pressure,
         )
-        curves.append({"id": "pressure", "unit": "bar", "total": _rounded(own)})
+        unit = system.pressure.fit(float(own.max()))
+        curves.append({"id": "pressure", "unit": unit.name, "total": _rounded(own / unit.size)})
     return {"cycle": cycle, "step": _STEP, "curves": curves}
 
 

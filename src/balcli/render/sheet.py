@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from .formats import get_digits
 
 if TYPE_CHECKING:
-    from .units import Unit
+    from .units import ShownUnit
 
 NAMELESS = "engine without a name"
 # share of what one cylinder does, or of the largest order, below which a higher order is passed
@@ -89,8 +89,8 @@ def number(value: float, digits: int | None = None) -> str:
     return f"{mantissa}e{int(exponent)}"
 
 
-def size_text(value: float, unit: Unit, digits: int = 4) -> str:
-    """A value (SI) in the unit that fits it, with its name."""
+def size_text(value: float, unit: ShownUnit, digits: int | None = 4) -> str:
+    """A value (SI) in the unit that fits it, with its name; digits as of `number`."""
     unit = unit.fit(value)
     return f"{number(unit.of(value), digits)} {unit.name}"
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep
 
 
-def csv_text(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
+def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
     """A header, and one variant a line; what has no value (the axis of a circle) is an empty
     cell.
     """
@@ -23,7 +23,7 @@ def csv_text(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
         yield "\n".join(_lines(sweep, chunk, "")) + "\n"
 
 
-def json_text(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
+def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
     """`balcli.sweep/1`: columns, and one row a variant."""
     head = {
         "format": "balcli.sweep/1",

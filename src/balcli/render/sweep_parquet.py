@@ -19,7 +19,7 @@ ROWS_A_GROUP = 1 << 20  # of the file
 NO_PYARROW = "a .parquet file needs pyarrow: install balcli[scale]"
 
 
-def write_parquet(sweep: Sweep, rows: Iterable[list[Array]], place: Path) -> None:
+def write_sweep_parquet(sweep: Sweep, rows: Iterable[list[Array]], place: Path) -> None:
     """Write variants as they come.
 
     Args:

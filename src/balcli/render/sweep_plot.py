@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import BalcliError
 from ..limits import MOST_PICTURE_VARIANTS
 from .plot import style
-from .units import Unit, name_with_unit, unit_of_name
+from .units import ShownUnit, name_with_unit, unit_of_name
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -49,10 +49,10 @@ def draw_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> bytes
     Args:
         values: each quantity on the whole grid.
     """
-    return style.save_figure(make_sweep(sweep, values, form), form)
+    return style.save_figure(draw_sweep_figure(sweep, values, form), form)
 
 
-def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figure:
+def draw_sweep_figure(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figure:
     """What `draw_sweep` writes, as a figure of matplotlib."""
     several = _varied_parameters(sweep)
     if len(several) == 1:
@@ -101,7 +101,7 @@ def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array], name: str) ->
     axes.legend()
 
 
-def _fit(name: str, value: Array) -> Unit:
+def _fit(name: str, value: Array) -> ShownUnit:
     """The unit for the largest of these values, which are in SI units of this name."""
     return unit_of_name(name).fit(float(abs(value[value == value]).max(initial=0)))
 

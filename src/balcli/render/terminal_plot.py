@@ -10,7 +10,7 @@ import numpy as np
 from ..core.phasors import Complex, Phasors
 from ..results.analysis import Analysis
 from .sheet import NEGLIGIBLE, NOTHING, Text, capitalized, number, order_name, size_text
-from .units import System, Unit
+from .units import ShownUnit, System
 from .view import VISIBLE
 
 BAR_COLUMNS = 52  # of the longest bar
@@ -51,7 +51,7 @@ def sketches(result: Analysis, system: System) -> Iterator[Text]:
         )
 
 
-def bars(phasors: Phasors, unit: Unit) -> Iterator[str]:
+def bars(phasors: Phasors, unit: ShownUnit) -> Iterator[str]:
     """A line an order: its largest value, as the sum of the two vectors that turn with and against
     the crank.
     """

@@ -9,17 +9,16 @@ import numpy as np
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
 from ..core.speeds import RPM
-from ..enginefile.units import BAR
 from ..forces.spectrum import Spectra
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
-from ..torque.loads import Load
+from ..torque.loads import CycleLoad
 from .engine_facts import list_silent, tell_strokes
 from .figures import peak_deg
-from .sheet import NAMELESS, Facts, Grid, Sheet, degrees, number, order_name
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name, size_text
 from .torque_document import Result, document, round_angle, rows
-from .units import ENERGY, System, Unit
+from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -28,16 +27,16 @@ def sheet(result: Result, system: System) -> Sheet:
     """Work, torque over the cycle, flywheel, and torque by order."""
     if isinstance(result, CurveAnalysis):
         cycle = float(np.degrees(result.torque.period))
-        parts: list[Grid | Facts] = [_curve_facts(result, system)]
+        parts: list[Grid | Facts | Text] = [_curve_facts(result, system)]
         parts.append(_course_facts(result.torque, result.surplus, cycle, system))
-        parts += _flywheel_facts(result.flywheel, cycle)
+        parts += _flywheel_facts(result.flywheel, cycle, system)
         return Sheet(f"{result.name}: torque", (*parts, _curve_table(result, system)))
     name = result.engine.name or NAMELESS
     parts = [_work_facts(result, system)]
     parts.append(_course_facts(result.curves.total, result.surplus, result.cycle_deg, system))
     crank = 0.0 if result.engine.rotary else result.engine.crank_inertia
     parts += _flywheel_facts(
-        result.flywheel, result.cycle_deg, None if crank is None else float(crank)
+        result.flywheel, result.cycle_deg, system, None if crank is None else float(crank)
     )
     parts += _load_tables(result, system)
     parts.append(_order_table(result, system))
@@ -49,7 +48,12 @@ def tenths(angle_deg: float) -> str:
     return f"{round(angle_deg, 6) + 0.0:.1f}"
 
 
-def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid]:
+def _size(value: float, unit: ShownUnit) -> str:
+    """As `size_text`, with as many digits as most figures."""
+    return size_text(value, unit, None)
+
+
+def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid | Text]:
     if result.loads.pin:
         yield _load_table("Crank pins", "cylinder", result.loads.pin, result.cycle_deg, system)
     if (hung := result.loads.knuckle) is not None:
@@ -60,37 +64,43 @@ def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid]:
             note="Half-way between neighbouring throws and as far outside the end ones; the shaft "
             "counts as cut in each."
         )
+    if result.loads.obstacle:
+        yield Text("Main bearings", (f"Not known: {result.loads.obstacle}.",))
 
 
 def _load_table(
-    title: str, word: str, loads: tuple[Load, ...], cycle_deg: float, system: System
+    title: str, word: str, loads: tuple[CycleLoad, ...], cycle_deg: float, system: System
 ) -> Grid:
     unit = system.force.fit(max(load.largest.value for load in loads))
-    pressed = all(load.pressure is not None for load in loads)
+    pressures = [load.pressure for load in loads if load.pressure is not None]
+    pressed = len(pressures) == len(loads)
+    stress = system.stress.fit(max(pressures, default=0.0))
 
-    def row(load: Load) -> Iterator[str]:
+    def row(load: CycleLoad) -> Iterator[str]:
         yield str(load.name)
         yield number(unit.of(load.largest.value))
         yield tenths(degrees_in_cycle(load.largest.angle, cycle_deg))
         yield number(unit.of(load.mean))
         if load.pressure is not None and pressed:
-            yield number(load.pressure / 1e6, 4)
+            yield number(stress.of(load.pressure), 4)
 
     heads = (word, f"largest, {unit.name}", "at, deg", f"mean, {unit.name}")
     rows = tuple(tuple(row(load)) for load in loads)
-    return Grid(title, (*heads, "N/mm²") if pressed else heads, rows)
+    return Grid(title, (*heads, stress.name) if pressed else heads, rows)
 
 
 def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
     gas = result.max_pressure
     pairs = [("cycle", f"{tell_strokes(result.engine)}, {round_angle(result.cycle_deg)} deg")]
     pairs.append(("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm"))
-    pairs.append(("mean pressure", f"{number(result.imep / BAR)} bar indicated"))
+    pairs.append(("mean pressure", f"{_size(result.imep, system.pressure)} indicated"))
     if result.bmep is not None:
-        pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]}, {number(result.bmep / BAR)} bar brake")
+        brake = _size(result.bmep, system.pressure)
+        pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]}, {brake} brake")
     if gas is not None:
         at = degrees(float(np.degrees(gas.angle)))
-        pairs.append(("largest pressure", f"{number(gas.value / BAR)} bar, {at} deg after firing"))
+        largest = _size(gas.value, system.pressure)
+        pairs.append(("largest pressure", f"{largest}, {at} deg after firing"))
     if silent := list_silent(result.engine):
         pairs.append(("no gas in", silent))
     kinds = {" indicated": 1.0}
@@ -104,13 +114,14 @@ def _mean_pairs(
 ) -> Iterator[tuple[str, str]]:
     """Mean torque and power, with the share of them that each kind is, such as " brake"."""
 
-    def told(value: float, unit: str) -> str:
-        return ", ".join(f"{number(value * share)} {unit}{kind}" for kind, share in kinds.items())
+    def told(value: float, unit: ShownUnit) -> str:
+        of_all = unit.fit(value)
+        sizes = ((number(of_all.of(share * value)), kind) for kind, share in kinds.items())
+        return ", ".join(f"{size} {of_all.name}{kind}" for size, kind in sizes)
 
-    unit = system.moment.fit(mean)
-    yield "mean torque", told(unit.of(mean), unit.name)
+    yield "mean torque", told(mean, system.moment)
     if power is not None:
-        yield "power", told(power / 1e3, "kW")
+        yield "power", told(power, system.power)
 
 
 def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
@@ -133,40 +144,39 @@ def _course_facts(
         at = tenths(degrees_in_cycle(angle, cycle_deg))
         return f"{number(unit.of(value))} {unit.name} at {at} deg"
 
-    def energy(joules: float) -> str:
-        fitting = ENERGY.fit(joules)
-        return f"{number(fitting.of(joules))} {fitting.name}"
-
     pairs = (
         ("largest", told(highest.value, highest.angle)),
         ("smallest", told(lowest.value, lowest.angle)),
         ("reversals", str(torque.reversals())),
-        ("work of a cycle", energy(surplus.work)),
-        ("surplus", f"{energy(surplus.energy)} from {start} to {end} deg"),
+        ("work of a cycle", _size(surplus.work, system.energy)),
+        ("surplus", f"{_size(surplus.energy, system.energy)} from {start} to {end} deg"),
     )
     return Facts(pairs, "Torque over the cycle")
 
 
 def _flywheel_facts(
-    flywheel: Flywheel | None, cycle_deg: float, crank: float | None = None
+    flywheel: Flywheel | None, cycle_deg: float, system: System, crank: float | None = None
 ) -> Iterator[Facts]:
     """`crank`: inertia of the crankshaft by itself, kg m2, if it is known; 0 if it stands still."""
     if flywheel is None:
         return
-    pairs = []
-    moving = f"of it moving parts {number(flywheel.moving)}" if flywheel.moving else ""
+    pairs, unit = [], system.inertia
+    parts = number(unit.of(flywheel.moving))
+    moving = f"of it moving parts {parts}" if flywheel.moving else ""
     if flywheel.mean is not None:
-        pairs.append(("inertia", f"{number(flywheel.mean)} kg·m²{moving and f', {moving}'}"))
+        pairs.append(("inertia", f"{_size(flywheel.mean, unit)}{moving and f', {moving}'}"))
     if flywheel.speed is not None:
         pairs += _speed_pairs(flywheel.speed, cycle_deg)
     if flywheel.stall:
         pairs.append(("speed", flywheel.stall))
     if flywheel.needed is not None:
-        pairs.append(("needed", f"{number(flywheel.needed)} kg·m² in all"))
+        pairs.append(("needed", f"{_size(flywheel.needed, unit)} in all"))
         own = flywheel.needed - flywheel.moving - (crank or 0.0)
         place = "crankshaft and flywheel" if crank is None else "the flywheel"
         share = (
-            f"{number(own)} of it in {place}" if own > 0 else "which is there without a flywheel"
+            f"{number(unit.of(own))} of it in {place}"
+            if own > 0
+            else "which is there without a flywheel"
         )
         if moving:
             pairs[-1] = ("needed", f"{pairs[-1][1]}, {share}")
@@ -219,7 +229,7 @@ def _nothing(spectra: Spectra, k: int) -> bool:
     return all(phasors.balanced[k] for _, phasors in spectra.items())
 
 
-def _amplitude(c: complex, order: float, unit: Unit) -> tuple[str, str]:
+def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
     at = peak_deg(c, order)
     return (number(unit.of(abs(c)), 5), "–" if at is None else degrees(at)) if c else ("0", "")
 

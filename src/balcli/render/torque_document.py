@@ -17,7 +17,7 @@ from ..forces.kinds import TORQUE_TOTAL
 from ..torque.analysis import TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel
 from ..torque.given_curve import CurveAnalysis
-from ..torque.loads import Load
+from ..torque.loads import CycleLoad
 from .csv import Rows
 from .figures import Entry, FigureRow, clean, kind_entries, order_entries, order_rows, peak_deg
 from .sheet import order_number
@@ -48,13 +48,13 @@ class _Figure(NamedTuple):
         return self.name + _ENDINGS.get(self.unit, "")
 
     def row(self, quantity: str, system: System) -> FigureRow:
-        """In CSV, torque and energy in the unit of moments."""
-        value, unit = self.value, self.unit
+        """In CSV."""
+        value, unit = self.value, system.instead_of(self.unit)
         if isinstance(value, tuple):
             value = " ".join(map(str, value))
-        elif isinstance(value, float) and unit in ("N·m", "J"):
-            value, unit = system.moment.of(value), system.moment.name
-        return FigureRow(0, quantity, None, self.name, value, unit)
+        elif isinstance(value, float):
+            value = unit.of(value)
+        return FigureRow(0, quantity, None, self.name, value, unit.name)
 
 
 # ------------------------------------------------------------------ figures of the cycle
@@ -180,7 +180,7 @@ def _curve_orders(result: CurveAnalysis) -> Iterator[tuple[float, Entry]]:
         )
 
 
-def _list_loads(result: TorqueAnalysis) -> Iterator[tuple[str, str, tuple[Load, ...]]]:
+def _list_loads(result: TorqueAnalysis) -> Iterator[tuple[str, str, tuple[CycleLoad, ...]]]:
     """Kinds of loads that were asked for and are known, and what bears each of them."""
     told = result.loads
     pins = ("pin", "cylinder", told.pin), ("knuckle", "cylinder", told.knuckle)
@@ -198,7 +198,7 @@ def _load_entries(result: TorqueAnalysis) -> dict[str, Any]:
     return {"loads": found} if found else {}
 
 
-def _load_entry(bearer: str, load: Load, cycle_deg: float) -> dict[str, Any]:
+def _load_entry(bearer: str, load: CycleLoad, cycle_deg: float) -> dict[str, Any]:
     entry: dict[str, Any] = {bearer: load.name}
     if bearer == "bearing":
         entry["position_mm"] = clean(load.z_m * 1e3)
@@ -236,7 +236,7 @@ def _list_rows(result: Result, system: System) -> Iterator[FigureRow]:
 
 def _load_rows(result: TorqueAnalysis, system: System) -> Iterator[FigureRow]:
     """Pins by cylinder; bearings by their number, in place of an order."""
-    unit = system.force
+    unit, stress = system.force, system.stress
     for kind, bearer, loads in _list_loads(result):
         for load in loads:
             cylinder, number = (0, load.name) if bearer == "bearing" else (load.name, None)
@@ -246,6 +246,6 @@ def _load_rows(result: TorqueAnalysis, system: System) -> Iterator[FigureRow]:
             yield FigureRow(*at, "max_deg", angle, "deg")
             yield FigureRow(*at, "mean", unit.of(load.mean), unit.name)
             if load.pressure is not None:
-                yield FigureRow(*at, "pressure", clean(load.pressure), "Pa")
+                yield FigureRow(*at, "pressure", stress.of(load.pressure), stress.name)
     if result.loads.obstacle:
         yield FigureRow(0, "main", None, "obstacle", result.loads.obstacle, "")

@@ -13,7 +13,7 @@ from . import torque
 from .sheet import Sheet, Text, number
 from .terminal_plot import set_dot
 from .torque_document import Result, document, rows
-from .units import System, Unit
+from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 WIDE, HIGH = 64, 12  # characters, of 2 x 4 dots each
@@ -29,7 +29,7 @@ def sheet(result: Result, system: System) -> Sheet:
     return told._replace(parts=(*told.parts, Text(f"{what}, - its mean", lines)))
 
 
-def _draw(curve: PiecewiseCurve, unit: Unit) -> tuple[str, ...]:
+def _draw(curve: PiecewiseCurve, unit: ShownUnit) -> tuple[str, ...]:
     """Lines with the largest and smallest value beside the first and the last."""
     angle = np.linspace(0, curve.period, 64 * WIDE, endpoint=False)
     values = curve.at(angle)

@@ -10,10 +10,10 @@ import numpy as np
 
 from ..torsion.analysis import BEYOND, HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
-from ..torsion.response import Response
+from ..torsion.response import TorsionResponse
 from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
 from .torsion_document import document, rows
-from .units import POWER, SI, STRESS, System, Unit
+from .units import HEAT_FLOW, SI, ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -52,7 +52,8 @@ _DAMPER_KEYS = {
 def _damper(sized: SizedDamper) -> Facts:
     """What to make, and what it does."""
     finite = [value for value in (sized.before, sized.after) if not math.isinf(value)]
-    unit = STRESS if sized.measure == "stress" else SI.moment.fit(max(finite))
+    kind = SI.stress if sized.measure == "stress" else SI.moment
+    unit = kind.fit(max(finite))
     before = "without bound" if math.isinf(sized.before) else _tell_swings(sized.before, unit)
     pairs = [("on", sized.node)]
     for key, value in sized.damper.model_dump(exclude={"kind"}, exclude_none=True).items():
@@ -65,12 +66,12 @@ def _damper(sized: SizedDamper) -> Facts:
     pairs.append((f"largest {sized.measure} with it", _tell_swings(sized.after, unit)))
     if sized.heat:
         pairs.append(
-            ("heat", f"up to {size_text(sized.heat, POWER)}, at {number(sized.heat_rpm)} rpm")
+            ("heat", f"up to {size_text(sized.heat, HEAT_FLOW)}, at {number(sized.heat_rpm)} rpm")
         )
     return Facts(tuple(pairs), f"Sized: a {sized.damper.kind} damper")
 
 
-def _tell_swings(amplitude: float, unit: Unit) -> str:
+def _tell_swings(amplitude: float, unit: ShownUnit) -> str:
     return f"±{number(unit.of(amplitude))} {unit.name}"
 
 
@@ -176,7 +177,7 @@ def _settle(asked: HolzerTable, value: float) -> float:
     return 0.0 if abs(value) <= 1e-9 * size else value
 
 
-def _response(result: TorsionAnalysis, response: Response) -> Grid | Text:
+def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text:
     span = _tell_range(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]))
     if not result.system.shafts:
         return Text(f"Vibration, {span}", (_tell_swing(result, response),))
@@ -229,14 +230,14 @@ def _has_gas(result: TorsionAnalysis) -> bool:
     return excitation is not None and bool(excitation.growing.any() and excitation.steady.any())
 
 
-def _tell_swing(result: TorsionAnalysis, response: Response) -> str:
+def _tell_swing(result: TorsionAnalysis, response: TorsionResponse) -> str:
     """The largest swing of the first node, and where."""
     swing = number(float(np.degrees(response.worst.free_end)), 4)
     speed = number(response.worst.swing_rpm)
     return f"{result.system.nodes[0]} swings by ±{swing} deg at {speed} rpm."
 
 
-def _name_orders(response: Response, shaft: int, unit: Unit) -> str:
+def _name_orders(response: TorsionResponse, shaft: int, unit: ShownUnit) -> str:
     """The largest orders of a shaft's torque with their amplitudes in this unit."""
     sizes = response.worst.amplitudes[:, shaft]
     largest = np.argsort(-sizes, kind="stable")[:_MOST_ORDERS]

@@ -11,7 +11,7 @@ from ..core.singular_values import Real
 from ..torsion.analysis import HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.modes import NaturalMode
-from ..torsion.response import Response
+from ..torsion.response import TorsionResponse
 from ..torsion.system import TorsionalSystem
 from .csv import Rows, name_cell
 from .figures import clean, clean_each
@@ -108,7 +108,7 @@ def _list_holzer(result: TorsionAnalysis, asked: HolzerTable) -> tuple[tuple[str
     )
 
 
-def _response_document(result: TorsionAnalysis, response: Response) -> dict[str, Any]:
+def _response_document(result: TorsionAnalysis, response: TorsionResponse) -> dict[str, Any]:
     shafts, worst = [], response.worst
     for k, name in enumerate(result.system.shafts):
         entry: dict[str, Any] = {
@@ -250,7 +250,7 @@ def _holzer_lines(number: int, result: TorsionAnalysis, asked: HolzerTable) -> I
     yield *where, "", "residual", clean(asked.table.residual), "N m"
 
 
-def _response_lines(system: TorsionalSystem, response: Response) -> Iterator[Line]:
+def _response_lines(system: TorsionalSystem, response: TorsionResponse) -> Iterator[Line]:
     stressed = [section is not None for section in system.sections]
     for s, speed in enumerate(response.speeds_rpm):
         where = ("response", None, clean(speed), None)

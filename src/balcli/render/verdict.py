@@ -11,7 +11,7 @@ from typing import NamedTuple
 from ..core.phasors import Phasors
 from ..forces.spectrum import Spectra
 from .sheet import NEGLIGIBLE, capitalized, degrees, number, order_name
-from .units import System, Unit
+from .units import ShownUnit, System
 
 _NAMES: dict[float, str] = {
     1: "First",
@@ -33,14 +33,14 @@ class _Vector(NamedTuple):
 
     what: str
     phasors: Phasors
-    unit: Unit
+    unit: ShownUnit
     single: float
 
     def size(self, k: int) -> str:
         unit, value = self.unit_at(k), float(self.phasors.major[k])
         return f"{number(unit.of(value), 4)} {unit.name}"
 
-    def unit_at(self, k: int) -> Unit:
+    def unit_at(self, k: int) -> ShownUnit:
         return self.unit.fit(float(self.phasors.major[k]))
 
     def matters(self, k: int) -> bool:

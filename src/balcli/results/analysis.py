@@ -259,9 +259,9 @@ def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
     inner = compute_inner_loads(engine, asked)
     if engine.gas is None:
         return inner
-    from ..forces.in_bearings import add_gas
+    from ..forces.in_bearings import add_gas_loads
 
-    return add_gas(inner, engine, asked)
+    return add_gas_loads(inner, engine, asked)
 
 
 def _find_guide(engine: Engine, asked: Array | None, height_m: float | None) -> GuideMoments:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Complex, Figure, Phasors, unit
-from ..engine.assembly import Ripple
+from ..core.speed_ripple import RippleLine
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.kinds import EVERY_KIND, GAS, KINDS, VECTORS, Kind
@@ -169,7 +169,7 @@ def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
     other's crank angle.
     """
     ripple = tuple(
-        Ripple(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
+        RippleLine(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
         for line in leader.ripple
     )
     return replace(engine, speed_rpm=leader.speed_rpm, ripple=ripple)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..engine.build import Engine
 from ..errors import BalcliError
 from .details import Detail
-from .effects import Slot, solve
+from .effects import Slot, size_unbalances
 from .fitting import Fitting
 from .options import SchemeOptions
 from .planes import SAME_PLACE, find_counterweight_planes, read_planes
@@ -51,7 +51,7 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
     """A weight in one plane, which cannot take a moment that acts elsewhere."""
-    fit = solve(slots, residual, FORWARD)
+    fit = size_unbalances(slots, residual, FORWARD)
     fitting = fitting.add(
         slots,
         fit.unbalances,
@@ -60,7 +60,7 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
     )
     left = fitting.find_residual(1)
     fitting = fitting.add_details(
-        Detail("left force", "force", left.size(FORWARD_FORCE)),
-        Detail("left moment", "moment", left.size(FORWARD_MOMENT)),
+        Detail("force with crank left", "force", left.size(FORWARD_FORCE)),
+        Detail("moment with crank left", "moment", left.size(FORWARD_MOMENT)),
     )
     return fitting.remedy._replace(note=SAME_PLACE if left.moment(1) else "")

@@ -20,7 +20,7 @@ from ..core.cylinders import Device
 from ..core.phasors import EPS, unit
 from ..errors import BalcliError
 from .device_tables import DeviceTable, make_counterweight, make_shaft, make_slider
-from .residual import Part, Point, Residual
+from .residual import ReferencePoint, Residual, ResidualPart
 
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
 
@@ -78,7 +78,9 @@ class Fit(NamedTuple):
     left: float
 
 
-def find_effect(device: Device, parts: Sequence[Part], reference: Point) -> NDArray[np.complex128]:
+def find_effect(
+    device: Device, parts: Sequence[ResidualPart], reference: ReferencePoint
+) -> NDArray[np.complex128]:
     """What a device adds to each part, shape (parts,), in the units of `Residual.parts`."""
     place, z = device.place - reference.place, device.z - reference.z
     vectors = {
@@ -90,7 +92,9 @@ def find_effect(device: Device, parts: Sequence[Part], reference: Point) -> NDAr
     return np.array(effects, complex)
 
 
-def solve(slots: Sequence[Slot], residual: Residual, parts: Sequence[Part]) -> Fit:
+def size_unbalances(
+    slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart]
+) -> Fit:
     """The smallest unbalances that cancel these parts as well as the slots can.
 
     Least squares of force, and of moment and roll over the longest arm of a slot, so that what is
@@ -112,7 +116,7 @@ def solve(slots: Sequence[Slot], residual: Residual, parts: Sequence[Part]) -> F
 
 
 def solve_exactly(
-    slots: Sequence[Slot], residual: Residual, parts: Sequence[Part], reason: str
+    slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], reason: str
 ) -> Fit:
     """The same, but nothing may be left: neither by the system nor by the rounding of unbalances
     that work against each other.
@@ -120,7 +124,7 @@ def solve_exactly(
     Raises BalcliError with the reason given if these slots cannot make the parts, or with the
     condition number if they are too much alike.
     """
-    fit = solve(slots, residual, parts)
+    fit = size_unbalances(slots, residual, parts)
     arm = _find_longest_arm(slots, residual.reference)
     size = _find_largest(residual.parts, parts, arm)
     noise = _find_largest(residual.noise, parts, arm)
@@ -136,18 +140,20 @@ def solve_exactly(
             "shakes; choose planes farther apart"
         )
     if len(slots) == 1:  # a compromise would leave rounding in the force, too
-        return fit._replace(unbalances=solve(slots, residual, parts[:1]).unbalances)
+        return fit._replace(unbalances=size_unbalances(slots, residual, parts[:1]).unbalances)
     return fit
 
 
-def _find_longest_arm(slots: Sequence[Slot], reference: Point) -> float:
+def _find_longest_arm(slots: Sequence[Slot], reference: ReferencePoint) -> float:
     """Of all slots about the point of reference, m; 1 if none has an arm."""
     along = [abs(slot.z - reference.z) for slot in slots]
     across = [abs(slot.place - reference.place) for slot in slots]
     return max(along + across) or 1.0
 
 
-def _find_largest(values: Mapping[Part, complex], parts: Sequence[Part], arm: float) -> float:
+def _find_largest(
+    values: Mapping[ResidualPart, complex], parts: Sequence[ResidualPart], arm: float
+) -> float:
     """The largest of these parts, moments measured by the force that makes them at this arm."""
     return max(abs(values[part]) / (1 if part.kind == "force" else arm) for part in parts)
 

@@ -16,10 +16,10 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from .balance_factor import find_curve, find_factor_peaks
 from .details import Detail
-from .effects import Slot, solve
+from .effects import Slot, size_unbalances
 from .fitting import Fitting
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_middle, read_planes
+from .planes import SAME_PLACE, find_crank_middle, read_planes
 from .remedy import Remedy
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
@@ -43,17 +43,16 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
     centred = abs(circle.centre) <= max(noise, circle.noise)
     nothing_gained = (
-        "no counterweight makes the largest force smaller than it is: "
-        f"{circle.radius:.5g} N, which has no part of order 1 turning with the crank"
+        "no counterweight makes the largest force smaller than it is: it has no part of order 1 "
+        "turning with the crank"
     )
     if centred and options.planes is None:
         raise NothingToBalanceError(nothing_gained)
     unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
     slots, unbalances = _split(engine, options, fitting, unbalance)
     reason = (
-        f"The largest force over a revolution, all orders, becomes {circle.radius:.5g} N: no "
-        "weight on the crankshaft can make it smaller (smallest circle around the force as seen "
-        "from the crank)"
+        "The largest force over a revolution, all orders, becomes as small as a weight on the "
+        "crankshaft can make it (smallest circle around the force as seen from the crank)"
     )
     fitting = fitting.add(slots, unbalances, reason)
     half = _find_peak_of_half(fitting.engine)
@@ -74,12 +73,12 @@ def _split(
     such that no moment of order 1 turning with the crank is left.
     """
     if options.planes is None:
-        z = find_middle(engine) if options.position is None else options.position
+        z = find_crank_middle(engine) if options.position is None else options.position
         return [Slot("counterweight", 1, 1, z)], [unbalance]
     slots = [Slot("counterweight", 1, 1, z) for z in read_planes(engine, options)]
     residual = fitting.find_residual(1)
     wanted = residual._replace(parts={**residual.parts, FORWARD_FORCE: -unbalance})
-    fit = solve(slots, wanted, FORWARD)
+    fit = size_unbalances(slots, wanted, FORWARD)
     if fit.left > _LEFT:
         raise BalcliError(f"--planes: {SAME_PLACE}")
     return slots, fit.unbalances

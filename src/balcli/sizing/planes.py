@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from ..engine.build import Engine
 from ..errors import BalcliError
 from .options import SchemeOptions
-from .residual import Part, Residual
+from .residual import Residual, ResidualPart
 
 SAME_PLACE = (
     "one plane, or planes at the same z, cannot take a moment; choose two planes with some "
@@ -32,7 +32,7 @@ def find_length(engine: Engine) -> tuple[float, float]:
     return _find_reach([*engine.throws_m, *np.ravel(engine.cylinders.z)])
 
 
-def find_middle(engine: Engine) -> float:
+def find_crank_middle(engine: Engine) -> float:
     """z half-way between the first and the last throw, m."""
     low, high = _find_reach(engine.throws_m)
     return (low + high) / 2
@@ -65,7 +65,7 @@ def takes_moment(residual: Residual, sense: int, z: float) -> bool:
     too.
     """
     left = residual.moment(sense) - (z - residual.reference.z) * residual.force(sense)
-    return abs(left) <= residual.noise[Part("moment", sense)]
+    return abs(left) <= residual.noise[ResidualPart("moment", sense)]
 
 
 def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sense: int) -> float:

@@ -19,7 +19,7 @@ from .options import SchemeOptions
 PartKind = Literal["force", "moment", "roll"]  # names of kinds
 
 
-class Part(NamedTuple):
+class ResidualPart(NamedTuple):
     """One part of what shakes an engine at an order.
 
     Attributes:
@@ -31,12 +31,12 @@ class Part(NamedTuple):
     sense: int
 
 
-FORWARD_FORCE, FORWARD_MOMENT = FORWARD = (Part("force", 1), Part("moment", 1))
-BACKWARD_FORCE, BACKWARD_MOMENT = BACKWARD = (Part("force", -1), Part("moment", -1))
-ROLL = Part("roll", 0)
+FORWARD_FORCE, FORWARD_MOMENT = FORWARD = (ResidualPart("force", 1), ResidualPart("moment", 1))
+BACKWARD_FORCE, BACKWARD_MOMENT = BACKWARD = (ResidualPart("force", -1), ResidualPart("moment", -1))
+ROLL = ResidualPart("roll", 0)
 
 
-class Point(NamedTuple):
+class ReferencePoint(NamedTuple):
     """A point about which moments are taken: x + iy and z, m."""
 
     place: complex
@@ -57,19 +57,19 @@ class Residual(NamedTuple):
     """
 
     order: int
-    parts: dict[Part, complex]
-    noise: dict[Part, float]
-    reference: Point
+    parts: dict[ResidualPart, complex]
+    noise: dict[ResidualPart, float]
+    reference: ReferencePoint
     newtons_per_kg_m: float
     note: str = ""
 
     def force(self, sense: int) -> complex:
         """Force turning in this sense (1 with the crank, -1 against it), kg m."""
-        return self.parts[Part("force", sense)]
+        return self.parts[ResidualPart("force", sense)]
 
     def moment(self, sense: int) -> complex:
         """Moment over i turning in this sense (1 with the crank, -1 against it), kg m^2."""
-        return self.parts[Part("moment", sense)]
+        return self.parts[ResidualPart("moment", sense)]
 
     @property
     def roll(self) -> complex:
@@ -78,9 +78,9 @@ class Residual(NamedTuple):
 
     def has(self, kind: PartKind, senses: Sequence[int]) -> bool:
         """Whether anything of a kind turns in one of these senses."""
-        return any(self.parts[Part(kind, sense)] for sense in senses)
+        return any(self.parts[ResidualPart(kind, sense)] for sense in senses)
 
-    def size(self, *parts: Part) -> float:
+    def size(self, *parts: ResidualPart) -> float:
         """Sum of the amplitudes of these parts at the engine's speed, N or N m."""
         return sum(abs(self.parts[part]) for part in parts) * self.newtons_per_kg_m
 
@@ -108,8 +108,8 @@ def find_residual(engine: Engine, order: int) -> Residual:
     found = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
     newtons_per_kg_m = order**2 * float(engine.omega) ** 2
     x, y, z = engine.reference_m
-    parts: dict[Part, complex] = {}
-    noise: dict[Part, float] = {}
+    parts: dict[ResidualPart, complex] = {}
+    noise: dict[ResidualPart, float] = {}
     for part in (*FORWARD, *BACKWARD):
         phasors = found[part.kind]
         vector = phasors.forward if part.sense > 0 else phasors.backward
@@ -118,7 +118,7 @@ def find_residual(engine: Engine, order: int) -> Residual:
         parts[part] = complex(vector[0]) / per / newtons_per_kg_m if known else 0j
         noise[part] = float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newtons_per_kg_m
     parts[ROLL] = 2 * complex(found.roll.forward[0]) / newtons_per_kg_m if found.roll else 0j
-    return Residual(order, parts, noise, Point(complex(x, y), float(z)), newtons_per_kg_m)
+    return Residual(order, parts, noise, ReferencePoint(complex(x, y), float(z)), newtons_per_kg_m)
 
 
 def choose_residual(

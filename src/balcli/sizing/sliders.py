@@ -8,7 +8,7 @@ from ..core.phasors import wrap_degrees
 from ..engine.build import Engine
 from .details import Detail
 from .device_tables import measure_direction
-from .effects import Slot, solve
+from .effects import Slot, size_unbalances
 from .fitting import Fitting
 from .options import SchemeOptions
 from .planes import choose_plane
@@ -19,7 +19,6 @@ from .residual import (
     BACKWARD_MOMENT,
     FORWARD_FORCE,
     FORWARD_MOMENT,
-    ROLL,
     choose_residual,
 )
 
@@ -37,13 +36,13 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     axis = float(wrap_degrees(measure_direction(cmath.sqrt(forward * backward)), 180))
     across = axis + 90 if axis <= 0 else axis - 90
     slots = [Slot("slider", residual.order, 0, z, place, direction) for direction in (axis, across)]
-    fit = solve(slots, residual, (FORWARD_FORCE, BACKWARD_FORCE))
+    fit = size_unbalances(slots, residual, (FORWARD_FORCE, BACKWARD_FORCE))
     rounding = 2 * residual.noise[FORWARD_FORCE]
     unbalances = [u if abs(u) > rounding else 0j for u in fit.unbalances]
     fitting = Fitting.start(engine, "slider", residual.order, residual.note)
     fitting = fitting.add(slots, unbalances, explain_sliders(residual))
     left = fitting.find_residual(residual.order)
-    return fitting.add_details(
-        Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)),
-        Detail("roll left", "moment", left.size(ROLL)),
-    ).remedy
+    moment = left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
+    return (
+        fitting.add_details(Detail("moment left", "moment", moment)).describe_roll(residual).remedy
+    )

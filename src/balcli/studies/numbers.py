@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..enginefile.model import EngineFile, Override, Table
+from ..enginefile.model import EngineFile, FileTable, Override
 from .parameters import find_numbers
 from .quantities import list_quantities
 from .quantity_names import Form
@@ -44,7 +44,7 @@ def name_numbers(model: EngineFile) -> NamedNumbers:
     return NamedNumbers(model.name, numbers, tuple(list_quantities(model)))
 
 
-def _describe(path: str, unit: str, tables: dict[str, Table]) -> FileNumber:
+def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
     """A number found by its path: first the table of that name, then its keys and places."""
     parts = path.split(".")
     heads = (".".join(parts[:k]) for k in range(len(parts) - 1, 0, -1))
@@ -54,7 +54,7 @@ def _describe(path: str, unit: str, tables: dict[str, Table]) -> FileNumber:
     found: object = tables[head]
     meaning = ""
     for part in parts[head.count(".") + 1 :]:
-        if isinstance(found, Table):
+        if isinstance(found, FileTable):
             meaning = found.keys()[part].description or ""
             found = getattr(found, part)
         elif isinstance(found, tuple):

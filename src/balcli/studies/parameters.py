@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..engine.layout import plan_cylinders
 from ..enginefile.fields import Number, nearest, shorten
-from ..enginefile.model import EngineFile, Override, Table
+from ..enginefile.model import EngineFile, FileTable, Override
 from ..enginefile.units import BARE_FIGURE, convert
 from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
@@ -73,15 +73,15 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
     return [path for path in numbers if path.removeprefix("gas.") in idle]
 
 
-def _numbers_of(path: str, table: Table) -> Iterator[tuple[str, Number]]:
+def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:
     """Those of a table with its path; lists and inner tables only as far as the file has them."""
     for key, value in table:
         number = _number_of(type(table), key)
-        if isinstance(value, Table):
+        if isinstance(value, FileTable):
             yield from _numbers_of(f"{path}.{key}", value)
         elif isinstance(value, tuple):
             for k, item in enumerate(value, 1):
-                if isinstance(item, Table):
+                if isinstance(item, FileTable):
                     yield from _numbers_of(f"{path}.{key}.{k}", item)
                 elif number is not None:
                     yield f"{path}.{key}.{k}", number
@@ -89,12 +89,12 @@ def _numbers_of(path: str, table: Table) -> Iterator[tuple[str, Number]]:
             yield f"{path}.{key}", number
 
 
-def _is_list(table: type[Table], key: str) -> bool:
+def _is_list(table: type[FileTable], key: str) -> bool:
     return "tuple" in str(table.model_fields[key].annotation)
 
 
 @cache
-def _number_of(table: type[Table], key: str) -> Number | None:
+def _number_of(table: type[FileTable], key: str) -> Number | None:
     """How a field is read, if it is a number or a list of them (whole numbers change what the
     engine is made of).
     """
@@ -106,14 +106,14 @@ def _number_of(table: type[Table], key: str) -> Number | None:
 def _marks_of(annotation: Any) -> Iterator[object]:
     """What an annotation is made of, but not the fields of inner tables."""
     for part in get_args(annotation):
-        if isinstance(part, type) and issubclass(part, Table):
+        if isinstance(part, type) and issubclass(part, FileTable):
             continue
         yield part
         yield from _marks_of(part)
 
 
 # ------------------------------------------------------------------ what a user asks for
-def parse(text: str, model: EngineFile) -> Parameter:
+def parse_parameter(text: str, model: EngineFile) -> Parameter:
     """`path=from:to:step` (ends included) or `path=a,b,c`; figures may bear units.
 
     Raises:
@@ -142,14 +142,15 @@ def parse(text: str, model: EngineFile) -> Parameter:
 
 def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
     """A number of the file by its name, and its values: numbers in the unit of the file, or texts
-    with units; one, or a list or array of them; or a text as of `parse` ("0.24:0.32:0.01").
+    with units; one, or a list or array of them; or a text as of `parse_parameter`, such as
+    "0.24:0.32:0.01".
 
     Raises:
-        BalcliError: as of `parse`.
+        BalcliError: as of `parse_parameter`.
         TypeError: what is none of these.
     """
     if isinstance(values, str):
-        return parse(f"{path}={values}", model)
+        return parse_parameter(f"{path}={values}", model)
     known = find_numbers(model)
     path = resolve_name(path, known)
     if path not in known:

@@ -35,10 +35,10 @@ from ..forces.quantity import (
     leave_out_unknown,
     refuse_unknown,
 )
-from ..forces.spectrum import count_samples
+from ..forces.spectrum import count_engine_samples
 from ..limits import MOST_PARAMETERS
 from .boxes import Box, BoxSize, divide_grid, divide_into_boxes, divide_into_tiles
-from .parameters import Parameter, parse, tell_variant
+from .parameters import Parameter, parse_parameter, tell_variant
 from .quantities import (
     AnyQuantity,
     ChapterQuantity,
@@ -50,7 +50,7 @@ from .quantities import (
     refuse_unknown_of_chapters,
 )
 from .threads import ALONE_S, share_work
-from .varied_gas import add_gas
+from .varied_gas import attach_gas_torque
 
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
@@ -160,7 +160,7 @@ class Sweep:
             for path, values in axes.items()
         }
         try:
-            return add_gas(build(self.file, arrays, rank=rank), self.file, arrays)
+            return attach_gas_torque(build(self.file, arrays, rank=rank), self.file, arrays)
         except InputError as error:
             raise InputError(error.problems, self.name) from None
 
@@ -177,7 +177,7 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
         variants cannot be.
     """
     model = read(file)
-    parameters = tuple(parse(text, model) for text in vary)
+    parameters = tuple(parse_parameter(text, model) for text in vary)
     return plan_sweep(model, parameters, quantities, name_file(file))
 
 
@@ -316,7 +316,7 @@ def size_boxes(sweep: Sweep) -> BoxSize:
     engine = build_corners(sweep)
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
-    samples = count_samples(engine) // 2 ** len(sweep.parameters)
+    samples = count_engine_samples(engine) // 2 ** len(sweep.parameters)
     alone = bool(sweep.of_chapters) or _has_many_cycles(sweep)
     most = ALONE if alone else CHUNK
     side = max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
@@ -357,7 +357,7 @@ def _evaluate_chunk(sweep: Sweep, size: BoxSize, box: Box) -> Chunk:
     return Chunk(box, evaluate_box(sweep, box, size))
 
 
-def list_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
+def split_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
     """A chunk as columns: parameters and quantities, each of shape (variants in it,)."""
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, chunk.box, strict=True)]
     return [*(axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")), *chunk.values]

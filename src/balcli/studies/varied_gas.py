@@ -18,7 +18,7 @@ from ..forces.gas import compute_gas_torque
 from .parameters import tell_variant
 
 
-def add_gas(engine: Engine, model: EngineFile, figures: Mapping[str, Array]) -> Engine:
+def attach_gas_torque(engine: Engine, model: EngineFile, figures: Mapping[str, Array]) -> Engine:
     """Variants of an engine as of `build`, with the torque of their gas where the file has some.
 
     Args:

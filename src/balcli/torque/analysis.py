@@ -23,8 +23,8 @@ from .course import (
     find_moving_inertia,
     find_torque_curves,
 )
-from .flywheel import Flywheel, Question, find_flywheel
-from .loads import KINDS_OF_LOAD, Loads
+from .flywheel import Flywheel, FlywheelQuestion, find_flywheel
+from .loads import KINDS_OF_LOAD, CycleLoads
 
 KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
@@ -56,7 +56,7 @@ class TorqueAnalysis(Result):
     max_pressure: Extreme | None
     surplus: Surplus
     flywheel: Flywheel | None
-    loads: Loads
+    loads: CycleLoads
 
     @property
     def summary(self) -> str:
@@ -130,7 +130,7 @@ def analyze_torque(
     curves = find_torque_curves(steady)
     above = surplus(curves.total)._replace(work=curves.gas.integral)  # inertia does none
     swept = sum(c.piston.swept for c in gas.cylinders)
-    asked = Question(
+    asked = FlywheelQuestion(
         curves.gas_once,
         above.energy,
         float(engine.omega),
@@ -152,9 +152,9 @@ def analyze_torque(
     )
 
 
-def _find_loads(engine: Engine, asked: tuple[str, ...]) -> Loads:
+def _find_loads(engine: Engine, asked: tuple[str, ...]) -> CycleLoads:
     if not asked:
-        return Loads()
+        return CycleLoads()
     from .find_loads import analyze_loads
 
     return analyze_loads(engine, asked)

@@ -20,10 +20,10 @@ from ..forces.in_bearings import (
     place_main_bearings,
 )
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
-from .loads import KINDS_OF_LOAD, Load, Loads
+from .loads import KINDS_OF_LOAD, CycleLoad, CycleLoads
 
 
-def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> Loads:
+def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> CycleLoads:
     """Loads of pins and bearings; names of KINDS_OF_LOAD.
 
     The main bearings stand half-way between neighbouring throws and as far outside the end ones,
@@ -54,7 +54,7 @@ def analyze_loads(engine: Engine, asked: tuple[str, ...] = KINDS_OF_LOAD) -> Loa
             obstacle = error.reason
         else:
             main = tuple(_measure(steady, vectors, range(1, len(places) + 1), places, area))
-    return Loads(pin, knuckle, main, obstacle)
+    return CycleLoads(pin, knuckle, main, obstacle)
 
 
 def find_pin_loads(engine: Engine) -> Vectors:
@@ -75,7 +75,7 @@ def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
 
 def _measure(
     engine: Engine, vectors: Vectors, names: Iterable[int], places: Array, area: float | None
-) -> Iterator[Load]:
+) -> Iterator[CycleLoad]:
     """Largest and mean size of each vector over the cycle; 0 where it is rounding error beside the
     others.
     """
@@ -89,4 +89,4 @@ def _measure(
     for name, z, samples in zip(names, places.tolist(), every, strict=True):
         size, angle, _ = panels.find_largest(samples)
         mean = panels.find_mean_size(samples)
-        yield Load(name, z, Extreme(angle, size), mean, None if area is None else size / area)
+        yield CycleLoad(name, z, Extreme(angle, size), mean, None if area is None else size / area)

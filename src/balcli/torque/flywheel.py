@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core.phasors import Complex
 from ..core.piecewise import Extreme, Function, PiecewiseCurve, resolved
+from ..core.speed_ripple import RippleLine
 from ..core.speed_variation import (
     StallError,
     needed_inertia,
@@ -18,14 +19,6 @@ from ..errors import BalcliError
 from ..limits import HIGHEST_RIPPLE_ORDER, MOST_RIPPLES
 
 _WORTH = 1e-4  # share of the largest line of the speed below which one is left out
-
-
-class Ripple(NamedTuple):
-    """A line of uneven speed as an engine file has it: order, share of the mean speed, deg."""
-
-    order: float
-    amplitude: float
-    angle_deg: float
 
 
 class Speed(NamedTuple):
@@ -42,7 +35,7 @@ class Speed(NamedTuple):
     small: float
     lowest: Extreme
     highest: Extreme
-    lines: tuple[Ripple, ...]
+    lines: tuple[RippleLine, ...]
 
 
 class Flywheel(NamedTuple):
@@ -63,7 +56,7 @@ class Flywheel(NamedTuple):
     stall: str = ""
 
 
-class Question(NamedTuple):
+class FlywheelQuestion(NamedTuple):
     """What is asked of a shaft.
 
     Attributes:
@@ -83,7 +76,7 @@ class Question(NamedTuple):
     fluctuation: float | None
 
 
-def find_flywheel(question: Question) -> Flywheel | None:
+def find_flywheel(question: FlywheelQuestion) -> Flywheel | None:
     """What inertia does for the speed; None where nothing of it is known or asked.
 
     Raises:
@@ -111,7 +104,7 @@ def find_flywheel(question: Question) -> Flywheel | None:
         return Flywheel(mean, moving, None, needed, f"{error}")
 
 
-def _find_speed(q: Question, mean_speed: float, mean_inertia: float) -> Speed:
+def _find_speed(q: FlywheelQuestion, mean_speed: float, mean_inertia: float) -> Speed:
     found = speed_variation(q.torque, _inertia(q.constant or 0.0, q.moving), mean_speed)
     return Speed(
         found.fluctuation,
@@ -128,7 +121,7 @@ def _inertia(constant: float, moving: Function | None) -> float | Function:
     return lambda angle: constant + moving(angle)
 
 
-def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[Ripple, ...]:
+def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, ...]:
     """Lines whose sum is the speed, in shares of its mean: multiples of 1/2, or of 1, as far as an
     engine file may have them.
     """
@@ -138,7 +131,7 @@ def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[Ripple, ...]:
     size = np.abs(c)
     worth = np.flatnonzero(size > _WORTH * size.max(initial=0))
     return tuple(
-        Ripple(_as_order((k + 1) / turns), float(size[k]), float(-np.degrees(np.angle(c[k]))))
+        RippleLine(_as_order((k + 1) / turns), float(size[k]), float(-np.degrees(np.angle(c[k]))))
         for k in worth.tolist()
     )
 

@@ -17,13 +17,13 @@ from ..errors import BalcliError
 from ..forces.orders import check_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED
 from ..result import Result
-from .flywheel import Flywheel, Question, find_flywheel
+from .flywheel import Flywheel, FlywheelQuestion, find_flywheel
 
 _NOISE = 1e-14  # of the largest torque: rounding errors of a harmonic
 _SAME = 1e-9  # of a turn, by which periods may differ
 
 
-class Shaft(NamedTuple):
+class DrivenShaft(NamedTuple):
     """What turns: mean speed, rad/s, and inertia, kg m2; None: not known."""
 
     mean_speed: float | None = None
@@ -50,7 +50,7 @@ class CurveAnalysis(Result):
     orders: Array
     harmonics: Complex
     surplus: Surplus
-    shaft: Shaft
+    shaft: DrivenShaft
     flywheel: Flywheel | None
 
     @property
@@ -83,7 +83,7 @@ def analyze_curve(
     name: str,
     torque: PiecewiseCurve,
     load: PiecewiseCurve | None = None,
-    shaft: Shaft | None = None,
+    shaft: DrivenShaft | None = None,
     *,
     fluctuation: float | None = None,
     orders: list[float] | None = None,
@@ -100,7 +100,7 @@ def analyze_curve(
     Raises:
         BalcliError: other periods, orders that the period has not, a shaft that stalls.
     """
-    shaft = shaft or Shaft()
+    shaft = shaft or DrivenShaft()
     net = torque if load is None else _subtract(torque, load)
     turns = torque.period / (2 * np.pi)
     every = np.arange(1, max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2) + 1)
@@ -113,7 +113,7 @@ def analyze_curve(
                 f"of {1 / turns:g}"
             )
     above = surplus(net)._replace(work=torque.integral)
-    asked = Question(net, above.energy, shaft.mean_speed, shaft.inertia, None, fluctuation)
+    asked = FlywheelQuestion(net, above.energy, shaft.mean_speed, shaft.inertia, None, fluctuation)
     found = torque.harmonics(int(every.max(initial=1)))[every]
     found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)
     return CurveAnalysis(

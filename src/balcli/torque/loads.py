@@ -9,7 +9,7 @@ from ..core.piecewise import Extreme
 KINDS_OF_LOAD = ("pin", "main")
 
 
-class Load(NamedTuple):
+class CycleLoad(NamedTuple):
     """Load of one pin or bearing.
 
     Attributes:
@@ -28,7 +28,7 @@ class Load(NamedTuple):
     pressure: float | None
 
 
-class Loads(NamedTuple):
+class CycleLoads(NamedTuple):
     """What was asked for.
 
     Attributes:
@@ -39,7 +39,7 @@ class Loads(NamedTuple):
         obstacle: why these are not known, though asked for beside others; else empty.
     """
 
-    pin: tuple[Load, ...] | None = None
-    knuckle: tuple[Load, ...] | None = None
-    main: tuple[Load, ...] | None = None
+    pin: tuple[CycleLoad, ...] | None = None
+    knuckle: tuple[CycleLoad, ...] | None = None
+    main: tuple[CycleLoad, ...] | None = None
     obstacle: str = ""

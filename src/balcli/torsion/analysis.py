@@ -15,7 +15,7 @@ from ..result import Result
 from .damper_sizing import DamperAsked, SizedDamper, size_damper
 from .load import Source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes
-from .response import Response, find_barred, find_response
+from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # times the file's own speed to which criticals are told: engines overspeed
@@ -36,7 +36,7 @@ class HolzerTable(NamedTuple):
     table: Holzer
 
 
-class Question(NamedTuple):
+class TorsionQuestion(NamedTuple):
     """What is asked.
 
     Attributes:
@@ -71,7 +71,7 @@ class TorsionAnalysis(Result):
     modes: tuple[NaturalMode, ...]
     criticals: tuple[Critical, ...]
     holzer: tuple[HolzerTable, ...]
-    response: Response | None
+    response: TorsionResponse | None
     barred_rpm: tuple[tuple[float, float], ...] | None
     damper: SizedDamper | None = None
 
@@ -83,7 +83,7 @@ class TorsionAnalysis(Result):
 
 
 def answer_question(
-    source: Source, question: Question, tell: Tell = tell_nobody
+    source: Source, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """The answer about a chain or an engine; `tell` is told which share is done.
 
@@ -100,7 +100,7 @@ def answer_question(
 
 
 def analyze_system(
-    system: TorsionalSystem, question: Question, tell: Tell = tell_nobody
+    system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """The answer about a system as it is."""
     excitation = system.excitation

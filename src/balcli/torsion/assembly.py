@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.torsional_chain import Damping, Shaft, join_chain
+from ..core.torsional_chain import ChainShaft, Damping, join_chain
 from ..enginefile.shafting import Damper, ShaftKeys
-from .system import Excitation, Pendulums, Section, TorsionalSystem, ViscousRing
+from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, ViscousRing
 
 
 class PlannedNode(NamedTuple):
@@ -27,10 +27,10 @@ class PlannedShaft(NamedTuple):
     """A shaft between two nodes, with its loss factor, dashpot (N m s/rad) and diameters."""
 
     name: str
-    shaft: Shaft
+    shaft: ChainShaft
     loss: float = 0.0
     dashpot: float = 0.0
-    section: Section | None = None
+    section: ShaftSection | None = None
 
 
 class Limits(NamedTuple):
@@ -81,11 +81,11 @@ def assemble_system(
     )
 
 
-def find_section(shaft: ShaftKeys) -> Section | None:
+def find_section(shaft: ShaftKeys) -> ShaftSection | None:
     """Diameters in m, where they are given."""
     if shaft.diameter is None:
         return None
-    return Section(shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3)
+    return ShaftSection(shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3)
 
 
 def _hang_rubber(nodes: Sequence[PlannedNode]) -> tuple[list[PlannedNode], list[PlannedShaft]]:
@@ -94,7 +94,7 @@ def _hang_rubber(nodes: Sequence[PlannedNode]) -> tuple[list[PlannedNode], list[
     shafts: list[PlannedShaft] = []
     for k, damper in _find_dampers(nodes, "rubber"):
         name = f"{nodes[k].name} ring"
-        rubber = Shaft(k, len(nodes) + len(rings), damper.stiffness or 0.0)
+        rubber = ChainShaft(k, len(nodes) + len(rings), damper.stiffness or 0.0)
         rings.append(PlannedNode(name, (damper.inertia or 0.0) / 1e6))
         shafts.append(PlannedShaft(name, rubber, damper.loss or 0.0))
     return rings, shafts

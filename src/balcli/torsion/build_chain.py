@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..core.sorted_sets import sort_distinct
-from ..core.torsional_chain import Chain, Shaft, find_pieces, rigid_motions
+from ..core.torsional_chain import Chain, ChainShaft, find_pieces, rigid_motions
 from ..enginefile.fields import shorten
 from ..enginefile.shafting import find_stiffness
 from ..errors import InputError, Problem
@@ -34,7 +34,7 @@ def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
     shafts = [
         PlannedShaft(
             label,
-            Shaft(index[shaft.from_], index[shaft.to], find_stiffness(shaft)),
+            ChainShaft(index[shaft.from_], index[shaft.to], find_stiffness(shaft)),
             file.loss if shaft.loss is None else shaft.loss,
             shaft.damping,
             find_section(shaft),
@@ -42,7 +42,7 @@ def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
         for label, shaft in zip(called, file.shaft, strict=False)
     ]
     shafts += [
-        PlannedShaft(label, Shaft(index[gear.from_], index[gear.to], np.inf, gear.ratio))
+        PlannedShaft(label, ChainShaft(index[gear.from_], index[gear.to], np.inf, gear.ratio))
         for label, gear in zip(called[len(file.shaft) :], file.gear, strict=True)
     ]
     clamped = [index[each] for each in file.fixed]

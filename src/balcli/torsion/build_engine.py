@@ -13,7 +13,7 @@ import numpy as np
 from ..core.loads import find_inertia, find_needed_series
 from ..core.singular_values import Real
 from ..core.speeds import RPM
-from ..core.torsional_chain import Shaft
+from ..core.torsional_chain import ChainShaft
 from ..engine.build import Engine
 from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.model import EngineFile
@@ -25,7 +25,7 @@ from ..forces.spectrum import compute_each_cylinder
 from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
 from ..torque.course import silence
 from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
-from .system import Excitation, Section, TorsionalSystem
+from .system import Excitation, ShaftSection, TorsionalSystem
 
 
 class _Joint(NamedTuple):
@@ -96,10 +96,10 @@ def _join_throws(torsion: Torsion, front: int, throws: int) -> Iterator[PlannedS
     """The shafts between neighbouring throws, the first of which is the node `front`."""
     section = None
     if torsion.throw_diameter is not None:
-        section = Section(torsion.throw_diameter / 1e3, (torsion.throw_bore or 0.0) / 1e3)
+        section = ShaftSection(torsion.throw_diameter / 1e3, (torsion.throw_bore or 0.0) / 1e3)
     stiffnesses = _each(torsion.throw_stiffness or (), throws - 1)
     for k, (name, stiffness) in enumerate(zip(_name_between(throws), stiffnesses, strict=True)):
-        shaft = Shaft(front + k, front + k + 1, stiffness)
+        shaft = ChainShaft(front + k, front + k + 1, stiffness)
         yield PlannedShaft(name, shaft, torsion.loss, section=section)
 
 
@@ -112,7 +112,7 @@ def _lead_shafts(torsion: Torsion, names: Sequence[str], throws: int) -> Iterato
     for _, part, of in joints:
         ends, ratio = (names.index(of), names.index(part.name)), gears[part.name] / gears[of]
         loss = torsion.loss if part.loss is None else part.loss
-        shaft = Shaft(*ends, find_stiffness(part), ratio)
+        shaft = ChainShaft(*ends, find_stiffness(part), ratio)
         yield PlannedShaft(part.name, shaft, loss, part.damping, find_section(part))
 
 

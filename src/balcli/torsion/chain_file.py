@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import Field
 
 from ..enginefile.fields import Label, Number
-from ..enginefile.model import Table
+from ..enginefile.model import FileTable
 from ..enginefile.shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
 from ..enginefile.torsion_tables import AngleLimit, SpeedRatio, StressLimit
 from ..enginefile.units import PLAIN, TORQUE
@@ -35,7 +35,7 @@ class _HalfOrder(Number):
         return order
 
 
-class Node(Table):
+class Node(FileTable):
     """A node: an inertia, or a place where shafts meet."""
 
     name: Name = Field(examples=["flywheel"], description="what to call it; each its own")
@@ -59,7 +59,7 @@ class ChainShaft(ShaftKeys):
     to: Name = Field(examples=["flywheel"], description="name of the node where it ends")
 
 
-class Gear(Table):
+class Gear(FileTable):
     """A mesh of gears without mass."""
 
     from_: Name = Field(
@@ -72,7 +72,7 @@ class Gear(Table):
     )
 
 
-class Excitation(Table):
+class Excitation(FileTable):
     """A torque on a node, `cos * cos(n t) + sin * sin(n t)`, t the angle of the first node."""
 
     node: Name = Field(examples=["crank"], description="name of the node on which it acts")
@@ -83,7 +83,7 @@ class Excitation(Table):
     sin: Torque = Field(0.0, examples=[-35], description="amplitude of its sine")
 
 
-class ChainFile(Table):
+class ChainFile(FileTable):
     """Inertias on shafts and gears, and what excites them."""
 
     name: Name | None = Field(None, examples=["pump drive"], description="what to call it")

@@ -19,8 +19,8 @@ from .modes import find_poles
 from .motion import (
     UNDAMPED,
     move,
-    refuse_resonance,
     refuse_too_many,
+    refuse_torsional_resonance,
     split_speeds,
     stress_by_torque,
 )
@@ -32,7 +32,7 @@ _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
 _SIDES = np.array([[-1], [1]])  # of a resonance, where it is looked at, too, in widths
 
 
-class Worst(NamedTuple):
+class LargestVibration(NamedTuple):
     """The largest between the first and last of the speeds, however narrow its resonance.
 
     Attributes:
@@ -101,9 +101,9 @@ class _Curves(NamedTuple):
         return np.full_like(largest, largest.max(initial=0)) if self.together else largest
 
 
-def find_worst(
+def find_largest_vibration(
     system: TorsionalSystem, excitation: Excitation, rpm: Real, swings: Real, heat: Real
-) -> Worst:
+) -> LargestVibration:
     """Of every shaft, the first node and every damper.
 
     Args:
@@ -114,7 +114,7 @@ def find_worst(
     curves = _Curves(system, excitation, range(count + 1), np.ones(count + 1))
     at, height = _approach_largest(curves, rpm, swings)
     torque = curves.pick(at[:count], np.arange(count))
-    return Worst(
+    return LargestVibration(
         at[:count],
         height[:count],
         sum_amplitudes(torque),
@@ -126,7 +126,7 @@ def find_worst(
     )
 
 
-def find_largest(
+def find_largest_torques(
     system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real, shafts: Sequence[int]
 ) -> tuple[Real, Real]:
     """At which speed, rpm, the vibratory torque of some shafts is largest, and half of peak to peak
@@ -148,7 +148,7 @@ def find_largest_of_all(
     shafts: Sequence[int],
     weights: Real,
 ) -> float:
-    """The highest that `find_largest` finds of some shafts, each multiplied by its weight
+    """The highest that `find_largest_torques` finds of some shafts, each multiplied by its weight
     (shafts,); in less time.
     """
     return float(
@@ -195,7 +195,7 @@ def find_resonant_speeds(
 def _search(curves: _Curves, rpm: Real) -> tuple[Real, Real]:
     system, excitation = curves.system, curves.excitation
     refuse_too_many(len(excitation.orders), len(rpm), len(system.shafts))
-    refuse_resonance(system, excitation, rpm)
+    refuse_torsional_resonance(system, excitation, rpm)
     swings = _find_large_swings(curves, rpm, np.zeros(len(curves.columns)))
     return _approach_largest(curves, rpm, swings)
 

@@ -72,7 +72,7 @@ def stress_by_torque(system: TorsionalSystem) -> Real:
     return np.array(found)
 
 
-def refuse_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
+def refuse_torsional_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
     """Refuse a range in which an undamped mode is driven at its own frequency."""
     lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
     if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses

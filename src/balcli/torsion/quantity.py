@@ -12,7 +12,7 @@ import numpy as np
 from ..core.singular_values import Real
 from ..engine.build import Engine, build
 from ..engine.variants import EngineVariants, Values, remember
-from ..enginefile.model import EngineFile, Table
+from ..enginefile.model import EngineFile, FileTable
 from ..enginefile.torsion_tables import Torsion
 from ..errors import BalcliError, InputError, Problem
 from ..forces.target_quantity import (
@@ -22,7 +22,7 @@ from ..forces.target_quantity import (
     refuse_stranger,
 )
 from .build_engine import build_engine_system, excite_engine
-from .largest import find_largest
+from .largest import find_largest_torques
 from .modes import find_natural_modes
 from .motion import stress_by_torque
 from .system import Excitation, TorsionalSystem
@@ -101,7 +101,7 @@ def _find_faults(torsion: Torsion, path: str) -> Iterator[Problem]:
     place: Any = torsion
     name, *keys = path.split(".")
     for key in keys:
-        if isinstance(place, Table):
+        if isinstance(place, FileTable):
             yield from (Problem(name, fault) for fault in place.list_faults())
             place = getattr(place, key)
         else:
@@ -114,7 +114,7 @@ def _change(whole: Any, keys: Sequence[str], value: float) -> Any:
     if not keys:
         return value
     first, *rest = keys
-    if isinstance(whole, Table):
+    if isinstance(whole, FileTable):
         return whole.model_copy(update={first: _change(getattr(whole, first), rest, value)})
     members = list(whole)
     members[int(first) - 1] = _change(members[int(first) - 1], rest, value)
@@ -151,7 +151,7 @@ class Variants:
             modes = find_natural_modes(system)
             found |= {q: modes[int(q.target) - 1].frequency_hz for q in of_modes}
         if of_shafts := [q for q in self._quantities if q.kind == "shaft"]:
-            found |= _find_largest(system, excitation, choose_speeds(engine), of_shafts)
+            found |= _find_largest(system, excitation, choose_torsion_speeds(engine), of_shafts)
         return [found[q] for q in self._quantities]
 
 
@@ -160,7 +160,7 @@ def _find_largest(
 ) -> dict[TargetQuantity, float]:
     """Torque and stress of shafts."""
     shafts = sorted({system.shafts.index(q.target) for q in quantities})
-    _, torques = find_largest(system, excitation, speeds, shafts)
+    _, torques = find_largest_torques(system, excitation, speeds, shafts)
     largest = dict(zip(shafts, map(float, torques), strict=True))
     by_torque = {"torque": np.ones(len(system.shafts)), "stress": stress_by_torque(system)}
     return {
@@ -170,7 +170,7 @@ def _find_largest(
     }
 
 
-def choose_speeds(engine: Engine) -> Real:
+def choose_torsion_speeds(engine: Engine) -> Real:
     """(speeds,) rpm, over which torque and stress of a shaft are largest: half to one and a half
     times the engine's own.
     """

@@ -11,13 +11,13 @@ from pydantic_core import ErrorDetails
 
 from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.messages import describe_finding, find_inner_table, join_path
-from ..enginefile.model import Table
+from ..enginefile.model import FileTable
 from ..enginefile.table_reader import TableReader
 from ..errors import Problem
 from ..limits import MOST_LIST_VALUES, MOST_TORSION_NODES
 from .chain_file import ChainFile, ChainShaft, Excitation, Gear, Node
 
-LISTS: tuple[type[Table], ...] = (Node, ChainShaft, Gear, Excitation)
+LISTS: tuple[type[FileTable], ...] = (Node, ChainShaft, Gear, Excitation)
 KEYS = ("node", "shaft", "gear", "excitation")
 
 
@@ -45,7 +45,7 @@ def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
     return model.model_copy(update=lists)
 
 
-def _describe(path: str, finding: ErrorDetails, table: type[Table]) -> Problem:
+def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
     if finding["type"] == "extra_forbidden":
         hint = f"it has {', '.join(find_inner_table(table, finding['loc']).keys())}"
         return Problem(join_path(path, finding["loc"]), f"unknown key in a damper; {hint}")

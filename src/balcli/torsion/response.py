@@ -11,14 +11,20 @@ from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Real
 from ..core.sorted_sets import sort_others
 from ..core.telling import Tell, tell_nobody
-from .largest import Worst, find_resonant_speeds, find_worst
-from .motion import move, refuse_resonance, refuse_too_many, split_speeds, stress_by_torque
+from .largest import LargestVibration, find_largest_vibration, find_resonant_speeds
+from .motion import (
+    move,
+    refuse_too_many,
+    refuse_torsional_resonance,
+    split_speeds,
+    stress_by_torque,
+)
 from .system import Excitation, TorsionalSystem
 
 _HALVINGS = 24  # of an interval of speeds in which a limit is passed
 
 
-class Response(NamedTuple):
+class TorsionResponse(NamedTuple):
     """Forced vibration.
 
     Attributes:
@@ -45,7 +51,7 @@ class Response(NamedTuple):
     swings: Real
     heat: Real
     dampers: tuple[str, ...]
-    worst: Worst
+    worst: LargestVibration
 
 
 def find_response(
@@ -53,7 +59,7 @@ def find_response(
     excitation: Excitation,
     speeds_rpm: Real,
     tell: Tell = tell_nobody,
-) -> Response:
+) -> TorsionResponse:
     """Vibration at speeds (speeds,), rising.
 
     Args:
@@ -64,7 +70,7 @@ def find_response(
         BalcliError: an undamped mode is driven at its own frequency.
     """
     refuse_too_many(len(excitation.orders), len(speeds_rpm), len(system.shafts))
-    refuse_resonance(system, excitation, speeds_rpm)
+    refuse_torsional_resonance(system, excitation, speeds_rpm)
     parts = []
     samples = 16 * (excitation.orders.max() + 1)
     for some in split_speeds(system, excitation, speeds_rpm, samples):
@@ -75,7 +81,7 @@ def find_response(
         for each, axis in zip(zip(*parts, strict=True), _AXES, strict=True)
     ]
     torque, sums, free_end, amplitudes, swings, heat = joined
-    return Response(
+    return TorsionResponse(
         speeds_rpm,
         excitation.orders,
         torque,
@@ -86,7 +92,9 @@ def find_response(
         swings,
         heat,
         system.dampers,
-        find_worst(system, excitation, speeds_rpm, np.column_stack([torque, free_end]), heat),
+        find_largest_vibration(
+            system, excitation, speeds_rpm, np.column_stack([torque, free_end]), heat
+        ),
     )
 
 
@@ -108,7 +116,7 @@ def _summarise(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> tu
 
 
 def find_barred(
-    system: TorsionalSystem, excitation: Excitation, response: Response, criticals_rpm: Real
+    system: TorsionalSystem, excitation: Excitation, response: TorsionResponse, criticals_rpm: Real
 ) -> tuple[tuple[float, float], ...] | None:
     """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..enginefile.model import Table
+from ..enginefile.model import FileTable
 from ..enginefile.schema import DIALECT, tidy_schema
 from ..enginefile.shafting import Damper
 from .chain_file import ChainFile
@@ -13,7 +13,7 @@ from .read_chain import LISTS
 
 def describe_chain_file() -> dict[str, Any]:
     """JSON Schema (draft 2020-12): every key with description, unit, bounds and an example."""
-    tables: tuple[type[Table], ...] = (Damper, *LISTS)
+    tables: tuple[type[FileTable], ...] = (Damper, *LISTS)
     for table in tables:
         table.model_rebuild()
     document: dict[str, Any] = tidy_schema(ChainFile.model_json_schema())

@@ -17,7 +17,7 @@ from ..core.torsional_chain import Chain, Damping, find_pieces
 from ..core.torsional_dampers import pendulum_inertia, viscous_inertia
 
 
-class Section(NamedTuple):
+class ShaftSection(NamedTuple):
     """Outer and inner diameter of a shaft, m."""
 
     outer: float
@@ -105,7 +105,7 @@ class TorsionalSystem:
     shafts: tuple[str, ...]
     chain: Chain
     damping: Damping
-    sections: tuple[Section | None, ...]
+    sections: tuple[ShaftSection | None, ...]
     rings: tuple[ViscousRing, ...] = ()
     pendulums: tuple[Pendulums, ...] = ()
     excitation: Excitation | None = None

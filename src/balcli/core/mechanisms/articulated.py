@@ -18,10 +18,10 @@ from ..cached_property import cached_property
 from ..phasors import EPS, Array, Complex, compose, unit
 from . import slidercrank
 from .linkage import Linkage
-from .motion import Motion, Point
+from .motion import Motion, PointMass
 
 
-class KnucklePin(Point):
+class KnucklePin(PointMass):
     """K in the cylinder's frame, by the motion of its master rod.
 
     Args:

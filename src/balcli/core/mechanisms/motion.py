@@ -19,7 +19,7 @@ from ..cached_property import cached_property
 from ..phasors import Array, Complex, Figure
 
 
-class Point(ABC):
+class PointMass(ABC):
     """A mass on a closed curve `z(psi)`, complex, x along the cylinder's axis.
 
     Attributes:
@@ -51,7 +51,7 @@ class Motion(ABC):
         points: where the masses on curves are; none in a plain slider-crank.
     """
 
-    points: tuple[Point, ...] = ()
+    points: tuple[PointMass, ...] = ()
 
     @property
     @abstractmethod

@@ -21,7 +21,7 @@ from ..phasors import Array, Complex, Figure, compose
 from . import slidercrank
 from .articulated import Articulated, hang
 from .linkage import Linkage
-from .motion import Motion, Point
+from .motion import Motion, PointMass
 
 
 @dataclass(frozen=True)
@@ -52,10 +52,10 @@ class Rotary(Linkage):
         return TurningMotion(psi, hang(psi, lam, eps, *of_knuckle), eps / lam, share)
 
 
-class _Seen(Point):
+class _Seen(PointMass):
     """A point of the mechanism from the direction of the pin; `turned` is e^{i psi}."""
 
-    def __init__(self, turned: Complex, point: Point, share: Figure = 1.0) -> None:
+    def __init__(self, turned: Complex, point: PointMass, share: Figure = 1.0) -> None:
         self._turned, self._point, self.share = turned, point, share
 
     @cached_property
@@ -73,7 +73,7 @@ class _Seen(Point):
         return np.asarray(self._turned * (w2 + 2j * w1 - w))
 
 
-class _Piston(Point):
+class _Piston(PointMass):
     """The piston on its cylinder's axis, at its offset in crank radii."""
 
     def __init__(self, motion: Motion, offset: Array) -> None:

@@ -28,7 +28,7 @@ from ..phasors import Array, Complex
 from .motion import Motion
 
 
-class Extreme(NamedTuple):
+class Fastest(NamedTuple):
     """Where a curve over the crank angle has its extreme, and how large it is there."""
 
     psi: Array
@@ -201,7 +201,7 @@ def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Ar
 
 
 # ---------------------------------------------------------------- extremes of the velocity
-def fastest(lam: ArrayLike) -> Extreme:
+def fastest(lam: ArrayLike) -> Fastest:
     """Crank angle (0 to 90 degrees) and size of the greatest piston velocity of the centred
     mechanism.
 
@@ -214,16 +214,16 @@ def fastest(lam: ArrayLike) -> Extreme:
         lambda t: (1 - t) - square * t**2 * (1 - square * t), 1 / (1 + square), np.ones_like(lam)
     )
     psi = np.arctan2(np.sqrt(t), lam * t * np.sqrt(1 - square * t))
-    return Extreme(_real(psi), velocity(psi, lam))
+    return Fastest(_real(psi), velocity(psi, lam))
 
 
-def fastest_two_term(lam: ArrayLike) -> Extreme:
+def fastest_two_term(lam: ArrayLike) -> Fastest:
     """The same of the two-term form sin psi + lam/2 sin 2 psi: cos psi = (sqrt(1 + 8 lam^2) - 1)/(4
     lam).
     """
     lam = np.asarray(lam, dtype=np.float64)
     psi = np.arccos(2 * lam / (1 + np.sqrt(1 + 8 * lam**2)))
-    return Extreme(_real(psi), _real(np.sin(psi) * (1 + lam * np.cos(psi))))
+    return Fastest(_real(psi), _real(np.sin(psi) * (1 + lam * np.cos(psi))))
 
 
 # ---------------------------------------------------------------- small helpers

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...forces.crankshaft import AlongCrank
-from ..units import Unit
+from ..units import ShownUnit
 from .legends import put_legend_above
 from .style import BLUE, SOFT
 
@@ -20,7 +20,8 @@ def draw_along(
     ax: Axes,
     now_and_before: Sequence[AlongCrank],
     titles: tuple[str, str],
-    unit: Unit,
+    unit: ShownUnit,
+    length: ShownUnit,
     steps: str = "default",
     over: str = "a revolution",
 ) -> None:
@@ -29,12 +30,14 @@ def draw_along(
     Args:
         now_and_before: one curve, or two to compare.
         titles: of the picture, and what is measured.
+        length: of the places.
         steps: how matplotlib joins the places; empty: columns.
         over: what the values are the largest of.
     """
     title, what = titles
     curves = [
-        (found.z_m * 1e3, np.array([p.value for p in found.peaks])) for found in now_and_before
+        (found.z_m / length.size, np.array([p.value for p in found.peaks]))
+        for found in now_and_before
     ]
     s = unit.fit(max((float(values.max()) for _, values in curves), default=0.0))
     looks: Any = (

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.phasors import Array, Complex, Phasors
-from ..units import Unit
+from ..units import ShownUnit
 from .style import BLUE, GREEN, RED, SOFT
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def divide_cycle(*curves: Phasors | None) -> Array:
     return np.radians(np.arange((720 if halves else 360) + 1))
 
 
-def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: Unit) -> float:
+def set_up_plane(ax: Axes, curves: Sequence[Complex | None], what: str, s: ShownUnit) -> float:
     """Make the axes a square with the origin in its middle, x up; returns its half side."""
     largest = max(np.abs(c).max(initial=0) for c in curves if c is not None) / s.size
     limit = float(largest or 1) * 1.25

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...sizing.scheme_figures import FactorPeaks
 from ..sheet import size_text
-from ..units import Unit
+from ..units import ShownUnit
 from .axes import LOOKS
 from .legends import put_legend_above
 from .style import BLUE, SOFT
@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def draw_factors(ax: Axes, rows: Sequence[FactorPeaks], force: Unit, moment: Unit | None) -> None:
+def draw_factors(
+    ax: Axes, rows: Sequence[FactorPeaks], force: ShownUnit, moment: ShownUnit | None
+) -> None:
     """Draw the largest force and its components over the balance factor; the moment on an axis of
     its own where there is one (its unit is None where it is not known).
     """

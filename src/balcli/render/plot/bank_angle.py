@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.phasors import Complex, Phasors
 from ...studies.pictures import Banks
-from ..units import Unit
+from ..units import ShownUnit
 from .axes import FINE, set_up_plane
 from .style import BLUE, INK, RED
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 SHOWN_DEG = (0, 30, 60, 90, 120, 150, 180)  # bank angles
 
 
-def draw_end_curves(ax: Axes, banks: Banks, unit: Unit) -> None:
+def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
     """Draw the way of the force's tip for several bank angles."""
     shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in SHOWN_DEG]
     s = unit.fit(float(banks.force.major.max(initial=0)))
@@ -69,7 +69,7 @@ def _list_spots(way: Complex, limit: float) -> Complex:
     return (ends[:, None] + 0.075 * limit * out[:, None] * np.array([1, 1j, -1j])).ravel()
 
 
-def draw_roses(ax: Any, banks: Banks, unit: Unit) -> None:
+def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
     """Draw the sizes of both rotating vectors as radii in the directions of the two banks, whose
     angle is varied.
     """

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.phasors import Array, Phasors
 from ..sheet import number, order_name
-from ..units import Unit
+from ..units import ShownUnit
 from ..view import VISIBLE
 from .axes import LOOKS
 from .legends import put_legend_above
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def draw_vector_bars(
-    ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | None = None
+    ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw the largest value of each order as a bar: the part that turns with the crank, and upon
     it the part against; dashed what there was before.
@@ -39,7 +39,7 @@ def draw_vector_bars(
     _label_bars(ax, curve.orders[shown], ahead + against, f"{what}, {s.name}")
 
 
-def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: Unit) -> None:
+def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -> None:
     """Draw the amplitudes of several scalars, side by side."""
     shown = sorted({k for curve in curves.values() for k in visible_rows(curve)})
     s = unit.fit(max(float(c.major.max(initial=0)) for c in curves.values()))

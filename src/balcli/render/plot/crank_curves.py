@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.phasors import Array, Phasors
-from ..units import Unit
+from ..units import ShownUnit
 from .axes import LOOKS, divide_cycle
 from .legends import put_legend_above
 from .style import SOFT
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def draw_vector_curves(
-    ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | None = None
+    ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw components and size of a vector over the crank angle, dashed its size `before`."""
     crank = divide_cycle(curve, before)
@@ -34,7 +34,7 @@ def draw_vector_curves(
 
 
 def draw_scalar_curves(
-    ax: Axes, curves: Mapping[str, Phasors], unit: Unit, before: Phasors | None = None
+    ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw scalars over the crank angle, dashed the last one `before`."""
     crank = divide_cycle(*curves.values(), before)
@@ -49,7 +49,12 @@ def draw_scalar_curves(
 
 
 def _draw_lines(
-    ax: Axes, angles: Array, lines: Mapping[str, Array], what: str, unit: Unit, before: Array | None
+    ax: Axes,
+    angles: Array,
+    lines: Mapping[str, Array],
+    what: str,
+    unit: ShownUnit,
+    before: Array | None,
 ) -> None:
     everything = [*lines.values(), *([] if before is None else [before])]
     s = unit.fit(max(float(np.abs(v).max()) for v in everything))

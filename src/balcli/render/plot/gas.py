@@ -8,9 +8,8 @@ import numpy as np
 
 from ...core.phasors import Array, Complex
 from ...core.speed_variation import Surplus
-from ...enginefile.units import BAR
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
-from ..units import Unit
+from ..units import ShownUnit, System
 from .axes import overlap
 from .legends import put_legend_above
 from .style import BLUE, FAINT, GREEN, INK, RED, SOFT
@@ -23,9 +22,10 @@ _MARKS = 8  # crank angles that are told along a locus, in a revolution
 _COLUMNS = 7  # of polar diagrams side by side
 
 
-def draw_pressure(ax: Axes, found: Pressures) -> None:
+def draw_pressure(ax: Axes, found: Pressures, unit: ShownUnit) -> None:
     """Draw pressure over the cycle angle."""
-    ax.plot(found.cycle_deg, found.pressure / BAR, color=BLUE)
+    s = unit.fit(float(found.pressure.max()))
+    ax.plot(found.cycle_deg, found.pressure / s.size, color=BLUE)
     ax.axvline(0, color=SOFT, linewidth=0.7)
     first, last = (round(float(v)) for v in found.cycle_deg[[0, -1]])
     ax.set(
@@ -33,21 +33,23 @@ def draw_pressure(ax: Axes, found: Pressures) -> None:
         xticks=np.arange(first, last + 1, (last - first) // 8),
         ylim=(0, None),
         xlabel="cycle angle from the firing dead centre, deg",
-        ylabel="pressure, bar",
+        ylabel=f"pressure, {s.name}",
     )
     ax.set_title("Pressure in cylinder 1")
 
 
-def draw_p_v(ax: Axes, found: Pressures) -> None:
+def draw_p_v(ax: Axes, found: Pressures, system: System) -> None:
     """Draw pressure over volume."""
-    ax.plot(found.volume * 1e6, found.pressure / BAR, color=BLUE)
+    s = system.pressure.fit(float(found.pressure.max()))
+    v = system.volume.fit(float(found.volume.max()))
+    ax.plot(found.volume / v.size, found.pressure / s.size, color=BLUE)
     beside = "" if found.clearance_known else " above the smallest"
-    ax.set(xlim=(0, None), ylim=(0, None), ylabel="pressure, bar")
-    ax.set_xlabel(f"volume{beside}, cm³")
+    ax.set(xlim=(0, None), ylim=(0, None), ylabel=f"pressure, {s.name}")
+    ax.set_xlabel(f"volume{beside}, {v.name}")
     ax.set_title("Indicator diagram of cylinder 1")
 
 
-def draw_torque(ax: Axes, found: Torques, unit: Unit) -> None:
+def draw_torque(ax: Axes, found: Torques, unit: ShownUnit) -> None:
     """Draw gas, inertia and total torque, the surplus areas above and below the mean, and where the
     crank is slowest and fastest.
     """
@@ -87,7 +89,7 @@ def _mark_speeds(ax: Axes, surplus: Surplus, cycle: int, mean: float) -> None:
         )
 
 
-def draw_pin(fig: Figure, found: PinLoads, unit: Unit) -> None:
+def draw_pin(fig: Figure, found: PinLoads, unit: ShownUnit) -> None:
     """Draw the load of crank pin 1 as the crank feels it, and as the rod does."""
     left, right = fig.subplots(1, 2)
     _draw_polar(left, found.in_crank, found.crank_deg, unit)
@@ -98,7 +100,7 @@ def draw_pin(fig: Figure, found: PinLoads, unit: Unit) -> None:
     right.set(xlabel="across the rod", ylabel="along the rod, to the piston")
 
 
-def draw_main(fig: Figure, found: MainLoads, unit: Unit) -> None:
+def draw_main(fig: Figure, found: MainLoads, unit: ShownUnit) -> None:
     """Draw the load of every main bearing as the block feels it, and as the shaft does."""
     count = len(found.in_block)
     columns = min(count, _COLUMNS)
@@ -117,7 +119,7 @@ def draw_main(fig: Figure, found: MainLoads, unit: Unit) -> None:
 
 
 def _draw_polar(
-    ax: Axes, force: Complex, crank_deg: Array, unit: Unit, limit: float | None = None
+    ax: Axes, force: Complex, crank_deg: Array, unit: ShownUnit, limit: float | None = None
 ) -> None:
     """Draw the way of a force's tip, x up and y to the right, with crank angles along it."""
     half = 1.1 * float(np.abs(force).max()) if limit is None else limit

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.phasors import Complex, Phasors
 from ..sheet import NOTHING, size_text
-from ..units import Unit
+from ..units import ShownUnit
 from ..view import VISIBLE
 from .axes import overlap, set_up_plane
 from .legends import put_legend_above
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def draw_locus(
-    ax: Axes, curve: Phasors, what: str, unit: Unit, before: Phasors | None = None
+    ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw where the tip of the vector goes in a revolution, with crank angles along it; dashed a
     second locus to compare with.
@@ -66,7 +66,7 @@ def _values_once(curve: Phasors) -> Complex:
     return curve.values(np.radians(np.arange(find_period_deg(curve) + 1)))
 
 
-def _mark_crank_angles(ax: Axes, curve: Phasors, s: Unit, limit: float) -> None:
+def _mark_crank_angles(ax: Axes, curve: Phasors, s: ShownUnit, limit: float) -> None:
     """Draw dots at every twelfth of the period, and crank angles at every second one, on the outer
     side of the curve.
     """

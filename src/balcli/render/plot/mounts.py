@@ -14,10 +14,10 @@ import numpy as np
 from ...core.singular_values import Real
 from ...mounting.modes import BodyMode
 from ...mounting.report import MountReport
-from ...mounting.response import Response
+from ...mounting.response import MountingResponse
 from ..body_block import PROJECTION, find_corners
 from ..sheet import NAMELESS, number, order_name
-from ..units import System, Unit
+from ..units import ShownUnit, System
 from .style import (
     BLUE,
     FAINT,
@@ -71,21 +71,25 @@ def make_mounts(result: MountReport, form: Form, system: System) -> Figure:
         return fig
 
 
-def _draw_forces(ax: Axes, result: MountReport, response: Response, unit: Unit) -> None:
+def _draw_forces(
+    ax: Axes, result: MountReport, response: MountingResponse, unit: ShownUnit
+) -> None:
     curves = [(response.force_peak, ""), *((r.force_peak, more) for r, more in _beside(result))]
     _draw_curves(ax, response.speeds_rpm, result.mounted.names, curves, unit)
     ax.set_title("Force of each mount")
     ax.set_ylabel(f"{unit.name}, all orders")
 
 
-def _draw_motions(ax: Axes, result: MountReport, response: Response, unit: Unit) -> None:
+def _draw_motions(
+    ax: Axes, result: MountReport, response: MountingResponse, unit: ShownUnit
+) -> None:
     curves = [(response.motion_peak, ""), *((r.motion_peak, more) for r, more in _beside(result))]
     _draw_curves(ax, response.speeds_rpm, result.mounted.point_names, curves, unit)
     ax.set_title("Motion of points")
     ax.set_ylabel(f"{unit.name}, all orders")
 
 
-def _beside(result: MountReport) -> Iterator[tuple[Response, str]]:
+def _beside(result: MountReport) -> Iterator[tuple[MountingResponse, str]]:
     """What is shown beside, with what to add to a name."""
     return ((other.response, f", {fit_name(other.name, 20)}") for other in result.beside)
 
@@ -95,7 +99,7 @@ def _draw_curves(
     speeds_rpm: Real,
     names: Sequence[str],
     curves: Sequence[tuple[Real, str]],
-    unit: Unit,
+    unit: ShownUnit,
 ) -> None:
     """Over speed, a curve for each name; those with a scheme are thin and of the same look."""
     for k, name in enumerate(names[:_MOST_CURVES]):
@@ -114,7 +118,7 @@ def _draw_curves(
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
 
 
-def _draw_meetings(ax: Axes, result: MountReport, response: Response) -> None:
+def _draw_meetings(ax: Axes, result: MountReport, response: MountingResponse) -> None:
     """Orders over speed, as wide as the force of the mount that feels most; modes lie across."""
     hardest = int(np.argmax([worst.value for worst in response.worst_force]))
     force = response.force[:, :, hardest]

@@ -18,7 +18,7 @@ from ...studies.pictures import Banks
 from ...torque.pictures import GasPictures
 from ..bobweights import percent
 from ..sheet import NAMELESS, NEGLIGIBLE, NOTHING, size_text
-from ..units import SI, System, Unit
+from ..units import SI, ShownUnit, System
 from .along_crankshaft import draw_along
 from .axes import divide_cycle
 from .balance_factor import draw_factors
@@ -50,7 +50,7 @@ _TITLES[ABOUT_WITH_GAS] = "About the crank, with gas"
 
 
 @dataclass(frozen=True)
-class Subject:
+class PageSubject:
     """What a page shows: an analysis of all spectra, one of the engine before devices were fitted,
     to compare with, these devices, and studies.
     """
@@ -81,7 +81,7 @@ class Subject:
         has_gas = self.now.spectra.gas is not None
         return ABOUT_WITH_GAS if quantity == ABOUT and has_gas else quantity
 
-    def unit(self, quantity: str) -> Unit:
+    def unit(self, quantity: str) -> ShownUnit:
         return self.system.unit(KINDS[quantity])
 
     def is_unknown(self, quantity: str) -> bool:
@@ -98,12 +98,12 @@ class Subject:
         return {EVERY_KIND[name].label: self.now.spectra[name] for name in _ABOUT[quantity]}
 
 
-def draw_page(subject: Subject, what: str, form: Form) -> bytes:
+def draw_page(subject: PageSubject, what: str, form: Form) -> bytes:
     """The content of a file with a page of pictures; `what` is one of PAGES."""
     return save_figure(make_page(subject, what, form), form)
 
 
-def make_page(subject: Subject, what: str, form: Form) -> Figure:
+def make_page(subject: PageSubject, what: str, form: Form) -> Figure:
     """What `draw_page` writes, as a figure of matplotlib."""
     width, height, layout = PAGES[what]
     with open_figure(width, height, form) as fig:
@@ -124,7 +124,7 @@ def _tell_fitted(remedy: Remedy | None) -> str:
     return f"\nwith scheme {remedy.scheme}{share}{order}"
 
 
-def draw_panel(subject: Subject, what: str, quantity: str) -> str:
+def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
     """One picture of one quantity, as an SVG to stand in a page of ours."""
     width, height = (4.2, 4.0) if what == "polar" else (5.2, 3.1)
     quantity = subject.of_bars(quantity) if what == "spectrum" else quantity
@@ -139,7 +139,7 @@ def draw_panel(subject: Subject, what: str, quantity: str) -> str:
 
 
 # ------------------------------------------------------------------ layouts
-def _lay_out_all(fig: Figure, subject: Subject) -> None:
+def _lay_out_all(fig: Figure, subject: PageSubject) -> None:
     grid = fig.add_gridspec(2, 3, height_ratios=(1.25, 1))
     bars = grid[0, 2].subgridspec(3, 1)
     for k, quantity in enumerate(_VECTORS):
@@ -150,23 +150,23 @@ def _lay_out_all(fig: Figure, subject: Subject) -> None:
         _curves_panel(fig.add_subplot(grid[1, k]), subject, quantity)
 
 
-def _lay_out_polar(fig: Figure, subject: Subject) -> None:
+def _lay_out_polar(fig: Figure, subject: PageSubject) -> None:
     for ax, quantity in zip(fig.subplots(1, 2), _VECTORS, strict=True):
         _locus_panel(ax, subject, quantity)
 
 
-def _lay_out_spectrum(fig: Figure, subject: Subject) -> None:
+def _lay_out_spectrum(fig: Figure, subject: PageSubject) -> None:
     for ax, quantity in zip(fig.subplots(3, 1), PICTURED, strict=True):
         _bars_panel(ax, subject, quantity)
 
 
-def _lay_out_curves(fig: Figure, subject: Subject) -> None:
+def _lay_out_curves(fig: Figure, subject: PageSubject) -> None:
     for ax, quantity in zip(fig.subplots(3, 1, sharex=True), PICTURED, strict=True):
         _curves_panel(ax, subject, quantity)
         ax.label_outer()
 
 
-def _lay_out_orders(fig: Figure, subject: Subject) -> None:
+def _lay_out_orders(fig: Figure, subject: PageSubject) -> None:
     """The largest orders of force and of moment, a row each; of one that has none, words."""
     shown = {quantity: _find_orders(subject, quantity) for quantity in _VECTORS}
     columns = max(map(len, shown.values()))
@@ -187,7 +187,7 @@ def _lay_out_orders(fig: Figure, subject: Subject) -> None:
             draw_order(ax, subject.phasors(quantity)[0], k, quantity, subject.unit(quantity))
 
 
-def _find_orders(subject: Subject, quantity: str) -> list[int]:
+def _find_orders(subject: PageSubject, quantity: str) -> list[int]:
     """Rows of the first four orders of a force or moment that can be seen and matter; none where
     words stand in place of its picture.
     """
@@ -199,12 +199,12 @@ def _find_orders(subject: Subject, quantity: str) -> list[int]:
     return seen[:4]
 
 
-def _lay_out_factor(fig: Figure, subject: Subject) -> None:
+def _lay_out_factor(fig: Figure, subject: PageSubject) -> None:
     moment = None if subject.is_unknown("moment") else subject.system.moment
     draw_factors(fig.subplots(), subject.factors, subject.system.force, moment)
 
 
-def _lay_out_bank(fig: Figure, subject: Subject) -> None:
+def _lay_out_bank(fig: Figure, subject: PageSubject) -> None:
     if subject.banks is None:
         raise ValueError("a page of bank angles needs a study of them")
     largest = float(subject.banks.force.major.max(initial=0))
@@ -220,7 +220,7 @@ def _lay_out_bank(fig: Figure, subject: Subject) -> None:
     draw_roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
 
 
-def _lay_out_inner(fig: Figure, subject: Subject) -> None:
+def _lay_out_inner(fig: Figure, subject: PageSubject) -> None:
     if gas := [inner.with_gas for inner in subject.bent if inner.with_gas is not None]:
         _lay_out_inner_with_gas(fig, gas, subject.system)
         return
@@ -230,6 +230,7 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
         [b.shear for b in subject.bent],
         ("Shear force along the crankshaft", "force"),
         subject.system.force,
+        subject.system.length,
         "steps-post",
     )
     draw_along(
@@ -237,65 +238,71 @@ def _lay_out_inner(fig: Figure, subject: Subject) -> None:
         [b.bending for b in subject.bent],
         ("Bending moment", "moment"),
         subject.system.moment,
+        subject.system.length,
     )
     draw_along(
         bearings,
         [b.bearings for b in subject.bent if b.bearings],
         ("Inertia load of each main bearing", "force"),
         subject.system.force,
+        subject.system.length,
         "",
     )
-    bearings.set_xlabel("z, mm (free end on the left)")
+    bearings.set_xlabel(_name_places(subject.system))
     for ax in (shear, bending):
         ax.label_outer()
+
+
+def _name_places(system: System) -> str:
+    return f"z, {system.length.name} (free end on the left)"
 
 
 def _lay_out_inner_with_gas(fig: Figure, loads: Sequence[LoadsWithGas], system: System) -> None:
     shaft, block, bearings = fig.subplots(3, 1, sharex=True)
     titles = "Bending moment in the crankshaft, with gas", "moment"
-    over = "the cycle"
-    draw_along(shaft, [found.bending for found in loads], titles, system.moment, over=over)
+    over, z = "the cycle", system.length
+    draw_along(shaft, [found.bending for found in loads], titles, system.moment, z, over=over)
     titles = "Bending moment in the block, with gas", "moment"
-    draw_along(block, [found.block_bending for found in loads], titles, system.moment, over=over)
+    draw_along(block, [found.block_bending for found in loads], titles, system.moment, z, over=over)
     titles = "Load of each main bearing, with gas", "force"
-    draw_along(bearings, [found.bearings for found in loads], titles, system.force, "", over)
-    bearings.set_xlabel("z, mm (free end on the left)")
+    draw_along(bearings, [found.bearings for found in loads], titles, system.force, z, "", over)
+    bearings.set_xlabel(_name_places(system))
     for ax in (shaft, block):
         ax.label_outer()
 
 
-def _lay_out_pressure(fig: Figure, subject: Subject) -> None:
+def _lay_out_pressure(fig: Figure, subject: PageSubject) -> None:
     if subject.gas is not None and subject.gas.pressures is not None:
-        draw_pressure(fig.subplots(), subject.gas.pressures)
+        draw_pressure(fig.subplots(), subject.gas.pressures, subject.system.pressure)
 
 
-def _lay_out_p_v(fig: Figure, subject: Subject) -> None:
+def _lay_out_p_v(fig: Figure, subject: PageSubject) -> None:
     if subject.gas is not None and subject.gas.pressures is not None:
-        draw_p_v(fig.subplots(), subject.gas.pressures)
+        draw_p_v(fig.subplots(), subject.gas.pressures, subject.system)
 
 
-def _lay_out_torque(fig: Figure, subject: Subject) -> None:
+def _lay_out_torque(fig: Figure, subject: PageSubject) -> None:
     if subject.gas is not None and subject.gas.torques is not None:
         draw_torque(fig.subplots(), subject.gas.torques, subject.system.moment)
 
 
-def _lay_out_pin(fig: Figure, subject: Subject) -> None:
+def _lay_out_pin(fig: Figure, subject: PageSubject) -> None:
     if subject.gas is not None and subject.gas.pin is not None:
         draw_pin(fig, subject.gas.pin, subject.system.force)
 
 
-def _lay_out_main(fig: Figure, subject: Subject) -> None:
+def _lay_out_main(fig: Figure, subject: PageSubject) -> None:
     if subject.gas is not None and subject.gas.main is not None:
         draw_main(fig, subject.gas.main, subject.system.force)
 
 
 # ------------------------------------------------------------------ panels
-def has_picture(subject: Subject, quantity: str) -> bool:
+def has_picture(subject: PageSubject, quantity: str) -> bool:
     """Whether a force or moment, or what is about the crank, is drawn; else words are written."""
     return not _find_words(subject, quantity)
 
 
-def _find_words(subject: Subject, quantity: str) -> str:
+def _find_words(subject: PageSubject, quantity: str) -> str:
     """What stands in place of a picture: of a moment that is not known, of what is nothing, and of
     what is negligible beside one cylinder's; else nothing.
     """
@@ -310,7 +317,7 @@ def _find_words(subject: Subject, quantity: str) -> str:
     return ""
 
 
-def _is_told(ax: Axes, subject: Subject, quantity: str) -> bool:
+def _is_told(ax: Axes, subject: PageSubject, quantity: str) -> bool:
     """Whether words stand in place of a picture; they are written."""
     if words := _find_words(subject, quantity):
         _write_words(ax, subject.title(quantity), words)
@@ -324,7 +331,7 @@ def _write_words(ax: Axes, title: str, words: str) -> None:
     ax.text(0, 1, words, ha="left", va="top", transform=ax.transAxes)
 
 
-def _locus_panel(ax: Axes, subject: Subject, quantity: str) -> None:
+def _locus_panel(ax: Axes, subject: PageSubject, quantity: str) -> None:
     if _is_told(ax, subject, quantity):
         return
     curve, before = subject.phasors(quantity)
@@ -332,7 +339,7 @@ def _locus_panel(ax: Axes, subject: Subject, quantity: str) -> None:
     ax.set_title(_TITLES[quantity], pad=6 if before is None else None)
 
 
-def _bars_panel(ax: Axes, subject: Subject, quantity: str) -> None:
+def _bars_panel(ax: Axes, subject: PageSubject, quantity: str) -> None:
     quantity = subject.of_bars(quantity)
     if _is_told(ax, subject, quantity):
         return
@@ -344,7 +351,7 @@ def _bars_panel(ax: Axes, subject: Subject, quantity: str) -> None:
     draw_vector_bars(ax, curve, quantity, subject.unit(quantity), before)
 
 
-def _curves_panel(ax: Axes, subject: Subject, quantity: str) -> None:
+def _curves_panel(ax: Axes, subject: PageSubject, quantity: str) -> None:
     if _is_told(ax, subject, quantity):
         return
     ax.set_title(subject.title(quantity))
@@ -357,7 +364,7 @@ def _curves_panel(ax: Axes, subject: Subject, quantity: str) -> None:
     draw_vector_curves(ax, curve, quantity, subject.unit(quantity), before)
 
 
-Layout = Callable[["Figure", Subject], None]
+Layout = Callable[["Figure", PageSubject], None]
 PAGES: dict[str, tuple[float, float, Layout]] = {
     "all": (11.7, 8.3, _lay_out_all),
     "polar": (9.6, 5.6, _lay_out_polar),
@@ -373,7 +380,7 @@ PAGES: dict[str, tuple[float, float, Layout]] = {
     "pin": (9.6, 5.9, _lay_out_pin),
     "main": (9.6, 6.4, _lay_out_main),
 }
-_PANELS: dict[str, Callable[[Figure, Subject, str], None]] = {
+_PANELS: dict[str, Callable[[Figure, PageSubject, str], None]] = {
     "polar": lambda fig, subject, quantity: _locus_panel(fig.subplots(), subject, quantity),
     "spectrum": lambda fig, subject, quantity: _bars_panel(fig.subplots(), subject, quantity),
     "curves": lambda fig, subject, quantity: _curves_panel(fig.subplots(), subject, quantity),

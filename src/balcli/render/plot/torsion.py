@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...torsion.analysis import TorsionAnalysis
-from ...torsion.response import Response
+from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
 from .style import (
     BLUE,
@@ -143,7 +143,7 @@ def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
         ax.axvspan(low, high, color=RED, alpha=0.12, linewidth=0)
 
 
-def _draw_torque(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
+def _draw_torque(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
     """Half of peak to peak of the shafts with the largest; as stress, of those with a diameter,
     where the file limits it.
     """
@@ -164,7 +164,7 @@ def _draw_torque(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
     _shade_barred(ax, result)
 
 
-def _draw_swing(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
+def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
     """Half swing of the first node, and its largest orders."""
     degrees = np.degrees(response.free_end)
     ax.plot(response.speeds_rpm, degrees, color=INK, label="added up in time")
@@ -179,13 +179,13 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
     _shade_barred(ax, result)
 
 
-def _finish(ax: Axes, response: Response, unit: str) -> None:
+def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
     ax.set_xlim(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]) + 1e-9)
     ax.set_ylim(bottom=0)
     ax.set(xlabel="rpm", ylabel=f"± {unit}")
 
 
-def _draw_waterfall(ax: Axes, result: TorsionAnalysis, response: Response) -> None:
+def _draw_waterfall(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
     """Torque of the shaft with the largest: every order a stream up the speeds, as wide as it is
     large.
     """

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.phasors import Phasors
 from ..sheet import number, order_name
-from ..units import Unit
+from ..units import ShownUnit
 from .axes import FINE, set_up_plane
 from .style import BLUE, INK, RED
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _SHOWN_AT = 36  # degrees of the order's own angle: both vectors are then seen apart
 
 
-def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: Unit) -> None:
+def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> None:
     """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
     one = curve.select_orders(curve.orders[[k]])
     order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_SHOWN_AT))
@@ -36,7 +36,7 @@ def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: Unit) -> None:
 
 
 def _draw_vector(
-    ax: Axes, start: complex, vector: complex, s: Unit, look: tuple[str, Any, str]
+    ax: Axes, start: complex, vector: complex, s: ShownUnit, look: tuple[str, Any, str]
 ) -> None:
     """Draw an arrow, and the circle on which it turns."""
     if not vector:

@@ -15,7 +15,7 @@ from ...engine.layout import plan_cylinders
 from ...enginefile.model import EngineFile
 from ...errors import InputError
 from ...forces.quantity import Quantity, evaluate_quantities
-from ..varied_gas import add_gas
+from ..varied_gas import attach_gas_torque
 from .objective import Objective
 
 # One column by its key of the engine file: `throws`, shape (candidates, throws), or `bank_angle` or
@@ -79,7 +79,7 @@ def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
         paths["layout.bank_angle"] = candidates["bank_angle"]
     if "splay" in candidates:
         paths["crank.splay"] = candidates["splay"]
-    return add_gas(build(model, paths), model, paths)
+    return attach_gas_torque(build(model, paths), model, paths)
 
 
 def find_buildable(model: EngineFile, key: str, angles: Array) -> NDArray[np.bool_]:
@@ -105,7 +105,7 @@ def drop_firing_order(model: EngineFile) -> EngineFile:
     return model.model_copy(update={"crank": crank, "layout": layout})
 
 
-def evaluate_engine(
+def evaluate_candidates(
     engine: Engine, objective: Objective[Quantity], count: int
 ) -> tuple[dict[Quantity, Array], Array]:
     """Each quantity and the objective of so many candidates, shape (candidates,) each."""
@@ -126,7 +126,7 @@ def rank_candidates(
     count = len(next(iter(candidates.values())))
     if not count:
         return
-    values, totals = evaluate_engine(build_candidates(model, candidates), objective, count)
+    values, totals = evaluate_candidates(build_candidates(model, candidates), objective, count)
     for k in np.argsort(ranked(totals), kind="stable"):
         if np.isfinite(totals[k]):
             figures = {q.name: float(value[k]) for q, value in values.items()}

@@ -14,7 +14,7 @@ from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...forces.quantity import Quantity
 from .angles import STEP, Curve, Span, find_minima
-from .designs import Found, build_candidates, evaluate_engine, find_buildable, rank_candidates
+from .designs import Found, build_candidates, evaluate_candidates, find_buildable, rank_candidates
 from .even_firing import find_even_angles
 from .objective import Objective
 from .task import Task
@@ -101,7 +101,7 @@ def _find_best_angles(key: Angle, task: Task) -> Array:
             values = np.full(len(angles), np.inf)
             if there.any():
                 engine = build_candidates(model, {key: angles[there]})
-                values[there] = evaluate_engine(engine, alone, int(there.sum()))[1]
+                values[there] = evaluate_candidates(engine, alone, int(there.sum()))[1]
             return values
 
         return evaluate

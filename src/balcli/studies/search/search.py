@@ -22,7 +22,7 @@ from ...forces.orders import merge_orders
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
-from ..parameters import parse as parse_parameter
+from ..parameters import parse_parameter
 from ..quantities import AnyQuantity, choose_of_engine, refuse_unknown_of_chapters
 from .designs import Design, Found, build_candidates, drop_firing_order
 from .even_firing import find_even_angles, fires_evenly
