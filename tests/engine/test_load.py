@@ -201,6 +201,10 @@ def test_standard_input(monkeypatch):
             "articulation.rod: is missing; give it, such as rod = { length = 200 }",
         ),
         (
+            changed(("length = 160", "lenght = 160")),
+            "rod.lenght: unknown key in [rod]; did you mean length?",
+        ),
+        (
             GOOD + "[articulation]\nknuckle_radius = 50\nrod = { mass = 1 }\n",
             "articulation.rod: has neither length nor ratio; give either length or ratio",
         ),
