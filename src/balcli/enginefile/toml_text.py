@@ -13,6 +13,7 @@ from typing import Any
 
 from ..errors import BalcliError, InputError, Problem
 from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
+from .fields import nearest
 
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
@@ -44,7 +45,6 @@ def read_bytes(source: str | Path) -> bytes:
 def find_near_file(source: str | Path) -> str:
     """The file or example that was probably meant, in words; empty if none comes to mind."""
     from .examples import is_example  # after a mistake alone
-    from .fields import nearest
 
     with_ending, asked = f"{source}.toml", Path(source)
     if Path(with_ending).is_file():
