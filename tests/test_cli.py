@@ -169,7 +169,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         ),
         (
             ["analyze", V8, "-o", "/nowhere/x.txt"],
-            "/nowhere/x.txt: cannot be written (No such file or directory)",
+            "/nowhere/x.txt: cannot be written (there is no folder /nowhere)",
         ),
         (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
         (["check", "nowhere"], "nowhere: no such file or folder"),
@@ -731,7 +731,7 @@ IMPORTED = {
     "core.mechanisms": "closed_form distinct fourier harmonics",
     "engine": "arrays assembly build devices figures firing layout load positions rods rules "
     "split_pins",
-    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text unit_table "
+    "enginefile": "exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
     "units unknown_keys",
     "forces": "kinds orders spectrum",
     "render": "analyses analysis_document csv devices figures formats json sheet units view",
