@@ -102,6 +102,18 @@ def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message)
     assert re.sub(r"\{?FILE\.\.\.\}?(\.\.\.)?", "{FILE...}...", err) == usage(command, message)
 
 
+def test_an_option_of_other_commands_is_told_with_them(balcli):
+    status, out, err = balcli("sum", I4, I4, "--only", "force")
+    assert (status, out) == (2, "")
+    assert err.endswith("Error: No such option: --only. Commands that have it: analyze, compare\n")
+    *_, last = balcli("sweep", I4, "--units=imperial").err.splitlines()
+    assert last.startswith("Error: No such option: --units")
+    assert last.endswith(
+        ". Commands that have it: analyze, compare, sum, torque, plot, report, balance, field, "
+        "mounts"
+    )
+
+
 @pytest.mark.parametrize(
     "args",
     [
