@@ -136,6 +136,8 @@ def _criticals(result: TorsionAnalysis) -> Grid:
         for each in shown
     )
     note = "Those that do most work first; share: of all work done on the mode."
+    if excitation := result.system.excitation:
+        note += f" Of orders to {order_name(float(excitation.orders.max()))}."
     if result.response is None and result.system.rated_rpm:
         note += f" To {number(BEYOND * result.system.rated_rpm)} rpm, {BEYOND:g} times the file's."
     left = len(result.criticals) - len(shown)

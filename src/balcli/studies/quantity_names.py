@@ -112,10 +112,10 @@ TORSION = Chapter(
         Form(
             "shaft.NAME.torque",
             "N·m",
-            "largest vibratory torque of a shaft",
+            "largest vibratory torque of a shaft, from half to 1.5 times the speed",
             "torsion",
         ),
-        Form("shaft.NAME.stress", "Pa", "its largest vibratory stress", "torsion"),
+        Form("shaft.NAME.stress", "Pa", "its largest vibratory stress there", "torsion"),
     ),
 )
 CHAPTERS = (ENGINE, GUIDE, CYCLE, MOUNTS, TORSION)
