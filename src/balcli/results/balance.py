@@ -11,6 +11,7 @@ import numpy as np
 
 from ..engine.build import Engine, check_engine
 from ..errors import check_type
+from ..forces.kinds import ROLL_TOTAL
 from ..forces.orders import merge_orders
 from ..result import Result
 from ..sizing.options import SchemeOptions
@@ -100,9 +101,10 @@ def balance(
     practical = find_practical(engine, remedy, tools)
     balanced = fit_devices(engine, remedy)
     before, after = analyze(engine, orders, SHOWN), analyze(balanced, orders, SHOWN)
-    if orders is None and not np.array_equal(before.orders, after.orders):
+    if engine.gas is not None or not np.array_equal(before.orders, after.orders):
         both = merge_orders(before.orders, after.orders)
-        before, after = analyze(engine, both, SHOWN), analyze(balanced, both, SHOWN)
+        shown = SHOWN if engine.gas is None else SHOWN | {ROLL_TOTAL.name}
+        before, after = analyze(engine, both, shown), analyze(balanced, both, shown)
     note = _UNEVEN if engine.ripple else ""
     every = orders is not None
     return Balance(remedy, before, after, practical, tools, note, every_order=every)

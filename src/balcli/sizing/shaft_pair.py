@@ -22,7 +22,6 @@ from .remedy import Remedy
 from .residual import (
     BACKWARD_MOMENT,
     FORWARD_MOMENT,
-    ROLL,
     NothingToBalanceError,
     Residual,
     choose_residual,
@@ -80,9 +79,7 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
     return fitting.add_details(
         *_describe_places(places, group),
         Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT), group),
-        Detail("roll left", "moment", left.size(ROLL), group),
-        Detail("roll before", "moment", residual.size(ROLL), group),
-    )
+    ).describe_roll(residual, group)
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
