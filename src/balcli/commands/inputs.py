@@ -89,17 +89,6 @@ def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
         warn_of_unknown_moments(name)
 
 
-def warn_of_passed_speeds(name: str, quantities: Iterable[str]) -> None:
-    """Say on standard error over which speeds quantities of shafts are the largest: what resonates
-    on the way there is not in them.
-    """
-    if shafts := [quantity for quantity in quantities if quantity.startswith("shaft.")]:
-        warn(
-            f"{name}: {shafts[0]} is the largest from half to 1.5 times the engine's speed; what "
-            "resonates at other speeds, which are passed, `balcli torsion --speeds` tells"
-        )
-
-
 def warn_of_unknown_moments(name: str) -> None:
     """Say on standard error that the moments of this file are not known, and why."""
     warn(f"{name}: {MOMENTS_UNKNOWN}")

@@ -117,7 +117,7 @@ def scatter(
     form = text_format(output, form)
     from ..studies.quantities import parse_quantities, sort_scattered
     from ..studies.stated_tolerances import parse_percentage, parse_tolerances
-    from .inputs import read_engine, warn_of_passed_speeds
+    from .inputs import read_engine
 
     within = parse_tolerances(mass, length, angle)
     share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
@@ -128,7 +128,6 @@ def scatter(
         raise BalcliError(
             "--stiffness-scatter: is of mounts and shafts, and none of these quantities asks"
         )
-    warn_of_passed_speeds(name_file(path), [each.name for each in asked.of_parts])
     if quantity is None:
         known = _leave_out_unknown(engine, asked.by_order, name_file(path))
         asked = asked._replace(by_order=known)

@@ -80,7 +80,6 @@ def search(
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
     from ..studies.search.write import write_design
-    from .inputs import warn_of_passed_speeds
 
     if require not in ("", "even-firing"):
         message = f'"{require}": only even-firing can be required'
@@ -91,7 +90,6 @@ def search(
     if write is not None:
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
-    warn_of_passed_speeds(name, [quantity.name for quantity in goal.quantities])
     watching = reporting_until_stopped if over in ("throws", "firing_order") else reporting
     with watching("arrangements") as progress:
         found = search_arrangements(model, over, goal, top, bool(require), progress)

@@ -119,13 +119,12 @@ def sweep(
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out
-    from .inputs import warn_of_passed_speeds, warn_of_unknown_moments
+    from .inputs import warn_of_unknown_moments
     from .sweep_folder import write_parts
 
     job = read_sweep(path, vary, quantity)
     if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
         warn_of_unknown_moments(job.name)
-    warn_of_passed_speeds(job.name, job.columns)
     if drawn is not None:
         check_drawable(job)
     kept: list[Chunk] | None = [] if drawn else None
