@@ -68,6 +68,33 @@ def test_figures_of_lists_and_dampers_vary(tmp_path):
     assert one < two
 
 
+@pytest.mark.parametrize(
+    ("figure", "told"),
+    [
+        (
+            "torsion.rear.1.bore = 90",
+            "torsion.rear.1: has a bore of 90 mm and a diameter of 85; the bore is the smaller of "
+            "both",
+        ),
+        (
+            "torsion.rear.1.length = 100",
+            "torsion.rear.1: has stiffness and length; leave one of them out",
+        ),
+        (
+            "torsion.front.2.damper.stiffness = 10000",
+            "torsion.front.2.damper: is viscous, which has no stiffness",
+        ),
+    ],
+)
+def test_a_figure_that_contradicts_its_table_is_refused(figure, told, tmp_path):
+    """A bore wider than its shaft had a stress below 0."""
+    own = 'damper = { kind = "viscous", inertia = 20000, damping = 4 }\n'
+    path = tmp_path / "damped.toml"
+    path.write_text(write_diesel(extra=GAS).replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
+    options = ("--vary", figure.replace(" ", ""), "-q", "shaft.flywheel.stress")
+    assert refusal("sweep", path, *options) == f"{path}: {figure}: {told}"
+
+
 def test_without_gas_figures_of_the_engine_vary_too(tmp_path):
     path = tmp_path / "bare.toml"
     path.write_text(write_diesel(), encoding="utf-8")
