@@ -70,6 +70,16 @@ def test_the_highest_may_lie_beside_the_highest_place():
     assert highest == pytest.approx([10.4])
 
 
+def test_of_two_peaks_in_an_interval_the_one_that_looks_lower_may_be_higher():
+    """Eighths of the interval meet the lower one, 1 at 2, and miss the higher one, 1.01 at 5.5."""
+
+    def judge(x, _):
+        return np.maximum(1 - 0.1 * (x - 2) ** 2, 1.01 - 0.1 * (x - 5.5) ** 2)
+
+    at, height = find_peaks_between(judge, np.zeros(1), np.full(1, 8.0), np.zeros(1, np.intp))
+    assert (at[0], height[0]) == (pytest.approx(5.5), pytest.approx(1.01, rel=1e-12))
+
+
 def test_places_alone_are_where_no_interval_is():
     one = np.array([[3.0, 0.0]])
     best, highest = find_highest(None, np.array([7.0]), one, one[0], 0.9)

@@ -256,6 +256,17 @@ def test_the_mean_torque_leans_on_the_mounts(report):
     assert about == pytest.approx([0, 0, -mean], rel=1e-6, abs=1e-6)
 
 
+@pytest.mark.parametrize(("share", "leans"), [("1", 0.85), ("0", 0.75)])
+def test_friction_does_not_lean_on_the_mounts(report, share, leans):
+    """It acts between parts of the body, which feels the brake torque, that of the load; with a
+    misfire, whose friction nobody knows, the indicated one.
+    """
+    text = GAS.replace("gas = 0", f"gas = {share}") + "mechanical_efficiency = 0.85\n"
+    mean = 9e5 * 4 * np.pi / 4 * 0.08**2 * 0.09 / (4 * np.pi)
+    found = report(text + RandomBody(6, 4).text).response.loads.mean
+    assert found == pytest.approx(-leans * mean, rel=1e-6)
+
+
 def find_constant_load_speed(gas, inertia, mean):
     """Crank speed (rad/s) at equal steps over two turns under a load that is always alike: energy is
     what the gas has done beyond the mean; at the first step that of `mean`.

@@ -254,6 +254,20 @@ def test_a_weight_in_a_plane_counts_in_that_plane_alone():
             assert at == {True: pytest.approx(0.03, rel=1e-12), False: 0}
 
 
+@pytest.mark.parametrize(
+    ("beside", "planes", "lost"),
+    [(60, None, True), (60, "throws", True), (0, None, False), (0, (0.0,), False)],
+)
+def test_one_plane_does_not_take_the_moment_of_a_weight_beside_it(beside, planes, lost):
+    """A force that a factor leaves has a lever about a point of reference beside it, no moment of
+    the crank's own: nothing is said of that.
+    """
+    weight = f"[[counterweight]]\nunbalance = 40000\nangle = 180\nposition = {beside}\n"
+    text = f"{TWIN}[frame]\nreference = [0, 0, 80]\n{weight}"
+    remedy = size(build_text(text), "factor", SchemeOptions(factor=(0.3,), planes=planes))
+    assert remedy.note.startswith("one plane, or planes at the same z") == lost
+
+
 def test_shafts_of_the_file_are_no_counterweights():
     shaft = "[[shaft]]\nratio = 1\nunbalance = 9000\n"
     assert fit(TWIN + shaft).counterweights == fit(TWIN).counterweights

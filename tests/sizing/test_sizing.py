@@ -381,6 +381,13 @@ def test_the_geometry_of_a_pair_in_the_details():
     assert told["moment left"] == pytest.approx(after.moment.major[0], rel=1e-9)
 
 
+def test_shafts_on_the_crank_axis_have_no_direction_there():
+    """One was told to stand at 0 mm, in a direction of 180 degrees."""
+    told = figures(size(build(parse(SMALL["four"])), "two-shaft"), "order 2")
+    assert (told["radius against crank"], told["radius with crank"]) == (0, 0)
+    assert not {"direction with crank", "direction against crank", "radius ratio"} & set(told)
+
+
 def test_four_shafts_are_for_the_orders_that_are_there():
     assert {detail.group for detail in size(build(parse(SMALL["four"])), "four-shaft").details} == {
         "order 2"

@@ -74,6 +74,92 @@ def test_cycles_that_cannot_be_are_told_with_their_figures(tmp_path):
     assert told.startswith(f"{path}: gas.burn_duration = 200: 2 mistakes\n")
 
 
+KINDS = {
+    "wiebe": 'cycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n',
+    "otto": 'cycle = "otto"\ncompression_ratio = 10\nimep = 9\n',
+    "dual": 'cycle = "dual"\ncompression_ratio = 10\nimep = 9\nmax_pressure = 50\n',
+    "diagram": 'indicator = "p.csv"\nimep = 9\ncompression_ratio = 10\n',
+    "harmonics": 'harmonics = "h.csv"\n',
+    "harmonics, one diagram": 'harmonics = "h.csv"\n[cylinder.3]\nindicator = "p.csv"\n',
+}
+FIGURES = {  # of [gas], at which each may stand
+    "compression_ratio": (9, 11),
+    "compression_index": (1.3, 1.35),
+    "intake": (0.9, 1.1),
+    "expansion_index": (1.25, 1.3),
+    "exhaust": (1.1, 1.2),
+    "crankcase": (1, 1.2),
+    "imep": (8, 9.5),
+    "bmep": (7, 8),
+    "heat": (900, 1000),
+    "max_pressure": (52, 55),
+    "burn_start": (-10, -8),
+    "burn_duration": (40, 50),
+    "burn_shape": (1, 2),
+    "exhaust_opens": (130, 140),
+    "intake_closes": (570, 580),
+    "phase": (-1, 1),
+}
+
+
+@pytest.mark.parametrize("strokes", [2, 4])
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
+    """The rest is no number of this file: the same figures in every row told nothing of that."""
+    cycle = np.arange(0, 180 * strokes + 1, 10)
+    pressure = 1 + 40 * np.exp(-(((cycle - 20) / 60) ** 2))
+    pressure[-1] = pressure[0]
+    rows = "".join(f"{a},{p!r}\n" for a, p in zip(cycle, pressure.tolist(), strict=True))
+    (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}", encoding="utf-8")
+    (tmp_path / "h.csv").write_text("order,cos,sin\n0,2,0\n1,3,4\n", encoding="utf-8")
+    path = tmp_path / "four.toml"
+    text = PETROL_FOUR.partition("[gas]")[0].replace("[layout]", f"[layout]\nstrokes = {strokes}")
+    if strokes == 2:
+        text = text.replace("[0, 180, 180, 0]", "[0, 90, 270, 180]")
+    path.write_text(f"{text}[gas]\n{KINDS[kind]}", encoding="utf-8")
+    told = json.loads(run_here("numbers", path, "-f", "json").out)["numbers"]
+    known = {number["path"].removeprefix("gas.") for number in told}
+    for key, values in FIGURES.items():
+        vary = f"gas.{key}={values[0]},{values[1]}"
+        if kind != "harmonics" and key == "bmep":
+            vary = f"gas.mechanical_efficiency=0.9 --vary {vary}"
+        done = run_here("sweep", path, "--vary", *vary.split(), "-q", "torque.max,gas.1.sin")
+        if key in known:
+            assert done.status == 0, done.err
+            first, second = done.out.splitlines()[1:]
+            assert first.split(",")[-2:] != second.split(",")[-2:]
+        else:
+            assert done.err == f"balcli: gas.{key}: changes nothing of the gas in this file\n"
+
+
+@pytest.mark.parametrize(
+    ("vary", "told"),
+    [
+        (("gas.imep=8,9", "gas.heat=900"), "gas.imep and gas.heat say the same; vary one of them"),
+        (
+            ("gas.bmep=8",),
+            "{}: gas.bmep = 8: gas: has bmep without mechanical_efficiency; give both, or imep",
+        ),
+    ],
+)
+def test_goals_that_contradict_each_other_are_refused(vary, told, tmp_path):
+    """The first alone counted; nothing counted, and cells stayed empty."""
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR, encoding="utf-8")
+    varied = (word for one in vary for word in ("--vary", one))
+    assert refusal("sweep", path, *varied, "-q", "torque.mean") == told.format(path)
+
+
+def test_a_search_puts_one_goal_in_place_of_another(tmp_path):
+    """The file says imep; a search for the heat said that it has both."""
+    path = tmp_path / "four.toml"
+    path.write_text(FOUR, encoding="utf-8")
+    over, minimise = ("--over", "gas.heat=900:1000"), ("--minimise", "torque.max")
+    done = run_here("search", path, *over, *minimise, "-f", "json")
+    row = run_here("sweep", path, "--vary", "gas.heat=900", "-q", "torque.max").out.split()[1]
+    assert json.loads(done.out)["results"][0]["objective"] == float(row.split(",")[1])
+
+
 def test_what_no_gas_is_asked_of_does_not_build_it(tmp_path, monkeypatch):
     path = tmp_path / "four.toml"
     path.write_text(FOUR, encoding="utf-8")

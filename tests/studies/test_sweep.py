@@ -83,6 +83,8 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
             ),
         ),
         (VEE, ("piston.offset=-2,0,2", "rod.length=150,160")),
+        (VEE + "[cylinder.2]\nrod_cg = 46\n", ("bobweight.oil=0,0.1",)),
+        (VEE, ("layout.stagger=0,20", "cylinder.4.position=3,4", "crank.spacing=90,100")),
         (VEE, ("rod.inertia=1000,5000", "operation.speed=1000,3000", "crank.throw_mass=0,1")),
         (
             VEE + MORE,

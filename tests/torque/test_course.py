@@ -28,6 +28,7 @@ from balcli.torque.course import (
     find_torque_curves,
     silence,
 )
+from balcli.torque.quantity import CycleQuantity, evaluate_engine
 
 HALVES = np.arange(25)
 FLYWHEEL = "[flywheel]\ninertia = {}\n"
@@ -221,12 +222,17 @@ def test_the_inertia_torque_is_half_the_slope_of_the_inertia():
     assert find_inertia_torque(found)(angle) == pytest.approx(want, abs=1e-6 * np.abs(want).max())
 
 
-def test_a_crank_that_would_stand_still_is_refused():
+def test_of_a_crank_that_would_stand_still_all_is_told_but_its_speed():
     slow = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
-    with pytest.raises(
-        BalcliError, match=r"^the shaft stalls at \d+\.\d°: with this inertia it ne"
-    ):
-        analyze_torque(slow)
+    found = analyze_torque(slow)
+    assert re.match(
+        r"the shaft stalls at \d+\.\d°: with this inertia it needs a mean speed above \d+",
+        found.flywheel.stall,
+    )
+    assert found.flywheel.speed is None
+    assert found.mean_torque == analyze_torque(replace(slow, speed_rpm=3000.0)).mean_torque
+    with pytest.raises(BalcliError, match=r"^the shaft stalls at"):
+        evaluate_engine(slow, [CycleQuantity("fluctuation")])
 
 
 def test_a_crank_that_would_stand_still_is_told_what_it_needs():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.commands import run_here
 from support.diesel import write_diesel
+from support.paths import ENGINES
 
 from balcli.core.cycle_peaks import find_swing
 from balcli.engine.build import build
@@ -135,6 +136,22 @@ def test_beside_a_single_speed_nothing_is_looked_for(monkeypatch):
     for shaft in told["response"]["shafts"]:
         assert shaft["worst"]["speed_rpm"] == 1790
         assert [shaft["worst"]["half_peak_to_peak_Nm"]] == shaft["half_peak_to_peak_Nm"]
+
+
+def test_a_limit_that_the_largest_stress_alone_passes_bars_its_speed():
+    """Orders add up to it beside all speeds asked for, resonances and criticals."""
+    plain = (ENGINES / "i6_diesel.toml").read_text(encoding="utf-8")
+
+    def ask(limit):
+        text = plain.replace("limit = 50 ", f"limit = {limit!r} ")
+        told = run_here("torsion", "-", "--speeds", "1000:2500:25", "-f", "json", stdin=text).out
+        shafts = (s["worst"] for s in json.loads(told)["response"]["shafts"])
+        return json.loads(told)["barred_rpm"], max(shafts, key=lambda w: w.get("stress_Pa", 0))
+
+    _, worst = ask(50)
+    (span,), _ = ask(worst["stress_Pa"] / 1e6 * (1 - 1e-5))
+    assert span[0] < worst["speed_rpm"] < span[1]
+    assert ask(worst["stress_Pa"] / 1e6 * (1 + 1e-5))[0] == []
 
 
 def test_the_top_of_a_wide_resonance_between_the_speeds_is_barred():

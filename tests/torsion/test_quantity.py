@@ -44,6 +44,17 @@ def test_each_variant_is_what_the_command_says(diesel):
         assert max(flywheel["stress_Pa"]) / highest == pytest.approx(stress / torque, rel=1e-12)
 
 
+def test_search_and_scatter_say_over_which_speeds_a_shaft_is_loaded(diesel):
+    """A shaft so soft that it resonates below this range is no better for it."""
+    told = "Of shafts: the largest from half to 1.5 times the engine's speed; what resonates at"
+    over = ("--over", "torsion.rear.1.stiffness=1e6:2e6", "--minimise", "shaft.flywheel.torque")
+    assert told in run_here("search", diesel, *over).out
+    options = ("--quantity", "torsion.1.Hz,shaft.flywheel.torque", "--samples", "3")
+    assert told in run_here("scatter", diesel, *options).out
+    options = ("--quantity", "torsion.1.Hz", "--samples", "3")
+    assert told not in run_here("scatter", diesel, *options).out
+
+
 def test_figures_of_lists_and_dampers_vary(tmp_path):
     own = 'damper = { kind = "rubber", inertia = 20000, stiffness = 40000, loss = 0.1 }\n'
     path = tmp_path / "damped.toml"
@@ -55,6 +66,33 @@ def test_figures_of_lists_and_dampers_vary(tmp_path):
     assert low < high
     (_, one), (_, two) = sweep(path, "torsion.throw_stiffness.3=1e6,2e6", "torsion.2.Hz")
     assert one < two
+
+
+@pytest.mark.parametrize(
+    ("figure", "told"),
+    [
+        (
+            "torsion.rear.1.bore = 90",
+            "torsion.rear.1: has a bore of 90 mm and a diameter of 85; the bore is the smaller of "
+            "both",
+        ),
+        (
+            "torsion.rear.1.length = 100",
+            "torsion.rear.1: has stiffness and length; leave one of them out",
+        ),
+        (
+            "torsion.front.2.damper.stiffness = 10000",
+            "torsion.front.2.damper: is viscous, which has no stiffness",
+        ),
+    ],
+)
+def test_a_figure_that_contradicts_its_table_is_refused(figure, told, tmp_path):
+    """A bore wider than its shaft had a stress below 0."""
+    own = 'damper = { kind = "viscous", inertia = 20000, damping = 4 }\n'
+    path = tmp_path / "damped.toml"
+    path.write_text(write_diesel(extra=GAS).replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
+    options = ("--vary", figure.replace(" ", ""), "-q", "shaft.flywheel.stress")
+    assert refusal("sweep", path, *options) == f"{path}: {figure}: {told}"
 
 
 def test_without_gas_figures_of_the_engine_vary_too(tmp_path):

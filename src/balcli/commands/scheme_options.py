@@ -70,7 +70,9 @@ Measured = Annotated[
 ]
 Roll = Annotated[
     str | None,
-    optional("zero", "Place two shafts such that they cancel the roll of this order, too."),
+    optional(
+        "zero", "Place two shafts such that they cancel the roll of inertia of this order, too."
+    ),
 ]
 
 

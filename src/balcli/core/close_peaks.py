@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .singular_values import Indices, Real
 
@@ -50,7 +51,9 @@ def find_peaks_between(
     functions are looked at. The highest of each function is good to 1e-8 where it is round and its
     interval no wider than the peak; intervals that do not have it are given up.
 
-    The peak is enclosed ever closer; the last place is the vertex of a parabola.
+    Every peak that shows at an eighth of its interval and may be the highest is enclosed ever
+    closer; the last place is the vertex of a parabola. What rises and falls between two of these
+    places, more than the function does beside them, is not seen.
 
     Args:
         judge: places (places, some), each column in an interval, and the functions these belong to
@@ -64,9 +67,9 @@ def find_peaks_between(
     for _ in range(_ROUNDS):
         step = (high - low) / _PARTS
         heights = judge(low + (high - low) * shares, which[going])
-        top = heights.argmax(axis=0)
-        place = low + step * (1 + top)
-        here, around = heights.max(axis=0), _take_around(heights, top)
+        top, at = np.nonzero(_find_tops(heights))
+        going, step, place = going[at], step[at], low[at] + step[at] * (1 + top)
+        here, around = heights[top, at], _take_around(heights[:, at], top)
         _raise(best, highest, going, place, here)
         of_function = np.full(which.max(initial=0) + 1, -np.inf)
         np.maximum.at(of_function, which, highest)
@@ -82,6 +85,13 @@ def find_peaks_between(
     return best, highest
 
 
+def _find_tops(heights: Real) -> NDArray[np.bool_]:
+    """Which of the heights (places, intervals) are no lower than their neighbours."""
+    ends = np.full((1, heights.shape[1]), -np.inf)
+    rises = np.diff(np.concatenate([ends, heights, ends]), axis=0) >= 0
+    return rises[:-1] & ~rises[1:]
+
+
 def _take_around(heights: Real, top: Indices) -> Real:
     """Three of the heights (places, intervals) of each interval: that at the top and its
     neighbours, or the three at the end if it is there.
@@ -91,8 +101,9 @@ def _take_around(heights: Real, top: Indices) -> Real:
 
 
 def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real) -> None:
-    """Puts the places and heights of some intervals into best and highest (intervals,) where they
-    are higher.
+    """Puts the places and heights of some intervals, a few of each, into best and highest
+    (intervals,) where they are higher.
     """
-    higher = height > highest[going]
+    rising = np.argsort(height)  # the highest last
+    higher = rising[height[rising] > highest[going[rising]]]
     best[going[higher]], highest[going[higher]] = place[higher], height[higher]

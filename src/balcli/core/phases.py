@@ -100,8 +100,9 @@ class Phases:
             ahead_side = Product(forward[:, 0], ahead)
             astern_side = Product(mirrored[:, 0].conj(), astern.conj())
             return FactoredPhasors(self.orders, (ahead_side, astern_side), noise)
-        both = np.array(self._add(self._planar, (forward, mirrored), arms))
-        np.conjugate(both[1], out=both[1])
+        ahead, astern = self._add(self._planar, (forward, mirrored), arms)
+        both: Complex = np.empty((2, *np.broadcast_shapes(ahead.shape, astern.shape)), complex)
+        both[0], both[1] = ahead, astern.conj()
         return Phasors(self.orders, both, noise)
 
     def add_scalars(self, series: Series) -> Phasors:

@@ -271,7 +271,8 @@ class Assembly:
         """z of each throw, in the middle of its rods, shape (throws, *trailing)."""
         middles: dict[int, Figure] = dict.fromkeys(range(self.plan.throws), 0.0)
         for c in self.plan.cells:
-            middles[c.throw] += self.places[c.number] - self._leans_mm[c.number] / 1e3
+            own = self.places[c.number] - self._leans_mm[c.number] / 1e3
+            middles[c.throw] = middles[c.throw] + own  # of any shape
         return column([z / self.plan.rods_on_throw for z in middles.values()], self.rank)
 
     @cached_property

@@ -259,6 +259,13 @@ class Engine:
         return tuple(sorted(number for number, own in shares if not own.share))
 
     @property
+    def mechanical_efficiency(self) -> float | None:
+        """Brake over indicated work; None: the file does not say, or a cylinder has no gas, and yet
+        its friction.
+        """
+        return None if self.gas is None or self.without_gas else self.gas.mechanical_efficiency
+
+    @property
     def splay_for_even_firing(self) -> float | None:
         """`crank.splay` (deg) with which several throws would make the cylinders fire evenly in the
         file's order; None where none would, or the file says at which intervals they fire.

@@ -22,7 +22,7 @@ from ..core.gas_cycle import find_cycle_mistakes as cycle_mistakes
 from ..core.phasors import Figure
 from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import NumberColumns, locate_beside, read_columns
-from ..enginefile.gas_tables import DIAGRAM_KEYS, GOALS, Gas
+from ..enginefile.gas_tables import DIAGRAM_KEYS, Gas
 from ..enginefile.units import BAR
 from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
@@ -91,6 +91,7 @@ class _Builder:
     # -------------------------------------------------------------- what does not fit together
     def _check_tables(self) -> Iterator[Problem]:
         model, gas = self.parts.model, self.gas
+        yield from (Problem("gas", fault) for fault in gas.contradictions())  # of what varies
         if self._bore is None:
             yield Problem("piston.bore", "is missing; gas presses on its area, such as bore = 86")
         if self.strokes == 4 and self.parts.order is None and len(self.parts.numbers) > 1:
@@ -260,14 +261,12 @@ class _Builder:
 
 
 def _vary(gas: Gas, varied: Mapping[str, Figure]) -> Gas:
-    """With other figures in place of some; a goal in place of another one."""
+    """With other figures in place of some, and of what says the same."""
     if not varied:
         return gas
-    update: dict[str, float | None] = {key: float(value) for key, value in varied.items()}
-    if new := [key for key in GOALS if key in varied]:
-        kept = ("max_pressure",) if gas.cycle == "dual" else ()
-        update = dict.fromkeys((g for g in GOALS if g not in (*new, *kept)), None) | update
-    return gas.model_copy(update=update)
+    displaced = {rival for key in varied for rival in gas.rivals(key)}
+    said = {key: getattr(gas, key) for key in gas.model_fields_set - displaced}
+    return Gas.model_construct(**said | {key: float(value) for key, value in varied.items()})
 
 
 def find_goal(gas: Gas) -> Goal:

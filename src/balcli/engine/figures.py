@@ -84,12 +84,12 @@ def _find_rivals(
     """Names of what else a table (at `start`) gives that says the same as its figure `key`, which
     varies.
     """
+    for other in varied:
+        if any(f"{other}.".startswith(f"{start}.{rival}.") for rival in table.rivals(key)):
+            raise BalcliError(f"{start}.{key} and {other} say the same; vary one of them")
     given = [other for other, value in table if value is not None]
     for choice in table.choices:
         rivals = choice.rivals(key)
-        for other in varied:
-            if any(f"{other}.".startswith(f"{start}.{rival}.") for rival in rivals):
-                raise BalcliError(f"{start}.{key} and {other} say the same; vary one of them")
         displaced = [other for other in given if other in rivals]
         group = [other for group in choice.groups if key in group for other in group]
         if displaced and not {*group} <= {key, *given}:

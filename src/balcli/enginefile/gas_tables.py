@@ -26,12 +26,13 @@ Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
 Exponent = Annotated[float, Number(PLAIN, least=0, most=100)]
 Inertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 
-GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
+_GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
 DIAGRAM_KEYS = ("zero", "phase", "pressure")
+_WIEBE_KEYS = ("burn_start", "burn_duration", "burn_shape")
 _CYCLE_KEYS = (
     *("compression_index", "expansion_index", "intake", "exhaust"),
     *("exhaust_opens", "intake_closes", "bmep", "max_pressure", "cut_off", "heat"),
-    *("burn_start", "burn_duration", "burn_shape"),
+    *_WIEBE_KEYS,
 )
 
 
@@ -113,17 +114,45 @@ class Gas(FileTable):
     )
     crankcase: Pressure = Field(1.0, description="absolute, under the pistons", examples=[1.1])
 
+    @property
+    def goals(self) -> tuple[str, ...]:
+        """Keys of which exactly one tells how much is burnt; the highest pressure of a dual cycle
+        stands beside it.
+        """
+        return tuple(key for key in _GOALS if key != "max_pressure" or self.cycle != "dual")
+
+    def rivals(self, key: str) -> tuple[str, ...]:
+        goals = self.goals if key in self.goals else ()
+        return (*super().rivals(key), *(goal for goal in goals if goal != key))
+
     def contradictions(self) -> Iterator[str]:
         given = self.model_fields_set
         if self.cycle is None:
             yield from self._misplaced(given)
             return
-        wiebe = [key for key in ("burn_start", "burn_duration", "burn_shape") if key in given]
+        wiebe = [key for key in _WIEBE_KEYS if key in given]
         if wiebe and self.cycle != "wiebe":
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
         if self.compression_ratio is None:
             yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
         yield from self._goals(given)
+
+    def list_idle_keys(self, strokes: int, own_diagrams: bool) -> set[str]:
+        """Those of figures that change nothing of the gas in an engine of so many strokes;
+        `own_diagrams`: whether cylinders have diagrams of their own.
+        """
+        idle: set[str] = set()
+        if self.cycle is None:
+            idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
+        elif self.cycle != "wiebe":
+            idle.update(_WIEBE_KEYS)
+        if strokes == 2:
+            idle.update(("exhaust", "intake_closes"))
+        if not (self.indicator or own_diagrams):
+            idle.add("phase")
+            if self.harmonics:
+                idle.add("crankcase")
+        return idle
 
     def _misplaced(self, given: set[str]) -> Iterator[str]:
         """Keys of a computed cycle without one."""
@@ -135,13 +164,10 @@ class Gas(FileTable):
 
     def _goals(self, given: set[str]) -> Iterator[str]:
         """Exactly one figure tells how much is burnt; a dual cycle has its highest pressure too."""
-        goals = [key for key in GOALS if key in given]
-        if self.cycle == "dual":
-            if self.max_pressure is None:
-                yield "needs max_pressure for a dual cycle, at which it burns on"
-            goals = [key for key in goals if key != "max_pressure"]
-        wanted = [key for key in GOALS if key != "max_pressure" or self.cycle != "dual"]
-        *front, last = wanted
+        if self.cycle == "dual" and self.max_pressure is None:
+            yield "needs max_pressure for a dual cycle, at which it burns on"
+        goals = [key for key in self.goals if key in given]
+        *front, last = self.goals
         choice = f"give one of {', '.join(front)} and {last}"
         if len(goals) > 1:
             yield f"has {join_words(goals)}; {choice}"

@@ -73,14 +73,21 @@ class FileTable(BaseModel):
 
     @model_validator(mode="after")
     def _consistent(self) -> "FileTable":
-        found = [*mistakes_of_choice(type(self), self.model_fields_set), *self.contradictions()]
-        if found:
+        if found := self.list_faults():
             raise ValueError("; ".join(found))
         return self
+
+    def list_faults(self) -> list[str]:
+        """All that its keys and figures say against each other."""
+        return [*mistakes_of_choice(type(self), self.model_fields_set), *self.contradictions()]
 
     def contradictions(self) -> Iterator[str]:
         """What the fields of this table say against each other."""
         yield from ()
+
+    def rivals(self, key: str) -> tuple[str, ...]:
+        """Keys of what says the same as this one, of which only one may be given."""
+        return tuple(rival for choice in self.choices for rival in choice.rivals(key))
 
     @classmethod
     def keys(cls) -> dict[str, FieldInfo]:

@@ -85,7 +85,7 @@ def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, An
             place[_find_member(place, given, last, path)] = value
             continue
         start = path.removesuffix(last)
-        for rival in _find_rivals(given, last):
+        for rival in given.rivals(last) if isinstance(given, FileTable) else ():
             if start + rival not in changes:
                 place.pop(rival, None)
         place[last] = value
@@ -120,8 +120,3 @@ def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
     if key.isdecimal() and 0 < int(key) <= len(place):
         return int(key) - 1
     raise InputError([Problem(path, f"there is no {key}; the file has {', '.join(labels[:8])}")])
-
-
-def _find_rivals(given: Any, key: str) -> tuple[str, ...]:
-    choices = given.choices if isinstance(given, FileTable) else ()
-    return tuple(rival for choice in choices for rival in choice.rivals(key))

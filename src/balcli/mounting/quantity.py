@@ -11,7 +11,6 @@ import numpy as np
 from ..core.speeds import RPM
 from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile, FileTable, label_table
-from ..enginefile.mounting_tables import Body, find_tensor_faults
 from ..errors import BalcliError, InputError, Problem
 from ..forces.target_quantity import (
     Subject,
@@ -87,7 +86,8 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
     (`mount.left.stiffness.2`, `body.mass`); all others are left alone.
 
     Raises:
-        InputError: an inertia tensor that no body has.
+        InputError: what a table then says against itself, such as an inertia tensor that no body
+            has.
     """
     tables = dict(model.tables())
     changed: dict[str, FileTable] = {}
@@ -96,9 +96,11 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
         if _begin(start) in _TABLES:
             table = changed.get(start, tables[start])
             changed[start] = _change(table, path[len(start) + 1 :], value)
-    body = changed.get("body", model.body)
-    if isinstance(body, Body) and (faults := list(find_tensor_faults(body.inertia))):
-        raise InputError([Problem("body", fault) for fault in faults])
+    faults = [
+        Problem(path, fault) for path, table in changed.items() for fault in table.list_faults()
+    ]
+    if faults:
+        raise InputError(faults)
     rows = {
         key: tuple(
             changed.get(f"{key}.{label_table(table, k)}", table)
@@ -106,7 +108,7 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
         )
         for key in ("mount", "point")
     }
-    return model.model_copy(update={"body": body, **rows})
+    return model.model_copy(update={"body": changed.get("body", model.body), **rows})
 
 
 def _change(table: FileTable, key: str, value: float) -> FileTable:

@@ -59,7 +59,8 @@ class BodyLoads:
         gas: (orders, 6), the same at every speed: what the gas torque leaves as roll; None where
             the file says nothing of gas.
         mean: N m about the crankshaft's axis on the body, steady: the reaction to a constant load,
-            which takes the mean of the gas torque over the crank angle, at uneven speed too.
+            which takes the mean of the gas torque over the crank angle, at uneven speed too, less
+            the share that goes into friction, for that acts between parts of the body.
     """
 
     orders: Real
@@ -171,8 +172,9 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Body
     if engine.gas is not None:
         gas = np.zeros_like(inertia)
         gas[:, ROLL] = -found["gas"].x
-        mean = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
-        loads = replace(loads, gas=gas, mean=-float(mean))
+        indicated = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
+        efficiency = engine.mechanical_efficiency or 1.0
+        loads = replace(loads, gas=gas, mean=-efficiency * float(indicated))
     return loads if orders is not None else _leave_out_none(loads)
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..core.peaks import Peak
 from ..engine.positions import MOMENTS_UNKNOWN
-from ..forces.kinds import FORCE, MOMENT, ROLL, Kind
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
 from .analysis_document import brief_document
@@ -42,6 +42,10 @@ from .sheet import (
     order_name,
 )
 from .units import SI, ShownUnit, System
+
+if TYPE_CHECKING:
+    from ..forces.spectrum import Spectra
+    from ..results.analysis import Analysis
 
 
 def sheet(result: Balance, system: System) -> Sheet:
@@ -116,11 +120,14 @@ def _tolerance(unbalance: float, permitted: float) -> str:
 
 
 # ------------------------------------------------------------------ before and after
+_HEADS = {ROLL_TOTAL: "roll with gas"}
+
+
 def _orders(result: Balance, system: System) -> Grid:
     """Those that matter before or after; all that were asked for."""
-    columns = (FORCE, MOMENT, ROLL)
-    names = [kind.name for kind in columns]
-    states = [analysis.spectra.only(names) for analysis in (result.before, result.after)]
+    has_gas = result.before.engine.gas is not None
+    columns = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
+    states = [_pick(result.before, FORCE, MOMENT, ROLL), _pick(result.after, FORCE, MOMENT, ROLL)]
     orders, one = result.before.orders.tolist(), result.before.of_one_cylinder
     shown = {order for state in states for order in find_orders_that_matter(state, one)}
     rows = [k for k, order in enumerate(orders) if result.every_order or order in shown]
@@ -140,14 +147,31 @@ def _orders(result: Balance, system: System) -> Grid:
         return tuple(cells)
 
     heads = [
-        head for kind, unit in units.items() for head in (f"{kind.name}, {unit.name}", "after")
+        head
+        for kind, unit in units.items()
+        for head in (f"{_HEADS.get(kind, kind.name)}, {unit.name}", "after")
     ]
     return Grid(
         "Largest value by order, before and after",
         ("order", *heads),
         tuple(map(row, rows)),
-        tell_others(states, [orders[k] for k in rows], system, hints=False),
+        _tell_others(result, [orders[k] for k in rows], system),
     )
+
+
+def _pick(analysis: Analysis, *kinds: Kind) -> Spectra:
+    return analysis.spectra.only([kind.name for kind in kinds])
+
+
+def _tell_others(result: Balance, shown: list[float], system: System) -> str:
+    """On the orders that are not shown; no device changes what the gas does in them."""
+    has_gas = result.before.engine.gas is not None
+    kinds = (FORCE, MOMENT) if has_gas else (FORCE, MOMENT, ROLL)
+    states = [_pick(analysis, *kinds) for analysis in (result.before, result.after)]
+    told = [tell_others(states, shown, system, hints=False)]
+    if has_gas and not result.remedy.knuckle_angles_deg:
+        told.append("In other orders the roll of the gas stays as it is.")
+    return " ".join(filter(None, told))
 
 
 def _fit(result: Balance, kind: Kind, system: System) -> ShownUnit:

@@ -1,4 +1,4 @@
-"""What the page needs to rock the body on its mounts: plain figures in mm and degrees."""
+"""What the page needs to rock the body on its mounts: plain figures in mm and rad."""
 
 from __future__ import annotations
 

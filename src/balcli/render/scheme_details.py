@@ -15,8 +15,8 @@ from .scheme_details_document import list_optimum
 from .sheet import NEGLIGIBLE, Facts, Grid, degrees, number, size_text
 from .units import ShownUnit, System
 
-# Labels of the roll without and with shafts.
-ROLLS = ("roll before", "roll left")
+# Labels of the roll without and with new devices: of inertia, and with gas where there is some.
+_ROLLS = (("roll before", "roll left"), ("roll with gas before", "roll with gas left"))
 
 # How well a system was solved, and the like: in JSON and CSV only.
 _FOR_PROGRAMS = {"condition number", "relative error bound", "axial distance", "improvement"}
@@ -52,18 +52,31 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
 
 
 def tell_growing_rolls(remedy: Remedy, system: System) -> Iterator[str]:
-    """A sentence for every order whose roll is larger with the shafts than without them."""
-    rolls = {(d.group, d.label): d.value for d in remedy.details if d.label in ROLLS}
-    for group in dict.fromkeys(group for group, _ in rolls):
-        before, left = (rolls.get((group, label)) for label in ROLLS)
-        if not isinstance(before, float) or not isinstance(left, float):
+    """A sentence for every order whose roll, with gas where there is some, is larger with new
+    devices than without them.
+    """
+    for group in dict.fromkeys(detail.group for detail in remedy.details):
+        of_order = {d.label: d.value for d in remedy.details if d.group == group}
+        grown = [
+            _find_growth(of_order[before], of_order[left])
+            for before, left in _ROLLS
+            if before in of_order
+        ]
+        if not grown or grown[-1] <= 0:
             continue
-        if left > before + NEGLIGIBLE * left:
-            order = group or f"order {remedy.order}"
-            yield (
-                f"The roll of {order} grows by {size_text(left - before, system.moment)}: where it "
-                "stands, the shaft's force has a lever about the crankshaft."
-            )
+        order, size = group or f"order {remedy.order}", size_text(grown[-1], system.moment)
+        why = "where they stand, the devices' forces have levers about the crankshaft."
+        if grown[0] < 0:
+            why = "what they take of the roll of inertia stood against that of the gas here."
+        with_gas = " with gas" * (len(grown) > 1)
+        yield f"The roll of {order}{with_gas} grows by {size}: {why}"
+
+
+def _find_growth(before: object, left: object) -> float:
+    """By how much the second figure is above the first; 0 where that is negligible."""
+    if not isinstance(before, float) or not isinstance(left, float):
+        return 0.0
+    return left - before if abs(left - before) > NEGLIGIBLE * max(before, left) else 0.0
 
 
 def _name_order(detail: Detail, order: int | None) -> Detail:

@@ -116,7 +116,7 @@ def _note(
     chosen: bool,
 ) -> str:
     """What to know besides; the planes may have been `chosen` without being asked for."""
-    if planes is not None and len(planes) == 1 and fitting.find_residual(1).moment(1):
+    if _loses_moment(fitting.engine, factor, planes):
         return SAME_PLACE
     if factor < 0:
         return "a factor below 0: not even all rotating mass is balanced"
@@ -125,6 +125,17 @@ def _note(
     if complete:
         return COMPLETE
     return OWN_PLACES if chosen and planes is not None else ""
+
+
+def _loses_moment(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> bool:
+    """Whether there is one plane alone, about which pins or weights elsewhere make a moment."""
+    z = {need.z for need in _find_needs(engine, factor, planes)}
+    if len(z) != 1 or not engine.places_known:
+        return False
+    loads, (places, weights) = _list_loads(engine, factor), _find_counterweights(engine)
+    arms = np.array([*(load.z for load in loads), *places]) - z.pop()
+    vectors = np.array([*(load.unbalance for load in loads), *weights])
+    return bool(abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)))
 
 
 def find_factor_peaks(

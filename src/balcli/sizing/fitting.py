@@ -9,11 +9,13 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from ..engine.build import Engine
+from ..forces.kinds import ROLL_TOTAL
+from ..forces.spectrum import compute_spectra
 from .details import Detail
 from .effects import LEFT, Slot, solve_exactly
 from .planes import SAME_PLACE
 from .remedy import Remedy, fit_devices
-from .residual import Residual, ResidualPart, find_residual, hold_steady
+from .residual import ROLL, Residual, ResidualPart, find_residual, hold_steady
 
 
 class Fitting(NamedTuple):
@@ -75,6 +77,30 @@ class Fitting(NamedTuple):
             return fitting.add_details(Detail("condition number", "", fit.condition))
         return fitting
 
+    def describe_roll(self, before: Residual, group: str = "") -> Fitting:
+        """With details of what the devices so far leave of an order's roll, and of what it was; of
+        an engine with gas, of the roll with the gas at its speed, too.
+        """
+        left = self.find_residual(before.order)
+        fitting = self.add_details(
+            Detail("roll left", "moment", left.size(ROLL), group),
+            Detail("roll before", "moment", before.size(ROLL), group),
+        )
+        if self.engine.gas is None:
+            return fitting
+        fitted = fit_devices(self.engine, self.remedy)
+        return fitting.add_details(
+            Detail("roll with gas left", "moment", _size_total_roll(fitted, left.order), group),
+            Detail(
+                "roll with gas before", "moment", _size_total_roll(self.engine, left.order), group
+            ),
+        )
+
     def add_details(self, *details: Detail) -> Fitting:
         """With further details in the remedy."""
         return self._replace(remedy=self.remedy.add_details(*details))
+
+
+def _size_total_roll(engine: Engine, order: int) -> float:
+    """Amplitude of an order of the roll with gas, N m."""
+    return float(compute_spectra(engine, [order], (ROLL_TOTAL.name,))[ROLL_TOTAL.name].major[0])

@@ -33,7 +33,8 @@ class SchemeOptions(NamedTuple):
         planes: "ends", "throws", or places z of new devices.
         factor: shares of the reciprocating mass.
         measured: mass that balances the crank when it hangs on a bare pin, kg, instead of a factor.
-        roll: "zero": two shafts are placed such that the roll of this order vanishes, too.
+        roll: "zero": two shafts are placed such that the roll of inertia of this order
+            vanishes, too.
     """
 
     order: int | None = None

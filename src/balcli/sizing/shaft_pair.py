@@ -22,7 +22,6 @@ from .remedy import Remedy
 from .residual import (
     BACKWARD_MOMENT,
     FORWARD_MOMENT,
-    ROLL,
     NothingToBalanceError,
     Residual,
     choose_residual,
@@ -80,9 +79,7 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
     return fitting.add_details(
         *_describe_places(places, group),
         Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT), group),
-        Detail("roll left", "moment", left.size(ROLL), group),
-        Detail("roll before", "moment", residual.size(ROLL), group),
-    )
+    ).describe_roll(residual, group)
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
@@ -159,11 +156,10 @@ def _describe_places(places: Places, group: str) -> list[Detail]:
     details = []
     for sense, name in ((1, "with crank"), (-1, "against crank")):
         for place in places.get(sense, ())[:1]:
-            direction = math.degrees(cmath.phase(place))
-            details += [
-                Detail(f"radius {name}", "length", abs(place), group),
-                Detail(f"direction {name}", "angle", direction, group),
-            ]
+            details.append(Detail(f"radius {name}", "length", abs(place), group))
+            if place:  # on the crank axis there is no direction
+                direction = math.degrees(cmath.phase(place))
+                details.append(Detail(f"direction {name}", "angle", direction, group))
     if len(places) == 2 and (against := abs(places[-1][0])):
         details.append(Detail("radius ratio", "", abs(places[1][0]) / against, group))
     return details

@@ -31,7 +31,6 @@ from .residual import (
     FORWARD,
     FORWARD_FORCE,
     FORWARD_MOMENT,
-    ROLL,
     Residual,
     choose_residual,
 )
@@ -58,12 +57,9 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         fitting = _add_two_eccentrics(fitting, residual, options)
     else:
         fitting = _add_one_eccentric(fitting, residual, options)
-    left = fitting.find_residual(residual.order)
-    fitting = fitting.add_details(
-        Detail("roll left", "moment", left.size(ROLL)),
-        Detail("roll before", "moment", residual.size(ROLL)),
-    )
+    fitting = fitting.describe_roll(residual)
     if residual.order > 1:
+        left = fitting.find_residual(residual.order)
         fitting = fitting.add_details(
             Detail("force with crank left", "force", left.size(FORWARD_FORCE))
         )

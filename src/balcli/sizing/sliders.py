@@ -19,7 +19,6 @@ from .residual import (
     BACKWARD_MOMENT,
     FORWARD_FORCE,
     FORWARD_MOMENT,
-    ROLL,
     choose_residual,
 )
 
@@ -43,7 +42,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "slider", residual.order, residual.note)
     fitting = fitting.add(slots, unbalances, explain_sliders(residual))
     left = fitting.find_residual(residual.order)
-    return fitting.add_details(
-        Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)),
-        Detail("roll left", "moment", left.size(ROLL)),
-    ).remedy
+    moment = left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
+    return (
+        fitting.add_details(Detail("moment left", "moment", moment)).describe_roll(residual).remedy
+    )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -55,11 +55,22 @@ def find_numbers(model: EngineFile) -> dict[str, Number]:
     numbers: dict[str, Number] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
-    if model.gas is None:  # a share of nothing
-        numbers = {path: number for path, number in numbers.items() if not path.endswith(".gas")}
+    for path in _list_idle_paths(model, numbers):
+        del numbers[path]
     if plan.banks != 2:  # it would make a vee of the engine, with other cylinders
         numbers.pop("layout.bank_angle", None)
     return numbers
+
+
+def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
+    """Those of numbers that change nothing of what the gas does: shares of none, or what belongs to
+    another kind of cycle.
+    """
+    if model.gas is None:
+        return [path for path in numbers if path.endswith(".gas")]
+    own_diagrams = any(table.indicator is not None for table in model.cylinder.values())
+    idle = model.gas.list_idle_keys(model.layout.strokes, own_diagrams)
+    return [path for path in numbers if path.removeprefix("gas.") in idle]
 
 
 def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:
@@ -118,7 +129,7 @@ def parse_parameter(text: str, model: EngineFile) -> Parameter:
             "rod.ratio=0.24:0.32:0.01"
         )
     if path not in known:
-        raise BalcliError(_describe_unknown(path, known))
+        raise BalcliError(_describe_unknown(path, known, model))
     try:
         values = _read_values(wanted, known[path])
     except ValueError as error:
@@ -143,7 +154,7 @@ def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
     known = find_numbers(model)
     path = resolve_name(path, known)
     if path not in known:
-        raise BalcliError(_describe_unknown(path, known))
+        raise BalcliError(_describe_unknown(path, known, model))
     number = known[path]
     try:
         array = np.atleast_1d(np.asarray(values, dtype=float))
@@ -184,8 +195,10 @@ def _read_one(path: str, value: Any, number: Number) -> float:
         raise BalcliError(f"{path}: {error}") from None
 
 
-def _describe_unknown(path: str, known: Mapping[str, Number]) -> str:
+def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
     """With those called so, or beginning so; or with the nearest name, or some of the table."""
+    if _list_idle_paths(model, [path]) and model.gas is not None:
+        return f"{path}: changes nothing of the gas in this file"
     inside = [name for name in known if f"{name}_".rpartition(".")[2].startswith(f"{path}_")]
     if near := (" or ".join(inside[:6]) or nearest(path, known)):
         hint = f"did you mean {near}?"

@@ -70,10 +70,8 @@ class TorqueAnalysis(Result):
 
     @property
     def mechanical_efficiency(self) -> float | None:
-        """Brake over indicated work; None: the file does not say, or a cylinder has no gas, and yet
-        its friction.
-        """
-        return None if self.engine.without_gas else take_gas(self.engine).mechanical_efficiency
+        """`Engine.mechanical_efficiency`."""
+        return self.engine.mechanical_efficiency
 
     @property
     def bmep(self) -> float | None:
@@ -115,7 +113,7 @@ def analyze_torque(
         loads: any of KINDS_OF_LOAD.
 
     Raises:
-        BalcliError: no gas; no such cylinder; the crank stalls; loads that are not known.
+        BalcliError: no gas; no such cylinder; loads that are not known.
         TypeError: what is no engine.
 
     Example:

@@ -80,8 +80,7 @@ def find_flywheel(question: FlywheelQuestion) -> Flywheel | None:
     """What inertia does for the speed; None where nothing of it is known or asked.
 
     Raises:
-        BalcliError: a fluctuation is asked for without a mean speed; the shaft stalls, and it is
-            not asked what it needs.
+        BalcliError: a fluctuation is asked for without a mean speed.
     """
     q = question
     if q.constant is None and q.fluctuation is None:
@@ -102,8 +101,6 @@ def find_flywheel(question: FlywheelQuestion) -> Flywheel | None:
     try:
         return Flywheel(mean, moving, _find_speed(q, q.mean_speed, mean), needed)
     except StallError as error:
-        if needed is None:
-            raise BalcliError(f"{error}") from None
         return Flywheel(mean, moving, None, needed, f"{error}")
 
 

@@ -96,5 +96,5 @@ def evaluate_engine(engine: Engine, quantities: Sequence[CycleQuantity]) -> list
 def _find_fluctuation(engine: Engine) -> float:
     flywheel = analyze_torque(engine, [1]).flywheel
     if flywheel is None or flywheel.speed is None:
-        raise BalcliError(NO_INERTIA)
+        raise BalcliError(flywheel.stall if flywheel is not None else NO_INERTIA)
     return flywheel.speed.fluctuation

@@ -13,7 +13,8 @@ from ..core.singular_values import Real
 from ..engine.build import Engine, build
 from ..engine.variants import EngineVariants, Values, remember
 from ..enginefile.model import EngineFile, FileTable
-from ..errors import BalcliError
+from ..enginefile.torsion_tables import Torsion
+from ..errors import BalcliError, InputError, Problem
 from ..forces.target_quantity import (
     Subject,
     TargetQuantity,
@@ -81,13 +82,31 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 def vary_torsion(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
     """The file with other figures of [torsion], by dotted name (`torsion.rear.1.stiffness`); all
     others are left alone.
+
+    Raises:
+        InputError: what a table then says against itself, such as a bore wider than its shaft.
     """
     torsion: Any = model.torsion
-    for path, value in values.items():
-        first, *rest = path.split(".")
-        if first == "torsion":
-            torsion = _change(torsion, rest, value)
+    varied = {path: value for path, value in values.items() if path.startswith("torsion.")}
+    for path, value in varied.items():
+        torsion = _change(torsion, path.split(".")[1:], value)
+    faults = [fault for path in varied for fault in _find_faults(torsion, path)]
+    if faults:
+        raise InputError(list(dict.fromkeys(faults)))
     return model.model_copy(update={"torsion": torsion})
+
+
+def _find_faults(torsion: Torsion, path: str) -> Iterator[Problem]:
+    """What tables say against themselves on the way to a figure."""
+    place: Any = torsion
+    name, *keys = path.split(".")
+    for key in keys:
+        if isinstance(place, FileTable):
+            yield from (Problem(name, fault) for fault in place.list_faults())
+            place = getattr(place, key)
+        else:
+            place = place[int(key) - 1]
+        name = f"{name}.{key}"
 
 
 def _change(whole: Any, keys: Sequence[str], value: float) -> Any:

@@ -120,14 +120,16 @@ def find_barred(
 ) -> tuple[tuple[float, float], ...] | None:
     """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none.
 
-    Between the speeds of the response those of criticals and damped resonances are looked at, too,
-    and the middle between two that pass it; the ends of a range are found by halving.
+    Between the speeds of the response its worst, those of criticals and damped resonances are
+    looked at, too, and the middle between two that pass it; the ends of a range are found by
+    halving.
     """
     if system.limit_pa is None and system.angle_limit is None:
         return None
     known = response.speeds_rpm
     resonant, width = find_resonant_speeds(system, excitation, known)
-    about = np.concatenate([criticals_rpm, resonant, resonant - width, resonant + width])
+    worst = [*response.worst.speeds_rpm, response.worst.swing_rpm]
+    about = np.concatenate([worst, criticals_rpm, resonant, resonant - width, resonant + width])
     between = sort_others(about[(about > known[0]) & (about < known[-1])], known)
     speeds = np.concatenate([known, between])
     swings = np.column_stack([response.torque, response.free_end])
