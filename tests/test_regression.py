@@ -94,6 +94,24 @@ def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
     assert check(lonely) == (0, "1 engine, 0 differences\n", "")
 
 
+def test_a_record_whose_engine_is_gone_is_a_difference(check, file, tmp_path):
+    """In a folder that is checked; where a file is checked, its neighbours are nobody's matter."""
+    lost = tmp_path / "lost.toml"
+    lost.write_text(GOOD)
+    assert check("--update", tmp_path) == (0, "2 engines recorded\n", "")
+    hidden = tmp_path / ".old" / "expected"
+    hidden.mkdir(parents=True)
+    (hidden / "x.json").write_text("{}")
+    lost.unlink()
+    told = (
+        "lost: its result is recorded in expected/lost.json, but there is no lost.toml; bring it "
+        "back, or delete the record\n"
+    )
+    assert check(tmp_path) == (1, f"{told}1 engine, 1 difference\n", "")
+    assert check(file) == (0, "1 engine, 0 differences\n", "")
+    assert check("--update", tmp_path) == (1, f"{told}1 engine recorded\n", "")
+
+
 def test_every_figure_that_moved_is_named(check, file):
     """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new
     figure are told.

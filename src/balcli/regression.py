@@ -71,6 +71,19 @@ def find_record(engine_file: Path) -> Path:
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
+def find_abandoned_records(folder: Path) -> list[Difference]:
+    """Recorded results of a folder whose engine file is not there."""
+    return [
+        Difference(
+            record.stem,
+            f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
+            f"{record.stem}.toml; bring it back, or delete the record",
+        )
+        for record in sorted((folder / "expected").glob("*.json"))
+        if not (folder / f"{record.stem}.toml").exists()
+    ]
+
+
 def record_result(engine: Engine) -> str:
     """The text to record of an engine."""
     document = renderer.document(analyze(engine, only=_list_recorded(engine)))

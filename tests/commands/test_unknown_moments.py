@@ -53,6 +53,19 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
     assert "leave no free force (moments are not known) of orders 1 and 2" in brief
 
 
+def test_what_shafts_leave_of_the_roll_is_known_without_places(balcli, twin):
+    """Moments alone need them: the roll is about the crankshaft."""
+    told = balcli("balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80")[1]
+    document = balcli(
+        "balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80", "-f", "json"
+    )
+    details = json.loads(document[1])["details"]["order_2"]
+    assert re.search(r"^order 2 moment left +–$", told, re.MULTILINE)
+    for label in ("roll left", "roll before"):
+        value = details[f"{label.replace(' ', '_')}_Nm"]
+        assert re.search(rf"^order 2 {label} +{value:.5g} N·m$", told, re.MULTILINE)
+
+
 def test_sizing_that_fits_nothing_promises_nothing_of_moments(balcli, tmp_path):
     file = tmp_path / "six.toml"
     six = ("throws = [0, 180, 180, 0]", "throws = [0, 120, 240, 0, 120, 240]")

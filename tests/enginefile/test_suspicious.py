@@ -230,3 +230,37 @@ def test_moving_masses_count_every_rod_of_a_vee():
         )
         == 1
     )
+
+
+TWIST = """
+[torsion]
+throw_stiffness = 1e6
+throw_inertia = %s
+[[torsion.rear]]
+name = "Flywheel"
+inertia = %s
+stiffness = 1e6
+"""
+
+
+@pytest.mark.parametrize("flywheel", ["inertia = 250000", "mass = 10\nradius_of_gyration = 158.1"])
+def test_inertias_that_are_said_twice(flywheel):
+    """Once for `torque`, once for `torsion`: both are used as they are."""
+    own = ("throw_mass = 0.8", "throw_mass = 0.8\ninertia = 100000")
+
+    def warnings(throws: str, inertia: str) -> list[str]:
+        more = f"[flywheel]\n{flywheel}\n{TWIST % (throws, inertia)}"
+        return find_suspicious(parse(changed(own, more=more)))
+
+    assert warnings("25000", "250000") == []
+    assert warnings("[20000, 30000, 30000, 20000]", "240000") == []
+    throws = (
+        "crank.inertia is 0.1 kg m^2, and all throws of torsion.throw_inertia together have 0.12: "
+        "the whole has no less than its parts"
+    )
+    assert warnings("30000", "250000") == [throws]
+    assert warnings("[20000, 40000, 40000, 20000]", "250000") == [throws]
+    assert warnings("25000", "2500000") == [
+        "[flywheel] has 0.25 kg m^2, and the part 'Flywheel' of [torsion] 2.5: `torque` takes the "
+        "one, `torsion` the other"
+    ]

@@ -291,6 +291,17 @@ def test_planes_that_are_nearly_alike_are_doubted():
     assert doubt.endswith("try --without p1")
 
 
+def test_what_is_permitted_is_not_judged_in_a_plane_left_out():
+    grade = "radius = [100, 100]\ngrade = 2.5\nmass = 30\nspeed = 1800"
+    text = three_runs(grade)
+    assert find_doubts(find_corrections(parse_runs(text))) == []
+    found = find_corrections(parse_runs(text), without=["rear"])
+    assert find_doubts(found)[0] == (
+        "the permitted unbalance is judged without rear: what is there is not known, and readings "
+        f"of up to {found.largest:.4g} stay"
+    )
+
+
 def refused(text: str, **options) -> str:
     with pytest.raises(BalcliError) as caught:
         find_corrections(parse_runs(text), name="runs.toml", **options)

@@ -12,18 +12,20 @@ from io import StringIO
 from types import SimpleNamespace
 
 import pytest
-from support.engines import RADIAL, STAGGERED_TWIN, build_text, inline_engine, rotary_engine
+from support.engines import GOOD, RADIAL, STAGGERED_TWIN, build_text, inline_engine, rotary_engine
 from support.paths import ENGINES
 
 from balcli.commands.options import parse_parts
 from balcli.core.peaks import Peak
 from balcli.errors import BalcliError
 from balcli.render import analysis, analysis_document
+from balcli.render.devices import device_grid
 from balcli.render.formats import Format, render
 from balcli.render.sheet import Facts, Grid
 from balcli.render.units import SYSTEMS
 from balcli.render.view import IN_BRIEF, View
 from balcli.results.analysis import QUANTITIES, analyze
+from balcli.results.balance import balance
 
 RENDERER = SimpleNamespace(
     sheet=analysis.sheet, document=analysis_document.document, rows=analysis_document.rows
@@ -221,10 +223,30 @@ def test_an_unknown_quantity_is_refused_with_those_there_are():
 
 
 # ------------------------------------------------------------------ one throw, pins split, rods apart
-def find_throws(text):
+def find_facts(text, wanted):
     found = analysis.sheet(analyze(build_text(text)), SYSTEMS["si"])
     facts = next(part for part in found.parts if isinstance(part, Facts))
-    return [value for name, value in facts.pairs if name == "throws"]
+    return [value for name, value in facts.pairs if name == wanted]
+
+
+def find_throws(text):
+    return find_facts(text, "throws")
+
+
+def test_throws_that_do_not_begin_with_cylinder_1_say_from_where_they_count():
+    """The crank angle is 0 where cylinder 1's pin is at 0, which need not be on the first throw."""
+    boxer = GOOD.replace("firing_order = [1, 3, 4, 2]", "banks = [-90, 90]\n{}")
+    first = "numbering = [[1, 2, 3, 4], [5, 6, 7, 8]]"
+    last = "numbering = [[4, 3, 2, 1], [5, 6, 7, 8]]"
+    boxer = boxer.replace("throws = [0, 180, 180, 0]", "throws = [0, 180, 90, 270]")
+    assert find_throws(boxer.format(first)) == ["0, 180, 90, 270 deg"]
+    assert find_throws(boxer.format(last)) == ["90, 270, 180, 0 deg from cylinder 1's pin"]
+
+
+def test_a_speed_that_the_file_does_not_give_is_said_to_be_assumed():
+    assert find_facts(GOOD, "speed") == ["3000 rpm"]
+    silent = GOOD.replace("speed = 3000", "")
+    assert find_facts(silent, "speed") == ["1000 rpm, assumed: the file gives none"]
 
 
 def test_split_pins_of_one_throw_stand_in_the_header():
@@ -284,3 +306,13 @@ def test_orders_that_are_asked_for_are_shown_balanced_or_not(balcli, more):
     table = balcli("analyze", ENGINES / "i5.toml", *given).out.partition("Free moment in")[2]
     assert re.findall(r"^(\d) +", table, re.MULTILINE) == list("123456")
     assert "Free moment by order" not in table
+
+
+def test_weights_of_ships_are_told_in_kg_m():
+    """As `analyze` has them; a bare number of an engine file is g mm."""
+    for mass, unit in (("0.5", "g·mm"), ("500", "kg·m")):
+        ship = build_text(GOOD.replace("mass = 0.5", f"mass = {mass}"))
+        devices = device_grid(balance(ship).remedy, SYSTEMS["si"])
+        assert devices.columns[2] == unit
+        size = float(devices.rows[0][2]) / {"g·mm": 1e6, "kg·m": 1}[unit]
+        assert size == pytest.approx(balance(ship).remedy.devices[0].unbalance / 1e6, rel=1e-4)

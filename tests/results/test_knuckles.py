@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from support.commands import refusal, run_here
 from support.engines import RADIAL
+from support.paths import ENGINES
 
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
@@ -118,6 +119,23 @@ def test_a_table_says_which_angles_are_even_and_what_is_left(tmp_path):
     assert re.search(r"(?m)^knuckle angles  0\.0, .* deg$", even)
     assert re.search(r"(?m)^stroke least    120 mm$", even)
     assert re.search(r"(?m)^top least       0\.000 deg$", even)  # and no rounding noise
+
+
+def test_with_gas_the_roll_is_that_of_both(tmp_path):
+    """Knuckles move pistons, and with them what the gas does in every order."""
+    file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
+    gas = '[gas]\ncycle = "wiebe"\ncompression_ratio = 6\nimep = 8\n'
+    file.write_text((ENGINES / "radial7_articulated.toml").read_text() + gas)
+    found = json.loads(run(file, "--write", out, "-f", "json").out)
+    for state, path in (("before", file), ("after", out)):
+        told = json.loads(run_here("analyze", path, "--orders", "1-4", "-f", "json").out)
+        rolls = {entry["order"]: entry["roll_total_Nm"] for entry in found[state]["orders"]}
+        assert [rolls[entry["order"]] for entry in told["orders"]] == [
+            entry["roll_total_Nm"] for entry in told["orders"]
+        ]
+    table = run(file).out
+    assert "roll with gas, N·m" in table
+    assert "stays as it is" not in table
 
 
 @pytest.mark.parametrize(

@@ -29,25 +29,31 @@ def check(
     """Recompute engines and compare with their recorded results; exit status 1 if anything
     moved.
 
+    Recorded is what `analyze` tells: orders of force, moment, couple, torque, roll and gas torque,
+    and the peaks; nothing of mounts, torsion and the flywheel. A record in a folder whose engine is
+    gone is a difference, too.
+
     \b
     Examples:
       balcli check v8.toml --update
       balcli check v8.toml
     """
-    from ..regression import Difference, find_differences, find_record, record_result
+    from .. import regression
     from .inputs import exit_on_errors, find_engine_files, read_engine, try_each
 
-    def compare_or_record(path: Path) -> list[Difference]:
-        engine, target = read_engine(str(path)).engine, find_record(path)
+    def compare_or_record(path: Path) -> list[regression.Difference]:
+        engine, target = read_engine(str(path)).engine, regression.find_record(path)
         if not update:
-            return find_differences(path.stem, engine, target)
-        write_file(record_result(engine), make_folder_of(target))
+            return regression.find_differences(path.stem, engine, target)
+        write_file(regression.record_result(engine), make_folder_of(target))
         return []
 
     files = find_engine_files(paths)
     with reporting_until_stopped("engines", len(files)) as progress:
         results, errors = try_each(each_until_stopped(files, progress), compare_or_record)
-    moved = [difference for found in results for difference in found]
+    searched = sorted({file.parent for file in files if file not in paths})
+    abandoned = map(regression.find_abandoned_records, searched)
+    moved = [difference for found in (*results, *abandoned) for difference in found]
     done = " recorded" if update else f", {_counted(len(moved), 'difference')}"
     emit(legible("\n".join([*map(str, moved), _counted(len(results), "engine") + done])))
     exit_on_errors(errors)

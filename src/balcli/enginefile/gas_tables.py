@@ -133,9 +133,9 @@ class Gas(FileTable):
         wiebe = [key for key in _WIEBE_KEYS if key in given]
         if wiebe and self.cycle != "wiebe":
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
+        yield from self._goals(given)
         if self.compression_ratio is None:
             yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
-        yield from self._goals(given)
 
     def list_idle_keys(self, strokes: int, own_diagrams: bool) -> set[str]:
         """Those of figures that change nothing of the gas in an engine of so many strokes;

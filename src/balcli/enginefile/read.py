@@ -6,7 +6,8 @@ What the tables say against each other is not looked at here: that takes an engi
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -20,6 +21,7 @@ from ..limits import (
     MOST_PARTS,
 )
 from .fields import printable, shorten
+from .file_kinds import ENGINE, refuse_other_kind
 from .messages import (
     CHAPTER_LISTS,
     CHAPTERS,
@@ -83,7 +85,7 @@ class Draft(NamedTuple):
         others = [
             problem
             for problem in (*self.problems, *contradictions)
-            if not (problem.path in meant and problem.message.startswith("is missing"))
+            if not _is_told_missing(problem, meant)
         ]
         listed = [*(problem for problem, _ in described), *others][:MOST_MISTAKES_SHOWN]
         more = len(self.unknown) + len(others) - MOST_MISTAKES_SHOWN
@@ -98,19 +100,26 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
             has none.
 
     Raises:
-        InputError: it is no TOML.
+        InputError: it is no TOML, or of another kind.
     """
-    return check_tables(parse_toml(text, name), Path(name).parent, bare=bare)
+    return check_tables(parse_toml(text, name), Path(name).parent, name, bare=bare)
 
 
-def check_tables(data: Mapping[str, Any], folder: Path, *, bare: bool = False) -> Draft:
+def check_tables(
+    data: Mapping[str, Any], folder: Path, name: str = "", *, bare: bool = False
+) -> Draft:
     """What tables say of an engine. Those that are not there are not even compiled by pydantic.
 
     Args:
         data: as TOML is read.
         folder: in which the files are that they name.
+        name: of their own file, for messages.
         bare: as of `read_tables`.
+
+    Raises:
+        InputError: they are of another kind of file.
     """
+    refuse_other_kind(data, ENGINE, name)
     reader = _Reader()
     reader.unknown += find_unknown_keys(data)
     bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)
@@ -237,12 +246,14 @@ class _Reader:
     def _translate(
         self, path: str, error: ValidationError, value: Mapping[str, Any], table: type[FileTable]
     ) -> None:
-        """Collect pydantic's findings, and the keys that exclude each other, at which it looks only
-        where all else is right.
+        """Collect pydantic's findings, and what the keys say against each other, at which it looks
+        only where all else is right.
         """
         findings = error.errors(include_url=False)
-        if any(finding["loc"] for finding in findings):
+        if broken := {str(finding["loc"][0]) for finding in findings if finding["loc"]}:
             for mistake in mistakes_of_choice(table, value):
+                self.add(path, mistake)
+            for mistake in _find_contradictions(table, value, broken):
                 self.add(path, mistake)
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
@@ -251,6 +262,33 @@ class _Reader:
                 self.unknown.append(UnknownKey(join_path(path, parents), str(last), inner))
             elif not is_miscounted(finding):
                 self.problems.append(describe_finding(path, finding, table))
+
+
+def _is_told_missing(problem: Problem, meant: set[str]) -> bool:
+    """Whether a mistake is that one of these keys is not there."""
+    if problem.message.startswith("has neither "):
+        words = re.split(r"[ ,;]+", problem.message)
+        return any(f"{problem.path}.{word}" in meant for word in words)
+    return problem.path in meant and problem.message.startswith("is missing")
+
+
+def _find_contradictions(
+    table: type[FileTable], value: Mapping[str, Any], broken: set[str]
+) -> Iterator[str]:
+    """What the keys of a table say against each other, up to where one that is broken would have to
+    be known; nothing where a key is missing that has to be there.
+    """
+    try:
+        draft = table.model_validate(
+            {key: part for key, part in value.items() if key not in broken}, context=broken
+        )
+    except ValidationError:
+        return
+    draft.model_fields_set.update(broken & value.keys())
+    for key in broken:
+        vars(draft).pop(key, None)
+    with suppress(AttributeError):
+        yield from draft.contradictions()
 
 
 def _count_values(value: object) -> int:

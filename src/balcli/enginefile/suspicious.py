@@ -36,13 +36,14 @@ BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up 
 # Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
 NEIGHBOURS_CLOSE = 0.9
 UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
+SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is rounded, or has bolts
 
 
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     parts = (
         *(_piston, _proportions, _rod, _inertia, _motion, _neighbours, _layout),
-        *(_throw, _bobweight, _counterweights, _rotary, _gas),
+        *(_throw, _bobweight, _counterweights, _rotary, _gas, _torsion),
     )
     return [warning for part in parts for warning in part(model)]
 
@@ -214,6 +215,40 @@ def _gas(model: EngineFile) -> Iterator[str]:
                 f"gas.{key} is {value:.4g} bar, where at most {limit:g} is usual; is it in bar? "
                 'Another unit is said as in "130 psi" or "0.9 MPa"'
             )
+
+
+def _torsion(model: EngineFile) -> Iterator[str]:
+    """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
+    if model.torsion is None:
+        return
+    each, whole = model.torsion.throw_inertia or (), model.crank.inertia
+    throws = sum(each) * (_throws_and_rods(model)[0] if len(each) == 1 else 1)
+    if whole is not None and throws > (1 + SAME_INERTIA) * whole:
+        yield (
+            f"crank.inertia is {whole / 1e6:.4g} kg m^2, and all throws of torsion.throw_inertia "
+            f"together have {throws / 1e6:.4g}: the whole has no less than its parts"
+        )
+    named = [
+        (part.name, part.inertia)
+        for part in (*model.torsion.front, *model.torsion.rear)
+        if part.inertia and "flywheel" in (part.name or "").lower()
+    ]
+    flywheel = _flywheel_inertia(model)
+    if len(named) == 1 and flywheel:
+        name, inertia = named[0]
+        if abs(inertia - flywheel) > SAME_INERTIA * flywheel:
+            yield (
+                f"[flywheel] has {flywheel / 1e6:.4g} kg m^2, and the part '{name}' of [torsion] "
+                f"{inertia / 1e6:.4g}: `torque` takes the one, `torsion` the other"
+            )
+
+
+def _flywheel_inertia(model: EngineFile) -> float:
+    """In kg mm2; 0 where the file gives none."""
+    if model.flywheel is None:
+        return 0.0
+    given = model.flywheel
+    return given.inertia or (given.mass or 0.0) * (given.radius_of_gyration or 0.0) ** 2
 
 
 def _has_crosshead(model: EngineFile) -> bool:

@@ -168,8 +168,10 @@ def _tell_others(result: Balance, shown: list[float], system: System) -> str:
     has_gas = result.before.engine.gas is not None
     kinds = (FORCE, MOMENT) if has_gas else (FORCE, MOMENT, ROLL)
     states = [_pick(analysis, *kinds) for analysis in (result.before, result.after)]
-    of_gas = " In other orders the roll of the gas stays as it is." * has_gas
-    return (tell_others(states, shown, system, hints=False) + of_gas).strip()
+    told = [tell_others(states, shown, system, hints=False)]
+    if has_gas and not result.remedy.knuckle_angles_deg:
+        told.append("In other orders the roll of the gas stays as it is.")
+    return " ".join(filter(None, told))
 
 
 def _fit(result: Balance, kind: Kind, system: System) -> ShownUnit:

@@ -34,17 +34,18 @@ _CSV_FIELDS = ("ratio", "order", "unbalance", "angle", "direction", "position", 
 # ------------------------------------------------------------------ for people
 def device_grid(remedy: Remedy, system: System) -> Grid:
     """One row a device."""
+    unit = system.unbalance.fit(max(map(find_unbalance, remedy.devices), default=0.0))
     heads = (
         "device",
         "speed ratio",
-        f"{system.unbalance.name}",
+        unit.name,
         "angle, deg",
         f"x, y, {system.length.name}",
         f"z, {system.length.name}",
     )
     free = remedy.free
     rows = tuple(
-        _grid_row(device, anywhere, system)
+        _grid_row(device, anywhere, unit, system.length)
         for device, anywhere in zip(remedy.devices, free, strict=True)
     )
     note = " ".join([ANGLES, *_explain_places(remedy.devices, free)])
@@ -68,27 +69,22 @@ def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Ite
         )
 
 
-def _grid_row(device: DeviceTable, free: bool, system: System) -> tuple[str, ...]:
+def _grid_row(
+    device: DeviceTable, free: bool, unit: ShownUnit, length: ShownUnit
+) -> tuple[str, ...]:
     match device:
         case Counterweight():
             turns, angle = "1", f"{degrees(device.angle)} from pin 1"
             place = "crank axis"
         case Shaft():
             turns, angle = f"{device.ratio:+d}", degrees(device.angle)
-            place = "free" if free else _place(device.at, system.length)
+            place = "free" if free else _place(device.at, length)
         case Slider():
             turns = str(device.order)
             angle = f"{degrees(device.angle)} along {degrees(device.direction)}"
-            place = _place(device.at, system.length)
-    unbalance = number(system.unbalance.of(find_unbalance(device)))
-    return (
-        name_kind(device),
-        turns,
-        unbalance,
-        angle,
-        place,
-        _length(device.position, system.length),
-    )
+            place = _place(device.at, length)
+    unbalance = number(unit.of(find_unbalance(device)))
+    return (name_kind(device), turns, unbalance, angle, place, _length(device.position, length))
 
 
 def _place(at: tuple[float, ...], unit: ShownUnit) -> str:

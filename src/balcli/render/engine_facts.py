@@ -63,7 +63,9 @@ def engine_facts(
 
 def _speed(engine: Engine) -> str:
     uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
-    return f"{number(float(engine.speed_rpm), 6)} rpm{uneven}"
+    given = engine.model is None or "speed" in engine.model.operation.model_fields_set
+    assumed = "" if given else ", assumed: the file gives none"
+    return f"{number(float(engine.speed_rpm), 6)} rpm{assumed}{uneven}"
 
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
@@ -82,9 +84,11 @@ def _throws(engine: Engine) -> str:
     splay = _splay(pins[min(pins)])
     if (len(pins) == 1 and not splay) or engine.rotary:
         return ""
-    shown = ", ".join(_angle(pins[throw][0]) for throw in sorted(pins)[:THROWS_SHOWN])
+    angles = [_angle(pins[throw][0]) for throw in sorted(pins)]
+    shown = ", ".join(angles[:THROWS_SHOWN])
     more = ", …" if len(pins) > THROWS_SHOWN else ""
-    return f"{shown}{more} deg{splay}"
+    start = "" if angles[0] == "0" else " from cylinder 1's pin"
+    return f"{shown}{more} deg{start}{splay}"
 
 
 def _splay(pins: list[float]) -> str:

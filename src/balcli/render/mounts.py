@@ -292,7 +292,7 @@ def _passed(response: MountingResponse, system: System) -> Grid:
     speeds = _pick(len(response.omega), _COLUMNS - 1)
     last = len(response.omega) - 1
     units = (system.force,) * 3 + (system.moment,) * 3
-    heads = ["order", "load", "rigid, at the end"]
+    heads = ["order", "load", f"rigid, {number(float(response.speeds_rpm[-1]), 4)} rpm"]
     heads += [f"{number(response.speeds_rpm[s], 4)} rpm" for s in speeds]
     rows = []
     for n, order in enumerate(response.loads.orders):

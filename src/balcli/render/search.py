@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import EVERY_KIND
+from ..studies.quantity_names import tell_speeds
 from .csv import Columns, Rows
 from .sheet import NAMELESS, Grid, Sheet, number
 
@@ -101,6 +102,8 @@ def _notes(result: Search) -> Iterator[str]:
         )
     if _textbook(result, result.results[0]):
         yield _AS_BUILT
+    if speeds := tell_speeds(q.name for q in result.objective.quantities):
+        yield speeds
     added = list(dict.fromkeys(q.unit for q in result.objective.weights))
     if len(added) > 1:
         yield f"Objective: {' and '.join(added)} added as plain numbers; NAME=W weighs them."

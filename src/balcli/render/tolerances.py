@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..studies.quantity_names import tell_speeds
 from .csv import Rows
 from .sheet import NAMELESS, Grid, Sheet, number
 
@@ -59,11 +60,12 @@ def rows(result: Scatter, _system: System) -> Rows:
 
 def sheet(result: Scatter, _system: System) -> Sheet:
     """Percentiles in SI units, and which tolerances matter most."""
+    notes = _tell_bound(result), tell_speeds(s.quantity.name for s in result.spreads)
     spread = Grid(
         f"Spread of {result.samples} {result.varied}",
         ("quantity", *_statistics(result.spreads[0])),
         tuple((_name(s), *map(number, _statistics(s).values())) for s in result.spreads),
-        note=_tell_bound(result),
+        note=". ".join(filter(None, notes)),
     )
     shares = Grid(
         "What each tolerance alone changes, most first",

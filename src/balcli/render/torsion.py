@@ -38,14 +38,15 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     return Sheet(f"{result.system.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
+# Of the file's figures: how they are called, and their units there.
 _DAMPER_KEYS = {
-    "inertia": ("ring", "kg·mm²"),
-    "damping": ("damping", "N·m·s/rad"),
-    "stiffness": ("stiffness", "N·m/rad"),
-    "loss": ("loss factor", ""),
-    "mass": ("pendulums, in all", "kg"),
-    "radius": ("hung up at a radius of", "mm"),
-    "length": ("length to the centre of mass", "mm"),
+    "inertia": ("ring", ShownUnit("kg·mm²", 1, ShownUnit("kg·m²", 1e6), 1e7)),
+    "damping": ("damping", ShownUnit("N·m·s/rad", 1)),
+    "stiffness": ("stiffness", ShownUnit("N·m/rad", 1)),
+    "loss": ("loss factor", ShownUnit("", 1)),
+    "mass": ("pendulums, in all", ShownUnit("kg", 1)),
+    "radius": ("hung up at a radius of", ShownUnit("mm", 1)),
+    "length": ("length to the centre of mass", ShownUnit("mm", 1)),
 }
 
 
@@ -57,10 +58,10 @@ def _damper(sized: SizedDamper) -> Facts:
     before = "without bound" if math.isinf(sized.before) else _tell_swings(sized.before, unit)
     pairs = [("on", sized.node)]
     for key, value in sized.damper.model_dump(exclude={"kind"}, exclude_none=True).items():
-        name, measured = _DAMPER_KEYS[key]
-        told = f"{number(float(value), 6)} {measured}".strip()
+        name, own = _DAMPER_KEYS[key]
+        told = size_text(float(value), own, 6).rstrip()
         if key == sized.figure:
-            told += f" (of mode {sized.mode} by itself: {number(sized.start)})"
+            told += f" (best for mode {sized.mode} alone: {number(sized.start)})"
         pairs.append((name, told))
     pairs.append((f"largest {sized.measure} before", before))
     pairs.append((f"largest {sized.measure} with it", _tell_swings(sized.after, unit)))
@@ -136,6 +137,8 @@ def _criticals(result: TorsionAnalysis) -> Grid:
         for each in shown
     )
     note = "Those that do most work first; share: of all work done on the mode."
+    if excitation := result.system.excitation:
+        note += f" Of orders to {order_name(float(excitation.orders.max()))}."
     if result.response is None and result.system.rated_rpm:
         note += f" To {number(BEYOND * result.system.rated_rpm)} rpm, {BEYOND:g} times the file's."
     left = len(result.criticals) - len(shown)
@@ -203,7 +206,7 @@ def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text
     for k, name in enumerate(response.dampers):
         note += (
             f" The damper of {name.removesuffix(' ring')} turns up to "
-            f"{number(float(worst.heat[k]), 4)} W to heat, at "
+            f"{size_text(float(worst.heat[k]), HEAT_FLOW)} to heat, at "
             f"{number(float(worst.hottest_rpm[k]))} rpm."
         )
     heads = [

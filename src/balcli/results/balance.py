@@ -20,7 +20,7 @@ from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Tools, find_practical
 from .analysis import QUANTITIES, Analysis, analyze
 
-SHOWN = frozenset(QUANTITIES) - {"sizing"}  # of a balance, without and with the remedy
+_SHOWN = frozenset(QUANTITIES) - {"sizing"}  # without and with the remedy
 _UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
 
 
@@ -100,11 +100,21 @@ def balance(
     tools = tools or Tools()
     practical = find_practical(engine, remedy, tools)
     balanced = fit_devices(engine, remedy)
-    before, after = analyze(engine, orders, SHOWN), analyze(balanced, orders, SHOWN)
-    if engine.gas is not None or not np.array_equal(before.orders, after.orders):
-        both = merge_orders(before.orders, after.orders)
-        shown = SHOWN if engine.gas is None else SHOWN | {ROLL_TOTAL.name}
-        before, after = analyze(engine, both, shown), analyze(balanced, both, shown)
+    before, after = analyze_both(engine, balanced, orders)
     note = _UNEVEN if engine.ripple else ""
     every = orders is not None
     return Balance(remedy, before, after, practical, tools, note, every_order=every)
+
+
+def analyze_both(
+    engine: Engine, changed: Engine, orders: Iterable[float] | None
+) -> tuple[Analysis, Analysis]:
+    """An engine without and with a remedy, by the same orders: those asked for, or 1 and 2 and all
+    that are not negligible in one of them. With gas, the roll of inertia and gas together, too.
+    """
+    before, after = analyze(engine, orders, _SHOWN), analyze(changed, orders, _SHOWN)
+    if engine.gas is None and np.array_equal(before.orders, after.orders):
+        return before, after
+    both = merge_orders(before.orders, after.orders)
+    shown = _SHOWN if engine.gas is None else _SHOWN | {ROLL_TOTAL.name}
+    return analyze(engine, both, shown), analyze(changed, both, shown)

@@ -22,8 +22,7 @@ from ..errors import BalcliError
 from ..sizing.details import Detail, Range
 from ..sizing.remedy import Remedy
 from ..sizing.schemes import KNUCKLES
-from .analysis import analyze
-from .balance import SHOWN, Balance
+from .balance import Balance, analyze_both
 
 Goal = Literal["dead-centres", "strokes"]
 GOALS: tuple[Goal, ...] = ("dead-centres", "strokes")
@@ -125,8 +124,7 @@ def balance_knuckles(
     old, new = build(model), build(found.model)
     if speed_rpm is not None:
         old, new = replace(old, speed_rpm=speed_rpm), replace(new, speed_rpm=speed_rpm)
-    before = analyze(old, orders, SHOWN)
-    after = analyze(new, before.orders, SHOWN)
+    before, after = analyze_both(old, new, orders)
     return Balance(remedy, before, after, every_order=orders is not None)
 
 

@@ -8,7 +8,7 @@ of x, y, z, rx, ry, rz and roll, `PART` for what the words name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import NamedTuple
 
@@ -112,13 +112,17 @@ TORSION = Chapter(
         Form(
             "shaft.NAME.torque",
             "N·m",
-            "largest vibratory torque of a shaft",
+            "largest vibratory torque of a shaft, from half to 1.5 times the speed",
             "torsion",
         ),
-        Form("shaft.NAME.stress", "Pa", "its largest vibratory stress", "torsion"),
+        Form("shaft.NAME.stress", "Pa", "its largest vibratory stress there", "torsion"),
     ),
 )
 CHAPTERS = (ENGINE, GUIDE, CYCLE, MOUNTS, TORSION)
+_OF_SHAFTS = (
+    "Of shafts: the largest from half to 1.5 times the engine's speed; what resonates at other "
+    "speeds, which are passed, is not in it."
+)
 BEGINNINGS = tuple(dict.fromkeys(each for chapter in CHAPTERS for each in chapter.beginnings))
 _OF_CYCLE = tuple(form.pattern for form in CYCLE.forms)
 
@@ -145,3 +149,8 @@ def _shorten(chapter: Chapter) -> Iterator[str]:
     for stem, patterns in groupby(chapter.forms, lambda form: form.pattern.rpartition(".")[0]):
         parts = "|".join(form.pattern.rpartition(".")[2] for form in patterns)
         yield f"{stem}.{parts}" if stem else parts
+
+
+def tell_speeds(names: Iterable[str]) -> str:
+    """Over which speeds quantities of these names are the largest, where one could be misled."""
+    return _OF_SHAFTS if any(name.startswith("shaft.") for name in names) else ""

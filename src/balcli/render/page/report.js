@@ -270,7 +270,8 @@
         const [x, y] = sum(rows, theta), size = Math.hypot(x, y);
         set(vector, { x2: (y * scale).toFixed(3), y2: (-x * scale).toFixed(3) });
         set(tip, { cx: y * scale, cy: -x * scale });
-        const direction = String(Math.round(Math.atan2(y, x) * 180 / Math.PI) + 0).replace("-", "−");
+        const whole = Math.round(Math.atan2(y, x) * 180 / Math.PI);
+        const direction = String(whole === -180 ? 180 : whole + 0).replace("-", "−");
         const where = size < unit.least ? "negligible" : `at ${direction}° from x`;
         now.textContent = size ? `${figure(size, unit)} ${where}` : "balanced";
         chain.replaceChildren();
