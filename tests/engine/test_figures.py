@@ -101,10 +101,9 @@ RIVALS = {
     "unbalance": ["mass", "radius"],
 }
 DEFAULTS = {"ratio": 0.3, "length": 200.0}
-IDLE = {  # nothing moves by them: one bank, one throw, articulated rods, the way back to the first
+IDLE = {  # nothing moves by them: one bank, one throw, articulated rods
     ("fired", "crank.splay"),
     ("fired", "layout.stagger"),
-    ("fired", "layout.firing_intervals.3"),
     ("knuckles", "crank.spacing"),
     ("rotary", "crank.spacing"),
 }

@@ -141,6 +141,13 @@ def test_a_bank_angle_is_that_of_a_vee() -> None:
             parse_parameter("layout.bank_angle=0:90:10", load(other))
 
 
+def test_firing_intervals_vary_together_or_not_at_all() -> None:
+    """They add up to a cycle: with one of them changed, no file could say the rest."""
+    text = GOOD.replace("[layout]", "[layout]\nfiring_intervals = [180, 180, 180, 180]")
+    with pytest.raises(BalcliError, match=r"^layout\.firing_intervals\.1: unknown parameter"):
+        parse_parameter("layout.firing_intervals.1=170,180", load(text))
+
+
 def test_more_values_than_are_kept_are_refused_before_there_are_any() -> None:
     with pytest.raises(BalcliError) as found:
         parse_parameter("rod.ratio=0.2:0.3:1e-10", load(GOOD))

@@ -203,8 +203,7 @@ class Assembly:
         intervals = self.model.layout.firing_intervals
         if self.order is None or (intervals is None and self.model.crank.throws is not None):
             return {}
-        given = intervals and self.figures.take_each("layout.firing_intervals", intervals)
-        return firing.find_instants(self.order, given, cycle_deg(self.model.layout))
+        return firing.find_instants(self.order, intervals, cycle_deg(self.model.layout))
 
     @cached_property
     def throws_deg(self) -> Mapping[int, Figure]:

@@ -57,6 +57,8 @@ def find_numbers(model: EngineFile) -> dict[str, Number]:
         numbers |= _numbers_of(path, table)
     for path in _list_idle_paths(model, numbers):
         del numbers[path]
+    for k in range(len(model.layout.firing_intervals or ())):  # of a cycle: none varies alone
+        del numbers[f"layout.firing_intervals.{k + 1}"]
     if plan.banks != 2:  # it would make a vee of the engine, with other cylinders
         numbers.pop("layout.bank_angle", None)
     return numbers
