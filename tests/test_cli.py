@@ -102,6 +102,18 @@ def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message)
     assert re.sub(r"\{?FILE\.\.\.\}?(\.\.\.)?", "{FILE...}...", err) == usage(command, message)
 
 
+def test_an_option_of_other_commands_is_told_with_them(balcli):
+    status, out, err = balcli("sum", I4, I4, "--only", "force")
+    assert (status, out) == (2, "")
+    assert err.endswith("Error: No such option: --only. Commands that have it: analyze, compare\n")
+    *_, last = balcli("sweep", I4, "--units=imperial").err.splitlines()
+    assert last.startswith("Error: No such option: --units")
+    assert last.endswith(
+        ". Commands that have it: analyze, compare, sum, torque, plot, report, balance, field, "
+        "mounts"
+    )
+
+
 @pytest.mark.parametrize(
     "args",
     [
@@ -169,7 +181,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         ),
         (
             ["analyze", V8, "-o", "/nowhere/x.txt"],
-            "/nowhere/x.txt: cannot be written (No such file or directory)",
+            "/nowhere/x.txt: cannot be written (there is no folder /nowhere)",
         ),
         (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
         (["check", "nowhere"], "nowhere: no such file or folder"),
@@ -731,7 +743,7 @@ IMPORTED = {
     "core.mechanisms": "closed_form distinct fourier harmonics",
     "engine": "arrays assembly build devices figures firing layout load positions rods rules "
     "split_pins",
-    "enginefile": "exclusive fields messages model plain_tables read suspicious toml_text unit_table "
+    "enginefile": "exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
     "units unknown_keys",
     "forces": "kinds orders spectrum",
     "render": "analyses analysis_document csv devices figures formats json sheet units view",

@@ -290,5 +290,15 @@ def _usage(error: Any) -> str:
             ". Fit the devices first, balcli balance FILE --scheme NAME --write FITTED.toml, and "
             "give this command FITTED.toml."
         )
+    elif unknown := re.search(r"No such option: (--[a-z-]+)", told):
+        told += _name_commands_with(unknown[1])
     blank = ': a value or a name with a blank goes in quotes, such as "52 %".'
     return told + (blank if "unexpected extra argument" in told else "")
+
+
+def _name_commands_with(option: str) -> str:
+    """The commands that have an option, in words; their modules are imported for that."""
+    group: Any = get_command(app)
+    params = {name: group.get_command(None, name).params for name in COMMANDS}
+    having = [name for name in COMMANDS if any(option in each.opts for each in params[name])]
+    return f". Commands that have it: {', '.join(having)}" if having else ""

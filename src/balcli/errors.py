@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from enum import IntEnum
+from os import PathLike
 from typing import NamedTuple
 
 # Unicode's own: what turns the direction of text, and what ends a line or a paragraph.
@@ -100,6 +102,15 @@ class Problem(NamedTuple):
 
 class BalcliError(Exception):
     """Anything a user can mend; `cli.py` prints its text and exits with status 2."""
+
+
+def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
+    """The error of a file that cannot be written; a missing folder has its name."""
+    folder = os.path.dirname(target)
+    reason = error.strerror or str(error)
+    if isinstance(error, FileNotFoundError) and folder and not os.path.exists(folder):
+        reason = f"there is no folder {folder}"
+    return BalcliError(f"{target}: cannot be written ({reason})")
 
 
 class InputError(BalcliError):

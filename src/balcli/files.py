@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from itertools import chain, count
 from pathlib import Path
 
-from .errors import BalcliError, note
+from .errors import BalcliError, note, tell_unwritable
 from .process import discard, unfinished
 
 
@@ -42,7 +42,7 @@ def replacing(target: Path) -> Iterator[Path]:
             place.replace(real)
             note(f"{target}: written, {size} bytes")
     except OSError as error:
-        raise BalcliError(f"{target}: cannot be written ({error.strerror or error})") from None
+        raise tell_unwritable(target, error) from None
 
 
 @contextmanager

@@ -175,7 +175,7 @@ def test_standard_input_is_read_once(args):
 
 def test_nothing_is_written_where_one_of_two_results_has_no_folder():
     assert refusal("balance", "good.toml", "--write", "a.toml", "-o", "none/x.txt") == (
-        "none/x.txt: cannot be written (No such file or directory)"
+        "none/x.txt: cannot be written (there is no folder none)"
     )
     assert os.listdir() == ["good.toml"]
 

@@ -118,7 +118,9 @@ def test_what_does_not_go_into_a_folder_is_refused():
         "--plot a.svg: figures that go into a folder are not kept for a picture; write one file, "
         "or leave --plot out"
     )
-    assert refusal(*ASKED, "-o", "nowhere/out/").startswith("nowhere/out: cannot be written")
+    assert refusal(*ASKED, "-o", "nowhere/out/") == (
+        "nowhere/out: cannot be written (there is no folder nowhere)"
+    )
     assert run_here("sweep", "good.toml", *ASKED, "-o", "out/", "-f", "parquet")[0] == 0
 
 

@@ -132,7 +132,8 @@ def test_a_pipe_is_written_to_and_stays_a_pipe(balcli, good):
     [
         ("x" * 300, "File name too long"),
         ("good.toml/x", "Not a directory"),
-        ("none/x", "No such file or directory"),
+        ("none/x", "there is no folder none"),
+        ("none/within/x", "there is no folder none/within"),
     ],
 )
 def test_places_that_cannot_be(balcli, good, target, reason):

@@ -283,12 +283,27 @@ def test_writing_needs_inertia(tmp_path):
     assert "--write: the speed is not known; give inertia in [crank] or [flywheel]" in err
 
 
-def test_an_engine_without_gas_is_refused(tmp_path):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR)
-    status, _, err = run_here("torque", str(bare))
-    assert status == 2
-    assert "bare: has no [gas]; give a diagram, a cycle or harmonics" in err
+@pytest.mark.parametrize(
+    "command",
+    [
+        "torque bare.toml",
+        "torque bare.toml --misfire 1",
+        "analyze bare.toml --only gas",
+        "analyze bare.toml --misfire 1 --speed 1000",
+        "compare gas.toml bare.toml --only gas",
+        "plot bare.toml x.svg --what polar,torque",
+    ],
+)
+def test_an_engine_without_gas_is_refused_by_its_file(command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bare.toml").write_text(f'name = "four"\n{FOUR}')
+    (tmp_path / "gas.toml").write_text(FOUR + WIEBE)
+    assert run_here(*command.split()) == (
+        2,
+        "",
+        "balcli: bare.toml: has no [gas]; give a diagram, a cycle or harmonics, such as "
+        'cycle = "wiebe", compression_ratio = 10.5, imep = 10\n',
+    )
 
 
 # ------------------------------------------------------------------ loads and curves

@@ -201,6 +201,10 @@ def test_standard_input(monkeypatch):
             "articulation.rod: is missing; give it, such as rod = { length = 200 }",
         ),
         (
+            changed(("length = 160", "lenght = 160")),
+            "rod.lenght: unknown key in [rod]; did you mean length?",
+        ),
+        (
             GOOD + "[articulation]\nknuckle_radius = 50\nrod = { mass = 1 }\n",
             "articulation.rod: has neither length nor ratio; give either length or ratio",
         ),
@@ -285,7 +289,13 @@ def test_missing_tables_come_with_an_example():
         ),
         (
             "[crank]\nstroke = 90\nstroke = 91\n",
-            "is not valid TOML: Cannot overwrite a value (at line 3, column 12)",
+            "is not valid TOML: Cannot overwrite a value (at line 3, column 12): stroke is given "
+            "twice; write it once",
+        ),
+        (
+            "[crank]\nstroke = 90\nstroke = 91",
+            "is not valid TOML: Cannot overwrite a value (at end of document): stroke is given "
+            "twice; write it once",
         ),
         (
             GOOD.encode() + b"# \xff\n",
@@ -309,6 +319,7 @@ def test_missing_tables_come_with_an_example():
     ids=[
         "syntax",
         "key twice",
+        "key twice at the end",
         "not UTF-8",
         "zero bytes",
         "deep lists",

@@ -170,6 +170,13 @@ def test_members_of_lists_go_by_number_or_name():
     assert one["mount"][1]["stiffness"][0] == 99
 
 
+def test_members_of_lists_that_the_file_leaves_out_have_the_others_of_the_default():
+    engine = balcli.load(ENGINES / "i4_mounts.toml")
+    varied = engine.vary({"body.gravity.3": 0.1, "mount.1.damping.2": 0.4}).to_dict()
+    assert varied["body"]["gravity"] == [-1, 0, 0.1]
+    assert varied["mount"][0]["damping"] == [0, 0.4, 0]
+
+
 def test_a_firing_order_that_no_longer_fits_the_throws_is_left_out():
     engine = balcli.load(ENGINES / "v8_crossplane.toml")
     wide = engine.vary({"layout.bank_angle": 60})

@@ -131,6 +131,12 @@ def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     assert run_here("analyze", "ford").err == (
         "balcli: ford: no such file; ford.toml is there: did you mean it?\n"
     )
+    (tmp_path / "sub").mkdir()
+    for name, near in (("frod.toml", "ford.toml"), ("sub/../ford.tml", "sub/../ford.toml")):
+        assert run_here("analyze", name).err == (
+            f"balcli: {name}: no such file; {near} is there: did you mean it?\n"
+        )
+    assert run_here("torque", "--curve", "ford.csv").err == "balcli: ford.csv: no such file\n"
     for name in ("i3", "engines/i3.toml"):
         assert run_here("analyze", name).err == (
             f"balcli: {name}: no such file; i3 is an example: balcli engines i3 i3.toml\n"

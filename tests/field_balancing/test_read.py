@@ -30,6 +30,18 @@ CASES = [
         'run.1.readings: the 2nd value 53 is no amplitude @ angle in degrees; write it like "170 @ 112"',
     ),
     (
+        with_first('"53 @ 78"', '"53 µm @ 78°"'),
+        'run.1.readings: the 2nd value "53 µm @ 78°" names a unit, which stands once at the head of the file: write "53 @ 78", and unit = "µm" there',
+    ),
+    (
+        with_first("1.15 @ 0", "1.15 oz in @ 0"),
+        'run.2.weights.front: "1.15 oz in @ 0" names a unit, which stands once at the head of the file: write "1.15 @ 0", and weight_unit = "oz in" there',
+    ),
+    (
+        three_runs("influence = [['1 um/g @ 0', '2 @ 0']]"),
+        'influence.1: the 1st value "1 um/g @ 0" is no amplitude @ angle in degrees; write it like "0.0155 @ 113"',
+    ),
+    (
         with_first('"53 @ 78"', '"-53 @ 78"'),
         'run.1.readings: the 2nd value "-53 @ 78" has a negative amplitude; leave the minus out and turn the angle by 180 degrees',
     ),

@@ -318,6 +318,9 @@ def test_a_cylinder_of_its_own_is_weighed_on_its_own():
 
 
 # ------------------------------------------------------------------ both definitions, and the inverse
+ABOVE_ALL = "a factor above 1: more than all reciprocating mass on the pin is balanced"
+
+
 def test_the_same_weight_by_both_definitions():
     """65 % of one cylinder's reciprocating mass are 32.5 % of all on the pin of a twin."""
     told = figures(fit(TWIN, 0.325))
@@ -340,6 +343,12 @@ def test_less_than_the_rotating_mass_is_told():
     remedy = size(build_text(TWIN), "factor", SchemeOptions(measured=0.8))
     assert figures(remedy)["factor"] == pytest.approx(-100 / 1440, rel=1e-12)
     assert remedy.note == "a factor below 0: not even all rotating mass is balanced"
+
+
+@pytest.mark.parametrize(("factor", "told"), [(1.0, ""), (1.02, ABOVE_ALL), (5.0, ABOVE_ALL)])
+def test_more_than_all_reciprocating_mass_is_told(factor, told):
+    """102 % may be meant of one cylinder's mass, 500 % for 50 %."""
+    assert fit(TWIN, factor).note == told
 
 
 def test_unequal_pins_share_what_was_measured():

@@ -134,6 +134,16 @@ def test_a_rod_weighed_at_one_end_only_is_refused() -> None:
         check_corners(asked(light, "rod.big_end=0.1,0.2"))
 
 
+def test_firing_intervals_that_make_no_cycle_are_refused() -> None:
+    """Throws that follow from them stood anywhere."""
+    text = changed(("throws = [0, 180, 180, 0]\n", "")).replace(
+        "[layout]", "[layout]\nfiring_intervals = [180, 180, 180, 180]"
+    )
+    told = "layout.firing_intervals: add up to 710 degrees; the cycle of a 4-stroke has 720"
+    with pytest.raises(InputError, match=told):
+        check_corners(asked(text, "layout.firing_intervals.1=170,180"))
+
+
 def test_what_does_not_vary_is_not_computed_again() -> None:
     sweep = asked(VEE, "layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3,0.31")
     engine = sweep.engine((slice(None), slice(None)))

@@ -132,7 +132,7 @@ def _analyze_files(
 
     def find_one(path: str) -> tuple[str, str, Found]:
         engine = read_engine(path, rpm, asked.words).engine
-        return engine.name, path, find(silence_cylinders(engine, asked.misfires))
+        return engine.name, path, find(silence_cylinders(engine, asked.misfires, path))
 
     found, errors = try_each(paths, find_one)
     if found and not (errors and target.output):  # a file gets all of them or is left as it was

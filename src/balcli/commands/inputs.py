@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeVar
 
 import typer
 
-from ..engine.build import Engine
+from ..engine.build import NO_GAS, Engine
 from ..engine.load import build_named, parse
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.model import EngineFile
@@ -47,7 +47,7 @@ def read_engine(
             shows. What says nothing of moments needs no warning that they are not known.
 
     Raises:
-        BalcliError: all mistakes of the file; a moment that was asked for and is not known.
+        BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
     """
     if path in WORDS_OF_ONLY and not os.path.exists(path):
         raise BalcliError(
@@ -61,6 +61,8 @@ def read_engine(
         _tell_what_was_read(name_file(path), text, model)
     if not engine.places_known:
         _tell_unknown(name_file(path), asked)
+    if "gas" in (asked or ()):
+        require_gas(engine, path)
     doubts = engine.gas.doubts if engine.gas is not None else ()
     for warning in (*find_suspicious(model), *doubts):
         warn(f"{name_file(path)}: {warning}")
@@ -145,7 +147,17 @@ def _is_engine(path: Path) -> bool:
     return path.suffix == ".toml" and path.name not in SETTINGS
 
 
-def silence_cylinders(engine: Engine, numbers: Collection[int]) -> Engine:
+def require_gas(engine: Engine, path: str) -> None:
+    """Refuse an engine without gas, by its file.
+
+    Raises:
+        BalcliError: with what is missing.
+    """
+    if engine.gas is None:
+        raise BalcliError(f"{name_file(path)}: {NO_GAS}")
+
+
+def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> Engine:
     """The engine with the gas of some cylinders doing nothing.
 
     Raises:
@@ -153,6 +165,7 @@ def silence_cylinders(engine: Engine, numbers: Collection[int]) -> Engine:
     """
     if not numbers:
         return engine
+    require_gas(engine, path)
     from ..torque.course import silence  # for those who ask
 
     for number in numbers:

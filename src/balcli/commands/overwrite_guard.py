@@ -8,7 +8,7 @@ import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ..errors import BalcliError
+from ..errors import BalcliError, tell_unwritable
 from .file_names import Place
 
 STANDARD_INPUT = "-"
@@ -46,7 +46,7 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
         try:
             os.stat(os.path.join(os.path.dirname(target) or ".", ""))
         except OSError as error:
-            raise BalcliError(f"{target}: cannot be written ({error.strerror})") from None
+            raise tell_unwritable(target, error) from None
 
 
 def _same_file(one: str, other: str) -> bool:

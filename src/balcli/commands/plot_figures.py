@@ -10,9 +10,9 @@ from ..render.plot.pages import PageSubject, make_page
 from ..render.units import SYSTEMS
 from ..sizing.options import SchemeOptions
 from ..studies.pictures import compute_study, refuse_scheme
-from .inputs import read_engine
+from .inputs import read_engine, require_gas
 from .options import parse_orders, parse_speed
-from .plot_pages import OF_TORSION, What, choose_shown
+from .plot_pages import OF_GAS, OF_TORSION, What, choose_shown
 from .scheme_options import choose_beside
 from .torsion_answer import make_figures_of_torsion
 
@@ -55,6 +55,8 @@ def _make_pages(path: str, pages: Sequence[What], asked: Asked, form: Form) -> l
     schemes = [_choose_scheme(page, asked) for page in pages]
     orders = parse_orders(asked.orders)
     engine = read_engine(path, parse_speed(asked.speed), choose_shown(pages)).engine
+    if any(page in OF_GAS for page in pages):
+        require_gas(engine, path)
     figures = []
     for page, scheme in zip(pages, schemes, strict=True):
         study = compute_study(engine, page, orders, scheme, asked.options)

@@ -42,6 +42,7 @@ class What(StrEnum):
 
 
 OF_TORSION = (What.MODES, What.CAMPBELL, What.RESPONSE, What.WATERFALL)
+OF_GAS = (What.PRESSURE, What.P_V, What.TORQUE, What.PIN, What.MAIN)
 _SHOWN = {What.INNER: "inner", What.BANK: "force"}  # what of the engine these pages show alone
 
 

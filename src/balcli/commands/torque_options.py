@@ -129,10 +129,11 @@ def analyze_file(
 ) -> tuple[bytes, TorqueAnalysis]:
     """Text of an engine file, and the torque of its engine."""
     from ..torque.analysis import analyze_torque
-    from .inputs import named_by_file, read_engine, silence_cylinders
+    from .inputs import named_by_file, read_engine, require_gas, silence_cylinders
 
     source = read_engine(path, parse_speed(speed))
-    engine = silence_cylinders(named_by_file(source.engine, path), misfire or ())
+    require_gas(source.engine, path)
+    engine = silence_cylinders(named_by_file(source.engine, path), misfire or (), path)
     asked, allowed = parse_orders(orders), parse_fluctuation(fluctuation)
     found = analyze_torque(
         engine, asked, cylinder=cylinder, fluctuation=allowed, loads=parse_loads(loads)

@@ -28,6 +28,11 @@ if TYPE_CHECKING:
     from ..enginefile.gas_tables import Bearing, Flywheel
     from .gas import EngineGas
 
+NO_GAS = (
+    'has no [gas]; give a diagram, a cycle or harmonics, such as cycle = "wiebe", '
+    "compression_ratio = 10.5, imep = 10"
+)
+
 
 class Weighed(NamedTuple):
     """Masses of one cylinder as a shop weighs them, kg.

@@ -88,7 +88,7 @@ def parse_dict(tables: Mapping[str, Any], folder: Path | None = None, name: str 
     Raises:
         InputError: as of `parse`.
     """
-    draft = check_tables(normalize_tables(tables, name), folder or Path())
+    draft = check_tables(normalize_tables(tables, name), folder or Path(), name)
     return _refuse_mistakes(draft, name)
 
 

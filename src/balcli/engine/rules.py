@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.mechanisms import harmonics
 from ..core.speed_ripple import RippleLine, find_slowest
+from ..enginefile.model import INTERVAL_TOLERANCE_DEG, describe_wrong_cycle
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
 from .assembly import Assembly
@@ -133,6 +134,16 @@ def _weigh_rod(parts: Assembly, place: RodPlace) -> RunningGear | None:
     if "crank" in parts.legible:
         return weigh_rod(place.rod, place.rod.length_for(parts.radius))
     return None if place.rod.length is None else weigh_rod(place.rod, place.rod.length)
+
+
+def check_intervals(parts: Assembly) -> Iterator[Problem]:
+    """Firing intervals that vary add up to a cycle still."""
+    path, layout = "layout.firing_intervals", parts.model.layout
+    if layout.firing_intervals is None:
+        return
+    total = np.ravel(sum(parts.figures.take_each(path, layout.firing_intervals)))
+    if len(wrong := total[np.abs(total - 180 * layout.strokes) > INTERVAL_TOLERANCE_DEG]):
+        yield Problem(path, describe_wrong_cycle(wrong[0], layout.strokes))
 
 
 def check_half_orders(parts: Assembly) -> Iterator[Problem]:
@@ -288,6 +299,7 @@ RULES = (
         Rule(check_cylinders, frozenset({"crank", "layout"})),
         Rule(check_masters, frozenset({"crank", "layout", "articulation"})),
         Rule(check_rods, frozenset({"rod"})),
+        Rule(check_intervals, frozenset({"layout"})),
         Rule(check_half_orders, frozenset({"operation", "layout", "gas"})),
         Rule(check_speed, frozenset({"operation"})),
     ),

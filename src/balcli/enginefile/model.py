@@ -327,11 +327,15 @@ class Layout(FileTable):
                 "back to the first cylinder"
             )
         elif abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
-            yield (
-                f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
-                f"{self.strokes}-stroke has {180 * self.strokes} (within "
-                f"{INTERVAL_TOLERANCE_DEG:g})"
-            )
+            yield f"firing_intervals {describe_wrong_cycle(sum(intervals), self.strokes)}"
+
+
+def describe_wrong_cycle(total_deg: float, strokes: int) -> str:
+    """What is wrong with firing intervals of this sum."""
+    return (
+        f"add up to {total_deg:g} degrees; the cycle of a {strokes}-stroke has {180 * strokes} "
+        f"(within {INTERVAL_TOLERANCE_DEG:g})"
+    )
 
 
 class Bobweight(FileTable):

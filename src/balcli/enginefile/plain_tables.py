@@ -101,9 +101,9 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
             k = _find_member(place, given, key, path)
             place, given = place[k], given[k]
         else:
-            place = place.setdefault(key, {})
             known = {str(k): one for k, one in given.items()} if isinstance(given, dict) else {}
             given = known.get(key) if known else getattr(given, key, None)
+            place = place.setdefault(key, _write(given) if isinstance(given, tuple) else {})
         if not isinstance(place, (dict, list)):
             raise InputError([Problem(path, f"{key} is one value, with nothing below it")])
     return place, given

@@ -21,6 +21,7 @@ from ..limits import (
     MOST_PARTS,
 )
 from .fields import printable, shorten
+from .file_kinds import ENGINE, refuse_other_kind
 from .messages import (
     CHAPTER_LISTS,
     CHAPTERS,
@@ -99,19 +100,26 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
             has none.
 
     Raises:
-        InputError: it is no TOML.
+        InputError: it is no TOML, or of another kind.
     """
-    return check_tables(parse_toml(text, name), Path(name).parent, bare=bare)
+    return check_tables(parse_toml(text, name), Path(name).parent, name, bare=bare)
 
 
-def check_tables(data: Mapping[str, Any], folder: Path, *, bare: bool = False) -> Draft:
+def check_tables(
+    data: Mapping[str, Any], folder: Path, name: str = "", *, bare: bool = False
+) -> Draft:
     """What tables say of an engine. Those that are not there are not even compiled by pydantic.
 
     Args:
         data: as TOML is read.
         folder: in which the files are that they name.
+        name: of their own file, for messages.
         bare: as of `read_tables`.
+
+    Raises:
+        InputError: they are of another kind of file.
     """
+    refuse_other_kind(data, ENGINE, name)
     reader = _Reader()
     reader.unknown += find_unknown_keys(data)
     bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)

@@ -13,6 +13,7 @@ from typing import Any
 
 from ..errors import BalcliError, InputError, Problem
 from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
+from .fields import nearest
 
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
@@ -50,6 +51,10 @@ def find_near_file(source: str | Path) -> str:
         return f"; {with_ending} is there: did you mean it?"
     if asked.suffix in ("", ".toml") and is_example(asked.stem):
         return f"; {asked.stem} is an example: balcli engines {asked.stem} {asked.stem}.toml"
+    beside = [file.name for file in asked.parent.glob("*.toml") if file.is_file()]
+    is_toml = nearest(asked.suffix, [".toml"])  # not the .csv beside an engine file
+    if is_toml and (near := nearest(asked.name, sorted(beside), cutoff=0.8)):
+        return f"; {asked.with_name(near)} is there: did you mean it?"
     return ""
 
 
@@ -81,10 +86,15 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
 
 
 def _explain(text: str | bytes, error: str) -> str:
-    """The line that TOML does not understand, and what is meant, where that can be guessed."""
+    """The line that TOML does not understand, and what is meant, where that can be guessed; or the
+    key that is there twice.
+    """
     place = re.search(r"\(at line (\d+), ", error)
     lines = (text.decode("utf-8-sig") if isinstance(text, bytes) else text).splitlines()
-    line = lines[int(place[1]) - 1] if place and int(place[1]) <= len(lines) else ""
+    line = lines[int(place[1]) - 1 if place else -1] if lines else ""
+    twice = re.match(r"\s*([\w.-]{1,60})\s*=", line)
+    if twice and error.startswith("Cannot overwrite"):
+        return f": {twice[1]} is given twice; write it once"
     assigned = re.fullmatch(r"\s*([\w.-]{1,40})\s*=\s*([^#\"'\[\]{}]{1,60}?)\s*(?:#.*)?", line)
     if assigned is None or not assigned[2].isprintable():
         return ""

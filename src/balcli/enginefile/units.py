@@ -163,7 +163,9 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
             raise ValueError(f'has "{small}" after "{large}", which is not less than "{one}"')
         return -(whole + rest) if sign == "-" else whole + rest
     if found is None:
-        raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
+        comma = re.search(r"\d,\d", figure)
+        hint = " decimals take a point, thousands no comma;" if comma else ""
+        raise ValueError(f"is not a number followed by a unit;{hint} {wanted(dimension)}")
     number, names = found
     if not names:
         raise ValueError(f"has no unit; {wanted(dimension)}")

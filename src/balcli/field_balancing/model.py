@@ -32,7 +32,9 @@ from ..limits import (
 )
 
 _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
-_POLAR = re.compile(rf"\s*({BARE_FIGURE})\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
+_AT = rf"\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*"
+_POLAR = re.compile(rf"\s*({BARE_FIGURE}){_AT}", re.ASCII)
+_WITH_UNIT = re.compile(rf"\s*({BARE_FIGURE})\s*([^\s\d.,@+-][^@]*?){_AT}", re.ASCII)
 _LARGEST, _SMALLEST = 1e12, 1e-12
 _FARTHEST_DEG = 1e6
 FREE = "free"  # places of a plane that takes weights at any angle
@@ -59,20 +61,18 @@ class Polar(Number):
 
     Args:
         example: for messages. zero: whether the amplitude may be 0.
+        unit: key of the file that names the unit of all such values, if there is one.
     """
 
-    def __init__(self, example: str, *, zero: bool) -> None:
+    def __init__(self, example: str, *, zero: bool, unit: str = "") -> None:
         super().__init__(PLAIN)
-        self.example, self.zero = example, zero
+        self.example, self.zero, self.unit = example, zero, unit
 
     def read(self, value: object) -> complex:  # type: ignore[override]
-        short = isinstance(value, str) and len(value) <= LONGEST_FIGURE
-        match = _POLAR.fullmatch(value) if isinstance(value, str) and short else None
+        text = value if isinstance(value, str) and len(value) <= LONGEST_FIGURE else ""
+        match = _POLAR.fullmatch(text)
         if match is None:
-            raise ValueError(
-                f"{shorten(value)} is no amplitude @ angle in degrees; write it like "
-                f'"{self.example}"'
-            )
+            raise ValueError(f"{shorten(value)} {self._describe_misfit(text)}")
         amplitude, angle = map(float, match.groups())
         if amplitude < 0:
             raise ValueError(
@@ -94,6 +94,16 @@ class Polar(Number):
                 f"{shorten(value)} is too small; amplitudes are 0, or {_SMALLEST:g} and more"
             )
         return make_polar(amplitude, angle)
+
+    def _describe_misfit(self, text: str) -> str:
+        """What is wrong with a text that is not amplitude and angle."""
+        if self.unit and (found := _WITH_UNIT.fullmatch(text)):
+            figure, unit, angle = found.groups()
+            return (
+                f'names a unit, which stands once at the head of the file: write "{figure} @ '
+                f'{angle}", and {self.unit} = {shorten(unit)} there'
+            )
+        return f'is no amplitude @ angle in degrees; write it like "{self.example}"'
 
     def json(self) -> dict[str, Any]:
         return {"type": "string", "pattern": rf"^{_POLAR.pattern}$"}
@@ -155,8 +165,8 @@ def read_amount_unit(name: str) -> Unit:
 
 
 Name = Annotated[str, Label()]
-Reading = Annotated[complex, Polar("170 @ 112", zero=True)]
-Weight = Annotated[complex, Polar("1.15 @ 0", zero=False)]
+Reading = Annotated[complex, Polar("170 @ 112", zero=True, unit="unit")]
+Weight = Annotated[complex, Polar("1.15 @ 0", zero=False, unit="weight_unit")]
 Coefficient = Annotated[complex, Polar("0.0155 @ 113", zero=True)]
 Amount = Annotated[float, Number(PLAIN, above=0, most=1e9)]
 Factor = Annotated[float, Number(PLAIN, least=1e-6, most=1e6)]

@@ -11,6 +11,7 @@ from typing import Any
 from pydantic_core import ErrorDetails
 
 from ..enginefile.fields import counted, nearest, printable, shorten
+from ..enginefile.file_kinds import RUNS, refuse_other_kind
 from ..enginefile.messages import describe_finding, join_path
 from ..enginefile.model import FileTable
 from ..enginefile.table_reader import TableReader
@@ -44,7 +45,8 @@ def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
 
 def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
     """The runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
-    reader = TableReader("a file of runs", _describe)
+    refuse_other_kind(data, RUNS, file)
+    reader = TableReader(RUNS.name, _describe)
     stand_in = {"run": [Run.model_construct(readings=(0j,))]}  # runs are read one by one
     model = reader.read_table("", {**data, **stand_in}, RunsFile)
     if "run" in data:

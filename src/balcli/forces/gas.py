@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..core.cylinder_pressure import GasTorque
 from ..core.phases import ANGLE, SUM
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
-from ..engine.build import Engine
+from ..engine.build import NO_GAS, Engine
 from ..engine.gas import CylinderGas, EngineGas
 from ..errors import BalcliError
 
@@ -37,11 +37,7 @@ def take_gas(engine: Engine) -> EngineGas:
         BalcliError: it has none.
     """
     if engine.gas is None:
-        name = engine.name or "the engine"
-        raise BalcliError(
-            f'{name}: has no [gas]; give a diagram, a cycle or harmonics, such as cycle = "wiebe", '
-            "compression_ratio = 10.5, imep = 10"
-        )
+        raise BalcliError(f"{engine.name or 'the engine'}: {NO_GAS}")
     return engine.gas
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import nan
+from math import isnan, nan
 
 from ..results.balance import Balance
 from ..sizing.details import Detail, Dimension, Range
@@ -11,7 +11,7 @@ from ..sizing.device_tables import measure_direction
 from ..sizing.scheme_figures import Bobweight, FactorPeaks, Optima, PlaneNeed
 from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .scheme_details_document import list_optimum
-from .sheet import NEGLIGIBLE, Facts, Grid, degrees, number, size_text
+from .sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text
 from .units import ShownUnit, System
 
 # Labels of the roll without and with new devices: of inertia, and with gas where there is some.
@@ -31,7 +31,7 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     if result.speed_note:
         details.append(Detail("speed", "", result.speed_note))
     if not result.before.moments_known:
-        details = [d._replace(value=nan) if d.dimension == "moment" else d for d in details]
+        details = [d._replace(value=nan) if _needs_places(d) else d for d in details]
     details = [
         _name_order(detail, remedy.order) for detail in details if detail.label not in _FOR_PROGRAMS
     ]
@@ -48,6 +48,11 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         yield _sweep_grid(peaks, system)
     if remedy.optima:
         yield _optima_grid(remedy.optima)
+
+
+def _needs_places(detail: Detail) -> bool:
+    """Whether it takes the places of the throws to know it: of moments, but not about the crank."""
+    return detail.dimension == "moment" and all(detail.label not in labels for labels in _ROLLS)
 
 
 def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
@@ -106,7 +111,9 @@ def _list_facts(detail: Detail, system: System) -> Iterator[tuple[str, str]]:
 
 
 def _figure(value: float, dimension: Dimension, system: System) -> str:
-    """A figure with its unit."""
+    """A figure with its unit; a dash where it is not known."""
+    if isnan(value):
+        return UNKNOWN
     if dimension == "":
         return number(value)
     if dimension == "share":

@@ -120,6 +120,8 @@ def _note(
         return SAME_PLACE
     if factor < 0:
         return "a factor below 0: not even all rotating mass is balanced"
+    if factor > 1:
+        return "a factor above 1: more than all reciprocating mass on the pin is balanced"
     if complete:
         return COMPLETE
     return OWN_PLACES if chosen and planes is not None else ""

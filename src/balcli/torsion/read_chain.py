@@ -10,6 +10,7 @@ from typing import Any
 from pydantic_core import ErrorDetails
 
 from ..enginefile.fields import counted, nearest, printable, shorten
+from ..enginefile.file_kinds import CHAIN
 from ..enginefile.messages import describe_finding, find_inner_table, join_path
 from ..enginefile.model import FileTable
 from ..enginefile.table_reader import TableReader
@@ -32,7 +33,7 @@ def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
     Raises:
         InputError: with every mistake.
     """
-    reader = TableReader("a chain file", _describe)
+    reader = TableReader(CHAIN.name, _describe)
     head = {key: value for key, value in data.items() if key not in KEYS}
     model = reader.read_table("", head | {"node": []}, ChainFile)
     lists = {}
