@@ -74,7 +74,7 @@ def test_shafts_that_cancel_the_roll_of_inertia_may_leave_more_with_gas(four):
     assert growth > 0
     assert (
         f"The roll of order 2 with gas grows by {growth:.4g} N·m: what they take of the roll of "
-        "inertia stood against that of the gas here." in table
+        "inertia stood against that of the gas at this speed." in table
     )
     assert "roll with gas, N·m      after\n" in table
     second = next(line for line in table.splitlines() if line.startswith("2  "))
@@ -108,3 +108,14 @@ def test_a_slider_beside_the_crank_is_told_where_it_adds_roll(four, at, grows):
     assert (grown > 0) == grows
     said = f"The roll of order 2 with gas grows by {grown:.4g} N·m: "
     assert (said in run_here(*asked).out) == grows
+
+
+@pytest.mark.parametrize(
+    ("frame", "pivot"),
+    [("", "the crankshaft"), ("[frame]\nreference = [0, 90, 0]\n", "the point of reference")],
+)
+def test_about_what_the_devices_have_levers(tmp_path, frame, pivot):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(FILE.partition("[gas]")[0] + frame)
+    said = run_here("balance", str(bare), "--scheme", "slider", "--at=0,-200").out
+    assert f"where they stand, the devices' forces have levers about {pivot}." in said

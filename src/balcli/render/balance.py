@@ -63,7 +63,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     else:
         why = () if remedy.note or not known else ("Orders 1 and 2 are balanced.",)
         parts.append(Text("Nothing is fitted", why))
-    if notes := tuple(filter(None, (remedy.note, *tell_growing_rolls(remedy, system)))):
+    if notes := tuple(filter(None, (remedy.note, *tell_growing_rolls(result, system)))):
         parts.append(Text("Note", notes))
     if not known:
         parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))

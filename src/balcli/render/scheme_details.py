@@ -8,7 +8,6 @@ from math import isnan, nan
 from ..results.balance import Balance
 from ..sizing.details import Detail, Dimension, Range
 from ..sizing.device_tables import measure_direction
-from ..sizing.remedy import Remedy
 from ..sizing.scheme_figures import Bobweight, FactorPeaks, Optima, PlaneNeed
 from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .scheme_details_document import list_optimum
@@ -56,10 +55,12 @@ def _needs_places(detail: Detail) -> bool:
     return detail.dimension == "moment" and all(detail.label not in labels for labels in _ROLLS)
 
 
-def tell_growing_rolls(remedy: Remedy, system: System) -> Iterator[str]:
+def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
     """A sentence for every order whose roll, with gas where there is some, is larger with new
     devices than without them.
     """
+    remedy, (x, y, _) = result.remedy, result.before.engine.reference_m
+    pivot = "the point of reference" if x or y else "the crankshaft"
     for group in dict.fromkeys(detail.group for detail in remedy.details):
         of_order = {d.label: d.value for d in remedy.details if d.group == group}
         grown = [
@@ -70,9 +71,11 @@ def tell_growing_rolls(remedy: Remedy, system: System) -> Iterator[str]:
         if not grown or grown[-1] <= 0:
             continue
         order, size = group or f"order {remedy.order}", size_text(grown[-1], system.moment)
-        why = "where they stand, the devices' forces have levers about the crankshaft."
+        why = f"where they stand, the devices' forces have levers about {pivot}."
         if grown[0] < 0:
-            why = "what they take of the roll of inertia stood against that of the gas here."
+            why = (
+                "what they take of the roll of inertia stood against that of the gas at this speed."
+            )
         with_gas = " with gas" * (len(grown) > 1)
         yield f"The roll of {order}{with_gas} grows by {size}: {why}"
 
