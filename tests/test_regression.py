@@ -108,8 +108,18 @@ def test_a_record_whose_engine_is_gone_is_a_difference(check, file, tmp_path):
         "back, or delete the record\n"
     )
     assert check(tmp_path) == (1, f"{told}1 engine, 1 difference\n", "")
+    assert check(tmp_path, file) == (1, f"{told}2 engines, 1 difference\n", "")
     assert check(file) == (0, "1 engine, 0 differences\n", "")
     assert check("--update", tmp_path) == (1, f"{told}1 engine recorded\n", "")
+
+
+def test_the_only_engine_of_a_folder_within_is_gone(check, file, tmp_path):
+    inner = tmp_path / "inner" / "expected"
+    inner.mkdir(parents=True)
+    shutil.copy(find_record(file), inner / "one.json")
+    status, out, _ = check(tmp_path)
+    assert (status, out.splitlines()[-1]) == (1, "1 engine, 1 difference")
+    assert out.startswith("one: its result is recorded in expected/one.json, but there is no")
 
 
 def test_every_figure_that_moved_is_named(check, file):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -71,16 +71,16 @@ def find_record(engine_file: Path) -> Path:
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
-def find_abandoned_records(folder: Path) -> list[Difference]:
-    """Recorded results of a folder whose engine file is not there."""
+def find_abandoned(records: Iterable[Path]) -> list[Difference]:
+    """Recorded results (of `find_record`) whose engine file is not there."""
     return [
         Difference(
             record.stem,
             f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
             f"{record.stem}.toml; bring it back, or delete the record",
         )
-        for record in sorted((folder / "expected").glob("*.json"))
-        if not (folder / f"{record.stem}.toml").exists()
+        for record in records
+        if not record.parent.with_name(f"{record.stem}.toml").exists()
     ]
 
 

@@ -30,7 +30,12 @@ CHAIN = read_starting_file()
                 three_runs(),
                 "is a file of runs, which balcli field reads; give an engine file",
             )
-            for command in ("analyze", "torque", "mounts", "torsion", "numbers")
+            for command in ("analyze", "torque", "mounts", "numbers")
+        ),
+        (
+            "torsion",
+            three_runs(),
+            "is a file of runs, which balcli field reads; give an engine file or a chain file",
         ),
     ],
 )

@@ -16,9 +16,9 @@ from balcli.errors import BalcliError
 from balcli.library.arguments import (
     check_count,
     check_inertia,
-    check_share,
     check_speeds,
     check_torsion_orders,
+    parse_share,
 )
 from balcli.limits import MOST_PARAMETER_VALUES, MOST_SPEEDS
 from balcli.studies import swept
@@ -40,7 +40,7 @@ HUGE = 10**5000  # Python does not write numbers of so many digits
         (lambda: check_count("seed", -HUGE, 0), "seed: an integer of about 5001 digits is less"),
         (lambda: check_speeds("torsion", [HUGE]), "speeds_rpm: give crank speeds above 0 in rpm"),
         (lambda: check_torsion_orders([HUGE]), "not an integer of about 5001 digits"),
-        (lambda: check_share("quantile", HUGE), "quantile an integer of about 5001 digits: give"),
+        (lambda: parse_share("quantile", HUGE), "quantile an integer of about 5001 digits: give"),
         (lambda: balcli.analyze(FOUR, [HUGE]), "not an integer of about 5001 digits"),
         (lambda: balcli.analyze(FOUR, HUGE), "orders: a number of thousands of digits (int): give"),
         (lambda: FOUR.vary({"rod.length": HUGE}), "rod.length: an integer of about 5001 digits"),

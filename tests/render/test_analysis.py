@@ -247,6 +247,8 @@ def test_a_speed_that_the_file_does_not_give_is_said_to_be_assumed():
     assert find_facts(GOOD, "speed") == ["3000 rpm"]
     silent = GOOD.replace("speed = 3000", "")
     assert find_facts(silent, "speed") == ["1000 rpm, assumed: the file gives none"]
+    faster = analyze(replace(build_text(silent), speed_rpm=2000.0))
+    assert "assumed" not in render([faster], RENDERER, Format.TABLE, SYSTEMS["si"])
 
 
 def test_split_pins_of_one_throw_stand_in_the_header():

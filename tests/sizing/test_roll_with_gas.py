@@ -79,7 +79,7 @@ def test_shafts_that_cancel_the_roll_of_inertia_may_leave_more_with_gas(four):
     assert "roll with gas, N·m      after\n" in table
     second = next(line for line in table.splitlines() if line.startswith("2  "))
     assert second.split()[-2:] == [f"{abs(inertia + gas):.4g}", f"{abs(gas):.4g}"]
-    assert "In other orders the roll of the gas stays as it is." in table
+    assert "In other orders there is roll of the gas, which stays as it is." in table
 
 
 def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):

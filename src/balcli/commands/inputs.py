@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -134,6 +135,12 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
             raise BalcliError(f"{path}: {reason}")
         files += found
     return files
+
+
+def find_records(paths: Sequence[Path]) -> list[Path]:
+    """What `check` has recorded in those of the paths that are folders, and in folders within."""
+    files = chain.from_iterable(_walk(path) for path in paths if os.path.isdir(path))
+    return sorted({f for f in files if f.parent.name == "expected" and f.suffix == ".json"})
 
 
 def _walk(folder: Path) -> Iterator[Path]:

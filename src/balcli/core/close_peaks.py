@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .singular_values import Indices, Real
 
-_PARTS = 8  # of an interval, before the two beside the highest place are the next interval
+_PARTS = 8  # of an interval, before the two beside each peak are the next interval
 _ROUNDS = 4
 
 

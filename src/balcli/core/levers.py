@@ -40,5 +40,5 @@ def find_arms(z: Array, sections: Array) -> Array:
 
 
 def bound_arms(z: Array, sections: Array) -> Array:
-    """What `find_arms` computes them from, which bounds their rounding."""
+    """Sizes of what `find_arms` subtracts from one another, which bound the rounding of arms."""
     return find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))

@@ -24,14 +24,15 @@ RUNS = FileKind("a file of runs", "balcli field reads", frozenset({"planes", "ru
 CHAIN = FileKind("a chain file", "balcli torsion reads", frozenset({"node", "excitation"}))
 
 
-def refuse_other_kind(head: Container[str], wanted: FileKind, file: str) -> None:
-    """Nothing, unless the keys at the head of a file are those of one other kind, and none of the
+def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> None:
+    """Nothing, unless the keys at the head of a file are those of one other kind, and none of a
     kind that is wanted: then its mistakes, key by key, would say nothing.
 
     Raises:
         InputError: with what it is, and who reads it.
     """
     found = [kind for kind in (ENGINE, RUNS, CHAIN) if any(key in head for key in kind.keys)]
-    if len(found) == 1 and wanted not in found:
-        message = f"is {found[0].name}, which {found[0].reader}; give {wanted.name}"
+    if len(found) == 1 and found[0] not in wanted:
+        names = " or ".join(kind.name for kind in wanted)
+        message = f"is {found[0].name}, which {found[0].reader}; give {names}"
         raise InputError([Problem("", message)], file)

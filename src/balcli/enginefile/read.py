@@ -119,7 +119,7 @@ def check_tables(
     Raises:
         InputError: they are of another kind of file.
     """
-    refuse_other_kind(data, ENGINE, name)
+    refuse_other_kind(data, name, ENGINE)
     reader = _Reader()
     reader.unknown += find_unknown_keys(data)
     bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)
@@ -287,7 +287,7 @@ def _find_contradictions(
     draft.model_fields_set.update(broken & value.keys())
     for key in broken:
         vars(draft).pop(key, None)
-    with suppress(AttributeError):
+    with suppress(AttributeError):  # whoever asks for one of these gets no further
         yield from draft.contradictions()
 
 

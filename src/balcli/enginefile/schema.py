@@ -68,7 +68,7 @@ def _tidy_member(value: object) -> object:
 
 
 def _exclusions(table: type[FileTable]) -> Node:
-    """What `Table.choices` says, in the words of JSON Schema."""
+    """What `FileTable.choices` says, in the words of JSON Schema."""
     rules: list[Node] = []
     for choice in table.choices:
         if choice.required:

@@ -191,10 +191,12 @@ def find_doubts(result: FieldBalance) -> list[str]:
             f"much; if their weights are large, try --without {alike[0].plane}"
         )
     left_out = [name for name in result.file.planes if name not in {p.plane for p in result.planes}]
+    unit = result.file.unit or ""
     if left_out and any(p.permitted for p in result.planes):
         doubts.append(
             f"the permitted unbalance is judged without {' and '.join(left_out)}: what is there is "
-            f"not known, and readings of up to {result.largest:.4g} stay"
+            f"not known, and readings of up to {result.largest:.4g} {unit}".rstrip()
+            + " stay"
         )
     if result.file.influence is None:
         doubts += _doubt_trials(result)

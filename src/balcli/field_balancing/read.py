@@ -45,7 +45,7 @@ def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
 
 def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
     """The runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
-    refuse_other_kind(data, RUNS, file)
+    refuse_other_kind(data, file, RUNS)
     reader = TableReader(RUNS.name, _describe)
     stand_in = {"run": [Run.model_construct(readings=(0j,))]}  # runs are read one by one
     model = reader.read_table("", {**data, **stand_in}, RunsFile)

@@ -153,7 +153,7 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
     return int(value)
 
 
-def check_share(name: str, value: float | str) -> float:
+def parse_share(name: str, value: float | str) -> float:
     """A share of 0 to 1: a number such as 0.005, or a text such as "0.5%".
 
     Raises:

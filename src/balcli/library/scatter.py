@@ -15,7 +15,7 @@ from ..studies.quantities import parse_quantities, sort_scattered
 from ..studies.spread_one_by_one import RANDOM_SINGLES
 from ..studies.stated_tolerances import DEGREES
 from ..studies.tolerances import RANDOM_ENGINES, Scatter, scatter_engine
-from .arguments import Words, check_count, check_share, join_names, tell_arguments
+from .arguments import Words, check_count, join_names, parse_share, tell_arguments
 
 
 @tell_arguments(
@@ -76,15 +76,15 @@ def scatter(
     if distribution not in ("uniform", "normal"):
         raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')
     if of_parts:
-        share = None if stiffness is None else check_share("stiffness", stiffness)
-        heavier = check_share("mass", mass)
+        share = None if stiffness is None else parse_share("stiffness", stiffness)
+        heavier = parse_share("mass", mass)
         return scatter_parts(model, share, heavier, of_parts, count, seed, distribution)
     if stiffness is not None:
         raise BalcliError("stiffness: is of mounts and shafts, and none of these quantities asks")
     if asked is None:
         of_engine = leave_out_unknown(engine, of_engine)
     tolerances = Tolerances(
-        check_share("mass", mass), check_share("length", length), _read_angle(angle_deg)
+        parse_share("mass", mass), parse_share("length", length), _read_angle(angle_deg)
     )
     if of_cycle:
         return scatter_cycles(model, tolerances, of_cycle, count, seed, distribution)

@@ -131,7 +131,7 @@ class Variants:
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         self._model, self._quantities = model, quantities
         self._runs = any(q.part in _RUNS for q in quantities)
-        # The mean torque of the gas leans on the mounts at rest.
+        # The mean torque of the gas, less friction, leans on the mounts at rest.
         self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
         self._engines, self._targets = EngineVariants(model), _name_targets(model)
 

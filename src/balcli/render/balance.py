@@ -82,7 +82,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
     """
     if result.permitted is None:
         return
-    remedy, unit, length = result.remedy, system.unbalance, system.length
+    remedy, length = result.remedy, system.length
     each, rpm = result.permitted.each, result.before.engine.speed_rpm
     if remedy.needs:
         head, what, last = f"plane at z, {length.name}", "missing", "of permitted"
@@ -91,6 +91,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         head, what, last = "counterweight", "unbalance", "tolerance"
         weights = result.practical[: len(remedy.counterweights)]
         found = [(str(k), weight.unbalance) for k, weight in enumerate(weights, 1)]
+    unit = system.unbalance.fit(max(size for _, size in found))
     rows = tuple(
         (
             name,
@@ -164,13 +165,17 @@ def _pick(analysis: Analysis, *kinds: Kind) -> Spectra:
 
 
 def _tell_others(result: Balance, shown: list[float], system: System) -> str:
-    """On the orders that are not shown; no device changes what the gas does in them."""
+    """On the orders that are not shown; no device changes what the gas does in them, but knuckle
+    angles do.
+    """
     has_gas = result.before.engine.gas is not None
     kinds = (FORCE, MOMENT) if has_gas else (FORCE, MOMENT, ROLL)
     states = [_pick(analysis, *kinds) for analysis in (result.before, result.after)]
     told = [tell_others(states, shown, system, hints=False)]
-    if has_gas and not result.remedy.knuckle_angles_deg:
-        told.append("In other orders the roll of the gas stays as it is.")
+    if has_gas:
+        turned = result.remedy.knuckle_angles_deg
+        change = "changes, too" if turned else "stays as it is"
+        told.append(f"In other orders there is roll of the gas, which {change}.")
     return " ".join(filter(None, told))
 
 

@@ -63,9 +63,14 @@ def engine_facts(
 
 def _speed(engine: Engine) -> str:
     uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
-    given = engine.model is None or "speed" in engine.model.operation.model_fields_set
-    assumed = "" if given else ", assumed: the file gives none"
+    assumed = ", assumed: the file gives none" if _is_speed_assumed(engine) else ""
     return f"{number(float(engine.speed_rpm), 6)} rpm{assumed}{uneven}"
+
+
+def _is_speed_assumed(engine: Engine) -> bool:
+    if engine.model is None or "speed" in engine.model.operation.model_fields_set:
+        return False
+    return float(engine.speed_rpm) == engine.model.operation.speed
 
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:

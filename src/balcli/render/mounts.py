@@ -239,7 +239,7 @@ def _rest(result: MountReport, system: System) -> Grid:
     mean = ""
     if loads is not None and loads.mean:
         moment = f"{number(system.moment.of(abs(loads.mean)), 4)} {system.moment.name}"
-        mean = f" and the reaction to a mean torque of {moment}"
+        mean = f" and the reaction to the load's mean torque of {moment}"
     note = f"Of the body on its mounts, under its weight{mean}; static stiffness."
     return Grid("At rest", tuple(heads), tuple(rows), note)
 

@@ -16,6 +16,7 @@ from .units import ShownUnit, System
 
 # Labels of the roll without and with new devices: of inertia, and with gas where there is some.
 _ROLLS = (("roll before", "roll left"), ("roll with gas before", "roll with gas left"))
+_BESIDE_GAS = {"roll before": "roll of inertia before", "roll left": "roll of inertia left"}
 
 # How well a system was solved, and the like: in JSON and CSV only.
 _FOR_PROGRAMS = {"condition number", "relative error bound", "axial distance", "improvement"}
@@ -32,6 +33,8 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         details.append(Detail("speed", "", result.speed_note))
     if not result.before.moments_known:
         details = [d._replace(value=nan) if _needs_places(d) else d for d in details]
+    if result.before.engine.gas is not None:
+        details = [d._replace(label=_BESIDE_GAS.get(d.label, d.label)) for d in details]
     details = [
         _name_order(detail, remedy.order) for detail in details if detail.label not in _FOR_PROGRAMS
     ]
@@ -128,7 +131,8 @@ def _figure(value: float, dimension: Dimension, system: System) -> str:
 
 def _needs_grid(needs: tuple[PlaneNeed, ...], system: System) -> Grid:
     """What the file has in each plane, and what is missing."""
-    unit, length = system.unbalance, system.length
+    sizes = [abs(v) for need in needs for v in (need.wanted, need.present, need.missing)]
+    unit, length = system.unbalance.fit(max(sizes)), system.length
     at = "at, deg"
     heads = (f"z, {length.name}", "wanted", at, "in the file", at, "missing", at)
 
@@ -170,7 +174,8 @@ def _line_cell(bobweight: Bobweight, part: str) -> str:
 
 
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
-    force, moment, unbalance = system.force, system.moment, system.unbalance
+    force, moment = system.force, system.moment
+    unbalance = system.unbalance.fit(max(abs(peaks.counterweight) for peaks in sweep))
     heads = (
         "factor",
         "bobweight, g",

@@ -38,15 +38,16 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     return Sheet(f"{result.system.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
-# Of the file's figures: how they are called, and their units there.
+# Of a damper's figures: how they are called, and their units as the file has them.
+_RING = ShownUnit("kg·mm²", 1e-6, ShownUnit("kg·m²", 1), 1e7)
 _DAMPER_KEYS = {
-    "inertia": ("ring", ShownUnit("kg·mm²", 1, ShownUnit("kg·m²", 1e6), 1e7)),
+    "inertia": ("ring", _RING),
     "damping": ("damping", ShownUnit("N·m·s/rad", 1)),
     "stiffness": ("stiffness", ShownUnit("N·m/rad", 1)),
     "loss": ("loss factor", ShownUnit("", 1)),
-    "mass": ("pendulums, in all", ShownUnit("kg", 1)),
-    "radius": ("hung up at a radius of", ShownUnit("mm", 1)),
-    "length": ("length to the centre of mass", ShownUnit("mm", 1)),
+    "mass": ("pendulums, in all", SI.mass),
+    "radius": ("hung up at a radius of", SI.length),
+    "length": ("length to the centre of mass", SI.length),
 }
 
 
@@ -58,8 +59,8 @@ def _damper(sized: SizedDamper) -> Facts:
     before = "without bound" if math.isinf(sized.before) else _tell_swings(sized.before, unit)
     pairs = [("on", sized.node)]
     for key, value in sized.damper.model_dump(exclude={"kind"}, exclude_none=True).items():
-        name, own = _DAMPER_KEYS[key]
-        told = size_text(float(value), own, 6).rstrip()
+        name, of_file = _DAMPER_KEYS[key]
+        told = size_text(float(value) * of_file.size, of_file, 6).rstrip()
         if key == sized.figure:
             told += f" (best for mode {sized.mode} alone: {number(sized.start)})"
         pairs.append((name, told))

@@ -9,6 +9,7 @@ from typing import Any
 from ..core.singular_values import Real
 from ..engine.build import Engine
 from ..engine.load import build_named, parse
+from ..enginefile.file_kinds import CHAIN, ENGINE, refuse_other_kind
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import Damper
 from ..enginefile.suspicious import find_suspicious
@@ -123,6 +124,7 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
         if misfires:
             raise BalcliError("--misfire: a chain has no cylinders")
         return ChainSource(name, text, read_chain_tables(data, name))
+    refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
     made = make_source(model, build_named(model, name), name, orders, misfires)
     return replace(made, text=text)

@@ -29,7 +29,7 @@ from .motion import Motion
 
 
 class Fastest(NamedTuple):
-    """Where a curve over the crank angle has its extreme, and how large it is there."""
+    """At which crank angle (rad) the piston is fastest, and its velocity there over r omega."""
 
     psi: Array
     value: Array
