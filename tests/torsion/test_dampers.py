@@ -358,6 +358,22 @@ def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_
         assert (title in text) == (what in ("all", name))
 
 
+@pytest.mark.parametrize(
+    ("times", "ring", "heat"), [(1, r"100000 kg·mm²", "W"), (1e4, r"1000 kg·m²", "MW")]
+)
+def test_units_of_a_damper_are_those_of_its_size(times, ring, heat):
+    """The same shafts ten thousand times as heavy, as stiff and as hard driven."""
+    stiffness = float((1000 * np.pi / 30) ** 2)
+    chain = SINGLE.replace("1e6", f"{1e6 * times}").replace("cos = 100", f"cos = {100 * times}")
+    chain = chain.replace(f"{stiffness!r}", f"{stiffness * times!r}")
+    asked = (*RANGE, "--damper", "viscous", "--damper-at", "disc")
+    own = ("--damper-inertia", f"{1e5 * times} kg mm^2")
+    told = run_here("torsion", "-", *asked, *own, stdin=chain).out
+    assert re.search(rf"^ring +{ring}$", told, re.MULTILINE)
+    assert re.search(rf"^heat +up to [\d.]+ {heat}, at", told, re.MULTILINE)
+    assert re.search(rf"turns up to [\d.]+ {heat} to heat", told)
+
+
 def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
     picture = tmp_path / "chain.svg"
     status, *_ = run_here("torsion", "-", "--plot", picture, stdin=read_starting_file())
