@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from support.commands import run_here
 
+from balcli.enginefile import examples
+
 # As of the file: crank radius, rod, bore (m), reciprocating mass (kg), crank speed (rad/s).
 R, L, BORE, MASS, OMEGA = 0.043, 0.139, 0.086, 0.5, 4000 * np.pi / 30
 COS, SIN = 2.0, 3.5  # bar, of order 2 of the mean tangential pressure of a cylinder
@@ -79,7 +81,34 @@ def test_shafts_that_cancel_the_roll_of_inertia_may_leave_more_with_gas(four):
     assert "roll with gas, N·m      after\n" in table
     second = next(line for line in table.splitlines() if line.startswith("2  "))
     assert second.split()[-2:] == [f"{abs(inertia + gas):.4g}", f"{abs(gas):.4g}"]
-    assert "In other orders there is roll of the gas, which stays as it is." in table
+
+
+def test_orders_of_which_the_gas_alone_rolls_the_engine_are_told(four, tmp_path):
+    """Inertia of order 8 is nothing beside what this gas does in it."""
+    with (tmp_path / "tangential.csv").open("a") as file:
+        file.write("8,1,0\n")
+    rolled = 4 * 1e5 * np.pi / 4 * BORE**2 * R
+    table = run_here("balance", four, "--scheme", "two-shaft").out
+    eighth = next(line for line in table.splitlines() if line.startswith("8  "))
+    assert [float(cell) for cell in eighth.split()[-2:]] == pytest.approx([rolled] * 2, rel=1e-3)
+
+
+def test_knuckle_angles_change_the_roll_of_the_gas_in_half_orders_too(tmp_path):
+    """Before and after are those of the file, and of the one that is written."""
+    gas = '[gas]\ncycle = "wiebe"\ncompression_ratio = 6\nimep = 8\n'
+    radial, even = tmp_path / "radial.toml", tmp_path / "even.toml"
+    radial.write_text(examples.text("radial7_articulated") + gas)
+    asked = ("balance", radial, "--scheme", "knuckles", "--write", even, "-f", "json")
+    found = json.loads(run_here(*asked).out)
+    rows = {line[:6].strip(): line.split() for line in run_here(*asked[:4]).out.splitlines()}
+    for state, file, column in (("before", radial, -2), ("after", even, -1)):
+        told = {entry["order"]: entry["roll_total_Nm"] for entry in found[state]["orders"]}
+        options = ("--only", "roll_total", "--orders", "3.5,7", "-f", "json")
+        alone = json.loads(run_here("analyze", file, *options).out)
+        for name, entry in zip(("3½", "7"), alone["orders"], strict=True):
+            size = entry["roll_total_Nm"]["amplitude"]
+            assert told[entry["order"]]["amplitude"] == pytest.approx(size, rel=1e-9)
+            assert float(rows[name][column]) == pytest.approx(size, rel=1e-3)
 
 
 def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):

@@ -25,7 +25,7 @@ from .devices import (
     practical_grid,
 )
 from .figures import assumptions, figure_rows
-from .overview import find_orders_that_matter, tell_others
+from .overview import find_orders_that_matter, name_column, tell_others
 from .scheme_details import details_parts, tell_growing_rolls
 from .scheme_details_document import details_document
 from .sheet import (
@@ -121,15 +121,14 @@ def _tolerance(unbalance: float, permitted: float) -> str:
 
 
 # ------------------------------------------------------------------ before and after
-_HEADS = {ROLL_TOTAL: "roll with gas"}
-
-
 def _orders(result: Balance, system: System) -> Grid:
     """Those that matter before or after; all that were asked for."""
     has_gas = result.before.engine.gas is not None
     columns = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
-    states = [_pick(result.before, FORCE, MOMENT, ROLL), _pick(result.after, FORCE, MOMENT, ROLL)]
-    orders, one = result.before.orders.tolist(), result.before.of_one_cylinder
+    states = [_pick(result.before, *columns), _pick(result.after, *columns)]
+    orders, one = result.before.orders.tolist(), dict(result.before.of_one_cylinder)
+    if has_gas:  # of which one cylinder alone has no measure
+        one[ROLL_TOTAL.name] = max(float(state[ROLL_TOTAL.name].major.max()) for state in states)
     shown = {order for state in states for order in find_orders_that_matter(state, one)}
     rows = [k for k, order in enumerate(orders) if result.every_order or order in shown]
     units = {kind: _fit(result, kind, system) for kind in columns}
@@ -150,33 +149,18 @@ def _orders(result: Balance, system: System) -> Grid:
     heads = [
         head
         for kind, unit in units.items()
-        for head in (f"{_HEADS.get(kind, kind.name)}, {unit.name}", "after")
+        for head in (f"{name_column(kind)}, {unit.name}", "after")
     ]
     return Grid(
         "Largest value by order, before and after",
         ("order", *heads),
         tuple(map(row, rows)),
-        _tell_others(result, [orders[k] for k in rows], system),
+        tell_others(states, [orders[k] for k in rows], system, hints=False),
     )
 
 
 def _pick(analysis: Analysis, *kinds: Kind) -> Spectra:
     return analysis.spectra.only([kind.name for kind in kinds])
-
-
-def _tell_others(result: Balance, shown: list[float], system: System) -> str:
-    """On the orders that are not shown; no device changes what the gas does in them, but knuckle
-    angles do.
-    """
-    has_gas = result.before.engine.gas is not None
-    kinds = (FORCE, MOMENT) if has_gas else (FORCE, MOMENT, ROLL)
-    states = [_pick(analysis, *kinds) for analysis in (result.before, result.after)]
-    told = [tell_others(states, shown, system, hints=False)]
-    if has_gas:
-        turned = result.remedy.knuckle_angles_deg
-        change = "changes, too" if turned else "stays as it is"
-        told.append(f"In other orders there is roll of the gas, which {change}.")
-    return " ".join(filter(None, told))
 
 
 def _fit(result: Balance, kind: Kind, system: System) -> ShownUnit:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..enginefile.model import Counterweight, Shaft
-from ..forces.kinds import ROLL, Kind
+from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..sizing.device_tables import DeviceTable, find_unbalance
 from .order_tables import peak_facts
 from .sheet import (
@@ -71,6 +71,11 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
     )
 
 
+def name_column(kind: Kind) -> str:
+    """A kind at the head of a column, or in a sentence."""
+    return "roll with gas" if kind is ROLL_TOTAL else kind.name
+
+
 def tell_others(
     states: Sequence[Spectra], shown: list[float], system: System, *, hints: bool
 ) -> str:
@@ -91,7 +96,7 @@ def tell_others(
     for kind, _ in rest[0].items():
         largest = max(float(np.nan_to_num(one[kind.name].major).max()) for one in rest)
         if largest:  # nan, and so 0 here, where it is not known
-            sizes.append(f"{kind.name} {size_text(largest, system.unit(kind))}")
+            sizes.append(f"{name_column(kind)} {size_text(largest, system.unit(kind))}")
     names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
     plural = "s" * (len(others) > 1)

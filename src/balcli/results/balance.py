@@ -112,9 +112,9 @@ def analyze_both(
     """An engine without and with a remedy, by the same orders: those asked for, or 1 and 2 and all
     that are not negligible in one of them. With gas, the roll of inertia and gas together, too.
     """
-    before, after = analyze(engine, orders, _SHOWN), analyze(changed, orders, _SHOWN)
-    if engine.gas is None and np.array_equal(before.orders, after.orders):
+    shown = _SHOWN if engine.gas is None else _SHOWN | {ROLL_TOTAL.name}
+    before, after = analyze(engine, orders, shown), analyze(changed, orders, shown)
+    if np.array_equal(before.orders, after.orders):
         return before, after
     both = merge_orders(before.orders, after.orders)
-    shown = _SHOWN if engine.gas is None else _SHOWN | {ROLL_TOTAL.name}
     return analyze(engine, both, shown), analyze(changed, both, shown)
