@@ -101,9 +101,7 @@ class Phases:
             astern_side = Product(mirrored[:, 0].conj(), astern.conj())
             return FactoredPhasors(self.orders, (ahead_side, astern_side), noise)
         ahead, astern = self._add(self._planar, (forward, mirrored), arms)
-        both: Complex = np.empty((2, *np.broadcast_shapes(ahead.shape, astern.shape)), complex)
-        both[0], both[1] = ahead, astern.conj()
-        return Phasors(self.orders, both, noise)
+        return Phasors.of(self.orders, ahead, astern.conj(), noise)
 
     def add_scalars(self, series: Series) -> Phasors:
         """Sum of what the cylinders do about z."""
