@@ -104,6 +104,6 @@ def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real)
     """Puts the places and heights of some intervals, a few of each, into best and highest
     (intervals,) where they are higher.
     """
-    rising = np.argsort(height)  # the highest last
+    rising = np.argsort(height, kind="stable")  # the highest last, on every processor
     higher = rising[height[rising] > highest[going[rising]]]
     best[going[higher]], highest[going[higher]] = place[higher], height[higher]

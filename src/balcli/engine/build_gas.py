@@ -17,8 +17,7 @@ from ..core.cylinder_pressure import (
     PressureOnPiston,
     pistons,
 )
-from ..core.gas_cycle import Goal, Process, gas_cycle
-from ..core.gas_cycle import find_cycle_mistakes as cycle_mistakes
+from ..core.gas_cycle import Goal, Process, find_cycle_mistakes, gas_cycle
 from ..core.phasors import Figure
 from ..core.tangential_force import tangential_torque
 from ..enginefile.csv_columns import NumberColumns, locate_beside, read_columns
@@ -202,7 +201,7 @@ class _Builder:
     # -------------------------------------------------------------- computed cycles
     def _cycle(self, piston: GasPiston) -> CylinderPressure | None:
         process, burn, goal = self._process(), self._burn(), find_goal(self.gas)
-        wrong = list(cycle_mistakes(piston, process, burn, goal))
+        wrong = list(find_cycle_mistakes(piston, process, burn, goal))
         if not wrong:
             try:
                 return gas_cycle(piston, process, burn, goal)

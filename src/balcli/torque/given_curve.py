@@ -98,7 +98,7 @@ def analyze_curve(
         orders: default: all that the period has, up to HIGHEST_GAS_ORDER_UNASKED, at least two.
 
     Raises:
-        BalcliError: other periods, orders that the period has not, a shaft that stalls.
+        BalcliError: other periods, orders that the period has not.
     """
     shaft = shaft or DrivenShaft()
     net = torque if load is None else _subtract(torque, load)
