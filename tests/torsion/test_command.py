@@ -120,6 +120,10 @@ def test_csv_lists_the_figures_of_json():
         of_first = [x for x in lines if x["part"] == part and x["name"] == first["name"]]
         torque = [float(x["value"]) for x in of_first if x["figure"] == "half_peak_to_peak"]
         assert torque == told
+    by_order = [x for x in of_first if x["figure"] == "amplitude"]
+    assert [
+        {"order": float(x["order"]), "amplitude_Nm": float(x["value"])} for x in by_order
+    ] == first["worst"]["orders"]
     left = [x for x in lines if x["figure"] == "residual"]
     assert float(left[0]["value"]) == said["holzer"][0]["residual_Nm"]
 
