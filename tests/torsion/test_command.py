@@ -148,6 +148,22 @@ def test_a_swing_can_be_the_limit():
     assert ask(text, "--speeds", repr(span[1]))["response"]["free_end_deg"] == pytest.approx([0.1])
 
 
+def test_a_limit_of_stress_without_any_diameter_is_not_judged():
+    """It said that no speed is barred."""
+    text = re.sub(r"diameter = .*\nlength = .*", "stiffness = 9e4", read_starting_file())
+    text = re.sub(r"(?m)^diameter = .*\n", "", text)
+    assert "barred_rpm" not in ask(text, "--speeds", "800:1600:20")
+    said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
+    assert said.rstrip().endswith(
+        "Limits\nnot judged  40 N/mm²: no shaft has a diameter, so that no stress is known"
+    )
+    text = text.replace("limit = 40", "limit = 40\nangle_limit = 0.1")
+    assert ask(text, "--speeds", "800:1600:20")["barred_rpm"]
+    said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
+    assert "limit          ±0.1 deg at engine\n" in said
+    assert "not judged     40 N/mm²: no shaft has a diameter" in said
+
+
 def test_what_nothing_damps_is_told_with_its_speed():
     text = read_starting_file().replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
     text = text.replace("damping = 1.5", "")
