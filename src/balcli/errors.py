@@ -89,12 +89,22 @@ class Exit(IntEnum):
 
 
 class Problem(NamedTuple):
-    """One mistake: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file), and what
-    would be right.
+    """One mistake.
+
+    Attributes:
+        path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
+        message: what is wrong there, and what would be right.
+        missing: paths of keys of which one has to be there, and none is; empty for other mistakes.
     """
 
     path: str
     message: str
+    missing: tuple[str, ...] = ()
+
+    @classmethod
+    def of_missing(cls, path: str, hint: str) -> Problem:
+        """A key is not there; `hint`: why it has to be, or what to write."""
+        return cls(path, f"is missing; {hint}", (path,))
 
     def __str__(self) -> str:
         return f"{self.path}: {self.message}" if self.path else self.message

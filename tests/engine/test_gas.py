@@ -330,14 +330,15 @@ def test_a_diagram_may_have_so_many_rows(beside):
             FOUR + "[gas]\ncycle = 'dual'\nburn_start = 1\nmax_pressure = '5 kg'\nimep = 5\n",
             [
                 "gas: has burn_start, which only a wiebe cycle has",
+                "gas: needs compression_ratio for a computed cycle, such as compression_ratio = ",
                 'gas.max_pressure: "5 kg" is a mass, but a pressure is wanted: ',
             ],
         ),
         (
             FOUR + "[gas]\ncycle = 'dual'\ncompression_ratio = 15\n",
             [
-                "gas: needs max_pressure for a dual cycle, at which it burns on; does not say how "
-                "much is burnt; give one of imep, bmep, cut_off and heat"
+                "gas: needs max_pressure for a dual cycle, at which it burns on",
+                "gas: does not say how much is burnt; give one of imep, bmep, cut_off and heat",
             ],
         ),
         (

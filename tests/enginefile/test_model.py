@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from types import CodeType
 
 import pytest
 from pydantic import ValidationError
@@ -11,7 +13,11 @@ from support.engines import GOOD, changed
 from balcli.engine.load import parse
 from balcli.enginefile import model
 from balcli.enginefile.articulation_tables import ArticulatedRod
+from balcli.enginefile.messages import import_lists, import_tables
+from balcli.enginefile.shafting import Damper
+from balcli.enginefile.torsion_tables import Part
 from balcli.errors import InputError
+from balcli.torsion.chain_file import ChainShaft
 
 
 def refusal(text: str) -> str:
@@ -260,3 +266,52 @@ def test_models_check_without_a_file_too():
         model.Rod(length=160, ratio=0.28)
     with pytest.raises(ValidationError, match="frozen"):
         parse(GOOD).crank.stroke = 80.0
+
+
+def test_mistakes_of_a_table_beside_a_misspelt_key_are_told():
+    """That the length is missing is not: it is there, misspelt."""
+    text = changed(("length = 160", "lenght = 160"), ("mass = 0.6\ncg = 45", "small_end = 0.2"))
+    assert refusal(text) == (
+        "e.toml: 2 mistakes\n"
+        "  rod.lenght: unknown key in [rod]; did you mean length?\n"
+        "  rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg"
+    )
+
+
+def test_rules_that_do_not_need_a_broken_key_are_applied():
+    text = changed(("[1, 3, 4, 2]", "[1, 3, 4, 0]\nnumbering = [[1, 2], [2, 1]]"))
+    assert refusal(text) == (
+        "e.toml: 2 mistakes\n"
+        "  layout: numbering has cylinder 1 and 2 more than once; name every cylinder once\n"
+        "  layout.firing_order: the 4th value 0 is out of range; a whole number from 1 to 10000 is "
+        "wanted"
+    )
+
+
+def test_a_rule_that_fails_is_no_mistake_of_the_file(monkeypatch):
+    rule = model.TableRule(lambda crank: [crank.no_such_key], {"throws"})
+    monkeypatch.setattr(model.Crank, "rules", (rule,))
+    with pytest.raises(AttributeError, match="no_such_key"):
+        parse(changed(("spacing = 100", "spacing = -1")))
+
+
+TABLES = (
+    *import_tables().values(),
+    *import_lists().values(),
+    *(ArticulatedRod, Part, ChainShaft, Damper),
+)
+
+
+@pytest.mark.parametrize(
+    ("table", "rule"),
+    [(table, rule) for table in TABLES for rule in table.rules],
+)
+def test_rules_name_the_keys_that_they_read(table, rule):
+    def read(code: CodeType) -> Iterator[str]:
+        for name in code.co_names:
+            own = vars(table).get(name)
+            yield from read(own.fget.__code__) if isinstance(own, property) else (name,)
+        for inner in code.co_consts:
+            yield from read(inner) if isinstance(inner, CodeType) else ()
+
+    assert rule.needs == set(read(rule.check.__code__)) & table.model_fields.keys()

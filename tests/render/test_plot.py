@@ -17,6 +17,7 @@ from support.commands import run_python
 from support.engines import GOOD, build_text, changed, inline_engine
 from support.gas_engines import FOUR as GAS_FOUR
 from support.gas_engines import WIEBE
+from support.pictures import draw_page
 
 from balcli.commands.plot_pages import What
 from balcli.core.phasors import Phasors
@@ -25,7 +26,7 @@ from balcli.engine.load import parse
 from balcli.render.plot import style, torsion
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import draw_locus, find_period_deg
-from balcli.render.plot.pages import PAGES, PageSubject, draw_page, draw_panel, make_page
+from balcli.render.plot.pages import PAGES, PageSubject, draw_panel, make_page
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import QUANTITIES, analyze
 from balcli.torque.pictures import PAGES as PAGES_OF_GAS

@@ -9,13 +9,14 @@ import re
 import numpy as np
 import pytest
 from support.engines import GOOD, changed
+from support.pictures import draw_page
 
 from balcli.core.mechanisms import harmonics
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.render.plot.bank_angle import place_labels
-from balcli.render.plot.pages import PageSubject, draw_page
+from balcli.render.plot.pages import PageSubject
 from balcli.sizing.options import SchemeOptions
 from balcli.studies.pictures import compute_study, swing_banks
 

@@ -92,11 +92,11 @@ class _Builder:
         model, gas = self.parts.model, self.gas
         yield from (Problem("gas", fault) for fault in gas.contradictions())  # of what varies
         if self._bore is None:
-            yield Problem("piston.bore", "is missing; gas presses on its area, such as bore = 86")
+            yield Problem.of_missing("piston.bore", "gas presses on its area, such as bore = 86")
         if self.strokes == 4 and self.parts.order is None and len(self.parts.numbers) > 1:
-            yield Problem(
+            yield Problem.of_missing(
                 "layout.firing_order",
-                "is missing; a four-stroke cylinder fires in every second revolution, and only "
+                "a four-stroke cylinder fires in every second revolution, and only "
                 "the firing order says in which, such as firing_order = [1, 3, 4, 2]",
             )
         own = [n for n, table in model.cylinder.items() if table.indicator is not None]

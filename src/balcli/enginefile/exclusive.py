@@ -27,12 +27,17 @@ class Choice(NamedTuple):
         if len(chosen) > 1:
             keys = [key for _, some in chosen for key in some]
             yield f"has {join_words(keys)}; {self._wanted()}"
-        elif not chosen and self.required:
+        elif self.find_missing(given):
             yield f"has neither {' nor '.join(map(join_words, self.groups))}; {self._wanted()}"
         elif chosen and self.complete and len(chosen[0][1]) < len(chosen[0][0]):
             group, keys = chosen[0]
             missing = [key for key in group if key not in keys]
             yield f"has {join_words(keys)} without {join_words(missing)}; {self._wanted()}"
+
+    def find_missing(self, given: Collection[str]) -> tuple[str, ...]:
+        """The keys of which one must be given, if none is."""
+        keys = tuple(key for group in self.groups for key in group)
+        return keys if self.required and not any(key in given for key in keys) else ()
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """The keys that must not be given beside this one; none for a key of no group."""

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from .exclusive import Choice, join_words
 from .fields import FileName, Number, OneOf
-from .model import Angle, FileTable, Mass, Size
+from .model import Angle, FileTable, Mass, Size, TableRule
 from .units import ANGLE, ENERGY, INERTIA, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
@@ -125,18 +125,6 @@ class Gas(FileTable):
         goals = self.goals if key in self.goals else ()
         return (*super().rivals(key), *(goal for goal in goals if goal != key))
 
-    def contradictions(self) -> Iterator[str]:
-        given = self.model_fields_set
-        if self.cycle is None:
-            yield from self._misplaced(given)
-            return
-        wiebe = [key for key in _WIEBE_KEYS if key in given]
-        if wiebe and self.cycle != "wiebe":
-            yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
-        yield from self._goals(given)
-        if self.compression_ratio is None:
-            yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
-
     def list_idle_keys(self, strokes: int, own_diagrams: bool) -> set[str]:
         """Those of figures that change nothing of the gas in an engine of so many strokes;
         `own_diagrams`: whether cylinders have diagrams of their own.
@@ -154,27 +142,51 @@ class Gas(FileTable):
                 idle.add("crankcase")
         return idle
 
-    def _misplaced(self, given: set[str]) -> Iterator[str]:
+    def _check_misplaced(self) -> Iterator[str]:
         """Keys of a computed cycle without one."""
-        if not (self.indicator or self.harmonics):
-            return
-        if others := [key for key in _CYCLE_KEYS if key in given]:
+        others = [key for key in _CYCLE_KEYS if key in self.model_fields_set]
+        if others and self.cycle is None and (self.indicator or self.harmonics):
             what = "indicator" if self.indicator else "harmonics"
             yield f"has {join_words(others)} beside {what}; these belong to a computed cycle"
 
-    def _goals(self, given: set[str]) -> Iterator[str]:
-        """Exactly one figure tells how much is burnt; a dual cycle has its highest pressure too."""
-        if self.cycle == "dual" and self.max_pressure is None:
-            yield "needs max_pressure for a dual cycle, at which it burns on"
-        goals = [key for key in self.goals if key in given]
+    def _check_wiebe(self) -> Iterator[str]:
+        wiebe = [key for key in _WIEBE_KEYS if key in self.model_fields_set]
+        if wiebe and self.cycle not in (None, "wiebe"):
+            yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
+
+    def _check_goals(self) -> Iterator[str]:
+        """Exactly one figure tells how much is burnt."""
+        if self.cycle is None:
+            return
+        given = [key for key in self.goals if key in self.model_fields_set]
         *front, last = self.goals
         choice = f"give one of {', '.join(front)} and {last}"
-        if len(goals) > 1:
-            yield f"has {join_words(goals)}; {choice}"
-        elif not goals:
+        if len(given) > 1:
+            yield f"has {join_words(given)}; {choice}"
+        elif not given:
             yield f"does not say how much is burnt; {choice}"
-        if self.bmep is not None and self.mechanical_efficiency is None:
+
+    def _check_max_pressure(self) -> Iterator[str]:
+        if self.cycle == "dual" and self.max_pressure is None:
+            yield "needs max_pressure for a dual cycle, at which it burns on"
+
+    def _check_bmep(self) -> Iterator[str]:
+        computed = self.cycle is not None
+        if computed and self.bmep is not None and self.mechanical_efficiency is None:
             yield "has bmep without mechanical_efficiency; give both, or imep"
+
+    def _check_compression_ratio(self) -> Iterator[str]:
+        if self.cycle is not None and self.compression_ratio is None:
+            yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
+
+    rules = (
+        TableRule(_check_misplaced, {"cycle", "indicator", "harmonics"}),
+        TableRule(_check_wiebe, {"cycle"}),
+        TableRule(_check_max_pressure, {"cycle", "max_pressure"}),
+        TableRule(_check_goals, {"cycle"}),
+        TableRule(_check_bmep, {"cycle", "bmep", "mechanical_efficiency"}),
+        TableRule(_check_compression_ratio, {"cycle", "compression_ratio"}),
+    )
 
 
 class Flywheel(FileTable):

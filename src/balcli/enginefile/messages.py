@@ -87,11 +87,11 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTab
     2nd value`).
     """
     kind, loc = finding["type"], finding["loc"]
+    if kind == "missing":
+        return Problem.of_missing(join_path(path, loc), _suggest_missing(table, loc))
     value, context = finding["input"], finding.get("ctx", {})
     if kind == "value_error":
         message = str(context["error"])
-    elif kind == "missing":
-        message = _describe_missing(table, loc)
     elif kind in ("too_short", "too_long"):
         message = _describe_length(value, context)
     elif kind == "tuple_type" and isinstance(value, Mapping):
@@ -128,12 +128,12 @@ def _find_example(table: type[model.FileTable], loc: Sequence[str | int]) -> str
     return shorten(listed[0]) if listed else "[0, 180]"
 
 
-def _describe_missing(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
-    """With an example of the key, which may stand in a table within the table."""
+def _suggest_missing(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
+    """An example of the key, which may stand in a table within the table."""
     key = loc[-1]
     examples = find_inner_table(table, loc).keys()[str(key)].examples
     example = shorten(examples[0]) if examples else "{ length = 200 }"
-    return f"is missing; give it, such as {key} = {example}"
+    return f"give it, such as {key} = {example}"
 
 
 def _describe_length(value: list[object], context: Mapping[str, object]) -> str:

@@ -7,10 +7,10 @@ a file has.
 """
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Set
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple
 
 from pydantic import (
     BaseModel,
@@ -73,11 +73,19 @@ Place = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
 Triple = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
 
 
+class TableRule(NamedTuple):
+    """What must hold in a table, and the keys without whose values nothing can be said of it."""
+
+    check: Callable[[Any], Iterator[str]]
+    needs: Set[str]
+
+
 class FileTable(BaseModel):
     """A table of the engine file: frozen, and an unknown key is a mistake."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
     choices: ClassVar[tuple[Choice, ...]] = ()
+    rules: ClassVar[tuple[TableRule, ...]] = ()
 
     @model_validator(mode="after")
     def _consistent(self, info: ValidationInfo) -> "FileTable":
@@ -88,11 +96,17 @@ class FileTable(BaseModel):
 
     def list_faults(self) -> list[str]:
         """All that its keys and figures say against each other."""
-        return [*mistakes_of_choice(type(self), self.model_fields_set), *self.contradictions()]
+        given = self.model_fields_set
+        of_choices = [mistake for choice in self.choices for mistake in choice.mistakes(given)]
+        return [*of_choices, *self.contradictions()]
 
-    def contradictions(self) -> Iterator[str]:
-        """What the fields of this table say against each other."""
-        yield from ()
+    def contradictions(self, illegible: Collection[str] = ()) -> Iterator[str]:
+        """What the fields of this table say against each other, as far as that can be said without
+        those that could not be read.
+        """
+        for rule in self.rules:
+            if rule.needs.isdisjoint(illegible):
+                yield from rule.check(self)
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """Keys of what says the same as this one, of which only one may be given."""
@@ -102,11 +116,6 @@ class FileTable(BaseModel):
     def keys(cls) -> dict[str, FieldInfo]:
         """Its fields by their keys as a file has them."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
-
-
-def mistakes_of_choice(table: type[FileTable], given: Collection[str]) -> list[str]:
-    """Keys given together that exclude each other, or missing where one of several is needed."""
-    return [mistake for choice in table.choices for mistake in choice.mistakes(given)]
 
 
 class Crank(FileTable):
@@ -150,12 +159,14 @@ class Crank(FileTable):
         examples=[-30],
     )
 
-    def contradictions(self) -> Iterator[str]:
+    def _check_places(self) -> Iterator[str]:
         if self.throws and self.positions and len(self.throws) != len(self.positions):
             yield (
                 f"positions has {counted(len(self.positions), 'place')} for "
                 f"{counted(len(self.throws), 'throw')}; give one for each throw"
             )
+
+    rules = (TableRule(_check_places, {"throws", "positions"}),)
 
 
 class Pendulum(FileTable):
@@ -201,19 +212,26 @@ class Rod(FileTable):
     )
     pendulum: Pendulum | None = Field(None, description="a pendulum test, instead of inertia")
 
-    def contradictions(self) -> Iterator[str]:
+    def _check_ends(self) -> Iterator[str]:
         ends = (self.small_end, self.big_end)
         if None in ends and ends != (None, None) and self.mass is None and self.cg is None:
             there, missing = "small_end", "big_end"
             if self.small_end is None:
                 there, missing = missing, there
             yield f"has {there} without {missing}; weigh the rod at both ends, or give mass and cg"
+
+    def _check_pendulum(self) -> Iterator[str]:
         if self.pendulum and self.length is not None:
-            total = sum(end or 0.0 for end in ends)
+            total = (self.small_end or 0.0) + (self.big_end or 0.0)
             cg = self.length * (self.small_end or 0.0) / total if total else self.cg or 0.0
             arm = cg if self.pendulum.pivot == "big_end" else self.length - cg
             if self.pendulum.period <= shortest_period(arm):
                 yield f"pendulum.{describe_quick_period(self.pendulum.period, arm)}"
+
+    rules = (
+        TableRule(_check_ends, {"small_end", "big_end", "mass", "cg"}),
+        TableRule(_check_pendulum, {"pendulum", "length", "small_end", "big_end", "cg"}),
+    )
 
 
 def shortest_period(arm_mm: float) -> float:
@@ -253,15 +271,17 @@ class Piston(FileTable):
         "dead centre",
     )
 
-    def contradictions(self) -> Iterator[str]:
-        parts = ("piston", "pin", "rings", "locks")
-        given = [key for key in parts if getattr(self, key) is not None]
+    def _check_parts(self) -> Iterator[str]:
+        parts = {"piston": self.piston, "pin": self.pin, "rings": self.rings, "locks": self.locks}
+        given = [key for key, mass in parts.items() if mass is not None]
         missing = [key for key in parts if key not in given]
         if given and missing and self.mass is None:
             yield (
                 f"has {join_words(given)} without {join_words(missing)}; give every part: 0 for "
                 "one that is not there or was weighed with another"
             )
+
+    rules = (TableRule(_check_parts, {"mass", "piston", "pin", "rings", "locks"}),)
 
 
 class Layout(FileTable):
@@ -307,31 +327,45 @@ class Layout(FileTable):
         examples=[[[1, 3], [2, 4]]],
     )
 
-    def contradictions(self) -> Iterator[str]:
-        for key, numbers in (
-            ("firing_order", self.firing_order or ()),
-            ("numbering", chain(*self.numbering or ())),
-        ):
-            if twice := find_repeated(numbers):
-                yield f"{key} has cylinder {twice} more than once; name every cylinder once"
-        if self.firing_intervals:
-            yield from self._intervals(self.firing_intervals)
+    def _check_firing_order(self) -> Iterator[str]:
+        yield from _refuse_repeated("firing_order", self.firing_order or ())
 
-    def _intervals(self, intervals: tuple[float, ...]) -> Iterator[str]:
-        if self.firing_order is None:
+    def _check_numbering(self) -> Iterator[str]:
+        yield from _refuse_repeated("numbering", chain(*self.numbering or ()))
+
+    def _check_intervals(self) -> Iterator[str]:
+        intervals, order = self.firing_intervals, self.firing_order
+        if intervals and order is None:
             yield "firing_intervals is given without firing_order; give both, or neither"
-        elif len(intervals) != len(self.firing_order):
+        elif intervals and order and len(intervals) != len(order):
             yield (
                 f"firing_intervals has {counted(len(intervals), 'interval')} for "
-                f"{counted(len(self.firing_order), 'firing')}; give one for each, the last one "
+                f"{counted(len(order), 'firing')}; give one for each, the last one "
                 "back to the first cylinder"
             )
-        elif abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
+
+    def _check_cycle(self) -> Iterator[str]:
+        intervals, order = self.firing_intervals, self.firing_order
+        if not (intervals and order and len(intervals) == len(order)):
+            return
+        if abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
                 f"{self.strokes}-stroke has {180 * self.strokes} (within "
                 f"{INTERVAL_TOLERANCE_DEG:g})"
             )
+
+    rules = (
+        TableRule(_check_firing_order, {"firing_order"}),
+        TableRule(_check_numbering, {"numbering"}),
+        TableRule(_check_intervals, {"firing_intervals", "firing_order"}),
+        TableRule(_check_cycle, {"firing_intervals", "firing_order", "strokes"}),
+    )
+
+
+def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
+    if twice := find_repeated(numbers):
+        yield f"{key} has cylinder {twice} more than once; name every cylinder once"
 
 
 class Bobweight(FileTable):
@@ -362,12 +396,14 @@ class Operation(FileTable):
         description="uneven crank speed, by orders: whole ones, or halves of a four-stroke engine",
     )
 
-    def contradictions(self) -> Iterator[str]:
+    def _check_ripple(self) -> Iterator[str]:
         if len(self.speed_ripple) > MOST_RIPPLES:
             yield (
                 f"speed_ripple has {len(self.speed_ripple)} orders; no more than {MOST_RIPPLES} "
                 "can be given"
             )
+
+    rules = (TableRule(_check_ripple, {"speed_ripple"}),)
 
 
 class Frame(FileTable):

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from .exclusive import Choice
 from .fields import Label, Number
-from .model import Angle, FileTable, Triple
+from .model import Angle, FileTable, TableRule, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
 if TYPE_CHECKING:
@@ -81,10 +81,14 @@ class Body(FileTable):
         examples=[[-1, 0, 0]],
     )
 
-    def contradictions(self) -> Iterator[str]:
+    def _check_gravity(self) -> Iterator[str]:
         if not any(self.gravity):
             yield "gravity [0, 0, 0] has no direction; leave it out for -x, downwards"
+
+    def _check_inertia(self) -> Iterator[str]:
         yield from find_tensor_faults(self.inertia)
+
+    rules = (TableRule(_check_gravity, {"gravity"}), TableRule(_check_inertia, {"inertia"}))
 
 
 def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
@@ -148,9 +152,11 @@ class Mount(FileTable):
         1.0, description="dynamic over static stiffness; statics do not use it", examples=[1.3]
     )
 
-    def contradictions(self) -> Iterator[str]:
+    def _check_stiffness(self) -> Iterator[str]:
         if not any(self.stiffness):
             yield "stiffness [0, 0, 0] holds nothing; give at least one above 0"
+
+    def _check_axes(self) -> Iterator[str]:
         if self.axes:
             first, second = self.axes
             sizes = math.hypot(*first) * math.hypot(*second)
@@ -160,6 +166,8 @@ class Mount(FileTable):
             elif abs(cosine) > _PERPENDICULAR:
                 angle = math.degrees(math.acos(max(-1.0, min(1.0, cosine))))
                 yield f"axes are {angle:.4g} degrees apart; they must be perpendicular"
+
+    rules = (TableRule(_check_stiffness, {"stiffness"}), TableRule(_check_axes, {"axes"}))
 
 
 class Point(FileTable):

@@ -6,8 +6,7 @@ What the tables say against each other is not looked at here: that takes an engi
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -35,7 +34,7 @@ from .messages import (
     is_miscounted,
     join_path,
 )
-from .model import EngineFile, FileTable, Override, mistakes_of_choice
+from .model import EngineFile, FileTable, Override
 from .toml_text import parse_toml
 from .unknown_keys import (
     INSTEAD,
@@ -85,7 +84,7 @@ class Draft(NamedTuple):
         others = [
             problem
             for problem in (*self.problems, *contradictions)
-            if not _is_told_missing(problem, meant)
+            if meant.isdisjoint(problem.missing)
         ]
         listed = [*(problem for problem, _ in described), *others][:MOST_MISTAKES_SHOWN]
         more = len(self.unknown) + len(others) - MOST_MISTAKES_SHOWN
@@ -125,8 +124,8 @@ def check_tables(
     bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)
     for key, example in REQUIRED.items():
         if key not in data and bodiless:
-            hint = f'such as "[{key}]" and "{example}" below it'
-            reader.add(key, f"is missing; an engine needs it, {hint}")
+            hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
+            reader.problems.append(Problem.of_missing(key, hint))
     parts: dict[str, Any] = {key: reader.read_text(key, data[key]) for key in TEXTS if key in data}
     for key in filter(data.__contains__, (*TABLES, *CHAPTERS)):
         parts[key] = reader.read_table(key, data[key], import_table(key))
@@ -246,15 +245,16 @@ class _Reader:
     def _translate(
         self, path: str, error: ValidationError, value: Mapping[str, Any], table: type[FileTable]
     ) -> None:
-        """Collect pydantic's findings, and what the keys say against each other, at which it looks
-        only where all else is right.
+        """Collect what the keys say against each other, as far as they can be read, and pydantic's
+        findings in them.
         """
-        findings = error.errors(include_url=False)
-        if broken := {str(finding["loc"][0]) for finding in findings if finding["loc"]}:
-            for mistake in mistakes_of_choice(table, value):
-                self.add(path, mistake)
-            for mistake in _find_contradictions(table, value, broken):
-                self.add(path, mistake)
+        findings = [found for found in error.errors(include_url=False) if found["loc"]]
+        for choice in table.choices:
+            missing = tuple(join_path(path, [key]) for key in choice.find_missing(value))
+            self.problems += (Problem(path, mistake, missing) for mistake in choice.mistakes(value))
+        broken = {str(finding["loc"][0]) for finding in findings}
+        for mistake in _find_contradictions(table, value, broken):
+            self.add(path, mistake)
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
@@ -264,31 +264,19 @@ class _Reader:
                 self.problems.append(describe_finding(path, finding, table))
 
 
-def _is_told_missing(problem: Problem, meant: set[str]) -> bool:
-    """Whether a mistake is that one of these keys is not there."""
-    if problem.message.startswith("has neither "):
-        words = re.split(r"[ ,;]+", problem.message)
-        return any(f"{problem.path}.{word}" in meant for word in words)
-    return problem.path in meant and problem.message.startswith("is missing")
-
-
 def _find_contradictions(
     table: type[FileTable], value: Mapping[str, Any], broken: set[str]
-) -> Iterator[str]:
-    """What the keys of a table say against each other, up to where one that is broken would have to
-    be known; nothing where a key is missing that has to be there.
+) -> list[str]:
+    """What the keys of a table say against each other, without the broken ones; nothing where a key
+    is broken or missing that has to be there.
     """
+    legible = {key: part for key, part in value.items() if key not in broken}
     try:
-        draft = table.model_validate(
-            {key: part for key, part in value.items() if key not in broken}, context=broken
-        )
+        draft = table.model_validate(legible, context=broken)
     except ValidationError:
-        return
-    draft.model_fields_set.update(broken & value.keys())
-    for key in broken:
-        vars(draft).pop(key, None)
-    with suppress(AttributeError):  # whoever asks for one of these gets no further
-        yield from draft.contradictions()
+        return []
+    draft.model_fields_set.update(broken & value.keys())  # these are given, too
+    return list(draft.contradictions(broken))
 
 
 def _count_values(value: object) -> int:

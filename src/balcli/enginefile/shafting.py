@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from .fields import Number, OneOf
-from .model import FileTable, Size
+from .model import FileTable, Size, TableRule
 from .units import (
     INERTIA,
     MASS,
@@ -85,17 +85,27 @@ class ShaftKeys(FileTable):
         0.0, examples=[20], description="of a dashpot between the ends of the shaft"
     )
 
-    def contradictions(self) -> Iterator[str]:
+    def _check_length(self) -> Iterator[str]:
         if self.stiffness is not None and self.length is not None:
             yield "has stiffness and length; leave one of them out"
+
+    def _check_stiffness(self) -> Iterator[str]:
         if self.stiffness is None and (self.length is None or self.diameter is None):
             yield (
                 "has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
                 "a plain shaft"
             )
+
+    def _check_bore(self) -> Iterator[str]:
         if self.bore is not None and (self.diameter is None or self.bore >= self.diameter):
             outer = "no diameter" if self.diameter is None else f"a diameter of {self.diameter:g}"
             yield f"has a bore of {self.bore:g} mm and {outer}; the bore is the smaller of both"
+
+    rules = (
+        TableRule(_check_length, {"stiffness", "length"}),
+        TableRule(_check_stiffness, {"stiffness", "length", "diameter"}),
+        TableRule(_check_bore, {"bore", "diameter"}),
+    )
 
 
 _KEYS_OF_KIND = {
@@ -125,13 +135,15 @@ class Damper(FileTable):
         None, examples=[2.4], description="of a pendulum, from there to its centre of mass"
     )
 
-    def contradictions(self) -> Iterator[str]:
+    def _check_keys(self) -> Iterator[str]:
         wanted = _KEYS_OF_KIND[self.kind]
         given = self.model_fields_set - {"kind"}
         if missing := [key for key in wanted if key not in given]:
             yield f"is {self.kind} and lacks {' and '.join(missing)}"
         if strange := sorted(given - set(wanted)):
             yield f"is {self.kind}, which has no {' and no '.join(strange)}"
+
+    rules = (TableRule(_check_keys, {"kind"}),)
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:

@@ -63,7 +63,8 @@ class TableReader:
             for finding in error.errors(include_url=False):
                 is_meant = finding["type"] == "missing" and finding["loc"][-1] in meant
                 if not (is_meant or is_miscounted(finding)):
-                    self._add(*self._describe(path, finding, table))
+                    problem = self._describe(path, finding, table)
+                    self.problems.append(problem._replace(path=problem.path.lstrip(".")))
             return None
 
     def refusal(self, name: str) -> InputError:

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
 from .fields import Label, Number, counted, shorten
-from .model import FileTable, Size
+from .model import FileTable, Size, TableRule
 from .shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
 from .units import ANGLE, INERTIA, PLAIN, STRESS, TORSIONAL_STIFFNESS, Dimension
 
@@ -126,8 +126,10 @@ class Torsion(FileTable):
     front: _Parts = Field((), description="parts before the first throw, outward")
     rear: _Parts = Field((), description="parts behind the last throw, outward")
 
-    def contradictions(self) -> Iterator[str]:
+    def _check_bore(self) -> Iterator[str]:
         if self.throw_bore is not None and (
             self.throw_diameter is None or self.throw_bore >= self.throw_diameter
         ):
             yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"
+
+    rules = (TableRule(_check_bore, {"throw_bore", "throw_diameter"}),)

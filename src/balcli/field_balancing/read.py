@@ -23,8 +23,8 @@ from .model import Run, RunsFile, read_amount_unit
 
 BY_PLANE = ("radius", "most", "places", "drill", "deepest", "shares")
 _NEEDED = {
-    "planes": 'is missing; name the planes that take weights, such as planes = ["front", "rear"]',
-    "run": "is missing; write [[run]] for every run, the rotor as found first",
+    "planes": 'name the planes that take weights, such as planes = ["front", "rear"]',
+    "run": "write [[run]] for every run, the rotor as found first",
 }
 
 
@@ -53,7 +53,7 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
         runs = reader.read_list("run", data["run"], Run, MOST_RUNS)
     else:
         runs = ()
-        reader.problems.append(Problem("run", _NEEDED["run"]))
+        reader.problems.append(Problem.of_missing("run", _NEEDED["run"]))
     if not reader.problems and model is not None:
         model = model.model_copy(update={"run": runs})
     if model is not None:
@@ -67,7 +67,7 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
 def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
     last = str(finding["loc"][-1])
     if finding["type"] == "missing" and last in _NEEDED:
-        return Problem(last, _NEEDED[last])
+        return Problem.of_missing(last, _NEEDED[last])
     if finding["type"] == "tuple_type" and last in BY_PLANE:
         value = shorten(finding["input"])
         text = f"{value} is one value; give one for each plane, such as {last} = [{value}, {value}]"
@@ -113,14 +113,12 @@ def _check_permitted(file: RunsFile) -> Iterator[Problem]:
     if file.grade is not None:
         for key, example in (("mass", "120"), ("speed", "3000")):
             if getattr(file, key) is None:
-                yield Problem(
-                    key,
-                    f"is missing; a grade permits an unbalance by it, such as {key} = {example}",
-                )
+                hint = f"a grade permits an unbalance by it, such as {key} = {example}"
+                yield Problem.of_missing(key, hint)
         if file.radius is None and is_mass(file):
-            yield Problem(
+            yield Problem.of_missing(
                 "radius",
-                "is missing; a grade permits an unbalance, which is weight times radius: give the "
+                "a grade permits an unbalance, which is weight times radius: give the "
                 "radius of every plane, such as radius = [200, 200], or the weights as unbalances, "
                 'with weight_unit = "g mm"',
             )
@@ -128,9 +126,9 @@ def _check_permitted(file: RunsFile) -> Iterator[Problem]:
 
 def _check_shop(file: RunsFile) -> Iterator[Problem]:
     if file.drill is not None and file.radius is None:
-        yield Problem("radius", "is missing; a drill needs the radius of the rim, in every plane")
+        yield Problem.of_missing("radius", "a drill needs the radius of the rim, in every plane")
     if file.deepest is not None and file.drill is None:
-        yield Problem("drill", "is missing; deepest belongs to holes, which have a diameter")
+        yield Problem.of_missing("drill", "deepest belongs to holes, which have a diameter")
     if file.deepest and file.radius and len(file.deepest) == len(file.radius):
         for k, (depth, rim) in enumerate(zip(file.deepest, file.radius, strict=True), 1):
             if depth > rim:
@@ -167,10 +165,8 @@ def _check_runs(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem
                     f"is no plane; {hint[:200]}",
                 )
         if spoken and run.speed is None:
-            yield Problem(
-                f"run.{k}.speed",
-                f"is missing; run.{spoken[0]} gives its speed, so every run must",
-            )
+            hint = f"run.{spoken[0]} gives its speed, so every run must"
+            yield Problem.of_missing(f"run.{k}.speed", hint)
     yield from _check_factors(file, wanted)
 
 

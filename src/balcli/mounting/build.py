@@ -98,10 +98,10 @@ def find_mounting_faults(
     """
     if "body" in legible and model.body is None:
         example = "mass = 163.9"
-        yield Problem("body", f'is missing; give it, such as "[body]" and "{example}" below it')
+        yield Problem.of_missing("body", f'give it, such as "[body]" and "{example}" below it')
     if "mount" in legible:
         if not model.mount:
-            yield Problem("mount", "is missing; write [[mount]] for every mount")
+            yield Problem.of_missing("mount", "write [[mount]] for every mount")
         if len(model.mount) > MOST_MOUNTS:
             message = f"stands {len(model.mount)} times; at most {MOST_MOUNTS} are taken"
             yield Problem("mount", message)

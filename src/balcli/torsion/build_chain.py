@@ -110,7 +110,7 @@ def _find_faults(
     for piece in [] if apart else pieces:
         if not np.any(heavy[piece]):
             node = int(np.argmax(piece))
-            yield Problem(f"node.{node + 1}.inertia", "is missing; nothing that turns has any")
+            yield Problem.of_missing(f"node.{node + 1}.inertia", "nothing that turns has any")
 
 
 def _find_path(shaft: int, first_gear: int) -> str:

@@ -53,7 +53,7 @@ def build_engine_system(
     torsion = model.torsion
     if torsion is None:
         hint = "write [torsion] with throw_stiffness and throw_inertia, and [[torsion.rear]]"
-        raise InputError([Problem("torsion", f"is missing; {hint}")], name)
+        raise InputError([Problem.of_missing("torsion", hint)], name)
     throws = len(engine.throws_m)
     problems = list(_find_misfits(torsion, model, engine, throws))
     if problems:
@@ -254,8 +254,8 @@ def _find_misfits(
 def _check_throws(torsion: Torsion, model: EngineFile, throws: int) -> Iterator[Problem]:
     places = throws - 1
     if torsion.throw_stiffness is None and places:
-        text = f"is missing; give that between neighbours of {counted(throws, 'throw')}"
-        yield Problem("torsion.throw_stiffness", f"{text}, such as throw_stiffness = 1.25e6")
+        hint = f"give that between neighbours of {counted(throws, 'throw')}, such as "
+        yield Problem.of_missing("torsion.throw_stiffness", f"{hint}throw_stiffness = 1.25e6")
     for key, count in (("throw_stiffness", places), ("throw_inertia", throws)):
         values = getattr(torsion, key)
         if values is not None and len(values) not in (1, count):
@@ -265,5 +265,5 @@ def _check_throws(torsion: Torsion, model: EngineFile, throws: int) -> Iterator[
                 f"{count}; give one for all, or a list of these",
             )
     if torsion.throw_inertia is None and model.crank.inertia is None:
-        text = "is missing; give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
-        yield Problem("torsion.throw_inertia", text)
+        hint = "give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
+        yield Problem.of_missing("torsion.throw_inertia", hint)

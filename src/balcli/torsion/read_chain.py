@@ -58,8 +58,8 @@ def _find_misfits(data: Mapping[str, Any]) -> Iterator[Problem]:
     """What the tables say against each other, as far as they can be read."""
     nodes = _tables(data, "node")
     if "node" not in data:
-        text = 'is missing; write [[node]] for every inertia, such as name = "flywheel"'
-        yield Problem("node", text)
+        hint = 'write [[node]] for every inertia, such as name = "flywheel"'
+        yield Problem.of_missing("node", hint)
         return
     if data["node"] == []:
         yield Problem("node", "is an empty list; a chain has at least one node")

@@ -126,20 +126,6 @@ def unit_circle(count: int) -> Complex:
     return unit(np.arange(count) * (360 / count))
 
 
-def transform(samples: Array, orders: ArrayLike, condition: Array | float = 1.0) -> Series:
-    """Coefficients of whole orders from one revolution of evenly spaced samples.
-
-    Args:
-        samples: shape (*any axes, samples).
-        orders: shape (orders,); those that are not whole, or beyond what the samples show, are 0.
-        condition: error of each sample, relative and in roundings, shape of the samples.
-
-    Returns: shape (orders, *the other axes).
-    """
-    noise = SAMPLING * amplify_rounding(samples, condition)
-    return Series(pick_orders(np.fft.rfft(samples), orders), noise)
-
-
 def pick_orders(spectrum: Complex, orders: ArrayLike) -> Complex:
     """The coefficients of these orders in transforms (`rfft`) of revolutions, shape (*any axes,
     samples/2 + 1); order first. Orders that are not whole, or that samples do not show, are 0.

@@ -98,13 +98,8 @@ class PageSubject:
         return {EVERY_KIND[name].label: self.now.spectra[name] for name in _ABOUT[quantity]}
 
 
-def draw_page(subject: PageSubject, what: str, form: Form) -> bytes:
-    """The content of a file with a page of pictures; `what` is one of PAGES."""
-    return save_figure(make_page(subject, what, form), form)
-
-
 def make_page(subject: PageSubject, what: str, form: Form) -> Figure:
-    """What `draw_page` writes, as a figure of matplotlib."""
+    """A page of pictures, as a figure of matplotlib; `what` is one of PAGES."""
     width, height, layout = PAGES[what]
     with open_figure(width, height, form) as fig:
         fig.set_layout_engine("constrained", h_pad=BELOW_TITLE)
