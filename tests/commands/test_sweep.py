@@ -271,6 +271,14 @@ def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
     assert run_command("analyze", str(target)).returncode == 0
 
 
+def test_a_refused_search_names_the_file(engine: str) -> None:
+    done = run_command(
+        "search", engine, "--over", "rod.length=20:30", "--minimise", "force.2.major"
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"balcli: {engine}: rod.length: the crank cannot turn: ")
+
+
 def test_scatter_as_json_and_table(engine: str) -> None:
     options = (
         "scatter",

@@ -225,6 +225,20 @@ def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
     assert "an end of the range" not in inside
 
 
+def test_a_search_says_that_a_number_changes_nothing(tmp_path):
+    """What turns with the crank has no second order."""
+    file = tmp_path / "i4.toml"
+    file.write_text(GOOD)
+    search = ("search", file, "--over", "crank.throw_mass=0:6", "--minimise", "force.2.major")
+    told = run_here(*search).out
+    nothing = "changes nothing of what is minimised: it is the same at every value."
+    assert f"crank.throw_mass {nothing}" in told
+    assert "an end of the range" not in told
+    search = ("search", file, "--over", "crank.stroke=60:90", "--minimise", "force.2.major")
+    told = run_here(*search, "--limit", "force.2.major<3000").out
+    assert nothing not in told
+
+
 def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
     file = tmp_path / "twin.toml"
     file.write_text(

@@ -292,4 +292,7 @@ def test_layouts_at_a_glance():
     assert five[2:] == ["0", "0", "0.449", "4.98", "144"]
     (twin,) = (line.split() for line in out.splitlines() if line.startswith("90-degree V-twin"))
     assert twin[-5:] == ["1", "1.414", "0", "0", "270/450"]
+    # Yamaha's cross-plane four fires after 270, 180, 90 and 180 degrees
+    cross = next(line for line in out.splitlines() if line.startswith("in-line four, cross"))
+    assert cross.split()[-1] == "90/180/270"
     assert run_here("layouts", "--format", "json").out == run("layouts", "--format", "json").out

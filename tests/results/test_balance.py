@@ -273,6 +273,11 @@ def test_shafts_turn_at_their_ratio():
     assert sorted(p.speed_rpm for p in found) == [3000, 3000, 6000, 6000]
 
 
+def test_a_slow_engine_has_the_speeds_of_its_shafts_with_their_fractions():
+    out = run("-", "--scheme", "four-shaft", "--speed", "61.25", text=SINGLE).out
+    assert re.findall(r"^\d shaft +(\S+)", out, re.M) == ["61.25", "61.25", "122.5", "122.5"]
+
+
 def test_given_thickness_sets_the_radius():
     remedy = balance(engine()).remedy
     for p in find_practical(engine(), remedy, Tools(thickness=0.03)):

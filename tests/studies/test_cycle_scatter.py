@@ -30,8 +30,7 @@ def deviated(found: dict[str, float]) -> str:
         rod = 0.6 * (1 + found.get(f"rod mass {k}", 0.0))
         length = 150 * (1 + found.get(f"rod length {k}", 0.0))
         own.append(
-            f"{k} = {{piston_mass = {piston!r}, rod_mass = {rod!r}, rod_length = {length!r}, "
-            f"rod_cg = {45 * length / 150!r}}}"
+            f"{k} = {{piston_mass = {piston!r}, rod_mass = {rod!r}, rod_length = {length!r}}}"
         )
     own_throws = FOUR.replace("[0, 180, 180, 0]", repr(throws))
     return "\n".join([own_throws, "[cylinder]", *own])

@@ -24,6 +24,10 @@ TWIN = changed(
     ("[layout]\nfiring_order = [1, 3, 4, 2]\n", ""),
 )
 
+UNEVEN = changed(  # nothing of it is balanced
+    ("[0, 180, 180, 0]", "[0, 100, 220, 30]"), ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")
+)
+
 
 def test_two_pistons_alone_have_a_triangular_difference() -> None:
     """180-degree twin of pistons alone: the free force of order 1 is |d1 - d2| m r w^2, with
@@ -85,6 +89,60 @@ def test_shares_of_angles_and_lengths_are_derivatives() -> None:
     assert (
         abs(share["throw angle 2"]) < 1e-9 * nominal
     )  # to first order, all vectors lie along one line
+
+
+def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
+    """The centre of mass keeps its distance c from the big end. Of one cylinder the first order
+    turns against the crank with (m_p + m c/l) r w^2 / 2, and the couple is H D_1 w^2 with
+    H = m c (l - c) - J and D_1 = lambda, but for lambda cubed.
+    """
+    text = (
+        "[crank]\nstroke = 4\n[rod]\nlength = 200\nmass = 0.6\ncg = 45\ninertia = 3000\n"
+        "[piston]\nmass = 0.5\n[operation]\nspeed = 3000\n"
+    )
+    against, couple = scatter_engine(
+        load(text),
+        Tolerances(length=1e-4),
+        parse_quantity_list("force.1.backward,couple.1.amplitude"),
+        10,
+        seed=1,
+    ).spreads
+    w2 = (3000 * math.pi / 30) ** 2
+    assert against.shares[0][1] == pytest.approx(-1e-4 * 0.6 * 0.045 / 0.2 * 0.002 * w2 / 2)
+    h = 0.6 * 0.045 * 0.155 - 0.003
+    change = 1e-4 * (0.6 * 0.045 * 0.2 - h) * 0.01 * w2  # of H lambda, lambda = r/l
+    assert couple.shares[0][1] == pytest.approx(change, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        (UNEVEN.replace("cg = 45", "cg = 45\ninertia = 3000"), 3),
+        (UNEVEN.replace("cg = 45", 'cg = 45\npendulum = {pivot = "small_end", period = 0.75}'), 3),
+        (UNEVEN.replace("length = 160", "ratio = 0.28") + "[cylinder.3]\nrod_cg = 60\n", 3),
+        (RADIAL, 1),
+        (RADIAL, 2),
+    ],
+    ids=["inertia", "pendulum", "ratio", "master", "articulated"],
+)
+def test_shares_of_lengths_are_what_a_changed_file_gives(text: str, number: int) -> None:
+    quantities = parse_quantity_list("force.1.forward,force.2.backward,couple.1.amplitude")
+    step, key = 1e-5, f"cylinder.{number}.rod_length"
+    model = load(text)
+    spreads = scatter_engine(model, Tolerances(length=step), quantities, 10, seed=1).spreads
+    engine = build(model)
+    row = engine.numbers.index(number)
+    lam = engine.cylinders.lam[row % len(engine.cylinders.lam)]
+    length = 1e3 * engine.cylinders.radius / lam
+    up, down = (
+        evaluate_quantities(build(model, {key: np.array([length * x])}), quantities)
+        for x in (1 + step, 1 - step)
+    )
+    for spread, more, less in zip(spreads, up, down, strict=True):
+        shares = {source.name: value for source, value in spread.shares}
+        size = max(map(abs, shares.values()))
+        expected = (float(more[0]) - float(less[0])) / 2
+        assert shares[f"rod length {number}"] == pytest.approx(expected, rel=1e-5, abs=1e-6 * size)
 
 
 def test_nothing_exceeds_the_bound_of_masses() -> None:

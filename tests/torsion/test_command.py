@@ -148,7 +148,7 @@ def test_what_nothing_damps_is_told_with_its_speed():
     text = read_starting_file().replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
     text = text.replace("damping = 1.5", "")
     assert refusal("torsion", "-", "--speeds", "1000:2500", stdin=text) == (
-        "pump drive: the natural frequency of 77.1782 Hz is excited by order 2 at 2315.35 rpm and "
+        "standard input: the natural frequency of 77.1782 Hz is excited by order 2 at 2315.35 rpm and "
         "nothing damps it: its vibration has no bound; give a loss factor (loss = 0.02), or damping"
     )
 
@@ -174,7 +174,7 @@ def test_what_pendulums_leave_undamped_is_told(tmp_path):
         """
     hertz = np.sqrt(1e4 / (1 + 2 * 0.099**2 / 0.9)) / (2 * np.pi)
     assert refusal("torsion", "-", "--speeds", "850:1150:50", stdin=text) == (
-        f"the natural frequency of {hertz:.6g} Hz is excited and nothing damps it: its vibration "
+        f"standard input: the natural frequency of {hertz:.6g} Hz is excited and nothing damps it: its vibration "
         "has no bound; give a loss factor (loss = 0.02), or damping"
     )
     assert "response" in ask(text, "--speeds", "950:1150:50"), "beside the range"
@@ -258,7 +258,7 @@ def test_a_tuned_pendulum_holds_its_node_still():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--holzer", "9"), "pump drive: has 3 modes, but --holzer asks for 9"),
+        (("--holzer", "9"), "standard input: has 3 modes, but --holzer asks for 9"),
         (
             ("--holzer", "x"),
             '--holzer "x": give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" '
@@ -289,7 +289,7 @@ def test_a_tuned_pendulum_holds_its_node_still():
         ),
         (
             ("--speeds", "1000", "--orders", "0.5"),
-            "pump drive: nothing excites it at the orders asked for",
+            "standard input: nothing excites it at the orders asked for",
         ),
     ],
 )
@@ -331,7 +331,7 @@ def test_a_node_alone_swings_rigidly(tmp_path):
     assert "None: nothing has inertia that could swing on a shaft." in out
     assert "a swings by ±1.567 deg at 100 rpm." in out
     assert refusal("torsion", "-", "--holzer", "1", stdin=LONE) == (
-        "has 0 modes, but --holzer asks for 1"
+        "standard input: has 0 modes, but --holzer asks for 1"
     )
     told = refusal("torsion", "-", "--speeds", "100,200", "--damper", "viscous", stdin=LONE)
     assert told == "--damper: the system has no mode that could be damped"
@@ -356,7 +356,7 @@ def test_loops_have_no_holzer_table():
         """
     assert len(ask(loop)["modes"]) == 2
     assert refusal("torsion", "-", "--holzer", "1", stdin=loop) == (
-        "--holzer: Holzer's table needs a chain in one piece, without loops"
+        "standard input: --holzer: Holzer's table needs a chain in one piece, without loops"
     )
 
 
@@ -375,8 +375,8 @@ def test_progress_says_nothing_where_nobody_looks():
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
     monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
     assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=read_starting_file()) == (
-        "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer "
-        "speeds or orders"
+        "standard input: 2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are "
+        "kept: take fewer speeds or orders"
     )
 
 

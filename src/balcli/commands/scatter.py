@@ -48,7 +48,11 @@ def scatter(
     ] = "0.5%",
     length: Annotated[
         str,
-        typer.Option("--length-scatter", metavar="PERCENT", help="Tolerance of every rod length."),
+        typer.Option(
+            "--length-scatter",
+            metavar="PERCENT",
+            help="Tolerance of every rod length; what else the file says of the rods stays.",
+        ),
     ] = "0%",
     angle: Annotated[
         str,

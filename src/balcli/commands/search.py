@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.toml_text import name_file, read_bytes
+from ..errors import InputError
 from ..limits import MOST_FOUND
 from ..render import search as renderer
 from .completion import complete_quantities, complete_searches
@@ -92,7 +93,10 @@ def search(
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
     watching = reporting_until_stopped if over in ("throws", "firing_order") else reporting
     with watching("arrangements") as progress:
-        found = search_arrangements(model, over, goal, top, bool(require), progress)
+        try:
+            found = search_arrangements(model, over, goal, top, bool(require), progress)
+        except InputError as error:
+            raise InputError(error.problems, name) from None
     show([found], renderer, form, output)
     if write is not None:
         write_file(write_design(text, found.results[0].design, name), write)

@@ -46,7 +46,7 @@ def scatter(
             `mount.left.force`) or of torsion (`torsion.1.Hz`). Default: force and moment of orders
             1 and 2, as far as they are known.
         mass: tolerance of every piston, rod and throw mass, as a share (0.005) or a text ("0.5%").
-        length: of every rod length, likewise.
+        length: of every rod length, likewise; what else the file says of the rods stays.
         angle_deg: of every throw angle, a number or a text with its unit.
         stiffness: of every mount (default: 15 %) or shaft (5 %), a share or a text.
         samples: random engines; default: 100000, 500 of those computed one by one (of the

@@ -30,6 +30,7 @@ from .scheme_details import details_parts, tell_growing_rolls
 from .scheme_details_document import details_document
 from .sheet import (
     NAMELESS,
+    NEGLIGIBLE,
     NOTHING,
     UNKNOWN,
     Facts,
@@ -40,6 +41,7 @@ from .sheet import (
     degrees,
     number,
     order_name,
+    size_cell,
 )
 from .units import SI, ShownUnit, System
 
@@ -137,13 +139,12 @@ def _orders(result: Balance, system: System) -> Grid:
         cells = [order_name(result.before.orders[k])]
         for kind, unit in units.items():
             for analysis in (result.before, result.after):
-                phasors = analysis.spectra[kind.name]
                 if kind is MOMENT and not analysis.moments_known:
                     cells.append(UNKNOWN)
                     continue
-                cells.append(
-                    NOTHING if phasors.balanced[k] else number(unit.of(float(phasors.major[k])), 4)
-                )
+                size = float(analysis.spectra[kind.name].major[k])
+                small = not result.every_order and size < NEGLIGIBLE * one[kind.name]
+                cells.append(size_cell(size, unit, negligible=small))
         return tuple(cells)
 
     heads = [

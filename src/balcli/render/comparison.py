@@ -10,7 +10,6 @@ from ..forces.kinds import TORQUE
 from .csv import Rows, name_cell
 from .sheet import (
     NEGLIGIBLE,
-    NOTHING,
     UNKNOWN,
     Grid,
     Sheet,
@@ -19,6 +18,7 @@ from .sheet import (
     number,
     order_name,
     order_number,
+    size_cell,
 )
 
 TITLES = {TORQUE: "inertia torque"}
@@ -113,7 +113,8 @@ def show_sizes(line: Line, unit: ShownUnit, *, every: bool) -> list[str]:
     wanted.
     """
     small = [False] * len(line.values) if every else _tell_negligible(line)
-    return [_show_size(v, unit, negligible=s) for v, s in zip(line.values, small, strict=True)]
+    sizes = zip(line.values, small, strict=True)
+    return [size_cell(value, unit, negligible=s, digits=None) for value, s in sizes]
 
 
 def _tell_negligible(line: Line) -> list[bool]:
@@ -121,12 +122,6 @@ def _tell_negligible(line: Line) -> list[bool]:
     single = line.single or (0.0,) * len(line.values)
     pairs = zip(line.values, single, strict=True)
     return [value == 0 or value < NEGLIGIBLE * one for value, one in pairs]
-
-
-def _show_size(value: float, unit: ShownUnit, *, negligible: bool) -> str:
-    if not value:
-        return NOTHING
-    return "negligible" if negligible else number(unit.of(value))
 
 
 def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:

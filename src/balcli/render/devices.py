@@ -120,7 +120,7 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
 
 def _practical_row(p: Practical, system: System) -> list[str]:
     return [
-        f"{p.speed_rpm:.0f}",
+        number(p.speed_rpm, 6),
         number(system.force.of(p.force)),
         number(system.mass.of(p.mass), 4),
         number(system.length.of(p.disc_radius), 3),

@@ -57,6 +57,5 @@ def _multiple(value: Cell) -> str:
 
 
 def _tell_gaps(gaps: tuple[float, ...]) -> str:
-    """The intervals, deg: `120`, or `90/150` of an engine that fires unevenly."""
-    ends = dict.fromkeys((gaps[0], gaps[-1])) if gaps else ()
-    return "/".join(f"{gap:g}" for gap in ends) or UNKNOWN
+    """All different intervals, deg: `120`, or `90/150` of an engine that fires unevenly."""
+    return "/".join(f"{gap:g}" for gap in gaps) or UNKNOWN

@@ -16,13 +16,13 @@ from .guide_moments import define_guide_moments
 from .sheet import (
     NAMELESS,
     NEGLIGIBLE,
-    NOTHING,
     Grid,
     Sheet,
     Text,
     number,
     order_name,
     order_number,
+    size_cell,
 )
 
 if TYPE_CHECKING:
@@ -238,10 +238,7 @@ def _fit(columns: tuple[_Column, ...], force: bool, system: System) -> ShownUnit
 
 def _cell(column: _Column, i: int, k: int, unit: ShownUnit, every: bool) -> str:
     value = float(column.values[i, k])
-    if not value:
-        return NOTHING
-    small = not every and value < float(column.least[i, 0])
-    return "negligible" if small else number(unit.of(value), 4)
+    return size_cell(value, unit, negligible=not every and value < float(column.least[i, 0]))
 
 
 def _tell_axes(result: MarineSheet) -> str:

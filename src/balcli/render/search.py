@@ -95,6 +95,8 @@ def _notes(result: Search) -> Iterator[str]:
             f"{round(low, 1):g} to {round(high, 1):g}" for low, high in result.locked
         )
         yield f"No candidates: at {spans} deg the articulated rods cannot follow the crank."
+    if result.constant:
+        yield f"{result.over} changes nothing of what is minimised: it is the same at every value."
     if result.best_at_end:
         yield (
             f"The best {result.over} is an end of the range that was searched: beyond it may be "

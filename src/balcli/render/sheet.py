@@ -95,6 +95,15 @@ def size_text(value: float, unit: ShownUnit, digits: int | None = 4) -> str:
     return f"{number(unit.of(value), digits)} {unit.name}"
 
 
+def size_cell(value: float, unit: ShownUnit, *, negligible: bool, digits: int | None = 4) -> str:
+    """A force or moment (SI) in a column with this unit, or a word where there is none that counts;
+    digits as of `number`.
+    """
+    if not value:
+        return NOTHING
+    return "negligible" if negligible else number(unit.of(value), digits)
+
+
 def degrees(value: float, turn: float = 360) -> str:
     """An angle to a tenth of a degree, or a dash where there is none; of lines `turn` is 180.
 

@@ -18,9 +18,11 @@ from ..core.phasors import Array, Phasors
 from ..engine.assembly import PISTON_PARTS
 from ..engine.build import Engine, Weighed, assemble, build
 from ..engine.build_gas import build_gas
+from ..engine.figures import RodFigures
 from ..engine.gas import EngineGas
 from ..engine.layout import plan_cylinders
-from ..enginefile.model import Bobweight, EngineFile
+from ..engine.rods import weigh_rod
+from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.quantity import Quantity
 from ..forces.spectrum import compute_spectra
@@ -33,7 +35,8 @@ STEP = 1e-3  # of a tolerance, for derivatives; masses act linearly, so that the
 @dataclass(frozen=True)
 class Tolerances:
     """Largest deviations: of masses and rod lengths relative to themselves, of throw angles in
-    degrees.
+    degrees. Of a longer rod stays what else the file says of it: mass and place of its centre of
+    mass, or the masses of its ends.
     """
 
     mass: float = 0.0
@@ -84,12 +87,16 @@ class DeviatingEngine:
         c = self._engine.cylinders
         without_pistons = build(_without_pistons(model), rank=1).cylinders
         without_throws = build(_without_throws(model), rank=1).cylinders
-        without_shells = build(_without_shells(model), rank=1).cylinders
         self._pistons = self._of_each(c.reciprocating - without_pistons.reciprocating)
         self._webs = self._of_each(c.rotating - without_throws.rotating)
-        self._shells = self._of_each(c.rotating - without_shells.rotating)
-        self._small_ends = self._of_each(c.reciprocating) - self._pistons
-        self._big_ends = self._of_each(c.rotating) - self._webs - self._shells
+        parts = assemble(model)
+        self._radius = parts.radius
+        self._rows_of_rods: dict[RodFigures, list[int]] = {}
+        for row, n in enumerate(self._engine.numbers):
+            rod = parts.rod_place(n, n in parts.masters).rod
+            self._rows_of_rods.setdefault(rod, []).append(row)
+        self._hung = np.array([[n in parts.masters] for n in self._engine.numbers])
+        self._of_file = self._weigh_rods(np.zeros((1, 1)))
         self.sources = tuple(self._find_sources(tolerances))
         if not self.sources:
             raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
@@ -104,7 +111,7 @@ class DeviatingEngine:
         if mass := tolerances.mass:
             if self._pistons.any():
                 yield from _of_all("piston mass", cylinders, mass)
-            if self._small_ends.any() or self._big_ends.any():
+            if self._of_file[:2].any():
                 yield from _of_all("rod mass", cylinders, mass)
             if self._webs.any():
                 yield from _of_all("throw mass", throws, mass)
@@ -124,15 +131,17 @@ class DeviatingEngine:
         longer = self._of_cylinders("rod length", deviations)
         ahead_deg = self._of_cylinders("throw angle", deviations)
         length = 1 + longer
+        small_end, big_end, couple = (1 + rod) * self._weigh_rods(longer) - self._of_file
         cylinders = replace(
             c,
-            reciprocating=c.reciprocating + piston + rod * self._small_ends,
-            rotating=c.rotating + web + rod * self._big_ends,
-            couple=c.couple * (1 + rod),
+            reciprocating=c.reciprocating + piston + small_end,
+            rotating=c.rotating + web + np.where(self._hung, 0.0, big_end),
+            couple=c.couple + couple,
             lam=c.lam / length,
             eps=c.eps / length,
             pin_deg=c.pin_deg + ahead_deg,
-            linkage=c.linkage and replace(c.linkage, mass=c.linkage.mass * (1 + rod)),
+            linkage=c.linkage
+            and replace(c.linkage, mass=c.linkage.mass + np.where(self._hung, big_end, 0.0)),
         )
         engine = replace(self._engine, cylinders=cylinders)
         if self._gas is None:
@@ -141,6 +150,18 @@ class DeviatingEngine:
         return replace(
             engine, gas_of_variants=lambda orders: gas.find_torque(orders, longer, ahead_deg)
         )
+
+    def _weigh_rods(self, longer: Array) -> Array:
+        """Masses at the small and at the big ends, and couples, of rods that are longer by a share
+        of themselves (cylinders or 1, samples), shape (3, cylinders, samples).
+        """
+        each = np.broadcast_to(longer, (len(self._throws), longer.shape[1]))
+        weighed = np.empty((3, *each.shape))
+        for rod, rows in self._rows_of_rods.items():
+            gear = weigh_rod(rod, rod.length_for(self._radius) * (1 + each[rows]))
+            weighed[0, rows], weighed[1, rows] = gear.small_end, gear.big_end
+            weighed[2, rows] = gear.couple
+        return weighed
 
     def deviate_one(self, deviations: Array) -> Engine:
         """One engine without trailing axes, its gas and all, with deviations (sources,) as of
@@ -174,12 +195,13 @@ class DeviatingEngine:
             np.broadcast_to(1 + self._of_cylinders(what, column)[:, 0], count).tolist()
             for what in whats
         )
+        ends = self._weigh_rods(self._of_cylinders("rod length", column))[:2, :, 0].tolist()
         return tuple(
             w._replace(
                 piston=w.piston * pistons[row],
                 piston_parts=tuple((key, mass * pistons[row]) for key, mass in w.piston_parts),
-                small_end=w.small_end * rods[row],
-                big_end=w.big_end * rods[row],
+                small_end=ends[0][row] * rods[row],
+                big_end=ends[1][row] * rods[row],
                 share=w.share * throws[row],
             )
             for row, w in enumerate(self._single.weighed)
@@ -241,11 +263,6 @@ def _without_pistons(model: EngineFile) -> EngineFile:
     parts = dict.fromkeys(PISTON_PARTS)
     piston = model.piston.model_copy(update=parts | {"mass": 0.0})
     return model.model_copy(update={"piston": piston, "cylinder": overrides})
-
-
-def _without_shells(model: EngineFile) -> EngineFile:
-    """The file without bearing shells and oil on its crank pins."""
-    return model.model_copy(update={"bobweight": Bobweight.model_construct()})
 
 
 def _without_throws(model: EngineFile) -> EngineFile:

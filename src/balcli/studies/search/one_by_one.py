@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice, permutations
+from typing import NamedTuple
 
 import numpy as np
 
@@ -159,14 +160,25 @@ def _find_bottoms(values: Array) -> list[int]:
     return [int(k) for k in starts[lowest]]
 
 
-def list_numbers(
+class BestNumbers(NamedTuple):
+    """Designs with the best values of a number in a range.
+
+    Attributes:
+        constant: whether the objective is the same for all values that were tried.
+    """
+
+    designs: list[Design]
+    constant: bool
+
+
+def find_best_designs(
     model: EngineFile,
     name: Callable[[float], Design],
     low: float,
     high: float,
     objective: Objective[AnyQuantity],
     tell: Tell = tell_nobody,
-) -> Iterator[Design]:
+) -> BestNumbers:
     """Designs with the best values of a number in a range.
 
     Args:
@@ -176,18 +188,20 @@ def list_numbers(
     Raises:
         InputError: no value makes an engine.
     """
-    mistakes: list[InputError | None] = []
+    mistakes: list[InputError] = []
+    found: list[float] = []
 
     def evaluate(value: float) -> float:
         try:
-            found = _try(model, name(value), objective).objective
+            found.append(_try(model, name(value), objective).objective)
         except InputError as error:
             mistakes.append(error)
             return np.inf
-        mistakes.append(None)
-        return found
+        return found[-1]
 
     best = find_best_numbers(evaluate, low, high, tell)
-    if mistakes[0] is not None and all(mistakes):
+    if not found:
         raise mistakes[0]
-    return map(name, best)
+    span = max(found) - min(found)
+    constant = span <= _AS_GOOD * max(map(abs, found)) < math.inf
+    return BestNumbers(list(map(name, best)), constant)

@@ -28,7 +28,7 @@ from .designs import Design, Found, build_candidates, drop_firing_order
 from .even_firing import find_even_angles, fires_evenly
 from .mirror_images import drop_mirror_images
 from .objective import Objective, choose_sums
-from .one_by_one import list_numbers, list_throws, rank_one_by_one
+from .one_by_one import find_best_designs, list_throws, rank_one_by_one
 from .over_angle import SPANS, Angle, check_angle, find_locked, search_angle
 from .over_firing_order import find_slots, search_firing_order
 from .over_throws import give_throws, search_throws
@@ -48,6 +48,7 @@ class Search(Result):
         locked: from where to where (deg, to `angles.STEP`) the mechanism locks, so that no angle
             there was a candidate.
         ends: of the range in which a number of the file was searched for; None for anything else.
+        constant: whether that number changes nothing of the objective.
     """
 
     model: EngineFile
@@ -57,12 +58,13 @@ class Search(Result):
     scale: TextbookUnits
     locked: tuple[tuple[float, float], ...] = ()
     ends: tuple[float, float] | None = None
+    constant: bool = False
 
     @property
     def best_at_end(self) -> bool:
         """Whether the best value is an end of the range, beyond which there may be a better one."""
         design = self.results[0].design
-        if self.ends is None or design.number is None:
+        if self.ends is None or design.number is None or self.constant:
             return False
         low, high = self.ends
         value, near = design.number[1], NEAR_AN_END * (high - low)
@@ -120,13 +122,14 @@ def search_arrangements(
     what = None if is_number else _parse_over(over)
     sums = choose_sums(objective)
     locked: tuple[tuple[float, float], ...] = ()
-    ends = None
+    ends, constant = None, False
     fires_at_will = model.gas is None and model.crank.throws is not None and what != "firing_order"
     base = drop_firing_order(model) if fires_at_will or what == "throws" else model
     if what is None:
         key, ends = _read_range(model, over)
-        designs = list_numbers(base, partial(_design_number, key), *ends, objective, tell)
-        candidates = rank_one_by_one(base, designs, objective, tell_nobody)
+        best = find_best_designs(base, partial(_design_number, key), *ends, objective, tell)
+        constant = best.constant
+        candidates = rank_one_by_one(base, best.designs, objective, tell_nobody)
     elif sums is None:
         designs = _list_designs(model, what, objective, even_firing, tell)
         candidates = rank_one_by_one(base, designs, objective, tell)
@@ -140,7 +143,7 @@ def search_arrangements(
         raise BalcliError(f"no {named} keeps these limits{also}")
     orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
     scale = find_textbook_units(engine, orders)
-    return Search(model, key, objective, found, scale, locked, ends)
+    return Search(model, key, objective, found, scale, locked, ends, constant)
 
 
 def _read_range(model: EngineFile, over: str) -> tuple[str, tuple[float, float]]:
@@ -182,7 +185,8 @@ def _list_designs(
     if even is not None:
         return (_design_angle(what, angle) for angle in even.tolist())
     low, high = SPANS[what].low, SPANS[what].high
-    return list_numbers(model, partial(_design_angle, what), low, high, objective, tell)
+    name = partial(_design_angle, what)
+    return iter(find_best_designs(model, name, low, high, objective, tell).designs)
 
 
 def _design_number(path: str, value: float) -> Design:
