@@ -26,6 +26,8 @@ _MOST_ORDERS = 3  # of a shaft's torque, named beside it
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Modes first, then what was asked; units are SI."""
     parts: list[Grid | Facts | Text] = []
+    if result.system.without_gas:
+        parts.append(Facts((("no gas in", ", ".join(map(str, result.system.without_gas))),)))
     if result.damper is not None:
         parts.append(_damper(result.damper))
     parts += [_modes(result), _shapes(result)]

@@ -97,6 +97,7 @@ class TorsionalSystem:
         angle_limit: half swing of the first node, rad, above which a speed is barred.
         last: node at which Holzer's table ends.
         reference: node whose speed and orders are those of the system.
+        without_gas: numbers of the cylinders without gas, where others have some.
         rated_rpm: speed of the file's own; None: it gives none.
     """
 
@@ -114,6 +115,7 @@ class TorsionalSystem:
     last: int = -1
     rated_rpm: float | None = None
     reference: int = 0
+    without_gas: tuple[int, ...] = ()
 
     @cached_property
     def gears(self) -> Real:
