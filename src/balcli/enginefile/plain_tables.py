@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -9,6 +10,8 @@ import numpy as np
 
 from ..errors import InputError, Problem
 from .model import EngineFile, FileTable, label_table
+
+RIGID = "rigid"  # in a file, for a stiffness without end: a flange, or a mesh of gears
 
 
 def normalize_tables(tables: Mapping[Any, Any], name: str = "") -> dict[str, Any]:
@@ -62,7 +65,9 @@ def _write(value: Any) -> Any:
         return {fields[key].alias or key: _write(part) for key, part in given if part is not None}
     if isinstance(value, Mapping):
         return {str(key): _write(inner) for key, inner in value.items()}
-    return [_write(inner) for inner in value] if isinstance(value, tuple) else value
+    if isinstance(value, tuple):
+        return [_write(inner) for inner in value]
+    return RIGID if value == math.inf else value
 
 
 def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, Any]:

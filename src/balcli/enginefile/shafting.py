@@ -10,6 +10,7 @@ from pydantic import Field
 
 from .fields import Number, OneOf
 from .model import FileTable, Size, TableRule
+from .plain_tables import RIGID
 from .units import (
     INERTIA,
     MASS,
@@ -18,8 +19,6 @@ from .units import (
     TORSIONAL_DAMPING,
     TORSIONAL_STIFFNESS,
 )
-
-RIGID = "rigid"  # a flange, or a mesh of gears
 
 
 class _Stiffness(Number):
