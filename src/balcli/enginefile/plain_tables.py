@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, Problem
+from .fields import RIGID
 from .model import EngineFile, FileTable, label_table
-
-RIGID = "rigid"  # in a file, for a stiffness without end: a flange, or a mesh of gears
 
 
 def normalize_tables(tables: Mapping[Any, Any], name: str = "") -> dict[str, Any]:

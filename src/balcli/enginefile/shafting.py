@@ -8,9 +8,8 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from .fields import Number, OneOf
+from .fields import RIGID, Number, OneOf
 from .model import FileTable, Size, TableRule
-from .plain_tables import RIGID
 from .units import (
     INERTIA,
     MASS,

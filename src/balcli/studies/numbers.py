@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ..enginefile.fields import RIGID
 from ..enginefile.model import EngineFile, FileTable, Override
-from ..enginefile.plain_tables import RIGID
 from .parameters import find_numbers
 from .quantities import list_quantities
 from .quantity_names import Form
