@@ -395,8 +395,8 @@ def test_progress_says_nothing_where_nobody_looks():
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
     monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
     assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=read_starting_file()) == (
-        "standard input: 2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are "
-        "kept: take fewer speeds or orders"
+        "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer "
+        "speeds or orders"
     )
 
 
