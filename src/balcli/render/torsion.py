@@ -148,7 +148,8 @@ def _criticals(result: TorsionAnalysis) -> Grid:
     if left:
         note += f" JSON has {left} more."
     heads = ("mode", "order", "rpm", "phase sum", "share")
-    return Grid("Critical speeds", heads, rows, note)
+    span = "" if result.response is None else f", {_tell_span(result.response)}"
+    return Grid(f"Critical speeds{span}", heads, rows, note)
 
 
 def _holzer(result: TorsionAnalysis, asked: HolzerTable) -> Grid:
@@ -184,7 +185,7 @@ def _settle(asked: HolzerTable, value: float) -> float:
 
 
 def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text:
-    span = _tell_range(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]))
+    span = _tell_span(response)
     if not result.system.shafts:
         return Text(f"Vibration, {span}", (_tell_swing(result, response),))
     rows, worst = [], response.worst
@@ -222,6 +223,10 @@ def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text
     ]
     title = f"Vibratory torque, {span}"
     return Grid(title, tuple(heads), tuple(rows), note, words=(0, len(heads) - 1))
+
+
+def _tell_span(response: TorsionResponse) -> str:
+    return _tell_range(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]))
 
 
 def _tell_range(low: float, high: float) -> str:
@@ -262,4 +267,7 @@ def _barred(result: TorsionAnalysis) -> Facts:
         limits.append(f"±{number(float(np.degrees(system.angle_limit)))} deg at {system.nodes[0]}")
     ranges = [_tell_range(low, high) for low, high in result.barred_rpm or ()]
     barred = ", ".join(ranges) or "none in this range"
+    own = system.rated_rpm
+    if own is not None and any(low <= own <= high for low, high in result.barred_rpm or ()):
+        barred += f"; the file's own speed, {number(own)} rpm, is barred"
     return Facts((("limit", " and ".join(limits)), ("barred speeds", barred)), "Limits")
