@@ -147,3 +147,12 @@ def test_two_strokes_have_whole_orders(tmp_path):
     status, out, _ = run_here("torsion", "-", "--format", "json", stdin=text)
     assert status == 0
     assert all(isinstance(c["order"], int) for c in json.loads(out)["criticals"])
+
+
+def test_without_gas_the_figures_are_told_as_of_inertia_alone(tmp_path, diesel):
+    """Stress is a fifth of what it is with gas, and "none in this range" said nothing of that."""
+    told, bare = "Of inertia alone: the torque of the gas is not in this.", tmp_path / "bare.toml"
+    bare.write_text(write_diesel(), encoding="utf-8")
+    for options in ([], ["--speeds", "1000:2000:500"]):
+        assert run_here("torsion", bare, *options).out.count(told) == 1
+        assert told not in run_here("torsion", diesel, *options).out

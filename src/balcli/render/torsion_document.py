@@ -273,6 +273,9 @@ def _response_lines(system: TorsionalSystem, response: TorsionResponse) -> Itera
         yield *where, name, "half_peak_to_peak", clean(worst.torque[k]), "N m"
         if stressed[k]:
             yield *where, name, "stress", clean(worst.stress[k]), "Pa"
+        for order, amplitude in zip(response.orders, worst.amplitudes[:, k], strict=True):
+            at_order = (*where[:3], order_number(float(order)))
+            yield *at_order, name, "amplitude", clean(amplitude), "N m"
     for k, name in enumerate(response.dampers):
         where = ("worst", None, clean(worst.hottest_rpm[k]), None)
         yield *where, name_cell(name.removesuffix(" ring")), "heat", clean(worst.heat[k]), "W"
