@@ -135,7 +135,7 @@ def test_processes_that_tests_start_compile_nothing_twice():
     """Their byte code is kept: beside the source, or, where nothing may be written there, in a
     folder of this run.
     """
-    code = "import sys, balcli.limits as one; print(sys.dont_write_bytecode); print(one.__cached__)"
+    code = "import sys, balcli.limits as one; print(sys.dont_write_bytecode); print(one.__spec__.cached)"
     without, kept = run_python("-c", code).stdout.splitlines()
     assert without == "False"
     if sys.dont_write_bytecode:

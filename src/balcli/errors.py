@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from enum import IntEnum
 from os import PathLike
 from typing import NamedTuple
@@ -139,6 +139,15 @@ class InputError(BalcliError):
         last = [f"  and {self.more} more"] if self.more else []
         count = len(self.problems) + self.more
         return "\n".join([f"{head}: {count} mistakes", *(f"  {p}" for p in self.problems), *last])
+
+
+@contextmanager
+def naming_file(file: str) -> Iterator[None]:
+    """Mistakes that are found within are told as those of this file."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.problems, file, error.more) from None
 
 
 def check_type(function: str, value: object, kind: type | tuple[type, ...], wanted: str) -> None:

@@ -31,6 +31,20 @@ def test_every_number_of_the_file_can_be_varied(file):
         assert float(row.split(",")[-1]) == pytest.approx(expected, rel=1e-9)
 
 
+def test_a_rigid_stiffness_is_told_as_the_file_says_it():
+    """JSON failed of infinity, and the table said "inf"."""
+    text = (ENGINES / "i6_diesel.toml").read_text().replace("1.106e6", '"rigid"')
+    said = {
+        form: run_here("numbers", "-", "-f", form, stdin=text) for form in ("json", "csv", "txt")
+    }
+    assert {outcome.status for outcome in said.values()} == {0}
+    path = "torsion.front.2.stiffness"
+    (number,) = (n for n in json.loads(said["json"].out)["numbers"] if n["path"] == path)
+    assert number["value"] == "rigid"
+    assert f"number,{path},rigid,N m/rad," in said["csv"].out
+    assert f"{path}         rigid   N m/rad" in said["txt"].out
+
+
 def test_more_than_arrays_have_axes_are_refused():
     vary = [word for n in range(1, 18) for word in ("--vary", f"cylinder.{n}.piston_mass=0.5")]
     engine = "crank.stroke = 90\nrod.length = 160\npiston.mass = 0.5\nlayout.radial = 17\n"

@@ -272,9 +272,8 @@ def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
 
 
 def test_a_refused_search_names_the_file(engine: str) -> None:
-    done = run_command(
-        "search", engine, "--over", "rod.length=20:30", "--minimise", "force.2.major"
-    )
+    stroke = ("--over", "crank.stroke=400:500")
+    done = run_command("search", engine, *stroke, "--minimise", "force.2.major")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith(f"balcli: {engine}: rod.length: the crank cannot turn: ")
 

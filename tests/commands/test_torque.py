@@ -197,6 +197,23 @@ def test_the_load_takes_its_share(curve, tmp_path):
     assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in err
 
 
+def test_a_curve_may_begin_at_any_angle(tmp_path):
+    """A triangle at 30 deg is there wherever its rows begin, and a load of it leaves nothing."""
+    rows = {"a.csv": "0,50\n30,80\n60,50\n360,50", "b.csv": "-90,50\n0,50\n30,80\n60,50\n270,50"}
+    paths = {name: tmp_path / name for name in rows}
+    for name, text in rows.items():
+        paths[name].write_text(f"angle_deg,torque_Nm\n{text}\n")
+    found = [json.loads(torque("--curve", str(p), "-f", "json")) for p in paths.values()]
+    for one in found:
+        assert one["torque"]["max_deg"] == pytest.approx(30)
+        assert one["orders"][0]["torque_Nm"]["peak_deg"] == pytest.approx(30)
+        assert [one["energy"][key] for key in ("from_deg", "to_deg")] == pytest.approx(
+            [30 - 30 * (1 - 1 / 12), 30 + 30 * (1 - 1 / 12)]
+        )
+    both = torque("--curve", str(paths["a.csv"]), "--load", str(paths["b.csv"]), "-f", "json")
+    assert json.loads(both)["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
+
+
 IN_OTHER_UNITS = {  # NIST SP 811 (2008), appendix B.8, but for the last: pound times square inch
     "N": ("lbf", 4.4482216152605),
     "N·m": ("lbf·ft", 1.3558179483314004),

@@ -74,6 +74,10 @@ def test_a_branch_to_a_clamp_is_a_spring_to_ground():
             "Holzer's table can lead to a clamped node, but not over it",
         ),
         (
+            join_chain([1, 1, 1], [ChainShaft(0, 1, 6), ChainShaft(1, 2, np.inf, 2)], clamped=[2]),
+            "Holzer's table cannot have what meshes with a clamped node; clamp that",
+        ),
+        (
             join_chain([1, 1, 1], [ChainShaft(0, 2, 6), ChainShaft(0, 1, 4)]),
             "the branch of node 1 is at resonance by itself",
         ),

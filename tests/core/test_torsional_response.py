@@ -215,11 +215,24 @@ def test_nodes_held_at_both_ends_of_a_shaft():
     assert twist.torque == pytest.approx([0, -18])
 
 
-def test_a_mesh_with_a_clamped_gear_holds():
-    chain = join_chain([1, 1, 1], [ChainShaft(0, 1, np.inf, -3), ChainShaft(1, 2, 9)], clamped=[0])
-    twist = respond_chain(chain, no_damping(chain), 1.0, np.array([1, 1, 16.0]))
+@pytest.mark.parametrize("held", [0, 1])
+def test_a_mesh_with_a_clamped_gear_holds_and_carries_what_the_other_passes_on(held):
+    shafts = [ChainShaft(0, 1, np.inf, -3), ChainShaft(1, 2, 9)]
+    chain = join_chain([1, 1, 1], shafts, clamped=[held])
+    twist = respond_chain(chain, no_damping(chain), 1.0, np.array([3, 1, 16.0]))
     assert twist.angle == pytest.approx([0, 0, 2])
-    assert twist.torque == pytest.approx([0, -18])
+    assert twist.torque == pytest.approx([[-19, -1][held], -18])
+
+
+def test_meshes_with_a_clamped_gear_agree_with_50_digits():
+    shafts = [ChainShaft(2, 0, 5.0), ChainShaft(0, 1, np.inf, -3), ChainShaft(1, 3, np.inf, 0.5)]
+    chain = join_chain([1, 2, 3, 4], shafts, clamped=[1])
+    load = np.array([1, 2 + 1j, 3, 4j])
+    twist = respond_chain(chain, no_damping(chain), [0.5, 2.0], load)
+    for k, w in enumerate([0.5, 2.0]):
+        angle, torque = exact_response(chain, no_damping(chain), w, load)
+        assert twist.angle[k] == pytest.approx(angle, abs=1e-13)
+        assert twist.torque[k] == pytest.approx(torque, abs=1e-13)
 
 
 def test_pieces_vibrate_by_themselves():

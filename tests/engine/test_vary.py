@@ -37,6 +37,14 @@ def test_an_engine_is_made_again_of_its_tables(path):
     assert_same(again, engine)
 
 
+def test_a_rigid_shaft_is_one_in_the_tables():
+    """Its stiffness was infinite there, which no file may be."""
+    engine = balcli.load((ENGINES / "i6_diesel.toml").read_text().replace("1.106e6", '"rigid"'))
+    assert engine.to_dict()["torsion"]["front"][1]["stiffness"] == "rigid"
+    longer = engine.vary({"rod.length": 210})
+    assert longer.to_dict()["torsion"] == balcli.load(engine.to_dict()).to_dict()["torsion"]
+
+
 def test_a_dict_a_text_and_a_file_say_the_same(tmp_path):
     text = (
         "[crank]\nstroke = 90\nthrows = [0, 180, 180, 0]\nspacing = 100\n"

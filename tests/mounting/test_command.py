@@ -256,7 +256,14 @@ SPEEDS = [
     ("900:100:100", '--speeds "900:100:100": must rise; give first:last:step in rpm'),
     ("1:2:3:4", '--speeds "1:2:3:4": give first:last:step in rpm, such as 1000:2500:25, or speeds'),
     ("a", '--speeds "a": give first:last:step in rpm'),
-    ("0,100", '--speeds "0,100": give first:last:step in rpm'),
+    (
+        "0,100",
+        '--speeds "0,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm',
+    ),
+    (
+        "0:100:10",
+        '--speeds "0:100:10": speeds and their step are above 0 and below 1e9 rpm; give first:last',
+    ),
     ("1:1e6:1", '--speeds "1:1e6:1": has 1000000 speeds; at most 20000 are computed'),
 ]
 

@@ -256,6 +256,21 @@ def test_the_mean_torque_leans_on_the_mounts(report):
     assert about == pytest.approx([0, 0, -mean], rel=1e-6, abs=1e-6)
 
 
+def test_a_load_on_the_body_leans_on_no_mount(report):
+    """Of a genset the mean torque acts between engine and generator, both on the same skid: at rest
+    the mounts bear the weight alone, and vibrate as if the generator stood apart.
+    """
+    text = GAS + RandomBody(6, 4).text
+    apart, aboard = (
+        report(text.replace("[body]\n", f"[body]\n{said}"))
+        for said in ("", "carries_load = true\n")
+    )
+    weight = report(ENGINE + RandomBody(6, 4).text).modes.settled.forces
+    assert aboard.modes.settled.forces == pytest.approx(weight, rel=1e-12, abs=1e-9)
+    assert np.abs(apart.modes.settled.forces - weight).max() > 10
+    assert np.array_equal(aboard.response.force, apart.response.force)
+
+
 @pytest.mark.parametrize(("share", "leans"), [("1", 0.85), ("0", 0.75)])
 def test_friction_does_not_lean_on_the_mounts(report, share, leans):
     """It acts between parts of the body, which feels the brake torque, that of the load; with a

@@ -120,6 +120,10 @@ def test_csv_lists_the_figures_of_json():
         of_first = [x for x in lines if x["part"] == part and x["name"] == first["name"]]
         torque = [float(x["value"]) for x in of_first if x["figure"] == "half_peak_to_peak"]
         assert torque == told
+    by_order = [x for x in of_first if x["figure"] == "amplitude"]
+    assert [
+        {"order": float(x["order"]), "amplitude_Nm": float(x["value"])} for x in by_order
+    ] == first["worst"]["orders"]
     left = [x for x in lines if x["figure"] == "residual"]
     assert float(left[0]["value"]) == said["holzer"][0]["residual_Nm"]
 
@@ -142,6 +146,22 @@ def test_a_swing_can_be_the_limit():
     (span,) = said["barred_rpm"]
     assert span[0] == 800
     assert ask(text, "--speeds", repr(span[1]))["response"]["free_end_deg"] == pytest.approx([0.1])
+
+
+def test_a_limit_of_stress_without_any_diameter_is_not_judged():
+    """It said that no speed is barred."""
+    text = re.sub(r"diameter = .*\nlength = .*", "stiffness = 9e4", read_starting_file())
+    text = re.sub(r"(?m)^diameter = .*\n", "", text)
+    assert "barred_rpm" not in ask(text, "--speeds", "800:1600:20")
+    said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
+    assert said.rstrip().endswith(
+        "Limits\nnot judged  40 N/mm²: no shaft has a diameter, so that no stress is known"
+    )
+    text = text.replace("limit = 40", "limit = 40\nangle_limit = 0.1")
+    assert ask(text, "--speeds", "800:1600:20")["barred_rpm"]
+    said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
+    assert "limit          ±0.1 deg at engine\n" in said
+    assert "not judged     40 N/mm²: no shaft has a diameter" in said
 
 
 def test_what_nothing_damps_is_told_with_its_speed():
@@ -375,8 +395,8 @@ def test_progress_says_nothing_where_nobody_looks():
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
     monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
     assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=read_starting_file()) == (
-        "standard input: 2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are "
-        "kept: take fewer speeds or orders"
+        "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer "
+        "speeds or orders"
     )
 
 

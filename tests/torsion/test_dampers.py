@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import tomllib
@@ -10,7 +11,10 @@ import numpy as np
 import pytest
 from support.commands import refusal, run_here
 from support.diesel import write_diesel
+from support.paths import ENGINES
 
+from balcli import analyze_torsion
+from balcli.render.plot.torsion import make_torsion
 from balcli.torsion.starting_file import read_starting_file
 
 RANGE = ("--speeds", "850:1150:0.5")
@@ -115,6 +119,51 @@ def test_pendulums_hang_as_far_out_as_the_crank_pins(stroke):
     own = 'damper = { kind = "pendulum", mass = 2, radius = 90, length = 9 }\n'
     text = text.replace('name = "pulley"\n', f'name = "pulley"\n{own}')
     assert find_radius(text) == 0.09
+
+
+# A crank and its flywheel, and behind a soft coupling a generator: order 1 meets the coupling's
+# mode at 933 rpm, order 4 the crankshaft's at 2504 rpm
+GENSET = """
+loss = 0.02
+[[node]]
+name = "crank"
+inertia = 1e6
+[[node]]
+name = "flywheel"
+inertia = 10e6
+[[node]]
+name = "generator"
+inertia = 10e6
+[[shaft]]
+from = "crank"
+to = "flywheel"
+stiffness = 1e6
+diameter = 100
+[[shaft]]
+from = "flywheel"
+to = "generator"
+stiffness = 5e4
+[[excitation]]
+node = "crank"
+order = 1
+cos = 300
+[[excitation]]
+node = "crank"
+order = 4
+cos = 100
+"""
+
+
+@pytest.mark.parametrize(("kind", "share"), [("viscous", 0.3), ("rubber", 0.15)])
+def test_a_damper_is_tuned_to_the_mode_of_the_largest_stress(kind, share):
+    """Not to that of a soft coupling, on which most work is done but which hardly twists the
+    crankshaft. In the crankshaft's mode the flywheel swings a tenth as far as the crank, the other
+    way, so that 1.1 kg m2 vibrate.
+    """
+    damper = ask(GENSET, "--speeds", "500:3000:10", "--damper", kind)["damper"]
+    assert damper["mode"] == 2
+    assert damper["inertia_kg_m2"] == pytest.approx(share * 1.1, rel=0.01)
+    assert damper["after_Pa"] < 0.3 * damper["before_Pa"]
 
 
 def test_a_damper_of_the_file_is_the_one_that_is_sized():
@@ -356,6 +405,30 @@ def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_
     }
     for name, title in titles.items():
         assert (title in text) == (what in ("all", name))
+
+
+def test_pictures_of_large_torques_are_in_kilonewton_metres():
+    """Of a crankshaft without diameters, too; a limit stands in the unit of the stress."""
+    result = analyze_torsion(write_diesel(), [4000, 4300, 4332])
+    waterfall, response = (
+        make_torsion(result, what, "svg").axes[0] for what in ("waterfall", "response")
+    )
+    largest = result.response.torque.max() / 1e3
+    assert largest > 10
+    assert waterfall.get_title("left").endswith(" kN·m")
+    assert response.get_ylabel() == "± kN·m"
+    assert max(line.get_ydata().max() for line in response.lines) == pytest.approx(largest)
+
+
+def test_orders_of_a_waterfall_do_not_cover_one_another():
+    """Nor where nothing resonates, so that all are about as large."""
+    speeds = [1000, 1500, 2000]
+    result = analyze_torsion(ENGINES / "i6_diesel.toml", speeds, orders=[0.5, 1, 1.5, 2, 2.5, 3])
+    (axes,) = make_torsion(result, "waterfall", "svg").axes
+    streams = [stream.get_paths()[0].vertices[:, 0] for stream in axes.collections]
+    assert len(streams) == 6
+    for left, right in itertools.pairwise(streams):
+        assert left.max() < right.min()
 
 
 @pytest.mark.parametrize(

@@ -87,6 +87,24 @@ def test_a_misfire_takes_away_the_gas_of_one_cylinder(diesel):
     assert found == pytest.approx(exact, rel=1e-9)
 
 
+@pytest.mark.parametrize("said_in", ["option", "file"])
+def test_cylinders_without_gas_are_named(diesel, said_in):
+    """In every format, whether the option or the file silences them."""
+    options = ["--misfire=5", "--misfire=2"]
+    if said_in == "file":
+        options = []
+        text = diesel.read_text(encoding="utf-8")
+        diesel.write_text(f"{text}[cylinder.2]\ngas = 0\n[cylinder.5]\ngas = 0\n", "utf-8")
+    assert ask(diesel, *options)["no_gas_in"] == [2, 5]
+    assert "\nno gas in  2, 5\n" in run_here("torsion", diesel, *options).out
+    assert "engine,,,,,no_gas_in,2 5," in run_here("torsion", diesel, *options, "-f", "csv").out
+
+
+def test_nothing_is_said_of_gas_where_all_cylinders_have_some(diesel):
+    assert "no_gas_in" not in ask(diesel)
+    assert "no gas in" not in run_here("torsion", diesel).out
+
+
 def test_the_phase_sum_counts_what_a_misfire_leaves(diesel):
     """Order 6 in line: without cylinder 6 the sum of the angles lacks its own."""
     whole, missing = (
@@ -129,3 +147,12 @@ def test_two_strokes_have_whole_orders(tmp_path):
     status, out, _ = run_here("torsion", "-", "--format", "json", stdin=text)
     assert status == 0
     assert all(isinstance(c["order"], int) for c in json.loads(out)["criticals"])
+
+
+def test_without_gas_the_figures_are_told_as_of_inertia_alone(tmp_path, diesel):
+    """Stress is a fifth of what it is with gas, and "none in this range" said nothing of that."""
+    told, bare = "Of inertia alone: the torque of the gas is not in this.", tmp_path / "bare.toml"
+    bare.write_text(write_diesel(), encoding="utf-8")
+    for options in ([], ["--speeds", "1000:2000:500"]):
+        assert run_here("torsion", bare, *options).out.count(told) == 1
+        assert told not in run_here("torsion", diesel, *options).out

@@ -221,6 +221,26 @@ order = 1.3
             + '[[gear]]\nfrom = "b"\nto = "a"\nratio = 2\n',
             "gear.1: is in a loop of gears whose ratios lock each other",
         ),
+        (
+            TWO.replace("stiffness = 1000", 'stiffness = "rigid"')
+            + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 1\n',
+            "gear.1: closes a loop of gears and rigid shafts, fixed nodes counted as one: nothing "
+            "says how they share the torque; leave it out, or give a stiffness",
+        ),
+        (
+            'fixed = ["a", "c"]\n'
+            + TWO
+            + '[[node]]\nname = "c"\n[[node]]\nname = "d"\n'
+            + '[[gear]]\nfrom = "a"\nto = "d"\nratio = 2\n'
+            + '[[gear]]\nfrom = "d"\nto = "c"\nratio = 2\n',
+            "gear.2: closes a loop of gears and rigid shafts, fixed nodes counted as one: nothing "
+            "says how they share the torque; leave it out, or give a stiffness",
+        ),
+        (
+            TWO + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 1.02\n',
+            "gear.1: closes a loop whose ratios contradict each other, 1.02 one way round and 1 "
+            "the other: a chain that turns would wind up its shafts without end",
+        ),
         ('fixed = ["a", "b"]\n' + TWO, "fixed: clamps every node; leave one free"),
         (
             TWO.replace("inertia = 1e6\n", "").replace("inertia = 2e6\n", ""),

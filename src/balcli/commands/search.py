@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.toml_text import name_file, read_bytes
-from ..errors import InputError
+from ..errors import naming_file
 from ..limits import MOST_FOUND
 from ..render import search as renderer
 from .completion import complete_quantities, complete_searches
@@ -92,11 +92,8 @@ def search(
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
     watching = reporting_until_stopped if over in ("throws", "firing_order") else reporting
-    with watching("arrangements") as progress:
-        try:
-            found = search_arrangements(model, over, goal, top, bool(require), progress)
-        except InputError as error:
-            raise InputError(error.problems, name) from None
+    with watching("arrangements") as progress, naming_file(name):
+        found = search_arrangements(model, over, goal, top, bool(require), progress)
     show([found], renderer, form, output)
     if write is not None:
         write_file(write_design(text, found.results[0].design, name), write)

@@ -47,8 +47,11 @@ def parse_speeds(
         figures = [convert_speed(part) for part in text.split(":" if ranged else ",")]
     except ValueError:
         raise BalcliError(start + right) from None
-    if not all(0 < figure < 1e9 for figure in figures) or (ranged and len(figures) > 3):
+    if ranged and len(figures) > 3:
         raise BalcliError(start + right)
+    if not all(0 < figure < 1e9 for figure in figures):
+        wrong = "speeds and their step are" if ranged else "speeds are"
+        raise BalcliError(f"{start}{wrong} above 0 and below 1e9 rpm; {right}")
     if not ranged:
         return np.array(sorted(set(figures)))
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]

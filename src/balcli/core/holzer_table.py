@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .singular_values import Real
-from .torsional_chain import Branch, Chain, grow_branches
+from .torsional_chain import Branch, Chain, find_still, grow_branches
 
 
 class Holzer(NamedTuple):
@@ -38,14 +38,17 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     at the node that it hangs on. Dampers and loss are left out, as in the books.
 
     Raises:
-        ValueError: the chain has a loop or two pieces; a node of the way before the last is
-            clamped; a branch at resonance needs the node it hangs on at rest.
+        ValueError: the chain has a loop or two pieces; a node meshes with a clamped one; a node of
+            the way before the last is clamped; a branch at resonance needs the node it hangs on at
+            rest.
     """
     count = len(chain.inertia)
     stiff = chain.stiffness > 0
     branches = grow_branches(chain, [last % count], stiff)
     if not len(branches) == count - 1 == np.count_nonzero(stiff):
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
+    if np.any(find_still(chain) & ~chain.clamped):
+        raise ValueError("Holzer's table cannot have what meshes with a clamped node; clamp that")
     onward = {branch.child: branch for branch in branches}
     way = []
     while first in onward:

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from .singular_values import Indices, Real
 from .sorted_sets import are_among, sort_distinct, sort_others
 
-_SAME_RATIO = 1e-9  # two ways round a loop of gears that differ by less turn alike
+SAME_RATIO = 1e-9  # two ways round a loop of gears that differ by less turn alike
 
 
 class ChainShaft(NamedTuple):
@@ -89,8 +89,7 @@ class Branch(NamedTuple):
 def join_chain(
     inertia: ArrayLike, shafts: Iterable[ChainShaft], clamped: Sequence[int] = ()
 ) -> Chain:
-    """The chain of nodes with these moments of inertia (kg m2, 0: massless), joined by shafts. What
-    meshes with a clamped node is clamped, too.
+    """The chain of nodes with these moments of inertia (kg m2, 0: massless), joined by shafts.
 
     Raises:
         ValueError: meshes of gears that form a loop and cannot turn; massless nodes that turn
@@ -102,7 +101,6 @@ def join_chain(
     held = np.array([k in clamped for k in range(len(j))], bool)
     chain = Chain(j, start, end, table[:, 3], table[:, 2], held)
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    chain = chain._replace(clamped=are_among(meshes.first, meshes.first[held]))
     if np.any(meshes.locked):
         raise ValueError(f"the gears at node {int(np.argmax(meshes.locked))} lock each other")
     for motion in rigid_motions(chain):
@@ -126,7 +124,7 @@ def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces
                 if first[there] < 0:
                     first[there], pace[there] = node, pace[here] * ratio
                     reached.append(there)
-                elif abs(pace[there] - pace[here] * ratio) > _SAME_RATIO * abs(pace[there]):
+                elif abs(pace[there] - pace[here] * ratio) > SAME_RATIO * abs(pace[there]):
                     locked[node] = True
     return Pieces(first, pace, locked[first])
 
@@ -139,6 +137,12 @@ def _neighbours(chain: Chain, shafts: NDArray[np.bool_]) -> list[list[tuple[int,
         joined[start].append((end, shaft))
         joined[end].append((start, shaft))
     return joined
+
+
+def find_still(chain: Chain) -> NDArray[np.bool_]:
+    """Which nodes (nodes,) stand still: clamped ones, and what meshes with these."""
+    meshes = find_pieces(chain, np.isinf(chain.stiffness))
+    return are_among(meshes.first, meshes.first[chain.clamped])
 
 
 def rigid_motions(chain: Chain) -> Real:
@@ -162,10 +166,10 @@ def incidence(chain: Chain) -> Real:
 
 def follow_gears(chain: Chain) -> tuple[Real, Indices]:
     """Every node's angle for a unit of each independent one (nodes, dof), and the nodes (dof,)
-    whose angles these are: of nodes joined by meshes the first; none of clamped ones.
+    whose angles these are: of nodes joined by meshes the first; none of those at rest.
     """
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    independent = sort_distinct(meshes.first[~chain.clamped])
+    independent = sort_distinct(meshes.first[~find_still(chain)])
     return np.where(meshes.first[:, None] == independent, meshes.pace[:, None], 0), independent
 
 

@@ -141,7 +141,7 @@ class _Folded(NamedTuple):
         own, load: (nodes, *frequency) dynamic stiffness and load.
         pivots: (nodes, *frequency) what was divided by to take the node off its parent.
         felt, pushed: (nodes, *frequency) own and load over that.
-        weak: (*frequency,) where a pivot is small against its parts.
+        weak: (*frequency,) where a pivot is small against its parts, or a mesh holds a node still.
     """
 
     own: Complex
@@ -190,7 +190,9 @@ def _fold(chain: Chain, equations: _Equations, branches: list[Branch]) -> _Folde
     pivots, felt, pushed = (np.zeros(own.shape, complex) for _ in range(3))
     for child, parent, shaft, near, far in reversed(branches):
         if chain.clamped[child]:
-            felt[child] = 1 / equations.flexible[shaft]
+            mesh = equations.flexible[shaft] == 0
+            weak |= mesh
+            felt[child] = np.where(mesh, 0, 1 / equations.flexible[shaft])
         else:
             part = equations.flexible[shaft] * own[child]
             pivots[child] = near**2 + part

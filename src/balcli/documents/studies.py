@@ -67,10 +67,10 @@ class Scatter(Document):
 
 
 class NumberOfFile(TypedDict):
-    """A number of an engine file; null: it is not there."""
+    """A number of an engine file; null: it is not there; rigid: a stiffness without end."""
 
     path: str
-    value: float | None
+    value: float | Literal["rigid"] | None
     unit: str
     meaning: str
 

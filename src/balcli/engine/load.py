@@ -12,7 +12,7 @@ from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.read import Draft, check_tables, read_tables
 from ..enginefile.toml_text import name_file, read_bytes
-from ..errors import InputError, wrong_type
+from ..errors import naming_file, wrong_type
 from .assembly import Assembly
 from .build import Engine, build
 from .rules import find_contradictions
@@ -52,10 +52,8 @@ def build_named(model: EngineFile, path: str | Path) -> Engine:
     Raises:
         InputError: what does not fit together in this file.
     """
-    try:
+    with naming_file(name_file(path)):
         return build(model)
-    except InputError as error:
-        raise InputError(error.problems, name_file(path)) from None
 
 
 def read(path: str | Path) -> EngineFile:

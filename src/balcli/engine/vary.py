@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..enginefile.plain_tables import change_tables
-from ..errors import InputError, wrong_type
+from ..errors import InputError, naming_file, wrong_type
 from .build import Engine, build, take_model
 from .load import parse_dict
 
@@ -37,7 +37,5 @@ def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
 def _build(engine: Engine, changes: Mapping[str, Any]) -> Engine:
     model = take_model(engine)
     name = f"{engine.name or 'engine'} with {', '.join(changes)}"
-    try:
+    with naming_file(name):
         return build(parse_dict(change_tables(model, changes), model.folder))
-    except InputError as error:
-        raise InputError(error.problems, name, error.more) from None

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 STRING_PATTERN = r"^\s*[+-]?(?:pi|π|(?:[0-9.]|pi|π).*[A-Za-z°µμ²³¹π\"”″0-9])\s*$"
+RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
 
 
 def printable(text: str) -> str:

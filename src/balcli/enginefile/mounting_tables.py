@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field
 
 from .exclusive import Choice
-from .fields import Label, Number
+from .fields import Flag, Label, Number
 from .model import Angle, FileTable, TableRule, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
@@ -79,6 +79,12 @@ class Body(FileTable):
         (-1.0, 0.0, 0.0),
         description="direction of the weight, of any length",
         examples=[[-1, 0, 0]],
+    )
+    carries_load: Annotated[bool, Flag()] = Field(
+        False,
+        description="what takes the engine's torque stands on the body, too, such as the generator "
+        "of a genset: at rest no mount feels its mean",
+        examples=[True],
     )
 
     def _check_gravity(self) -> Iterator[str]:

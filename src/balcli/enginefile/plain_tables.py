@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..errors import InputError, Problem
+from .fields import RIGID
 from .model import EngineFile, FileTable, label_table
 
 
@@ -62,7 +64,9 @@ def _write(value: Any) -> Any:
         return {fields[key].alias or key: _write(part) for key, part in given if part is not None}
     if isinstance(value, Mapping):
         return {str(key): _write(inner) for key, inner in value.items()}
-    return [_write(inner) for inner in value] if isinstance(value, tuple) else value
+    if isinstance(value, tuple):
+        return [_write(inner) for inner in value]
+    return RIGID if value == math.inf else value
 
 
 def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from .fields import Number, OneOf
+from .fields import RIGID, Number, OneOf
 from .model import FileTable, Size, TableRule
 from .units import (
     INERTIA,
@@ -18,8 +18,6 @@ from .units import (
     TORSIONAL_DAMPING,
     TORSIONAL_STIFFNESS,
 )
-
-RIGID = "rigid"  # a flange, or a mesh of gears
 
 
 class _Stiffness(Number):

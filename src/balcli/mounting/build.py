@@ -40,6 +40,7 @@ class MountedBody(NamedTuple):
         names: of the mounts.
         weight: (3,) N.
         point_names, points: (points, 3) m, whose motion is wanted.
+        carries_load: whether what takes the engine's torque stands on the body, too.
     """
 
     body: Body
@@ -49,6 +50,7 @@ class MountedBody(NamedTuple):
     weight: Real
     point_names: tuple[str, ...]
     points: Real
+    carries_load: bool = False
 
     @property
     def up(self) -> Real:
@@ -76,6 +78,7 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
         weight,
         tuple(point.name for point in model.point),
         _LENGTH * np.array([point.at for point in model.point], float).reshape(-1, 3),
+        model.body.carries_load,
     )
     free = find_free_motions(body, static)
     if len(free):

@@ -75,7 +75,8 @@ def find_mounted_modes(mounted: MountedBody, torque: float = 0.0) -> BodyModes:
     """Modes with dynamic stiffness, and the rest with static stiffness.
 
     Args:
-        torque: N m, mean, about the crankshaft's axis on the body.
+        torque: N m, mean, about the crankshaft's axis on the body; it does not count where the body
+            carries the load, too: there it acts between parts of the body.
     """
     body, mounts = mounted.body, mounted.dynamic
     modes = find_body_modes(body, mounts)
@@ -93,7 +94,8 @@ def find_mounted_modes(mounted: MountedBody, torque: float = 0.0) -> BodyModes:
         )
         for k in range(len(modes.omega))
     )
-    load = np.concatenate([mounted.weight, [0.0, 0.0, torque]])
+    leaning = 0.0 if mounted.carries_load else torque
+    load = np.concatenate([mounted.weight, [0.0, 0.0, leaning]])
     return BodyModes(
         six,
         modes,

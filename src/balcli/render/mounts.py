@@ -236,11 +236,14 @@ def _rest(result: MountReport, system: System) -> Grid:
         for k, name in enumerate(result.mounted.names)
     ]
     loads = None if result.response is None else result.response.loads
-    mean = ""
+    leaning = within = ""
     if loads is not None and loads.mean:
         moment = f"{number(system.moment.of(abs(loads.mean)), 4)} {system.moment.name}"
-        mean = f" and the reaction to the load's mean torque of {moment}"
-    note = f"Of the body on its mounts, under its weight{mean}; static stiffness."
+        if result.mounted.carries_load:
+            within = f" The load's mean torque of {moment} acts within the body."
+        else:
+            leaning = f" and the reaction to the load's mean torque of {moment}"
+    note = f"Of the body on its mounts, under its weight{leaning}; static stiffness.{within}"
     return Grid("At rest", tuple(heads), tuple(rows), note)
 
 

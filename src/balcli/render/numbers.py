@@ -44,7 +44,8 @@ def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, s
         meaning = "" if stem == before and stem.endswith(".") else number.meaning
         before = stem
         if number.value is not None:
-            yield number.path, f"{number.value:.12g}", number.unit, meaning
+            value = number.value if isinstance(number.value, str) else f"{number.value:.12g}"
+            yield number.path, value, number.unit, meaning
         else:
             yield _OF_CYLINDER.sub("cylinder.N.", number.path), UNKNOWN, number.unit, meaning
 

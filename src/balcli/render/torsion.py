@@ -5,6 +5,7 @@ over speed, and a damper that was sized.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -25,6 +26,8 @@ _MOST_ORDERS = 3  # of a shaft's torque, named beside it
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Modes first, then what was asked; units are SI."""
     parts: list[Grid | Facts | Text] = []
+    if result.system.without_gas:
+        parts.append(Facts((("no gas in", ", ".join(map(str, result.system.without_gas))),)))
     if result.damper is not None:
         parts.append(_damper(result.damper))
     parts += [_modes(result), _shapes(result)]
@@ -33,8 +36,8 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     parts += [_holzer(result, table) for table in result.holzer]
     if result.response is not None:
         parts.append(_response(result, result.response))
-    if result.barred_rpm is not None:
-        parts.append(_barred(result))
+    if result.response is not None and (limits := tuple(_judge_limits(result))):
+        parts.append(Facts(limits, "Limits"))
     return Sheet(f"{result.system.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
@@ -142,6 +145,8 @@ def _criticals(result: TorsionAnalysis) -> Grid:
         note += f" Of orders to {order_name(float(excitation.orders.max()))}."
     if result.response is None and result.system.rated_rpm:
         note += f" To {number(BEYOND * result.system.rated_rpm)} rpm, {BEYOND:g} times the file's."
+    if result.response is None:
+        note += _tell_gas(result)
     left = len(result.criticals) - len(shown)
     if left:
         note += f" JSON has {left} more."
@@ -202,8 +207,7 @@ def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
         f"do not peak together. {_tell_swing(result, response)}"
     )
-    if _has_gas(result):
-        note += " Gas as in the file at every speed."
+    note += _tell_gas(result, " Gas as in the file at every speed.")
     for k, name in enumerate(response.dampers):
         note += (
             f" The damper of {name.removesuffix(' ring')} turns up to "
@@ -226,12 +230,15 @@ def _tell_range(low: float, high: float) -> str:
     return f"{number(low)} rpm" if low == high else f"{number(low)} to {number(high)} rpm"
 
 
-def _has_gas(result: TorsionAnalysis) -> bool:
-    """Whether an engine excites it that has gas: beside the torque of inertia some stays as it is,
-    whatever the speed.
+def _tell_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
+    """What an engine's gas has to do with it: it stays as it is, whatever the speed, or there is
+    none; nothing of a chain.
     """
     excitation = result.system.excitation
-    return excitation is not None and bool(excitation.growing.any() and excitation.steady.any())
+    if excitation is None or not excitation.growing.any():
+        return ""
+    alone = " Of inertia alone: the torque of the gas is not in this."
+    return where_counted if excitation.steady.any() else alone
 
 
 def _tell_swing(result: TorsionAnalysis, response: TorsionResponse) -> str:
@@ -252,12 +259,17 @@ def _name_orders(response: TorsionResponse, shaft: int, unit: ShownUnit) -> str:
     )
 
 
-def _barred(result: TorsionAnalysis) -> Facts:
+def _judge_limits(result: TorsionAnalysis) -> Iterator[tuple[str, str]]:
+    """The limits of the file, and which speeds pass them."""
     system, limits = result.system, []
-    if system.limit_pa is not None:
-        limits.append(f"{number(system.limit_pa / 1e6)} N/mm²")
+    stress = "" if system.limit_pa is None else f"{number(system.limit_pa / 1e6)} N/mm²"
+    if stress and any(system.sections):
+        limits.append(stress)
     if system.angle_limit is not None:
         limits.append(f"±{number(float(np.degrees(system.angle_limit)))} deg at {system.nodes[0]}")
-    ranges = [_tell_range(low, high) for low, high in result.barred_rpm or ()]
-    barred = ", ".join(ranges) or "none in this range"
-    return Facts((("limit", " and ".join(limits)), ("barred speeds", barred)), "Limits")
+    if limits:
+        ranges = [_tell_range(low, high) for low, high in result.barred_rpm or ()]
+        yield "limit", " and ".join(limits)
+        yield "barred speeds", ", ".join(ranges) or "none in this range"
+    if stress and stress not in limits:
+        yield "not judged", f"{stress}: no shaft has a diameter, so that no stress is known"

@@ -40,6 +40,7 @@ def document(result: TorsionAnalysis) -> dict[str, Any]:
     found: dict[str, Any] = {
         "format": "balcli.torsion/1",
         "name": system.name or None,
+        **({"no_gas_in": list(system.without_gas)} if system.without_gas else {}),
         "nodes": [
             {"name": name, "inertia_kg_m2": clean(inertia), "gear": clean(gear)}
             for name, inertia, gear in zip(
@@ -201,6 +202,9 @@ Line = tuple[Any, ...]
 
 
 def _lines(result: TorsionAnalysis) -> Iterator[Line]:
+    if result.system.without_gas:
+        silent = " ".join(map(str, result.system.without_gas))
+        yield "engine", None, None, None, "", "no_gas_in", silent, ""
     yield from _system_lines(result.system)
     for number, mode in enumerate(result.modes, 1):
         yield from _mode_lines(number, mode, result.system)
@@ -269,6 +273,9 @@ def _response_lines(system: TorsionalSystem, response: TorsionResponse) -> Itera
         yield *where, name, "half_peak_to_peak", clean(worst.torque[k]), "N m"
         if stressed[k]:
             yield *where, name, "stress", clean(worst.stress[k]), "Pa"
+        for order, amplitude in zip(response.orders, worst.amplitudes[:, k], strict=True):
+            at_order = (*where[:3], order_number(float(order)))
+            yield *at_order, name, "amplitude", clean(amplitude), "N m"
     for k, name in enumerate(response.dampers):
         where = ("worst", None, clean(worst.hottest_rpm[k]), None)
         yield *where, name_cell(name.removesuffix(" ring")), "heat", clean(worst.heat[k]), "W"

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
+from ..enginefile.fields import RIGID
 from ..enginefile.model import EngineFile, FileTable, Override
 from .parameters import find_numbers
 from .quantities import list_quantities
@@ -15,13 +17,13 @@ class FileNumber(NamedTuple):
 
     Attributes:
         path: dotted name, as `--vary` takes it.
-        value: in its bare unit; None: it is not in the file.
+        value: in its bare unit, or "rigid"; None: it is not in the file.
         unit: of the value, as the file has it without one; empty: a plain number.
         meaning: in words.
     """
 
     path: str
-    value: float | None
+    value: float | str | None
     unit: str
     meaning: str
 
@@ -60,4 +62,4 @@ def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
         elif isinstance(found, tuple):
             found = found[int(part) - 1]
     value = float(found) if isinstance(found, int | float) else None
-    return FileNumber(path, value, unit, meaning)
+    return FileNumber(path, RIGID if value == math.inf else value, unit, meaning)

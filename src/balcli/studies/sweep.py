@@ -25,7 +25,7 @@ from ..engine.gas_figures import concerns_gas
 from ..engine.load import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, InputError
+from ..errors import BalcliError, InputError, naming_file
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
 from ..forces.quantity import (
     Quantity,
@@ -144,10 +144,8 @@ class Sweep:
             box = (*box[:axis], slice(low, high), *box[axis + 1 :])
         pairs = zip(self.parameters, box, strict=True)
         figures = {p.path: float(p.values[cut][0]) for p, cut in pairs}
-        try:
+        with naming_file(f"{self.name}: {tell_variant(figures)}"):
             self._build(box)
-        except InputError as error:
-            raise InputError(error.problems, f"{self.name}: {tell_variant(figures)}") from None
 
     def _build(self, box: Box) -> Engine:
         rank = len(self.parameters)
@@ -159,10 +157,8 @@ class Sweep:
             path: values.reshape((1,) * (rank - values.ndim) + values.shape)
             for path, values in axes.items()
         }
-        try:
+        with naming_file(self.name):
             return attach_gas_torque(build(self.file, arrays, rank=rank), self.file, arrays)
-        except InputError as error:
-            raise InputError(error.problems, self.name) from None
 
 
 def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) -> Sweep:

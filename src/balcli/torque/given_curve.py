@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.phasors import Array, Complex
-from ..core.piecewise import PiecewiseCurve, polyline, resolved
-from ..core.sorted_sets import sort_distinct
+from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
 from ..core.speed_variation import Surplus, surplus
 from ..enginefile.csv_columns import read_columns
 from ..errors import BalcliError
@@ -76,7 +75,7 @@ def read_curve(path: Path) -> PiecewiseCurve:
             f"{path}: line {columns.lines[row]}: the angle {angle[row]:g} deg is below the "
             f"{angle[row - 1]:g} deg before it"
         )
-    return polyline(np.radians(angle - angle[0]), torque)
+    return polyline(np.radians(angle), torque)
 
 
 def analyze_curve(
@@ -125,5 +124,5 @@ def _subtract(torque: PiecewiseCurve, load: PiecewiseCurve) -> PiecewiseCurve:
     if abs(torque.period - load.period) > _SAME:
         periods = f"{np.degrees(load.period):g} deg, the torque {np.degrees(torque.period):g}"
         raise BalcliError(f"--load: has a period of {periods}: give both over the same angle")
-    breaks = sort_distinct(np.concatenate([torque.breaks, load.breaks[1:-1]]))
+    breaks = merged_breaks([(torque.breaks, 0.0), (load.breaks, 0.0)], torque.period)
     return resolved(lambda angle: torque.at(angle) - load.at(angle), breaks)

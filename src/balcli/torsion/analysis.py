@@ -10,7 +10,6 @@ import numpy as np
 from ..core.holzer_table import Holzer, tabulate_holzer
 from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
-from ..errors import BalcliError
 from ..result import Result
 from .damper_sizing import DamperAsked, SizedDamper, size_damper
 from .load import Source
@@ -93,27 +92,16 @@ def answer_question(
         InputError: what does not fit together in the file.
     """
     if question.damper is None or question.speeds_rpm is None:
-        return _analyze_source(source, question, tell)
+        return _analyze_system(source.system(), question, tell)
     sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
-    fitted = source.with_damper(sized.node, sized.damper)
-    return replace(_analyze_source(fitted, question), damper=sized)  # a response after dozens
-
-
-def _analyze_source(
-    source: Source, question: TorsionQuestion, tell: Tell = tell_nobody
-) -> TorsionAnalysis:
-    """The answer about a chain or an engine as it is; errors begin with its file."""
-    system = source.system()
-    try:
-        return _analyze_system(system, question, tell)
-    except BalcliError as error:
-        name = source.file or system.name
-        raise BalcliError(f"{name}: {error}" if name else str(error)) from None
+    fitted = source.with_damper(sized.node, sized.damper).system()  # one response after dozens
+    return replace(_analyze_system(fitted, question), damper=sized)
 
 
 def _analyze_system(
-    system: TorsionalSystem, question: TorsionQuestion, tell: Tell
+    system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
+    """The answer about a system as it is."""
     excitation = system.excitation
     if question.orders is not None and excitation is not None:
         excitation = excitation.only(question.orders)
@@ -127,7 +115,7 @@ def _analyze_system(
     response, barred = None, None
     if speeds is not None:
         if excitation is None or not len(excitation.orders):
-            raise BalcliError("nothing excites it at the orders asked for")
+            raise system.refusal("nothing excites it at the orders asked for")
         response = find_response(system, excitation, speeds, tell)
         met = np.array([critical.speed_rpm for critical in criticals])
         barred = find_barred(system, excitation, response, met)
@@ -142,12 +130,12 @@ def _tabulate(
     if asked.mode is not None:
         if asked.mode > len(modes):
             count = f"{len(modes)} mode{'s' * (len(modes) != 1)}"
-            raise BalcliError(f"has {count}, but --holzer asks for {asked.mode}")
+            raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
         omega = modes[asked.mode - 1].omega
     try:
         # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
         ends = (system.last, 0) if system.chain.clamped[0] else (0, system.last)
         table = tabulate_holzer(system.chain, omega, *ends)
     except ValueError as error:
-        raise BalcliError(f"--holzer: {error}") from None
+        raise system.refusal(f"--holzer: {error}") from None
     return HolzerTable(asked.mode, omega, table)

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from ..core.sorted_sets import sort_distinct
-from ..core.torsional_chain import Chain, ChainShaft, find_pieces, rigid_motions
+from ..core.torsional_chain import (
+    SAME_RATIO,
+    Chain,
+    ChainShaft,
+    find_pieces,
+    find_still,
+    rigid_motions,
+)
 from ..enginefile.fields import shorten
 from ..enginefile.shafting import find_stiffness
 from ..errors import InputError, Problem
@@ -91,15 +98,44 @@ def _find_faults(
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     for shaft in np.flatnonzero(np.isinf(chain.stiffness)).tolist():
         if meshes.locked[chain.start[shaft]]:
-            path = f"gear.{shaft - first_gear + 1}" if shaft >= first_gear else f"shaft.{shaft + 1}"
+            path = _find_path(shaft, first_gear)
             yield Problem(path, "is in a loop of gears whose ratios lock each other")
             return
-    if np.all(chain.clamped):
+    if np.all(find_still(chain)):
         yield Problem("fixed", "clamps every node; leave one free")
         return
+    yield from _find_loops(chain, lambda k: _find_path(k, first_gear))
     heavy, free = chain.inertia > 0, ~chain.clamped
     pieces = [motion != 0 for motion in rigid_motions(chain)] or [free]
     for piece in [] if apart else pieces:
         if not np.any(heavy[piece]):
             node = int(np.argmax(piece))
             yield Problem.of_missing(f"node.{node + 1}.inertia", "nothing that turns has any")
+
+
+def _find_path(shaft: int, first_gear: int) -> str:
+    """Place in the file of a shaft or gear by its number among all."""
+    gear = shaft - first_gear
+    return f"gear.{gear + 1}" if gear >= 0 else f"shaft.{shaft + 1}"
+
+
+def _find_loops(chain: Chain, path: Callable[[int], str]) -> Iterator[Problem]:
+    """Loops of meshes alone, in which nothing says what each carries; and of shafts, which a chain
+    that turns would wind up without end.
+    """
+    group = np.where(chain.clamped, -1, np.arange(len(chain.inertia)))
+    for mesh in np.flatnonzero(np.isinf(chain.stiffness)).tolist():
+        start, end = group[chain.start[mesh]], group[chain.end[mesh]]
+        if start == end:
+            text = "closes a loop of gears and rigid shafts, fixed nodes counted as one"
+            hint = "nothing says how they share the torque; leave it out, or give a stiffness"
+            yield Problem(path(mesh), f"{text}: {hint}")
+        group[group == end] = start
+    pieces = find_pieces(chain)
+    if not pieces.locked[0] or np.any(chain.clamped):
+        return
+    ahead, behind = pieces.pace[chain.start] * chain.ratio, pieces.pace[chain.end]
+    shaft = int(np.argmax(np.abs(ahead - behind) > SAME_RATIO * np.abs(behind)))
+    text = f"closes a loop whose ratios contradict each other, {ahead[shaft]:.9g} one way round"
+    hint = "a chain that turns would wind up its shafts without end"
+    yield Problem(path(shaft), f"{text} and {behind[shaft]:.9g} the other: {hint}")

@@ -23,7 +23,6 @@ from ..errors import InputError, Problem
 from ..forces.orders import list_gas_orders
 from ..forces.spectrum import compute_each_cylinder
 from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
-from ..torque.course import silence
 from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
 from .system import Excitation, ShaftSection, TorsionalSystem
 
@@ -73,9 +72,10 @@ def build_engine_system(
     limits = Limits(torsion.limit, torsion.angle_limit)
     own_speed = "speed" in model.operation.model_fields_set
     rated = model.operation.speed if own_speed else None
-    return assemble_system(
+    system = assemble_system(
         engine.name, nodes, shafts, excitation, limits, rated_rpm=rated, reference=front
     )
+    return replace(system, without_gas=engine.without_gas)
 
 
 def _plan_part(part: Part) -> PlannedNode:
@@ -179,25 +179,17 @@ def _weigh_throws(torsion: Torsion, engine: Engine, throws: int) -> Sequence[flo
     return [whole / throws] * throws
 
 
-def excite_engine(
-    model: EngineFile, engine: Engine, orders: Real | None, misfires: Sequence[int] = ()
-) -> Excitation:
+def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
     """Torque of every cylinder on the node of its throw: by inertia of what it moves, and by gas
     where the engine has some.
 
     Args:
         orders: (orders,); None: to 12, with halves where gas has them, and as of
             `list_gas_orders` that of firing.
-        misfires: numbers of cylinders without gas force.
-
-    Raises:
-        BalcliError: a misfire of an engine without gas, or of a cylinder that there is not.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array([weighed.throw for weighed in engine.weighed])
     engine = replace(engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
-    for number in misfires:
-        engine = silence(engine, number)
     if orders is None:
         orders = _list_orders(engine)
     growing = compute_each_cylinder(engine, orders, ("torque",))["torque"].x

@@ -14,16 +14,17 @@ from pydantic import ValidationError
 
 from ..core.golden_section import ROUNDS, find_least
 from ..core.singular_values import Real
+from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
 from ..core.torsional_dampers import best_viscous_damping
 from ..enginefile.fields import printable
 from ..enginefile.messages import describe_finding
 from ..enginefile.shafting import Damper
 from ..errors import BalcliError
-from .largest import find_hottest, find_largest_of_all
+from .largest import find_hottest, find_largest_of_all, find_largest_torques
 from .load import Source
 from .modes import NaturalMode, find_criticals, find_natural_modes
-from .motion import stress_by_torque
+from .motion import move, stress_by_torque
 from .system import Excitation, TorsionalSystem
 
 RUBBER_LOSS = 0.15  # usual for damper rubber
@@ -100,15 +101,15 @@ def size_damper(
     """
     node, own = _find_carrier(source.dampers(), asked.node)
     bare = source.with_damper(node, None).system()
-    mode, order = _find_worst(bare, speeds, orders)
+    weights = (
+        np.nan_to_num(stress_by_torque(bare)) if any(bare.sections) else np.ones(len(bare.shafts))
+    )
+    mode, order = _find_worst(bare, _excite(bare, orders), speeds, weights)
     place = bare.nodes.index(node)
     first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
     figure = _FIGURE[asked.kind]
     start = float(getattr(first, figure))
     tried = count(1)
-    weights = (
-        np.nan_to_num(stress_by_torque(bare)) if any(bare.sections) else np.ones(len(bare.shafts))
-    )
 
     def judge(damper: Damper | None) -> float:
         """Largest stress or torque of the shafts that are there without it, between the speeds,
@@ -245,18 +246,30 @@ def _excite(system: TorsionalSystem, orders: Real | None) -> Excitation:
 
 
 def _find_worst(
-    system: TorsionalSystem, speeds: Real, orders: Real | None
+    system: TorsionalSystem, excitation: Excitation, speeds: Real, weights: Real
 ) -> tuple[NaturalMode, float]:
-    """The mode on which most work is done at criticals in the range, and the order that does it;
-    the first mode and the lowest order where there is none.
+    """The mode that makes the largest stress in the range, and the order that drives it: of the
+    largest order there the mode nearest in frequency. By work alone that of a soft coupling would
+    be it, which hardly twists the crankshaft.
+
+    Where nothing damps a resonance, the critical at which most work is done; where no order meets
+    a mode, the first mode and the lowest order.
     """
-    modes, excitation = find_natural_modes(system), _excite(system, orders)
-    met = find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1])))
+    modes = find_natural_modes(system)
     if not modes:
         raise BalcliError("--damper: the system has no mode that could be damped")
+    met = find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1])))
     if not met:
         return modes[0], float(excitation.orders[0])
-    return modes[met[0].mode - 1], met[0].order
+    try:
+        rpm, torque = find_largest_torques(system, excitation, speeds, range(len(weights)))
+    except BalcliError:  # without bound
+        return modes[met[0].mode - 1], met[0].order
+    worst = int(np.argmax(weights * torque))
+    by_order = np.abs(move(system, excitation, rpm[worst : worst + 1]).torque[:, 0, worst])
+    order = float(excitation.orders[int(np.argmax(by_order))])
+    omega = order * float(rpm[worst]) * RPM
+    return min(modes, key=lambda mode: abs(math.log(mode.omega / omega))), order
 
 
 def _propose(

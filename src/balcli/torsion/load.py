@@ -15,6 +15,7 @@ from ..enginefile.shafting import Damper
 from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..errors import BalcliError
+from ..torque.course import silence
 from .build_chain import build_chain
 from .build_engine import build_engine_system, excite_engine
 from .chain_file import ChainFile, Node
@@ -32,7 +33,7 @@ class ChainSource:
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what hangs together wrongly."""
-        return build_chain(self.model, self.file)
+        return replace(build_chain(self.model, self.file), file=self.file)
 
     def doubts(self) -> tuple[str, ...]:
         """What is suspicious of the file, in words."""
@@ -71,7 +72,8 @@ class EngineSource:
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what does not fit together in [torsion]."""
-        return build_engine_system(self.model, self.engine, self.excitation, self.file)
+        made = build_engine_system(self.model, self.engine, self.excitation, self.file)
+        return replace(made, file=self.file)
 
     def doubts(self) -> tuple[str, ...]:
         """What is suspicious of the file, in words, each by its path."""
@@ -141,11 +143,14 @@ def make_source(
     written into it.
 
     Raises:
-        BalcliError: it has no [torsion].
+        BalcliError: it has no [torsion]; a misfire of an engine without gas, or of a cylinder that
+            there is not.
     """
     if model.torsion is None:
         raise BalcliError(
             f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
             "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
         )
-    return EngineSource(name, b"", model, engine, excite_engine(model, engine, orders, misfires))
+    for number in misfires:
+        engine = silence(engine, number)
+    return EngineSource(name, b"", model, engine, excite_engine(model, engine, orders))

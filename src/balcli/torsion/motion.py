@@ -41,7 +41,7 @@ def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> ChainMot
     try:
         twist = respond_chain(system.chain, system.damping, w, load, attached)
     except UndampedResonanceError as error:
-        raise BalcliError(_tell_resonance(error.frequency / (2 * np.pi))) from None
+        raise _refuse_resonance(system, error.frequency / (2 * np.pi)) from None
     heat = _heat_of_oil(system, w, twist.angle), _heat_of_rubber(system, w, twist.torque)
     return ChainMotion(twist.angle, twist.torque, np.concatenate(heat, axis=-1))
 
@@ -89,7 +89,7 @@ def refuse_torsional_resonance(system: TorsionalSystem, excitation: Excitation, 
         worst = met[0]
         hertz = modes.omega[worst.mode] / (2 * np.pi)
         speed = f" by order {worst.order:g} at {worst.speed / RPM:.6g} rpm"
-        raise BalcliError(_tell_resonance(float(hertz), speed))
+        raise _refuse_resonance(system, float(hertz), speed)
 
 
 def _drive_undamped(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
@@ -105,8 +105,8 @@ def _drive_undamped(system: TorsionalSystem, excitation: Excitation, rpm: Real) 
             move(system, excitation.only(order), met)
 
 
-def _tell_resonance(hertz: float, speed: str = "") -> str:
-    return (
+def _refuse_resonance(system: TorsionalSystem, hertz: float, speed: str = "") -> BalcliError:
+    return system.refusal(
         f"the natural frequency of {hertz:.6g} Hz is excited{speed} and nothing damps it: "
         "its vibration has no bound; give a loss factor (loss = 0.02), or damping"
     )

@@ -118,13 +118,14 @@ def _summarise(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> tu
 def find_barred(
     system: TorsionalSystem, excitation: Excitation, response: TorsionResponse, criticals_rpm: Real
 ) -> tuple[tuple[float, float], ...] | None:
-    """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none.
+    """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none that can
+    be judged: of a stress, where no shaft has a diameter.
 
     Between the speeds of the response its worst, those of criticals and damped resonances are
     looked at, too, and the middle between two that pass it; the ends of a range are found by
     halving.
     """
-    if system.limit_pa is None and system.angle_limit is None:
+    if not _weigh_limits(system).any():
         return None
     known = response.speeds_rpm
     resonant, width = find_resonant_speeds(system, excitation, known)

@@ -15,6 +15,7 @@ from ..core.singular_values import Complex, Indices, Real
 from ..core.sorted_sets import are_among
 from ..core.torsional_chain import Chain, Damping, find_pieces
 from ..core.torsional_dampers import pendulum_inertia, viscous_inertia
+from ..errors import BalcliError
 
 
 class ShaftSection(NamedTuple):
@@ -97,7 +98,9 @@ class TorsionalSystem:
         angle_limit: half swing of the first node, rad, above which a speed is barred.
         last: node at which Holzer's table ends.
         reference: node whose speed and orders are those of the system.
+        without_gas: numbers of the cylinders without gas, where others have some.
         rated_rpm: speed of the file's own; None: it gives none.
+        file: in which all this stands, for messages; may be empty.
     """
 
     name: str
@@ -114,6 +117,12 @@ class TorsionalSystem:
     last: int = -1
     rated_rpm: float | None = None
     reference: int = 0
+    without_gas: tuple[int, ...] = ()
+    file: str = ""
+
+    def refusal(self, message: str) -> BalcliError:
+        """An error that begins with the file."""
+        return BalcliError(f"{self.file}: {message}" if self.file else message)
 
     @cached_property
     def gears(self) -> Real:

@@ -13,6 +13,7 @@ import numpy as np
 from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
+from ..units import SI
 from .style import (
     BLUE,
     FAINT,
@@ -35,7 +36,7 @@ PAGES = ("all", "modes", "campbell", "response", "waterfall")
 _STYLES = tuple(product(("-", "--", ":"), (BLUE, RED, GREEN, INK)))  # told apart in grey, too
 _MOST_MODES = 4  # whose shapes are drawn: more lie on one another
 _MOST_SHAFTS = 8  # whose torque is drawn: the largest
-_WIDEST = 1.6  # of an order in a waterfall, over the gap between orders
+_WIDEST = 0.9  # of an order in a waterfall, over the gap between orders: none covers another
 _MOST_ORDERS = 12  # that are named in a Campbell diagram
 _WORTH = 1e-3  # share of work from which a critical is drawn
 
@@ -152,13 +153,14 @@ def _draw_torque(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -
     limit = result.system.limit_pa
     by_stress = bool(stressed) and limit is not None
     shown = sorted((stressed if by_stress else largest)[:_MOST_SHAFTS])
-    values = response.stress / 1e6 if by_stress else response.torque
+    swings = response.stress if by_stress else response.torque
+    unit = (SI.stress if by_stress else SI.moment).fit(float(swings[:, shown].max()))
     for k, (line, colour) in zip(shown, cycle(_STYLES)):
         name = fit_name(result.system.shafts[k], 22)
-        ax.plot(response.speeds_rpm, values[:, k], line, color=colour, label=name)
+        ax.plot(response.speeds_rpm, swings[:, k] / unit.size, line, color=colour, label=name)
     if by_stress and limit is not None:
-        ax.axhline(limit / 1e6, color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
-    _finish(ax, response, "N/mm²" if by_stress else "N·m")
+        ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
+    _finish(ax, response, unit.name)
     ax.set_title("Vibratory stress" if by_stress else "Vibratory torque", pad=34)
     ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1.4)
     _shade_barred(ax, result)
@@ -201,5 +203,6 @@ def _draw_waterfall(ax: Axes, result: TorsionAnalysis, response: TorsionResponse
     ax.grid(visible=False, axis="x")
     ax.set_xlim(0, float(response.orders[-1]) + gap)
     name = fit_name(result.system.shafts[shaft], 22)
-    largest = number(float(amplitudes.max()), 3)
-    ax.set_title(f"Torque of {name} by order, its width; the largest {largest} N·m", pad=22)
+    unit = SI.moment.fit(float(amplitudes.max()))
+    largest = f"{number(unit.of(float(amplitudes.max())), 3)} {unit.name}"
+    ax.set_title(f"Torque of {name} by order, its width; the largest {largest}", pad=22)
