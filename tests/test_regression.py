@@ -122,6 +122,14 @@ def test_the_only_engine_of_a_folder_within_is_gone(check, file, tmp_path):
     assert out.startswith("one: its result is recorded in expected/one.json, but there is no")
 
 
+@pytest.mark.parametrize("text", ['{"status": 200}', "[1, 2]", "not JSON", '{"format": 3}'])
+def test_what_others_expect_is_no_record(check, file, tmp_path, text):
+    theirs = tmp_path / "tests" / "expected"
+    theirs.mkdir(parents=True)
+    (theirs / "answer.json").write_text(text)
+    assert check(tmp_path) == (0, "1 engine, 0 differences\n", "")
+
+
 def test_every_figure_that_moved_is_named(check, file):
     """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new
     figure are told.
@@ -213,18 +221,19 @@ def test_angles_are_not_compared(check, file):
     assert check(file) == (0, "1 engine, 0 differences\n", "")
 
 
-def test_speed_and_number_of_cylinders(check, file):
+def test_format_speed_and_number_of_cylinders(check, file):
     edited(
         file,
         lambda document: (
             document.update(speed_rpm=2999.0),
             document["engine"].update(cylinders=5),
+            document.update(format="balcli.analysis/2"),
         ),
     )
     assert check(file) == (
         1,
-        "four: number of cylinders: 5 -> 4\nfour: speed, rpm: 2999.0 -> 3000.0\n1 engine, 2 "
-        "differences\n",
+        "four: format: balcli.analysis/2 -> balcli.analysis/1\nfour: number of cylinders: 5 -> 4\n"
+        "four: speed, rpm: 2999.0 -> 3000.0\n1 engine, 3 differences\n",
         "",
     )
 
@@ -240,7 +249,20 @@ def test_speed_and_number_of_cylinders(check, file):
         ("{}", "KeyError: 'orders'"),
         ("[]", "TypeError: list indices must be integers or slices, not str"),
         ('{"orders": [{"order": 1}]}', "KeyError: 'force_N'"),
+        (
+            '{"orders": [], "peak": {"force_N": Infinity, "moment_Nm": 0}}',
+            "ValueError: a figure is not finite",
+        ),
+        (
+            '{"orders": [], "peak": {"force_N": 1e999, "moment_Nm": 0}}',
+            "ValueError: a figure is not finite",
+        ),
+        (
+            f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}',
+            "OverflowError: int too large to convert to float",
+        ),
     ],
+    ids=["text", "object", "list", "order", "infinity", "too large", "whole, too large"],
 )
 def test_a_broken_record_is_a_difference(check, file, text, reason):
     find_record(file).write_text(text)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +25,7 @@ _PARTS = ("forward", "backward", "cos", "sin")
 _UNREADABLE = (
     OSError,
     ValueError,
+    OverflowError,
     LookupError,
     TypeError,
     AttributeError,
@@ -71,17 +73,25 @@ def find_record(engine_file: Path) -> Path:
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
-def find_abandoned(records: Iterable[Path]) -> list[Difference]:
-    """Recorded results (of `find_record`) whose engine file is not there."""
+def find_abandoned(files: Iterable[Path]) -> list[Difference]:
+    """Recorded results (of `find_record`) among files, whose engine file is not there."""
     return [
         Difference(
             record.stem,
             f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
             f"{record.stem}.toml; bring it back, or delete the record",
         )
-        for record in records
-        if not record.parent.with_name(f"{record.stem}.toml").exists()
+        for record in files
+        if not record.parent.with_name(f"{record.stem}.toml").exists() and _is_record(record)
     ]
+
+
+def _is_record(path: Path) -> bool:
+    """Whether a JSON file is such a result, and not what others expect."""
+    try:
+        return bool(json.loads(path.read_text(encoding="utf-8"))["format"] == renderer.FORMAT)
+    except _UNREADABLE:
+        return False
 
 
 def record_result(engine: Engine) -> str:
@@ -100,7 +110,10 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
     found = analyze(engine, only=wanted)
     try:
         recorded = json.loads(record.read_text(encoding="utf-8"))
-        old, exactly_old = dict(_list_figures(recorded)), _list_exact_figures(recorded)
+        old = dict(_list_figures(recorded))
+        if not all(map(math.isfinite, old.values())):  # beside infinity nothing would differ
+            raise ValueError("a figure is not finite")
+        exactly_old = _list_exact_figures(recorded)
         orders = {entry["order"] for entry in recorded["orders"]}
         if not orders <= set(found.orders):
             found = analyze(engine, {*orders, *found.orders}, wanted)
@@ -125,6 +138,7 @@ def _list_recorded(engine: Engine) -> tuple[str, ...]:
 def _list_exact_figures(document: dict[str, Any]) -> dict[str, Any]:
     """What must be the same to the last digit."""
     return {
+        "format": document["format"],
         "number of cylinders": document["engine"]["cylinders"],
         "speed, rpm": document["speed_rpm"],
     }

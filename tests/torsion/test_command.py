@@ -91,7 +91,12 @@ def test_the_starting_file_shows_every_part():
         "torsion", "-", "--speeds", "1000:2500:25", "--holzer", "1", stdin=text
     )
     assert (status, err) == (0, "")
-    heads = ["Natural modes", "Inertias and shapes", "Critical speeds", "Holzer's table, mode 1"]
+    heads = [
+        "Natural modes",
+        "Inertias and shapes",
+        "Critical speeds, 1000 to 2500 rpm",
+        "Holzer's table, mode 1",
+    ]
     for head in (*heads, "Vibratory torque, 1000 to 2500 rpm", "Limits"):
         assert head in out
 
@@ -458,3 +463,14 @@ def test_what_a_table_of_an_engine_leaves_to_json_and_what_gas_does():
     assert "Left over at the end: 0 N·m." in out
     over = run_here("torsion", file, "--speeds", "1000:1500:500").out
     assert re.search(r"deg at [\d.]+ rpm\. Gas as in the file at every speed\.\n", over)
+
+
+@pytest.mark.parametrize(
+    ("speed", "told"), [(2166, "; the file's own speed, 2166 rpm, is barred"), (2000, "")]
+)
+def test_a_barred_speed_that_is_the_file_s_own_is_named(speed, told):
+    text = (
+        (ENGINES / "i6_diesel.toml").read_text("utf-8").replace("speed = 2000", f"speed = {speed}")
+    )
+    out = run_here("torsion", "-", "--speeds", "2000:2300:50", stdin=text).out
+    assert re.search(r"\nbarred speeds  2086 to 2268\.4 rpm(.*)\n", out)[1] == told

@@ -60,7 +60,7 @@ class TorsionAnalysis(Result):
         system: what was analysed.
         modes: elastic ones, lowest first.
         criticals: those that do most work first; in the range of speeds if there was one, else to
-            BEYOND times the file's own speed, if it gives one.
+            one and a half times the file's own speed, if it gives one.
         holzer: tables.
         response: None: no speeds were asked for.
         barred_rpm: ranges of speed; None: there is no limit, or no response.
