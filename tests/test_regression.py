@@ -122,6 +122,14 @@ def test_the_only_engine_of_a_folder_within_is_gone(check, file, tmp_path):
     assert out.startswith("one: its result is recorded in expected/one.json, but there is no")
 
 
+@pytest.mark.parametrize("text", ['{"status": 200}', "[1, 2]", "not JSON", '{"format": 3}'])
+def test_what_others_expect_is_no_record(check, file, tmp_path, text):
+    theirs = tmp_path / "tests" / "expected"
+    theirs.mkdir(parents=True)
+    (theirs / "answer.json").write_text(text)
+    assert check(tmp_path) == (0, "1 engine, 0 differences\n", "")
+
+
 def test_every_figure_that_moved_is_named(check, file):
     """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new
     figure are told.

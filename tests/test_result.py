@@ -160,6 +160,16 @@ def test_a_dataset_holds_the_same(answer):
         assert [None if value != value else value for value in found] == wanted
 
 
+def test_numbers_are_numbers_where_some_are_missing(answer):
+    """And not objects, with which nothing can be computed."""
+    pytest.importorskip("xarray")
+    frame, data, rows = answer.to_pandas(), answer.to_xarray(), answer.rows()
+    for name in rows[0]:
+        if not any(isinstance(row[name], str) for row in rows):
+            assert frame[name].dtype.kind in "iuf", name
+            assert data[name].dtype.kind in "iuf", name
+
+
 def test_a_parquet_file_holds_the_same(answer, tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
     answer.to_parquet(tmp_path / "answer.parquet")

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from .library.search import search
     from .library.sweep import sweep
     from .library.tables import tables
+    from .library.torque import analyze_torque
     from .library.torsion import analyze_torsion
     from .mounting.report import MountReport
     from .printed_tables.recomputed import Table
@@ -39,10 +40,11 @@ if TYPE_CHECKING:
     from .results.comparison import Comparison
     from .results.two_engines import Combined
     from .sizing.options import SchemeOptions
+    from .sizing.workshop import Tools
     from .studies.search.search import Search
     from .studies.swept import Swept
     from .studies.tolerances import Scatter
-    from .torque.analysis import TorqueAnalysis, analyze_torque
+    from .torque.analysis import TorqueAnalysis
     from .torsion.analysis import TorsionAnalysis
 
 __version__ = "0.1.0"
@@ -63,6 +65,7 @@ __all__ = [
     "Search",
     "Swept",
     "Table",
+    "Tools",
     "TorqueAnalysis",
     "TorsionAnalysis",
     "__version__",
@@ -115,8 +118,9 @@ _ROOMS = {
     "sweep": "library.sweep",
     "Table": "printed_tables.recomputed",
     "tables": "library.tables",
+    "Tools": "sizing.workshop",
     "TorqueAnalysis": "torque.analysis",
-    "analyze_torque": "torque.analysis",
+    "analyze_torque": "library.torque",
     "TorsionAnalysis": "torsion.analysis",
     "analyze_torsion": "library.torsion",
 }

@@ -160,7 +160,9 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
         raise wrong_type(function, value, wanted)
 
 
-def list_words(name: str, words: str | Iterable[str]) -> list[str]:
+def list_words(
+    name: str, words: str | Iterable[str], example: str = '["force", "moment"]'
+) -> list[str]:
     """For the library: words as a list, or in a text with commas between.
 
     Raises:
@@ -168,10 +170,10 @@ def list_words(name: str, words: str | Iterable[str]) -> list[str]:
     """
     if isinstance(words, str):
         return [word.strip() for word in words.split(",")]
-    check_type(name, words, Iterable, 'give words, such as ["force", "moment"]')
+    check_type(name, words, Iterable, f"give words, such as {example}")
     listed = list(words)
     for word in listed:
-        check_type(name, word, str, 'give words, such as ["force", "moment"]')
+        check_type(name, word, str, f"give words, such as {example}")
     return listed
 
 

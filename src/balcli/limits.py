@@ -76,6 +76,7 @@ MOST_RUNS = 500  # nobody starts a machine more often
 MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looked at
 
 # Ranges of speeds ---------------------------------------------------------------------------
+HIGHEST_GUIDE_M = 1e3  # from the crankshaft to the middle of the guides
 MOST_SPEEDS = 20_000  # of mounts and torsion: all figures of each are kept
 MOST_ANALYSED_SPEEDS = 1_000  # of analyze: an analysis each, milliseconds of the largest engines
 

@@ -73,17 +73,25 @@ def find_record(engine_file: Path) -> Path:
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
-def find_abandoned(records: Iterable[Path]) -> list[Difference]:
-    """Recorded results (of `find_record`) whose engine file is not there."""
+def find_abandoned(files: Iterable[Path]) -> list[Difference]:
+    """Recorded results (of `find_record`) among files, whose engine file is not there."""
     return [
         Difference(
             record.stem,
             f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
             f"{record.stem}.toml; bring it back, or delete the record",
         )
-        for record in records
-        if not record.parent.with_name(f"{record.stem}.toml").exists()
+        for record in files
+        if not record.parent.with_name(f"{record.stem}.toml").exists() and _is_record(record)
     ]
+
+
+def _is_record(path: Path) -> bool:
+    """Whether a JSON file is such a result, and not what others expect."""
+    try:
+        return bool(json.loads(path.read_text(encoding="utf-8"))["format"] == renderer.FORMAT)
+    except _UNREADABLE:
+        return False
 
 
 def record_result(engine: Engine) -> str:

@@ -392,7 +392,7 @@ def test_no_picture_of_three_parameters(balcli, four, tmp_path):
         tmp_path / "x.svg",
     )
     assert status == 2
-    assert "--plot draws one or two parameters with several values each, not 3" in err
+    assert "a picture shows one or two parameters with several values each, not 3" in err
 
 
 def test_a_search_and_a_scatter_in_csv(balcli, four):

@@ -191,7 +191,7 @@ def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
     message = refusal("sweep", "good.toml", *large, *options)
     assert message.startswith("4004001 variants are too many for one picture")
     message = refusal("sweep", "good.toml", "--vary", "crank.stroke=80", *options)
-    assert message.startswith("--plot draws one or two parameters")
+    assert message.startswith("a picture shows one or two parameters")
     assert os.listdir() == ["good.toml"]
 
 

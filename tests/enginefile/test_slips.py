@@ -81,6 +81,7 @@ def test_other_words_for_a_key_lead_to_it(tmp_path, old, new, meant):
 
 COUNT = "the number of cylinders follows from throws and banks; give every throw its angle, such as"
 WIEBE = {"cycle": "wiebe", "compression_ratio": 10, "imep": 9}
+PART = "what turns with the crankshaft is a [[torsion.rear]], behind the throws, or a [[torsion.front]]"
 KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes a vee"
 
 
@@ -114,6 +115,11 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"gas": WIEBE | {"powder": 3}}, "gas.powder: unknown key in [gas]; it has indicator, zero,"),
         ({"units": "in"}, "units: unknown key in an engine file; bare numbers are mm, kg, degrees and rpm;"),
         ({"displacement": 2}, "displacement: unknown key in an engine file; the displacement follows from"),
+        ({"generator": {"inertia": 3}}, f"generator: unknown key in an engine file; {PART}"),
+        ({"torsion": {"coupling": {"loss": 1}}}, f"torsion.coupling: unknown key in [torsion]; {PART}"),
+        ({"torsion": {"damper": {"inertia": 3}}}, "torsion.damper: unknown key in [torsion]; a damper is written where it sits"),
+        ({"torsion": {"excitation": [{"order": 4}]}}, "torsion.excitation: unknown key in [torsion]; an engine is excited by"),
+        ({"excitation": [{"order": 4}]}, "excitation: unknown key in an engine file; an engine is excited by"),
     ],
 )  # fmt: skip
 def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer):

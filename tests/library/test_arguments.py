@@ -1,11 +1,13 @@
 """What is wrong names the function's own arguments, not the options of the command line."""
 
+import inspect
 import pickle
 
 import pytest
 
 import balcli
 
+FUNCTIONS = [name for name in balcli.__all__ if inspect.isfunction(getattr(balcli, name))]
 V8 = balcli.load_example("v8_crossplane")
 CHAIN = {
     "fixed": ["wall"],
@@ -65,6 +67,19 @@ CHAIN = {
             "at_m: the place of the second engine may be up to 1e+06 m off",
         ),
         (
+            lambda: balcli.analyze_torque(balcli.load_example("i4_wiebe"), cylinder=9),
+            "cylinder 9: in-line four, 2 litres, with gas has the cylinders 1, 2, 3, 4",
+        ),
+        (
+            lambda: balcli.balance_rotor({"planes": ["a"], "run": [{"readings": ["5 @ 30"]}]}),
+            "engine: run: there is no trial weight in a; add a run with one, such as weights = "
+            '{ a = "10 @ 0" }, give influence, or leave the plane out with without a',
+        ),
+        (
+            lambda: balcli.plot(balcli.sweep(V8, {"rod.ratio": [0.25]}, "force.1.major")),
+            "a picture shows one or two parameters with several values each, not 0",
+        ),
+        (
             lambda: balcli.analyze_torsion(CHAIN, [1000, 1100], orders=[2], damper="viscous"),
             "damper: nothing excites the system at the orders asked for",
         ),
@@ -95,5 +110,8 @@ def test_what_is_of_another_type(ask, told):
     assert str(refusal.value) == told
 
 
-def test_a_function_is_still_found_by_its_name():
-    assert pickle.loads(pickle.dumps(balcli.scatter)) is balcli.scatter
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_is_still_found_by_its_name(name):
+    """By what sends it to another process."""
+    function = getattr(balcli, name)
+    assert pickle.loads(pickle.dumps(function)) is function

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 import shutil
+import sys
 
 import pytest
 from support.paths import ENGINES
@@ -42,3 +43,14 @@ def test_every_parameter_and_error_is_told(name):
     assert [p for p in parameters if not re.search(rf"\b{p}\b", args)] == []
     assert "Raises:" in text
     assert "Error: " in text.partition("Raises:")[2]
+
+
+@pytest.mark.parametrize("name", [name for name in balcli.__all__ if name[0] != "_"])
+def test_no_name_of_our_own_stands_for_what_it_means(name):
+    """A constant, or a function that is not promised, says nothing to who asks for help."""
+    shown = getattr(balcli, name)
+    inside = vars(sys.modules[inspect.unwrap(shown).__module__]).keys() - set(balcli.__all__)
+    told = inspect.getdoc(shown)
+    quoted = {word.rpartition(".")[2] for word in re.findall(r"`([\w.]+)`", told)}
+    own = inside & (quoted | set(re.findall(r"[A-Z_]{3,}", told)))
+    assert own == set()

@@ -10,6 +10,7 @@ from ctypes import CDLL
 
 import numpy as np
 import pytest
+from support.rotors import three_runs
 
 import balcli
 from balcli.errors import BalcliError
@@ -122,6 +123,8 @@ def test_what_a_sweep_does_not_have_is_no_key():
     found = balcli.sweep(FOUR, {"rod.ratio": 0.3}, "force.2.major")
     with pytest.raises(KeyError, match=r"force\.1\.major; there are force\.2\.major, rod\.ratio"):
         found["force.1.major"]
+    assert "force.1.major" not in found
+    assert list(found) == ["rod.ratio", "force.2.major"]
 
 
 def test_a_sweep_too_large_to_keep_names_the_command(monkeypatch):
@@ -312,6 +315,14 @@ def test_mounts_of_an_engine_a_dict_or_a_body_alone():
     assert balcli.analyze_mounts(alone).response is None
     beside = balcli.analyze_mounts(MOUNTS, [2000], orders=[2], others={"V8": V8})
     assert [other.name for other in beside.others] == ["V8"]
+
+
+def test_a_word_alone_is_a_list_of_one():
+    assert balcli.analyze_torque(GAS, loads="pin").loads.pin
+    rotor = tomllib.loads(three_runs())
+    plane = rotor["planes"][0]
+    alone = balcli.balance_rotor(rotor, without=plane).planes
+    assert [each.plane for each in alone] == [p for p in rotor["planes"] if p != plane]
 
 
 # ------------------------------------------------------------------ what is wrong, in words
@@ -622,6 +633,122 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
         for names in ([1, 2], "ab", 5)
     ),
     (lambda: V8.vary(5), TypeError, 'vary: 5 (int): give a dict, such as {"rod.length": 150}'),
+    (lambda: balcli.load(""), balcli.BalcliError, 'no file is named: ""'),
+    (
+        lambda: FOUR.vary({"crank.throws": {"first": 0}}),
+        balcli.InputError,
+        "in-line four, 2 litres with crank.throws: crank.throws: a table is not a list; write it in "
+        "square brackets, such as [0, 180, 180, 0]",
+    ),
+    *(
+        (
+            lambda height=height: balcli.analyze(V8, only="guide", guide_height_m=height),
+            balcli.BalcliError,
+            f"guide_height_m {height:g}: the distance from the crankshaft to the middle of the "
+            "guides must be positive, below 1000 m",
+        )
+        for height in (0, -1, float("nan"), 2000)
+    ),
+    (
+        lambda: balcli.analyze(V8, guide_height_m="0.6"),
+        TypeError,
+        "guide_height_m: '0.6' (str): give a length in m, such as 0.6",
+    ),
+    (lambda: balcli.analyze(V8, beside=[5]), TypeError, f"analyze: 5 (int): {ENGINE}"),
+    (lambda: balcli.analyze(V8, beside=V8), TypeError, "beside: <Engine"),
+    (lambda: balcli.balance(V8, tools=5), TypeError, "balance: 5 (int): give Tools(radius=0.05)"),
+    (
+        lambda: balcli.balance(V8, tools=balcli.Tools(radius="50 mm")),
+        TypeError,
+        "Tools: radius: '50 mm' (str): give a length in m, such as 0.02",
+    ),
+    (
+        lambda: balcli.balance(V8, tools=balcli.Tools(drill=0.012, slug="heavy")),
+        TypeError,
+        "Tools: slug: 'heavy' (str): give a density in kg/m3, such as 17500",
+    ),
+    (
+        lambda: balcli.balance(V8, "factor", balcli.SchemeOptions(measured=float("nan"))),
+        TypeError,
+        "SchemeOptions: measured: nan (float): give a mass in kg, such as 0.812",
+    ),
+    *(
+        (
+            lambda share=share: balcli.analyze_torque(GAS, fluctuation=share),
+            balcli.BalcliError,
+            f"fluctuation {share:g}: give (highest - lowest)/mean speed, such as 1 / 200",
+        )
+        for share in (0, -0.01, float("nan"), 2)
+    ),
+    (
+        lambda: balcli.analyze_torque(GAS, loads=5),
+        TypeError,
+        'loads: 5 (int): give words, such as ["pin", "main"]',
+    ),
+    (
+        lambda: balcli.analyze_torque(GAS, cylinder="1"),
+        TypeError,
+        "cylinder: '1' (str): give a whole number from 1",
+    ),
+    (
+        lambda: balcli.analyze_mounts(MOUNTS, others=[V8]),
+        TypeError,
+        'analyze_mounts: [<Engine "90-degree cross-plane V8"',
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, [2000], damper="viscous", damper_at=5),
+        TypeError,
+        "damper_at: 5 (int): give the name of a part",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, damper="viscous"),
+        balcli.BalcliError,
+        "damper: give the speeds at which it is to help, as speeds_rpm",
+    ),
+    (
+        lambda: balcli.analyze_torsion(DIESEL, [2000], damper_inertia=0.01),
+        balcli.BalcliError,
+        'damper_inertia: say which damper, such as damper="viscous"',
+    ),
+    *(
+        (
+            lambda speeds=speeds: balcli.analyze_torsion(DIESEL, speeds),
+            TypeError,
+            f"analyze_torsion: {speeds!r} ({type(speeds).__name__}): give speeds in rpm",
+        )
+        for speeds in ("3000", ["3000"], True, [1000j])
+    ),
+    (
+        lambda: balcli.analyze_mounts(MOUNTS, [[1000, 2000]]),
+        balcli.BalcliError,
+        "speeds_rpm: of shape (1, 2); give them along one axis",
+    ),
+    *(
+        (
+            lambda names=names: balcli.balance_rotor({}, without=names),
+            TypeError,
+            "without: 5 (int): give names of planes, such as ",
+        )
+        for names in (5, [5])
+    ),
+    (
+        lambda: balcli.combine(FOUR, FOUR, at_m="123"),
+        TypeError,
+        "at_m: '123' (str): give x, y and z in m",
+    ),
+    *(
+        (
+            lambda name=name: balcli.sweep(V8, RATIO, [name]),
+            balcli.BalcliError,
+            f"{name} is no quantity: after peak comes force or moment",
+        )
+        for name in ("peak", "peak.power")
+    ),
+    (
+        lambda: balcli.search(FOUR, "throws", "force.2.major").engine("1"),
+        TypeError,
+        "rank: '1' (str): give a whole number from 1",
+    ),
 ]
 
 

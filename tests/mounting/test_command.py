@@ -242,6 +242,18 @@ def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
     assert err.startswith(f"warning: the page does not show the mounts: {path}: mode ")
 
 
+def test_a_page_where_nothing_is_fitted_compares_nothing(tmp_path):
+    """Of a six, orders 1 and 2 are balanced: a column with the scheme would say the same twice."""
+    six = ENGINE.replace("[0, 180, 180, 0]", "[0, 240, 120, 120, 240, 0]")
+    path = tmp_path / "six.toml"
+    path.write_text(six.replace("0.55", "0.5") + block("loss = 0.1"), encoding="utf-8")
+    status, page, err = run_here("report", path, "-o", "-")
+    assert (status, err) == (0, "")
+    assert "Nothing is fitted" in page
+    assert "On its mounts" in page
+    assert "with auto" not in page.lower()
+
+
 def test_pictures_overwrite_no_engine(four):
     assert "stays as it is" in refusal("mounts", four, "-o", four)
 

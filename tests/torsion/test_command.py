@@ -91,7 +91,12 @@ def test_the_starting_file_shows_every_part():
         "torsion", "-", "--speeds", "1000:2500:25", "--holzer", "1", stdin=text
     )
     assert (status, err) == (0, "")
-    heads = ["Natural modes", "Inertias and shapes", "Critical speeds", "Holzer's table, mode 1"]
+    heads = [
+        "Natural modes",
+        "Inertias and shapes",
+        "Critical speeds, 1000 to 2500 rpm",
+        "Holzer's table, mode 1",
+    ]
     for head in (*heads, "Vibratory torque, 1000 to 2500 rpm", "Limits"):
         assert head in out
 
@@ -365,6 +370,21 @@ def test_a_node_alone_swings_rigidly(tmp_path):
     )
 
 
+@pytest.mark.parametrize("first", ["a", "hub"])
+def test_a_mode_that_no_table_can_follow_has_none(first):
+    """Two equal branches swing against each other, and the hub is at rest: torques of 1e16 or 14
+    kN m were left over.
+    """
+    names = sorted(("hub", "b", "c", "a"), key=lambda name: name != first)
+    inertia = {"hub": 1, "a": 0.1, "b": 0.1, "c": 0.3}
+    text = "".join(node(name, inertia[name]) for name in names)
+    for end, stiffness in (("a", 1e4), ("b", 1e4), ("c", 1e5)):
+        text += f'[[shaft]]\nfrom = "hub"\nto = "{end}"\nstiffness = {stiffness!r}\n'
+    told = "cannot be followed from"
+    assert told in refusal("torsion", "-", "--holzer", "1", stdin=text)
+    assert abs(ask(text, "--holzer", "2")["holzer"][0]["residual_Nm"]) < 1e-6
+
+
 def test_loops_have_no_holzer_table():
     loop = """
         node = [{ name = "a", inertia = 1 }, { name = "b", inertia = 2 }, { name = "c", inertia = 3 }]
@@ -443,3 +463,14 @@ def test_what_a_table_of_an_engine_leaves_to_json_and_what_gas_does():
     assert "Left over at the end: 0 N·m." in out
     over = run_here("torsion", file, "--speeds", "1000:1500:500").out
     assert re.search(r"deg at [\d.]+ rpm\. Gas as in the file at every speed\.\n", over)
+
+
+@pytest.mark.parametrize(
+    ("speed", "told"), [(2166, "; the file's own speed, 2166 rpm, is barred"), (2000, "")]
+)
+def test_a_barred_speed_that_is_the_file_s_own_is_named(speed, told):
+    text = (
+        (ENGINES / "i6_diesel.toml").read_text("utf-8").replace("speed = 2000", f"speed = {speed}")
+    )
+    out = run_here("torsion", "-", "--speeds", "2000:2300:50", stdin=text).out
+    assert re.search(r"\nbarred speeds  2086 to 2268\.4 rpm(.*)\n", out)[1] == told

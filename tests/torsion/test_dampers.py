@@ -237,13 +237,13 @@ stiffness = 1e6
         (
             ("--damper-inertia", "20"),
             "a viscous damper of 2e-05 kg m2 at disc lowers the largest torque by less than 1%; the "
-            "whole system has 1.001 kg m2. Bare numbers of --damper-inertia are kg mm2; "
-            "--damper-at says where it sits",
+            "whole system has 1.001 kg m2. Is it of the right size (on the command line bare "
+            "numbers are kg mm2), and in the right place?",
         ),
         (
             ("--damper-inertia", "3e6"),
-            "the damper has 3 kg m2, more than the whole system (1.001 kg m2): bare numbers of "
-            "--damper-inertia are kg mm2",
+            "the damper has 3 kg m2, more than the whole system (1.001 kg m2): on the command "
+            "line bare numbers are kg mm2",
         ),
         (
             ("--damper-at", "nose"),

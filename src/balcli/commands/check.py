@@ -39,7 +39,7 @@ def check(
       balcli check v8.toml
     """
     from .. import regression
-    from .inputs import exit_on_errors, find_engine_files, find_records, read_engine, try_each
+    from .inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
 
     def compare_or_record(path: Path) -> list[regression.Difference]:
         engine, target = read_engine(str(path)).engine, regression.find_record(path)
@@ -51,7 +51,7 @@ def check(
     files = find_engine_files(paths)
     with reporting_until_stopped("engines", len(files)) as progress:
         results, errors = try_each(each_until_stopped(files, progress), compare_or_record)
-    abandoned = regression.find_abandoned(find_records(paths))
+    abandoned = regression.find_abandoned(find_expected(paths))
     moved = [difference for found in (*results, abandoned) for difference in found]
     done = " recorded" if update else f", {_counted(len(moved), 'difference')}"
     emit(legible("\n".join([*map(str, moved), _counted(len(results), "engine") + done])))

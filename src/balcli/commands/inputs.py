@@ -137,8 +137,8 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
     return files
 
 
-def find_records(paths: Sequence[Path]) -> list[Path]:
-    """What `check` has recorded in those of the paths that are folders, and in folders within."""
+def find_expected(paths: Sequence[Path]) -> list[Path]:
+    """Files where `check` has its records, of those paths that are folders and folders within."""
     files = chain.from_iterable(_walk(path) for path in paths if os.path.isdir(path))
     return sorted({f for f in files if f.parent.name == "expected" and f.suffix == ".json"})
 

@@ -10,7 +10,7 @@ import typer
 
 from ..errors import BalcliError
 from ..forces.kinds import KINDS, VECTORS
-from ..limits import HIGHEST_ORDER
+from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER
 from ..render.formats import Format, Units
 from .amounts import read_length, read_speed
 from .declare import optional
@@ -116,7 +116,7 @@ Whole = Annotated[
 ]
 Misfire = Annotated[
     list[int] | None,
-    optional("N", "A cylinder without gas; may be given again."),
+    optional("N", "A cylinder without gas, not even compressed; may be given again."),
 ]
 GuideHeight = Annotated[
     str | None,
@@ -214,9 +214,9 @@ def parse_guide_height(text: str | None, units: Units) -> float | None:
     if text is None:
         return None
     height = read_length("--guide-height", text, units)
-    if not 0 < height < 1e3:
+    if not 0 < height < HIGHEST_GUIDE_M:
         raise BalcliError(
             f"--guide-height {text}: the distance from the crankshaft to the middle of the guides "
-            "must be positive, below 1000 m"
+            f"must be positive, below {HIGHEST_GUIDE_M:g} m"
         )
     return height

@@ -81,7 +81,8 @@ def report(
     balanced = balance(engine, scheme, options, asked)
     mounted = None
     if model.body:
-        mounted = _put_on_mounts(model, engine, scheme, options, name_file(path))
+        fitted = scheme if balanced.remedy.reasons else None  # without devices nothing is compared
+        mounted = _put_on_mounts(model, engine, fitted, options, name_file(path))
     twisted = _twist(model, engine, name_file(path)) if model.torsion else None
     turning = None if engine.gas is None else _turn_gas(engine)
     with reporting("pictures") as tell:
@@ -111,7 +112,7 @@ def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | No
 
 
 def _put_on_mounts(
-    model: EngineFile, engine: Engine, scheme: str, options: SchemeOptions, name: str
+    model: EngineFile, engine: Engine, scheme: str | None, options: SchemeOptions, name: str
 ) -> MountReport | None:
     """What the body does on its mounts; None, with a warning, where that cannot be told."""
     from ..mounting.report import report_mounts

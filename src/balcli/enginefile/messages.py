@@ -94,7 +94,7 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTab
         message = str(context["error"])
     elif kind in ("too_short", "too_long"):
         message = _describe_length(value, context)
-    elif kind == "tuple_type" and isinstance(value, Mapping):
+    elif kind == "tuple_type" and isinstance(value, Mapping) and _holds_tables(table, loc):
         message = f"is one of several; write [[{join_path(path, loc)}]] in double brackets"
     else:
         example = _find_example(table, loc) if kind == "tuple_type" else ""
@@ -102,6 +102,12 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTab
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
         return Problem(join_path(path, loc[:-1]), f"the {_ordinal(loc[-1] + 1)} value {message}")
     return Problem(join_path(path, loc), message)
+
+
+def _holds_tables(table: type[model.FileTable], loc: Sequence[str | int]) -> bool:
+    """Whether a key has a list of tables."""
+    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    return field is not None and find_table(field.annotation) is not None
 
 
 def find_inner_table(

@@ -27,6 +27,8 @@ def read_bytes(source: str | Path) -> bytes:
     Raises:
         BalcliError: it cannot be read.
     """
+    if not str(source):
+        raise BalcliError('no file is named: ""')
     try:
         if str(source) == "-":
             return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)

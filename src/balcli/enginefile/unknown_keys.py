@@ -74,6 +74,18 @@ _FACTOR = (
     "did you mean --factor? The balance factor is no figure of the engine: "
     "balcli balance FILE --factor 51%"
 )
+_PART = (
+    "what turns with the crankshaft is a [[torsion.rear]], behind the throws, or a "
+    "[[torsion.front]], with its name, inertia and stiffness"
+)
+_DAMPER = (
+    "a damper is written where it sits, in [[torsion.front]] or [[torsion.rear]]: damper = "
+    '{ kind = "viscous", inertia = 30000, damping = 12 }'
+)
+_TORQUES = (
+    "an engine is excited by its masses and its gas; torques on other parts, such as a "
+    "propeller's, stand in a chain of shafts: balcli new torsion"
+)
 # What is no figure of an engine file by any name, and what says it instead
 INSTEAD = {
     **dict.fromkeys(("cylinders", "cylinder_count", "number_of_cylinders", "count"), _COUNT),
@@ -83,7 +95,11 @@ INSTEAD = {
     **dict.fromkeys(("power", "torque", "kw", "hp", "ps"), _POWER),
     **dict.fromkeys(("unit", "units"), _UNITS),
     **dict.fromkeys(("overbalance", "balance_factor", "factor"), _FACTOR),
+    **dict.fromkeys(("coupling", "gearbox", "generator", "propeller", "pulley"), _PART),
+    **dict.fromkeys(("damper", "dampers"), _DAMPER),
+    **dict.fromkeys(("excitation", "excitations"), _TORQUES),
 }
+_IN_CHAPTERS = {"gas": {_POWER}, "torsion": {_PART, _DAMPER, _TORQUES}}  # of these, what fits there
 
 
 class UnknownKey(NamedTuple):
@@ -111,7 +127,7 @@ def find_unknown_keys(data: Mapping[str, Any]) -> Iterator[UnknownKey]:
     for count, key in enumerate(strangers):
         inside = data[key] if isinstance(data[key], Mapping) else {}
         shown = count < MOST_MISTAKES_SHOWN  # of the others only how many there are is told
-        if inside and not (shown and _find_own(key, KNOWN)):
+        if inside and not (shown and (key.lower() in INSTEAD or _find_own(key, KNOWN))):
             yield from (UnknownKey(key, inner, None) for inner in inside)
         else:
             yield UnknownKey("", key, None)
@@ -156,7 +172,7 @@ def _suggest(first: str, key: str, own: list[str]) -> tuple[str, str]:
     """
     instead = INSTEAD.get(key.lower(), "")
     of_engine = first not in {*DEVICES, *CHAPTERS, *CHAPTER_LISTS}
-    if instead and (of_engine or (first == "gas" and instead == _POWER)):
+    if instead and (of_engine or instead in _IN_CHAPTERS.get(first, ())):
         return instead, ""
     if meant := _find_own(key, own):
         return f"did you mean {meant}?", meant

@@ -105,6 +105,8 @@ def _parse_quantity(text: str) -> Quantity:
     kind, _, rest = text.partition(".")
     if kind == "peak" and rest in [vector.name for vector in VECTORS]:
         return Quantity(rest, 0, "peak")
+    if kind == "peak":
+        raise BalcliError(f"{text} is no quantity: after peak comes force or moment")
     if kind not in EVERY_KIND:
         near = nearest(kind, (*EVERY_KIND, "peak"))
         hint = f"did you mean {near}?" if near else f"it begins with {', '.join(KINDS)} or peak"

@@ -45,8 +45,12 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
         def call(*args: P.args, **kwargs: P.kwargs) -> Answer:
             try:
                 return function(*args, **kwargs)
-            except InputError:  # of a file, which has no arguments
-                raise
+            except InputError as error:
+                told = [
+                    p._replace(message=_OPTION.sub(name_argument, p.message))
+                    for p in error.problems
+                ]
+                raise InputError(told, error.file, error.more) from None
             except BalcliError as error:
                 raise BalcliError(_OPTION.sub(name_argument, str(error))) from None
 
@@ -85,17 +89,22 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
     """Speeds as an array that rises, rpm; None as it is.
 
     Raises:
-        BalcliError: one that is not above 0; too many.
+        BalcliError: one that is not above 0; too many; more than one axis.
         TypeError: they are no numbers.
     """
     if speeds_rpm is None:
         return None
     try:
-        found = sort_distinct(np.asarray(speeds_rpm, dtype=float))
+        given = np.asarray(speeds_rpm)
+        if given.dtype.kind not in "iufO":  # numpy would read numbers out of texts
+            raise TypeError
+        found = sort_distinct(given.astype(float).ravel())
     except (TypeError, ValueError):
         raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
     except OverflowError:  # a whole number of hundreds of digits
         found = np.array([math.inf])
+    if given.ndim > 1:
+        raise BalcliError(f"speeds_rpm: of shape {given.shape}; give them along one axis")
     if not found.size or not np.all((found > 0) & (found < 1e9)):
         raise BalcliError("speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]")
     if found.size > MOST_SPEEDS:
@@ -177,6 +186,8 @@ def read_position(name: str, value: object) -> tuple[float, float, float]:
         TypeError: it is not three numbers.
     """
     try:
+        if any(isinstance(number, str) for number in value):  # type: ignore[attr-defined]
+            raise TypeError
         x, y, z = map(float, value)  # type: ignore[call-overload]
     except (TypeError, ValueError, OverflowError):
         raise wrong_type(name, value, "give x, y and z in m, such as (0.3, 0, 0)") from None

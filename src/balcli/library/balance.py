@@ -11,3 +11,4 @@ from .arguments import tell_arguments
 balance = tell_arguments(**{name: name for name in (*SchemeOptions._fields, *Tools._fields)})(
     balance_engine
 )
+balance.__module__ = __name__  # where pickle finds it

@@ -17,7 +17,7 @@ from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import check_type, wrong_type
 from ..mounting.read import check_mounted
 from ..mounting.report import MountReport, report_mounts
-from .arguments import check_speeds, tell_arguments
+from .arguments import check_mapping, check_speeds, tell_arguments
 
 
 @tell_arguments(speeds="speeds_rpm")
@@ -35,7 +35,7 @@ def analyze_mounts(
     Args:
         source: an Engine whose file has [body] and [[mount]]; or the path of such a file, its text
             or a dict of its tables, which may also describe the body and mounts alone.
-        speeds_rpm: default: from an eighth of the file's speed to this.
+        speeds_rpm: in any order; default: from an eighth of the file's speed to this.
         orders: that count; default: all that are not negligible.
         scheme: a balance scheme; the response is then also that with its devices (`fitted`).
         others: engines by name, put on the same mounts and told beside.
@@ -47,13 +47,14 @@ def analyze_mounts(
     Raises:
         BalcliError: a resonance without damping; a scheme that cannot be fitted.
         InputError: every mistake of the file; a motion that no mount holds.
-        TypeError: the source is none of these.
+        TypeError: the source is none of these; what is no number, no dict of engines.
 
     Example:
         >>> [mode.hertz for mode in analyze_mounts("i4_mounts.toml").modes.six]
     """
     speeds = check_speeds("analyze_mounts", speeds_rpm)
-    engines = {name: check_engine("analyze_mounts", one) for name, one in (others or {}).items()}
+    beside = {} if others is None else check_mapping("analyze_mounts", others, '{"V8": engine}')
+    engines = {str(name): check_engine("analyze_mounts", one) for name, one in beside.items()}
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
     asked = None if orders is None else list(orders)
     model, engine, name = _read(source)

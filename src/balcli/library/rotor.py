@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, wrong_type
+from ..errors import BalcliError, check_type, wrong_type
 from ..field_balancing.balance import FieldBalance, find_corrections
 from ..field_balancing.read import check_runs, parse_runs, read_runs
 from .arguments import tell_arguments
@@ -19,7 +19,7 @@ def balance_rotor(
     runs: str | Path | Mapping[str, Any],
     minimise: Literal["squares", "max"] = "squares",
     *,
-    without: Collection[str] = (),
+    without: str | Collection[str] = (),
 ) -> FieldBalance:
     """Balance a rotor on the machine or in its bearings: from readings with trial weights to
     correction weights, places or drill holes, and what is left.
@@ -29,7 +29,7 @@ def balance_rotor(
             under `run` one dict a run with its `readings` and `weights`, such as "5 @ 30" (size and
             angle in degrees).
         minimise: "squares", the least sum of squared readings, or "max", the smallest largest one.
-        without: planes that get no weight.
+        without: names of planes that get no weight.
 
     Returns:
         `planes`, each with its `total` weight (complex, in the file's unit) and `pieces`; `after`,
@@ -38,13 +38,17 @@ def balance_rotor(
     Raises:
         BalcliError: there is nothing to read; planes to leave out that are none, or all of them.
         InputError: every mistake of the runs; runs that do not tell what each plane does.
-        TypeError: the runs are none of these.
+        TypeError: the runs are none of these; names that are no texts.
 
     Example:
         >>> balance_rotor("fan.toml", "max").to_pandas()
     """
     if minimise not in ("squares", "max"):
         raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
+    without = [without] if isinstance(without, str) else without
+    check_type("without", without, Collection, 'give names of planes, such as ["front"]')
+    for name in without:
+        check_type("without", name, str, 'give names of planes, such as ["front"]')
     if isinstance(runs, Mapping):
         return find_corrections(check_runs(normalize_tables(runs)), minimise, without)
     if not isinstance(runs, (str, Path)):

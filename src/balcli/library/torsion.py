@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from types import NoneType
 from typing import Any, Literal
 
 from numpy.typing import ArrayLike
@@ -13,7 +14,7 @@ from ..engine.build import Engine, take_model
 from ..engine.load import load
 from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
-from ..errors import BalcliError, wrong_type
+from ..errors import BalcliError, check_type, wrong_type
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.damper_sizing import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
@@ -42,8 +43,8 @@ def analyze_torsion(
         speeds_rpm: at which the forced vibration is wanted; default: modes and criticals alone.
         orders: which of those that excite, multiples of 1/2; default: all of a chain, to 12 of an
             engine.
-        damper: sized to make the largest stress over `speeds_rpm` least; the answer is then that
-            with it.
+        damper: sized to make the largest stress over `speeds_rpm`, which have to be given, least;
+            the answer is then that with it.
         damper_at: name of what carries it; default: the foremost part.
         damper_inertia: of its ring, or of its pendulums about the axis, kg m2; default: that in the
             file, or a usual share.
@@ -66,8 +67,15 @@ def analyze_torsion(
         raise BalcliError(f"damper {damper!r}: choose from {', '.join(KINDS_OF_DAMPERS)}")
     asked = check_torsion_orders(orders)
     inertia = check_inertia("damper_inertia", damper_inertia)
+    check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
+    speeds = check_speeds("analyze_torsion", speeds_rpm)
+    if damper is None and not (damper_at is None and inertia is None):
+        name = "damper_inertia" if damper_at is None else "damper_at"
+        raise BalcliError(f'{name}: say which damper, such as damper="viscous"')
+    if damper is not None and speeds is None:
+        raise BalcliError("damper: give the speeds at which it is to help, as speeds_rpm")
     sized = None if damper is None else DamperAsked(damper, damper_at, inertia)
-    question = TorsionQuestion(check_speeds("analyze_torsion", speeds_rpm), asked, (), sized)
+    question = TorsionQuestion(speeds, asked, (), sized)
     return answer_question(_read_source(source, asked), question)
 
 

@@ -15,12 +15,14 @@ if TYPE_CHECKING:
     from ..results.analysis import Analysis
     from .units import System
 
+FORMAT = "balcli.analysis/1"
+
 
 def document(result: Analysis) -> dict[str, Any]:
     """`balcli.analysis/1`."""
     engine = result.engine
     found: dict[str, Any] = {
-        "format": "balcli.analysis/1",
+        "format": FORMAT,
         "engine": {
             "name": engine.name,
             "cylinders": engine.cylinders.count,

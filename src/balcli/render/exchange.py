@@ -68,10 +68,18 @@ def _none_for_nan(value: Any) -> Any:
 def list_columns(result: Result) -> Columns:
     """The columns of an answer: those that its renderer names, or those of its CSV."""
     renderer, shown = find_renderer(result)
-    if hasattr(renderer, "columns"):
-        found: Columns = renderer.columns(shown)
-        return found
-    return _read_columns(renderer.rows(shown, SI))
+    named = hasattr(renderer, "columns")
+    found: Columns = renderer.columns(shown) if named else _read_columns(renderer.rows(shown, SI))
+    return found._replace(values={k: _fill_gaps(column) for k, column in found.values.items()})
+
+
+def _fill_gaps(column: Column) -> Column:
+    """Numbers among which some are missing as an array with nan: of a list with None other
+    libraries make objects, with which nothing can be computed.
+    """
+    if isinstance(column, np.ndarray) or None not in column:
+        return column
+    return column if any(isinstance(value, str) for value in column) else np.array(column, float)
 
 
 def _read_columns(rows: Rows) -> Columns:

@@ -30,7 +30,7 @@ def check_drawable(sweep: Sweep) -> None:
     several = len(_varied_parameters(sweep))
     if not 0 < several <= 2:
         raise BalcliError(
-            f"--plot draws one or two parameters with several values each, not {several}"
+            f"a picture shows one or two parameters with several values each, not {several}"
         )
     if sweep.variants > MOST_PICTURE_VARIANTS:
         raise BalcliError(

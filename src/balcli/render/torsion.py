@@ -151,7 +151,8 @@ def _criticals(result: TorsionAnalysis) -> Grid:
     if left:
         note += f" JSON has {left} more."
     heads = ("mode", "order", "rpm", "phase sum", "share")
-    return Grid("Critical speeds", heads, rows, note)
+    span = "" if result.response is None else f", {_tell_span(result.response)}"
+    return Grid(f"Critical speeds{span}", heads, rows, note)
 
 
 def _holzer(result: TorsionAnalysis, asked: HolzerTable) -> Grid:
@@ -187,7 +188,7 @@ def _settle(asked: HolzerTable, value: float) -> float:
 
 
 def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text:
-    span = _tell_range(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]))
+    span = _tell_span(response)
     if not result.system.shafts:
         return Text(f"Vibration, {span}", (_tell_swing(result, response),))
     rows, worst = [], response.worst
@@ -224,6 +225,10 @@ def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text
     ]
     title = f"Vibratory torque, {span}"
     return Grid(title, tuple(heads), tuple(rows), note, words=(0, len(heads) - 1))
+
+
+def _tell_span(response: TorsionResponse) -> str:
+    return _tell_range(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]))
 
 
 def _tell_range(low: float, high: float) -> str:
@@ -268,8 +273,16 @@ def _judge_limits(result: TorsionAnalysis) -> Iterator[tuple[str, str]]:
     if system.angle_limit is not None:
         limits.append(f"±{number(float(np.degrees(system.angle_limit)))} deg at {system.nodes[0]}")
     if limits:
-        ranges = [_tell_range(low, high) for low, high in result.barred_rpm or ()]
         yield "limit", " and ".join(limits)
-        yield "barred speeds", ", ".join(ranges) or "none in this range"
+        yield "barred speeds", _list_barred(result)
     if stress and stress not in limits:
         yield "not judged", f"{stress}: no shaft has a diameter, so that no stress is known"
+
+
+def _list_barred(result: TorsionAnalysis) -> str:
+    """Ranges of speed, and whether the file's own is among them."""
+    barred, own = result.barred_rpm or (), result.system.rated_rpm
+    told = ", ".join(_tell_range(low, high) for low, high in barred) or "none in this range"
+    if own is not None and any(low <= own <= high for low, high in barred):
+        told += f"; the file's own speed, {number(own)} rpm, is barred"
+    return told

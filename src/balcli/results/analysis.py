@@ -13,7 +13,7 @@ import numpy as np
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
 from ..engine.build import Engine, check_engine
-from ..errors import BalcliError, list_words
+from ..errors import BalcliError, check_type, list_words
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
@@ -23,7 +23,7 @@ from ..forces.orders import (
     merge_orders,
 )
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
-from ..limits import HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
+from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..result import Result
 
 if TYPE_CHECKING:  # whoever asks for one of these chapters loads it
@@ -160,14 +160,18 @@ def analyze(
             one of theirs.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above HIGHEST_ORDER, too many
-            orders of too many cylinders.
-        TypeError: what is no engine.
+        BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
+            of too many cylinders; a height that is not above 0.
+        TypeError: what is no engine, no number, no words.
 
     Example:
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
     """
     wanted = _choose_quantities(check_engine("analyze", engine), only)
+    _check_height(guide_height_m)
+    check_type("beside", beside, Collection, "give engines, such as [engine]")
+    for one in beside:
+        check_engine("analyze", one)
     asked = None if orders is None else check_orders(orders, [engine, *beside])
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(EVERY_KIND)
@@ -188,6 +192,18 @@ def analyze(
         guide=_find_guide(engine, asked, guide_height_m) if "guide" in wanted else None,
         travel=None if engine.cylinders.linkage is None else _measure_travel(engine),
     )
+
+
+def _check_height(guide_height_m: float | None) -> None:
+    if guide_height_m is None:
+        return
+    wanted = "give a length in m, such as 0.6"
+    check_type("guide_height_m", guide_height_m, (int, float, np.number), wanted)
+    if not 0 < guide_height_m < HIGHEST_GUIDE_M:
+        raise BalcliError(
+            f"guide_height_m {guide_height_m:g}: the distance from the crankshaft to the middle of "
+            f"the guides must be positive, below {HIGHEST_GUIDE_M:g} m"
+        )
 
 
 def list_usual_quantities(engine: Engine) -> tuple[str, ...]:

@@ -81,14 +81,15 @@ def balance(
 
     Args:
         engine: without trailing axes.
-        scheme: one of `sizing.schemes.SCHEMES`.
+        scheme: its name, such as "counterweights" or "factor"; the message for one that is not
+            there has them all, and `balcli balance --schemes` says what each does.
         options: of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
         orders: which to show; default: 1 and 2 and all that are not negligible before or after.
-        tools: for the workshop's figures.
+        tools: of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
 
     Raises:
         BalcliError: an unknown scheme, or options that cannot be met, with the reason.
-        TypeError: what is no engine.
+        TypeError: what is no engine; options or tools that are none.
 
     Example:
         >>> balance(load("i3.toml"), "counterweights").after.moment.value
@@ -96,6 +97,7 @@ def balance(
     check_engine("balance", engine)
     check_type("balance", scheme, str, 'give the name of a scheme, such as "counterweights"')
     check_type("balance", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")
+    check_type("balance", tools, (Tools, NoneType), "give Tools(radius=0.05)")
     remedy = size(engine, scheme, options)
     tools = tools or Tools()
     practical = find_practical(engine, remedy, tools)

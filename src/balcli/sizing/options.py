@@ -23,15 +23,16 @@ _EXAMPLES = {
 
 
 class SchemeOptions(NamedTuple):
-    """Options of the schemes, lengths in m; None is an option that was not given.
+    """Options of the schemes, lengths in m; None is an option that was not given. `balcli balance
+    --schemes` says which scheme takes which.
 
     Attributes:
-        order: the order to balance.
+        order: the order to balance; default: the lowest that has what the scheme takes.
         at: places x + iy of shafts or sliders; of a pair, first that of the shaft turning against
             the crank.
         position: z of new devices.
         planes: "ends", "throws", or places z of new devices.
-        factor: shares of the reciprocating mass.
+        factor: shares of the reciprocating mass, of which the best is fitted; default: 0.5.
         measured: mass that balances the crank when it hangs on a bare pin, kg, instead of a factor.
         roll: "zero": two shafts are placed such that the roll of inertia of this order
             vanishes, too.
@@ -81,7 +82,7 @@ class SchemeOptions(NamedTuple):
             "position": _are_finite((self.position,), Real),
             "planes": isinstance(self.planes, str) or _are_finite(self.planes, Real),
             "factor": _are(self.factor, Real),
-            "measured": _are((self.measured,), Real),
+            "measured": _are_finite((self.measured,), Real),
         }
         for name, right in sound.items():
             value = getattr(self, name)

@@ -5,13 +5,15 @@ its size in steel.
 from __future__ import annotations
 
 import math
+from numbers import Real
+from types import NoneType
 from typing import NamedTuple
 
 from ..core.drilled_hole import STEEL, find_drill_depth, find_drilled_unbalance
 from ..core.phasors import wrap_degrees
 from ..engine.build import Engine
 from ..enginefile.model import Counterweight, Shaft, Slider
-from ..errors import BalcliError
+from ..errors import BalcliError, check_type
 from ..limits import MOST_HOLES
 from .device_tables import DeviceTable, find_unbalance
 from .remedy import Remedy
@@ -25,7 +27,7 @@ class Tools(NamedTuple):
 
     Attributes:
         radius: at which masses are stated; the crank radius if not said.
-        thickness, disc: thickness, or radius, of semicircular discs; THICKNESS if neither is said.
+        thickness, disc: thickness, or radius, of semicircular discs; 20 mm thick if not said.
         drill: diameter; no holes are stated if not said.
         max_depth: of holes; to the axis if not said.
         slug: density of slugs that fill the holes, kg/m3; empty holes if not said.
@@ -82,8 +84,13 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     """Figures of all devices, in the order of `remedy.devices`.
 
     Raises BalcliError unless all lengths are positive and at most one of disc and thickness is
-    given.
+    given, TypeError if one is no number.
     """
+    for name, figure in tools._asdict().items():
+        wanted = (
+            "a density in kg/m3, such as 17500" if name == "slug" else "a length in m, such as 0.02"
+        )
+        check_type(f"Tools: {name}", figure, (Real, NoneType), f"give {wanted}")
     strange = {
         name.replace("_", "-"): figure
         for name, figure in tools._asdict().items()

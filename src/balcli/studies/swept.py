@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..core.phasors import Array
@@ -31,6 +32,11 @@ class Swept(Result):
         over = ", ".join(f"{p.path} ({len(p)})" for p in sweep.parameters)
         what = ", ".join(q.name for q in sweep.quantities)
         return f"of {sweep.file.name or 'an engine'} over {over}: {what}"
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the parameters, then of the quantities."""
+        yield from (p.path for p in self.sweep.parameters)
+        yield from (q.name for q in self.sweep.quantities)
 
     def __getitem__(self, name: str) -> Array:
         """A quantity on the whole grid, or the values of a parameter, by its name.

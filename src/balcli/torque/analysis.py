@@ -12,7 +12,7 @@ from ..core.phasors import Array
 from ..core.piecewise import Extreme
 from ..core.speed_variation import Surplus, surplus
 from ..engine.build import Engine, check_engine, find_row
-from ..errors import BalcliError, check_type
+from ..errors import BalcliError, check_type, list_words
 from ..forces.gas import take_gas
 from ..forces.orders import check_orders, list_gas_orders
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
@@ -70,7 +70,7 @@ class TorqueAnalysis(Result):
 
     @property
     def mechanical_efficiency(self) -> float | None:
-        """`Engine.mechanical_efficiency`."""
+        """Brake over indicated work, as the engine has it."""
         return self.engine.mechanical_efficiency
 
     @property
@@ -101,28 +101,36 @@ def analyze_torque(
     *,
     cylinder: int = 1,
     fluctuation: float | None = None,
-    loads: tuple[str, ...] = (),
+    loads: str | Iterable[str] = (),
 ) -> TorqueAnalysis:
     """Torque of gas and inertia on the crank of an engine.
 
     Args:
         engine: with gas, without trailing axes. An uneven speed in its file does not count here.
-        orders: which to show; default: those of `list_gas_orders`.
+        orders: which to show; default: halves to 12, of a two-stroke engine whole ones; of many
+            cylinders also the order of their firing and its double.
         cylinder: whose torque is shown beside the engine's.
         fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
-        loads: any of KINDS_OF_LOAD.
+        loads: "pin" (of crank pins), "main" (of main bearings), or both.
 
     Raises:
-        BalcliError: no gas; no such cylinder; loads that are not known.
-        TypeError: what is no engine.
+        BalcliError: no gas; no such cylinder; a fluctuation that is not between 0 and 2; loads that
+            are not known.
+        TypeError: what is no engine, no number, no words.
 
     Example:
         >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed
     """
     gas = take_gas(check_engine("analyze_torque", engine))
+    check_type("cylinder", cylinder, (int, np.integer), "give a whole number from 1")
     if fluctuation is not None:
         check_type("fluctuation", fluctuation, (int, float, np.number), "give a number, as 1 / 200")
-    if strange := [word for word in loads if word not in KINDS_OF_LOAD]:
+        if not 0 < fluctuation < 2:
+            raise BalcliError(
+                f"fluctuation {fluctuation:g}: give (highest - lowest)/mean speed, such as 1 / 200"
+            )
+    wanted = list_words("loads", loads, '["pin", "main"]')
+    if strange := [word for word in wanted if word not in KINDS_OF_LOAD]:
         raise BalcliError(f"loads: {strange[0]!r}; choose from {', '.join(KINDS_OF_LOAD)}")
     steady = replace(engine, ripple=())
     shown = list_gas_orders(engine) if orders is None else check_orders(orders)
@@ -148,7 +156,7 @@ def analyze_torque(
         _find_highest(engine),
         above,
         find_flywheel(asked),
-        _find_loads(engine, loads),
+        _find_loads(engine, tuple(wanted)),
     )
 
 

@@ -159,13 +159,13 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, given: bool) -> Iterator[s
             does = "lowers", f" by less than {1 - _HARDLY:.0%}"
         yield (
             f"a {found.damper.kind} damper of {inertia:.4g} kg m2 at {node} {does[0]} the largest "
-            f"{found.measure}{does[1]}; the whole system has {whole:.4g} kg m2. Bare numbers of "
-            "--damper-inertia are kg mm2; --damper-at says where it sits"
+            f"{found.measure}{does[1]}; the whole system has {whole:.4g} kg m2. Is it of the right "
+            "size (on the command line bare numbers are kg mm2), and in the right place?"
         )
     elif given and inertia > whole:
         yield (
             f"the damper has {inertia:.4g} kg m2, more than the whole system ({whole:.4g} kg m2): "
-            "bare numbers of --damper-inertia are kg mm2"
+            "on the command line bare numbers are kg mm2"
         )
     elif not given and inertia > _HEAVY * carrier > 0:
         yield (

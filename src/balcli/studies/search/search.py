@@ -17,7 +17,7 @@ from ...engine.build import Engine, build
 from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
-from ...errors import BalcliError
+from ...errors import BalcliError, check_type
 from ...forces.orders import merge_orders
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
@@ -87,7 +87,9 @@ class Search(Result):
 
         Raises:
             IndexError: so many were not found.
+            TypeError: the rank is no whole number.
         """
+        check_type("rank", rank, (int, np.integer), "give a whole number from 1")
         if not 1 <= rank <= len(self.results):
             raise IndexError(f"rank {rank}: there are {len(self.results)}, from 1")
         return vary_engine(build(self.model), self.results[rank - 1].design.changes())
