@@ -385,6 +385,20 @@ def test_a_mode_that_no_table_can_follow_has_none(first):
     assert abs(ask(text, "--holzer", "2")["holzer"][0]["residual_Nm"]) < 1e-6
 
 
+def test_a_node_that_stands_still_is_told():
+    """Of three equal discs the one in the middle: "nodes 1, node in –" stood there."""
+    text = "".join(node(name, 0.1) for name in "abc")
+    for start, end in ("ab", "bc"):
+        text += f'[[shaft]]\nfrom = "{start}"\nto = "{end}"\nstiffness = 1e4\n'
+    first, second = ask(text)["modes"]
+    assert (first["nodes"], first["node_in"], first["node_at"]) == (1, [], ["b"])
+    assert (second["nodes"], second["node_in"], second["node_at"]) == (2, ["a-b", "b-c"], [])
+    lines = run_here("torsion", "-", stdin=text).out.splitlines()
+    assert [line.split()[3:] for line in lines if line.startswith("1 ")] == [["1", "at", "b"]]
+    held = ask('fixed = ["b"]\n' + text)["modes"]
+    assert [(mode["nodes"], mode["node_at"]) for mode in held] == [(0, []), (0, [])]
+
+
 def test_loops_have_no_holzer_table():
     loop = """
         node = [{ name = "a", inertia = 1 }, { name = "b", inertia = 2 }, { name = "c", inertia = 3 }]

@@ -89,7 +89,7 @@ def _modes(result: TorsionAnalysis) -> Grid | Text:
             number(mode.frequency_hz, 6),
             number(mode.frequency_hz * 60, 6),
             str(mode.nodes),
-            ", ".join(mode.still) or "–",
+            ", ".join([*mode.still, *(f"at {name}" for name in mode.at_rest)]) or "–",
         )
         for mode in result.modes
     )

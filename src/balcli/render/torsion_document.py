@@ -57,6 +57,7 @@ def document(result: TorsionAnalysis) -> dict[str, Any]:
                 "shape": clean_each(mode.shape),
                 "nodes": mode.nodes,
                 "node_in": list(mode.still),
+                "node_at": list(mode.at_rest),
                 "loss": clean(mode.loss),
             }
             for mode in result.modes
