@@ -370,6 +370,21 @@ def test_a_node_alone_swings_rigidly(tmp_path):
     )
 
 
+@pytest.mark.parametrize("first", ["a", "hub"])
+def test_a_mode_that_no_table_can_follow_has_none(first):
+    """Two equal branches swing against each other, and the hub is at rest: torques of 1e16 or 14
+    kN m were left over.
+    """
+    names = sorted(("hub", "b", "c", "a"), key=lambda name: name != first)
+    inertia = {"hub": 1, "a": 0.1, "b": 0.1, "c": 0.3}
+    text = "".join(node(name, inertia[name]) for name in names)
+    for end, stiffness in (("a", 1e4), ("b", 1e4), ("c", 1e5)):
+        text += f'[[shaft]]\nfrom = "hub"\nto = "{end}"\nstiffness = {stiffness!r}\n'
+    told = "cannot be followed from"
+    assert told in refusal("torsion", "-", "--holzer", "1", stdin=text)
+    assert abs(ask(text, "--holzer", "2")["holzer"][0]["residual_Nm"]) < 1e-6
+
+
 def test_loops_have_no_holzer_table():
     loop = """
         node = [{ name = "a", inertia = 1 }, { name = "b", inertia = 2 }, { name = "c", inertia = 3 }]

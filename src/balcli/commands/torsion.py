@@ -71,7 +71,7 @@ def torsion(
     ] = None,
     misfire: Annotated[
         list[int] | None,
-        optional("N", "Cylinder without gas; may be given again."),
+        optional("N", "Cylinder without gas, not even compressed; may be given again."),
     ] = None,
     damper: Annotated[
         DamperKind | None,

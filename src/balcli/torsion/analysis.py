@@ -18,6 +18,7 @@ from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # times the file's own speed to which criticals are told: engines overspeed
+_ASTRAY = 1e-3  # of the largest angle: so far from the mode's shape a table is rounding errors
 
 
 class HolzerAsked(NamedTuple):
@@ -138,4 +139,11 @@ def _tabulate(
         table = tabulate_holzer(system.chain, omega, *ends)
     except ValueError as error:
         raise system.refusal(f"--holzer: {error}") from None
+    if asked.mode is not None:
+        shape, first = modes[asked.mode - 1].shape, ends[0]
+        if np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
+            raise system.refusal(
+                f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
+                "hardly moves in it, or a branch swings by itself"
+            )
     return HolzerTable(asked.mode, omega, table)
