@@ -414,6 +414,55 @@ def test_loops_have_no_holzer_table():
     )
 
 
+FOOT_POUND = 0.3048 * 0.45359237 * 9.80665
+IMPERIAL = {  # SI units of the CSV: what stands instead, and its size
+    "N m": ("lbf·ft", FOOT_POUND),
+    "N m/rad": ("lbf·ft/rad", FOOT_POUND),
+    "N m s/rad": ("lbf·ft·s/rad", FOOT_POUND),
+    "kg m2": ("lb·in²", 0.45359237 * 0.0254**2),
+    "Pa": ("psi", 0.45359237 * 9.80665 / 0.0254**2),
+    "W": ("hp", 550 * FOOT_POUND),
+    "kg": ("lb", 0.45359237),
+    "m": ("in", 0.0254),
+}
+
+
+@pytest.mark.parametrize("kind", ["viscous", "rubber", "pendulum"])
+def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
+    asked = ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:2000:50", "--holzer", "1")
+    asked = (*asked, "--damper", kind, "-f", "csv")
+    metric, imperial = (
+        list(csv.DictReader(StringIO(run_here(*asked, "--units", units).out)))
+        for units in ("si", "imperial")
+    )
+    for si, ours in zip(metric, imperial, strict=True):
+        name, size = IMPERIAL.get(si["unit"], (si["unit"], 1))
+        assert ours | {"value": "", "unit": si["unit"]} == si | {"value": ""}
+        assert ours["unit"] == name
+        if si["value"] != ours["value"]:
+            assert float(ours["value"]) == pytest.approx(float(si["value"]) / size, rel=1e-14)
+
+
+def test_tables_and_pictures_in_imperial_units(tmp_path):
+    picture = tmp_path / "six.svg"
+    own = ("--damper", "viscous", "--damper-inertia", "200 lb in^2")
+    asked = ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:2000:20", "--plot", picture)
+    said = run_here(*asked, *own, "--holzer", "1", "--units", "imperial").out
+    assert re.search(r"^ring +200 lb·in²$", said, re.MULTILINE)
+    assert re.search(r"^node +lb·in² ", said, re.MULTILINE)
+    assert re.search(r"^node +J, lb·in² .* k, lbf·ft/rad ", said, re.MULTILINE)
+    assert re.search(r"^shaft +± lbf·ft +at rpm +sum, lbf·ft +psi ", said, re.MULTILINE)
+    assert re.search(r"^limit +7251\.9 psi$", said, re.MULTILINE)  # 50 N/mm²
+    assert not re.search(r"N·m|N/mm²|kg|\bk?W\b", said)
+    drawn = picture.read_text(encoding="utf-8")
+    assert "± psi" in drawn
+    assert " lbf·ft" in drawn
+    assert refusal(*asked, *own[:3], "200", "--units", "imperial") == (
+        '--damper-inertia "200": with --units imperial a moment of inertia needs its unit: '
+        '"200 lb in^2" or "200 kg mm^2"'
+    )
+
+
 def test_markdown_has_the_same_tables():
     out = run_here("torsion", "-", "-f", "markdown", stdin=read_starting_file()).out
     assert "| mode | Hz | 1/min | nodes | node in |" in out
