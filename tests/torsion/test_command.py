@@ -385,6 +385,20 @@ def test_a_mode_that_no_table_can_follow_has_none(first):
     assert abs(ask(text, "--holzer", "2")["holzer"][0]["residual_Nm"]) < 1e-6
 
 
+def test_a_node_that_stands_still_is_told():
+    """Of three equal discs the one in the middle: "nodes 1, node in –" stood there."""
+    text = "".join(node(name, 0.1) for name in "abc")
+    for start, end in ("ab", "bc"):
+        text += f'[[shaft]]\nfrom = "{start}"\nto = "{end}"\nstiffness = 1e4\n'
+    first, second = ask(text)["modes"]
+    assert (first["nodes"], first["node_in"], first["node_at"]) == (1, [], ["b"])
+    assert (second["nodes"], second["node_in"], second["node_at"]) == (2, ["a-b", "b-c"], [])
+    lines = run_here("torsion", "-", stdin=text).out.splitlines()
+    assert [line.split()[3:] for line in lines if line.startswith("1 ")] == [["1", "at", "b"]]
+    held = ask('fixed = ["b"]\n' + text)["modes"]
+    assert [(mode["nodes"], mode["node_at"]) for mode in held] == [(0, []), (0, [])]
+
+
 def test_loops_have_no_holzer_table():
     loop = """
         node = [{ name = "a", inertia = 1 }, { name = "b", inertia = 2 }, { name = "c", inertia = 3 }]
@@ -397,6 +411,55 @@ def test_loops_have_no_holzer_table():
     assert len(ask(loop)["modes"]) == 2
     assert refusal("torsion", "-", "--holzer", "1", stdin=loop) == (
         "standard input: --holzer: Holzer's table needs a chain in one piece, without loops"
+    )
+
+
+FOOT_POUND = 0.3048 * 0.45359237 * 9.80665
+IMPERIAL = {  # SI units of the CSV: what stands instead, and its size
+    "N m": ("lbf·ft", FOOT_POUND),
+    "N m/rad": ("lbf·ft/rad", FOOT_POUND),
+    "N m s/rad": ("lbf·ft·s/rad", FOOT_POUND),
+    "kg m2": ("lb·in²", 0.45359237 * 0.0254**2),
+    "Pa": ("psi", 0.45359237 * 9.80665 / 0.0254**2),
+    "W": ("hp", 550 * FOOT_POUND),
+    "kg": ("lb", 0.45359237),
+    "m": ("in", 0.0254),
+}
+
+
+@pytest.mark.parametrize("kind", ["viscous", "rubber", "pendulum"])
+def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
+    asked = ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:2000:50", "--holzer", "1")
+    asked = (*asked, "--damper", kind, "-f", "csv")
+    metric, imperial = (
+        list(csv.DictReader(StringIO(run_here(*asked, "--units", units).out)))
+        for units in ("si", "imperial")
+    )
+    for si, ours in zip(metric, imperial, strict=True):
+        name, size = IMPERIAL.get(si["unit"], (si["unit"], 1))
+        assert ours | {"value": "", "unit": si["unit"]} == si | {"value": ""}
+        assert ours["unit"] == name
+        if si["value"] != ours["value"]:
+            assert float(ours["value"]) == pytest.approx(float(si["value"]) / size, rel=1e-14)
+
+
+def test_tables_and_pictures_in_imperial_units(tmp_path):
+    picture = tmp_path / "six.svg"
+    own = ("--damper", "viscous", "--damper-inertia", "200 lb in^2")
+    asked = ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:2000:20", "--plot", picture)
+    said = run_here(*asked, *own, "--holzer", "1", "--units", "imperial").out
+    assert re.search(r"^ring +200 lb·in²$", said, re.MULTILINE)
+    assert re.search(r"^node +lb·in² ", said, re.MULTILINE)
+    assert re.search(r"^node +J, lb·in² .* k, lbf·ft/rad ", said, re.MULTILINE)
+    assert re.search(r"^shaft +± lbf·ft +at rpm +sum, lbf·ft +psi ", said, re.MULTILINE)
+    assert re.search(r"^limit +7251\.9 psi$", said, re.MULTILINE)  # 50 N/mm²
+    assert not re.search(r"N·m|N/mm²|kg|\bk?W\b", said)
+    drawn = picture.read_text(encoding="utf-8")
+    assert "± psi" in drawn
+    assert " lbf·ft" in drawn
+    assert refusal(*asked, *own[:3], "200", "--units", "imperial") == (
+        '--damper-inertia "200": with --units imperial a moment of inertia needs its unit: '
+        '"200 lb in^2" or "200 kg mm^2"'
     )
 
 

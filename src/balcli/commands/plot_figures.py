@@ -44,7 +44,9 @@ def make_figures(path: str, pages: Sequence[What], asked: Asked, form: Form) -> 
     if of_torsion := [page for page in pages if page in OF_TORSION]:
         for page in of_torsion:
             refuse_scheme(_choose_scheme(page, asked), page)
-        drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, form)
+        drawn = make_figures_of_torsion(
+            path, of_torsion, asked.speeds, asked.orders, form, asked.units
+        )
         found |= zip(of_torsion, drawn, strict=True)
     if others := [page for page in pages if page not in OF_TORSION]:
         found |= zip(others, _make_pages(path, others, asked, form), strict=True)

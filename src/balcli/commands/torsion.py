@@ -8,10 +8,11 @@ from typing import Annotated
 
 import typer
 
+from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, require_ending, text_format
 from .named_files import refuse_leaving_files
-from .options import FormatOption, Output, ProgressAtOnce
+from .options import FormatOption, Output, ProgressAtOnce, UnitsOption
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
 
@@ -103,6 +104,7 @@ def torsion(
         TorsionPicture, typer.Option(help="Which, with --plot; the last two take --speeds.")
     ] = TorsionPicture.ALL,
     progress: ProgressAtOnce = False,
+    units: UnitsOption = Units.SI,
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
@@ -123,12 +125,12 @@ def torsion(
     from . import torsion_answer as answers
     from .torsion_options import parse_question
 
-    asked = parse_question(speeds, orders, holzer, damper, damper_at, damper_inertia)
+    asked = parse_question(speeds, orders, holzer, damper, damper_at, damper_inertia, units)
     answers.require_options(asked, write, plot, what)
     source, result = answers.find_answer(path, asked, misfire or (), progress)
     if write is not None:
         refuse_leaving_files(source.text, path, write)
         write_file(answers.write_damper(source, result), write)
     if plot is not None and drawn is not None:
-        write_file(answers.draw(result, what, drawn), plot)
-    show([result], renderer, form, output)
+        write_file(answers.draw(result, what, drawn, units), plot)
+    show([result], renderer, form, output, units)

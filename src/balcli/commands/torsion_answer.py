@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
+from ..render.formats import Units
 from ..render.plot.torsion import draw_torsion, make_torsion
+from ..render.units import SYSTEMS
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_torsion_speeds
@@ -76,7 +78,12 @@ def write_damper(source: Source, result: TorsionAnalysis) -> str:
 
 
 def make_figures_of_torsion(
-    path: str, pages: Sequence[str], speeds: str | None, orders: str | None, form: Form
+    path: str,
+    pages: Sequence[str],
+    speeds: str | None,
+    orders: str | None,
+    form: Form,
+    units: Units,
 ) -> list[Figure]:
     """Figures of the chain or engine at a path, one a page.
 
@@ -93,17 +100,17 @@ def make_figures_of_torsion(
     found = answer_question(source, asked)
     for page in pages:
         _refuse_without_shafts(found, page)
-    return [make_torsion(found, page, form) for page in pages]
+    return [make_torsion(found, page, form, SYSTEMS[units]) for page in pages]
 
 
-def draw(result: TorsionAnalysis, what: str, form: Form) -> bytes:
+def draw(result: TorsionAnalysis, what: str, form: Form, units: Units) -> bytes:
     """The content of a file with pictures.
 
     Raises:
         BalcliError: there is no shaft whose torque could be drawn.
     """
     _refuse_without_shafts(result, what)
-    return draw_torsion(result, what, form)
+    return draw_torsion(result, what, form, SYSTEMS[units])
 
 
 def _refuse_without_shafts(result: TorsionAnalysis, what: str) -> None:

@@ -10,6 +10,7 @@ from ..core.singular_values import Real
 from ..enginefile.units import Dimension, Powers, convert
 from ..errors import BalcliError
 from ..limits import HIGHEST_TORSION_ORDER
+from ..render.formats import Units
 from ..torsion.analysis import HolzerAsked, TorsionQuestion
 from ..torsion.damper_sizing import DamperAsked
 from .amounts import read_inertia
@@ -78,6 +79,7 @@ def parse_question(
     damper: str | None,
     damper_at: str | None,
     damper_inertia: str | None,
+    units: Units = Units.SI,
 ) -> TorsionQuestion:
     """What the options of these names ask.
 
@@ -87,7 +89,7 @@ def parse_question(
     asked = None
     if damper is not None:
         said = damper_inertia
-        inertia = None if said is None else read_inertia("--damper-inertia", said)
+        inertia = None if said is None else read_inertia("--damper-inertia", said, units)
         asked = DamperAsked(damper, damper_at, inertia)
     elif damper_at is not None or damper_inertia is not None:
         option = "--damper-inertia" if damper_at is None else "--damper-at"

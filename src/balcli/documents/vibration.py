@@ -177,12 +177,15 @@ class Joint(TypedDict):
 
 
 class TorsionMode(TypedDict):
-    """A natural mode; nodes: how many places stand still, and in which shafts."""
+    """A natural mode; nodes: how many places stand still, and in which shafts, or at which nodes of
+    the chain.
+    """
 
     frequency_Hz: float
     shape: Row
     nodes: int
     node_in: list[str]
+    node_at: list[str]
     loss: float
 
 

@@ -49,9 +49,10 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     halves = ", ".join(f"{n:g}" for n in asked if n % 1)
     if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
+        give = "" if any(engine.gas for engine in engines) else "give [gas], or "
         raise BalcliError(
-            f"orders {halves}: half orders are those of gas pressure in four strokes; give [gas], "
-            "or ask for whole orders"
+            f"orders {halves}: half orders are those of gas pressure in four strokes; {give}ask "
+            "for whole orders"
         )
     return np.array(asked, float)
 

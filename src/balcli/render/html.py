@@ -115,9 +115,10 @@ def _gather_chapters(
         from . import torsion  # for files that have it
         from .plot.torsion import draw_torsion
 
-        drawn = [(what, draw_torsion(twisted, what, "svg", titled=False)) for what in _OF_TORSION]
+        drawn = (draw_torsion(twisted, what, "svg", system, titled=False) for what in _OF_TORSION)
+        named = zip(drawn, _OF_TORSION, strict=True)
         chapters["torsion"] = torsion.sheet(twisted, system)
-        chapters["twists"] = [Markup(inline_svg(svg, f"torsion-{what}")) for what, svg in drawn]
+        chapters["twists"] = [Markup(inline_svg(svg, f"torsion-{what}")) for svg, what in named]
     return chapters
 
 

@@ -14,7 +14,7 @@ from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import TorsionResponse
 from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
 from .torsion_document import document, rows
-from .units import HEAT_FLOW, SI, ShownUnit, System
+from .units import SI, ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
@@ -24,55 +24,68 @@ _MOST_ORDERS = 3  # of a shaft's torque, named beside it
 
 
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
-    """Modes first, then what was asked; units are SI."""
+    """Modes first, then what was asked."""
     parts: list[Grid | Facts | Text] = []
     if result.system.without_gas:
         parts.append(Facts((("no gas in", ", ".join(map(str, result.system.without_gas))),)))
     if result.damper is not None:
-        parts.append(_damper(result.damper))
-    parts += [_modes(result), _shapes(result)]
+        parts.append(_damper(result.damper, system))
+    parts += [_modes(result), _shapes(result, system)]
     if result.criticals:
         parts.append(_criticals(result))
-    parts += [_holzer(result, table) for table in result.holzer]
+    parts += [_holzer(result, table, system) for table in result.holzer]
     if result.response is not None:
-        parts.append(_response(result, result.response))
-    if result.response is not None and (limits := tuple(_judge_limits(result))):
+        parts.append(_response(result, result.response, system))
+    if result.response is not None and (limits := tuple(_judge_limits(result, system))):
         parts.append(Facts(limits, "Limits"))
     return Sheet(f"{result.system.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
-# Of a damper's figures: how they are called, and their units as the file has them.
-_RING = ShownUnit("kg·mm²", 1e-6, ShownUnit("kg·m²", 1), 1e7)
+# Of a damper's figures: how they are called, and how many SI units one of the file's is.
 _DAMPER_KEYS = {
-    "inertia": ("ring", _RING),
-    "damping": ("damping", ShownUnit("N·m·s/rad", 1)),
-    "stiffness": ("stiffness", ShownUnit("N·m/rad", 1)),
-    "loss": ("loss factor", ShownUnit("", 1)),
-    "mass": ("pendulums, in all", SI.mass),
-    "radius": ("hung up at a radius of", SI.length),
-    "length": ("length to the centre of mass", SI.length),
+    "inertia": ("ring", 1e-6),
+    "damping": ("damping", 1.0),
+    "stiffness": ("stiffness", 1.0),
+    "loss": ("loss factor", 1.0),
+    "mass": ("pendulums, in all", 1.0),
+    "radius": ("hung up at a radius of", 1e-3),
+    "length": ("length to the centre of mass", 1e-3),
 }
+_RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
 
 
-def _damper(sized: SizedDamper) -> Facts:
+def _choose_damper_units(system: System) -> dict[str, ShownUnit]:
+    return {
+        "inertia": _RING if system == SI else system.inertia,
+        "damping": system.torsional_damping,
+        "stiffness": system.torsional_stiffness,
+        "loss": ShownUnit("", 1),
+        "mass": system.mass,
+        "radius": system.length,
+        "length": system.length,
+    }
+
+
+def _damper(sized: SizedDamper, system: System) -> Facts:
     """What to make, and what it does."""
     finite = [value for value in (sized.before, sized.after) if not math.isinf(value)]
-    kind = SI.stress if sized.measure == "stress" else SI.moment
+    kind = system.stress if sized.measure == "stress" else system.moment
     unit = kind.fit(max(finite))
     before = "without bound" if math.isinf(sized.before) else _tell_swings(sized.before, unit)
-    pairs = [("on", sized.node)]
+    pairs, units = [("on", sized.node)], _choose_damper_units(system)
     for key, value in sized.damper.model_dump(exclude={"kind"}, exclude_none=True).items():
-        name, of_file = _DAMPER_KEYS[key]
-        told = size_text(float(value) * of_file.size, of_file, 6).rstrip()
+        name, size = _DAMPER_KEYS[key]
+        shown = units[key].fit(float(value) * size)
+        told = size_text(float(value) * size, shown, 6).rstrip()
         if key == sized.figure:
-            told += f" (best for mode {sized.mode} alone: {number(sized.start)})"
+            alone = number(shown.of(sized.start * size))
+            told += f" (best for mode {sized.mode} alone: {alone})"
         pairs.append((name, told))
     pairs.append((f"largest {sized.measure} before", before))
     pairs.append((f"largest {sized.measure} with it", _tell_swings(sized.after, unit)))
     if sized.heat:
-        pairs.append(
-            ("heat", f"up to {size_text(sized.heat, HEAT_FLOW)}, at {number(sized.heat_rpm)} rpm")
-        )
+        heat = size_text(sized.heat, system.heat)
+        pairs.append(("heat", f"up to {heat}, at {number(sized.heat_rpm)} rpm"))
     return Facts(tuple(pairs), f"Sized: a {sized.damper.kind} damper")
 
 
@@ -89,7 +102,7 @@ def _modes(result: TorsionAnalysis) -> Grid | Text:
             number(mode.frequency_hz, 6),
             number(mode.frequency_hz * 60, 6),
             str(mode.nodes),
-            ", ".join(mode.still) or "–",
+            ", ".join([*mode.still, *(f"at {name}" for name in mode.at_rest)]) or "–",
         )
         for mode in result.modes
     )
@@ -107,14 +120,19 @@ def _modes(result: TorsionAnalysis) -> Grid | Text:
     )
 
 
-def _shapes(result: TorsionAnalysis) -> Grid:
+def _shapes(result: TorsionAnalysis, system: System) -> Grid:
     shown = result.modes[:_MOST_MODES]
     geared = bool(np.any(result.system.gears != 1))
-    heads = ["node", "kg·m²", *["gear"] * geared, *(f"mode {mode.number}" for mode in shown)]
+    heads = [
+        "node",
+        system.inertia.name,
+        *["gear"] * geared,
+        *(f"mode {mode.number}" for mode in shown),
+    ]
     rows = []
     for k, name in enumerate(result.system.nodes):
-        inertia = result.system.chain.inertia[k]
-        cells = [name, number(float(inertia)) if inertia else "–"]
+        inertia = system.inertia.of(float(result.system.chain.inertia[k]))
+        cells = [name, number(inertia) if inertia else "–"]
         cells += [number(float(result.system.gears[k]))] * geared
         rows.append((*cells, *(_signed(mode.shape[k]) for mode in shown)))
     note = "Angle of each node by itself, the largest 1."
@@ -155,25 +173,34 @@ def _criticals(result: TorsionAnalysis) -> Grid:
     return Grid(f"Critical speeds{span}", heads, rows, note)
 
 
-def _holzer(result: TorsionAnalysis, asked: HolzerTable) -> Grid:
+def _holzer(result: TorsionAnalysis, asked: HolzerTable, system: System) -> Grid:
     table, chain = asked.table, result.system.chain
-    unit = SI.moment.fit(float(np.abs([table.torque, table.total]).max()))
+    inertia, stiffness = system.inertia, system.torsional_stiffness
+    unit = system.moment.fit(float(np.abs([table.torque, table.total]).max()))
     rows = tuple(
         (
             name,
-            number(float(chain.inertia[k])),
+            number(inertia.of(float(chain.inertia[k]))),
             number(float(table.angle[k]), 6),
             number(unit.of(float(table.torque[k]))),
             number(unit.of(_settle(asked, float(table.total[k])))),
-            _stiffness(float(table.stiffness[k])),
+            _stiffness(stiffness.of(float(table.stiffness[k]))),
             number(float(table.twist[k]), 4) if table.stiffness[k] else "–",
         )
         for k, name in enumerate(result.system.nodes)
     )
     what = f"mode {asked.mode}" if asked.mode else "trial"
     title = f"Holzer's table, {what}: {number(asked.omega, 7)} rad/s; torques in {unit.name}"
-    left = f"Left over at the end: {size_text(_settle(asked, table.residual), SI.moment, 5)}."
-    heads = ("node", "J, kg·m²", "angle", "J ω² angle", "sum", "k, N·m/rad", "twist")
+    left = f"Left over at the end: {size_text(_settle(asked, table.residual), system.moment, 5)}."
+    heads = (
+        "node",
+        f"J, {inertia.name}",
+        "angle",
+        "J ω² angle",
+        "sum",
+        f"k, {stiffness.name}",
+        "twist",
+    )
     return Grid(title, heads, rows, left)
 
 
@@ -187,12 +214,13 @@ def _settle(asked: HolzerTable, value: float) -> float:
     return 0.0 if abs(value) <= 1e-9 * size else value
 
 
-def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text:
+def _response(result: TorsionAnalysis, response: TorsionResponse, system: System) -> Grid | Text:
     span = _tell_span(response)
     if not result.system.shafts:
         return Text(f"Vibration, {span}", (_tell_swing(result, response),))
     rows, worst = [], response.worst
-    unit = SI.moment.fit(float(worst.sums.max()))
+    unit = system.moment.fit(float(worst.sums.max()))
+    stress = system.stress.fit(0.0)
     stressed = bool(np.any(np.isfinite(response.stress)))
     for k, name in enumerate(result.system.shafts):
         cells = [
@@ -202,7 +230,7 @@ def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text
             number(unit.of(float(worst.sums[k]))),
         ]
         if stressed:
-            cells.append(number(float(worst.stress[k]) / 1e6, 4))
+            cells.append(number(stress.of(float(worst.stress[k])), 4))
         rows.append((*cells, _name_orders(response, k, unit)))
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
@@ -212,7 +240,7 @@ def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text
     for k, name in enumerate(response.dampers):
         note += (
             f" The damper of {name.removesuffix(' ring')} turns up to "
-            f"{size_text(float(worst.heat[k]), HEAT_FLOW)} to heat, at "
+            f"{size_text(float(worst.heat[k]), system.heat)} to heat, at "
             f"{number(float(worst.hottest_rpm[k]))} rpm."
         )
     heads = [
@@ -220,7 +248,7 @@ def _response(result: TorsionAnalysis, response: TorsionResponse) -> Grid | Text
         f"± {unit.name}",
         "at rpm",
         f"sum, {unit.name}",
-        *["N/mm²"] * stressed,
+        *[stress.name] * stressed,
         "largest orders",
     ]
     title = f"Vibratory torque, {span}"
@@ -264,10 +292,10 @@ def _name_orders(response: TorsionResponse, shaft: int, unit: ShownUnit) -> str:
     )
 
 
-def _judge_limits(result: TorsionAnalysis) -> Iterator[tuple[str, str]]:
+def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str, str]]:
     """The limits of the file, and which speeds pass them."""
     system, limits = result.system, []
-    stress = "" if system.limit_pa is None else f"{number(system.limit_pa / 1e6)} N/mm²"
+    stress = "" if system.limit_pa is None else size_text(system.limit_pa, units.stress, None)
     if stress and any(system.sections):
         limits.append(stress)
     if system.angle_limit is not None:

@@ -16,7 +16,7 @@ from ..torsion.system import TorsionalSystem
 from .csv import Rows, name_cell
 from .figures import clean, clean_each
 from .sheet import order_number
-from .units import System
+from .units import SI, System
 
 # Endings of keys in JSON, by the units of CSV.
 _ENDINGS = {
@@ -57,6 +57,7 @@ def document(result: TorsionAnalysis) -> dict[str, Any]:
                 "shape": clean_each(mode.shape),
                 "nodes": mode.nodes,
                 "node_in": list(mode.still),
+                "node_at": list(mode.at_rest),
                 "loss": clean(mode.loss),
             }
             for mode in result.modes
@@ -194,11 +195,30 @@ def _finite(value: float) -> float | None:
 
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
-    """Every figure of the document a row, SI."""
-    return Rows(_HEADER, _lines(result))
+    """Every figure of the document a row."""
+    lines = _lines(result)
+    return Rows(_HEADER, lines if system == SI else (_convert(line, system) for line in lines))
 
 
 Line = tuple[Any, ...]
+
+
+def _convert(line: Line, system: System) -> Line:
+    """A row in the units of people who do not read SI."""
+    units = {
+        "kg m2": system.inertia,
+        "N m s/rad": system.torsional_damping,
+        "N m/rad": system.torsional_stiffness,
+        "kg": system.mass,
+        "m": system.length,
+        "Pa": system.stress,
+        "N m": system.moment,
+        "W": system.heat,
+    }
+    *where, value, name = line
+    if name not in units or value is None:
+        return line
+    return (*where, clean(units[name].of(value)), units[name].name)
 
 
 def _lines(result: TorsionAnalysis) -> Iterator[Line]:

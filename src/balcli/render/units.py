@@ -51,6 +51,17 @@ class System(NamedTuple):
     energy: ShownUnit
     power: ShownUnit
     inertia: ShownUnit
+    heat: ShownUnit
+
+    @property
+    def torsional_stiffness(self) -> ShownUnit:
+        """Moment for each radian."""
+        return ShownUnit(f"{self.moment.name}/rad", self.moment.size)
+
+    @property
+    def torsional_damping(self) -> ShownUnit:
+        """Moment for each radian in a second."""
+        return ShownUnit(f"{self.moment.name}·s/rad", self.moment.size)
 
     def unit(self, kind: Kind) -> ShownUnit:
         """The unit of a kind of force or moment."""
@@ -74,9 +85,11 @@ SI = System(
     energy=ShownUnit("J", 1, ShownUnit("kJ", 1e3, ShownUnit("MJ", 1e6), 5000), 5000),
     power=ShownUnit("W", 1, ShownUnit("kW", 1e3), 0),
     inertia=ShownUnit("kg·m²", 1),
+    heat=ShownUnit("W", 1, ShownUnit("kW", 1e3, ShownUnit("MW", 1e6), 5000), 5000),
 )
 _LBF_FT = units.POUND_FORCE * 12 * INCH
 _PSI = ShownUnit("psi", units.POUND_FORCE / INCH**2)
+_HP = ShownUnit("hp", 550 * _LBF_FT)
 IMPERIAL = System(
     ShownUnit("lbf", units.POUND_FORCE),
     ShownUnit("lbf·ft", _LBF_FT),
@@ -87,10 +100,10 @@ IMPERIAL = System(
     pressure=_PSI,
     stress=_PSI,
     energy=ShownUnit("lbf·ft", _LBF_FT),
-    power=ShownUnit("hp", 550 * _LBF_FT),
+    power=_HP,
     inertia=ShownUnit("lb·in²", POUND * INCH**2),
+    heat=_HP,
 )
-HEAT_FLOW = ShownUnit("W", 1, ShownUnit("kW", 1e3, ShownUnit("MW", 1e6), 5000), 5000)
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 

@@ -7,10 +7,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.singular_values import Complex, Real
 from ..core.speeds import RPM
-from ..core.torsional_chain import Chain, Damping
+from ..core.torsional_chain import Chain, Damping, find_still
 from ..core.torsional_modes import chain_loss, count_nodes, find_chain_modes, find_chain_poles
 from ..core.vibration import scale_shapes
 from .system import Excitation, TorsionalSystem, ViscousRing
@@ -27,6 +28,7 @@ class NaturalMode(NamedTuple):
         shape: (nodes,) angle of each node by itself, the largest +1.
         nodes: how many shafts have ends that move oppositely.
         still: their names: there lie the nodes.
+        at_rest: names of the nodes of the chain that are nodes of the mode themselves.
         loss: loss factor, dampers and shafts together.
     """
 
@@ -35,6 +37,7 @@ class NaturalMode(NamedTuple):
     shape: Real
     nodes: int
     still: tuple[str, ...]
+    at_rest: tuple[str, ...]
     loss: float
 
     @property
@@ -77,6 +80,7 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
             shapes[k - modes.rigid],
             count_nodes(system.chain, shapes[k - modes.rigid]),
             find_still_shafts(system, shapes[k - modes.rigid]),
+            find_nodes_at_rest(system, shapes[k - modes.rigid]),
             float(loss[k]),
         )
         for k in elastic
@@ -116,10 +120,26 @@ def find_still_shafts(system: TorsionalSystem, shape: Real) -> tuple[str, ...]:
     """Names of the shafts whose ends move oppositely in a mode (nodes,)."""
     chain = system.chain
     moved = shape[chain.end] * shape[chain.start] * np.sign(chain.ratio)
-    tiny = 1e-9 * np.abs(shape).max()
-    both = np.minimum(np.abs(shape[chain.end]), np.abs(shape[chain.start])) > tiny
-    still = (moved < 0) & both & np.isfinite(chain.stiffness)
+    moves = _mark_moving(shape)
+    still = (moved < 0) & moves[chain.end] & moves[chain.start] & np.isfinite(chain.stiffness)
     return tuple(system.shafts[k] for k in np.flatnonzero(still))
+
+
+def find_nodes_at_rest(system: TorsionalSystem, shape: Real) -> tuple[str, ...]:
+    """Names of the nodes at rest in a mode (nodes,) between others that turn against each other."""
+    chain, moves = system.chain, _mark_moving(shape)
+    pulled = np.zeros((2, len(shape)), bool)  # one way and the other
+    for here, there in ((chain.start, chain.end), (chain.end, chain.start)):
+        ahead = shape[there] * chain.ratio > 0
+        for way, shafts in enumerate((ahead, ~ahead)):
+            pulled[way, here[shafts & moves[there]]] = True
+    at_rest = pulled.all(axis=0) & ~moves & ~find_still(chain)
+    return tuple(system.nodes[k] for k in np.flatnonzero(at_rest))
+
+
+def _mark_moving(shape: Real) -> NDArray[np.bool_]:
+    """Which nodes move in a mode, more than by rounding."""
+    return np.asarray(np.abs(shape) > 1e-9 * np.abs(shape).max())
 
 
 def find_criticals(

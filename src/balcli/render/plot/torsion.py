@@ -13,7 +13,7 @@ import numpy as np
 from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
-from ..units import SI
+from ..units import SI, System
 from .style import (
     BLUE,
     FAINT,
@@ -41,14 +41,18 @@ _MOST_ORDERS = 12  # that are named in a Campbell diagram
 _WORTH = 1e-3  # share of work from which a critical is drawn
 
 
-def draw_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool = True) -> bytes:
+def draw_torsion(
+    result: TorsionAnalysis, what: str, form: Form, system: System = SI, *, titled: bool = True
+) -> bytes:
     """The content of a file with a page of pictures, as far as they were asked for; `what` is one
     of PAGES. With the system's name above them, unless they are not to be titled.
     """
-    return save_figure(make_torsion(result, what, form, titled=titled), form)
+    return save_figure(make_torsion(result, what, form, system, titled=titled), form)
 
 
-def make_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool = True) -> Figure:
+def make_torsion(
+    result: TorsionAnalysis, what: str, form: Form, system: System = SI, *, titled: bool = True
+) -> Figure:
     """What `draw_torsion` writes, as a figure of matplotlib."""
     parts: list[Callable[[Axes], None]] = []
     if what in ("all", "modes"):
@@ -58,11 +62,11 @@ def make_torsion(result: TorsionAnalysis, what: str, form: Form, *, titled: bool
     response, shafts = result.response, result.system.shafts
     if response is not None:
         if what in ("all", "response") and shafts:
-            parts.append(lambda ax: _draw_torque(ax, result, response))
+            parts.append(lambda ax: _draw_torque(ax, result, response, system))
         if what == "response":
             parts.append(lambda ax: _draw_swing(ax, result, response))
         if what in ("all", "waterfall") and shafts:
-            parts.append(lambda ax: _draw_waterfall(ax, result, response))
+            parts.append(lambda ax: _draw_waterfall(ax, result, response, system))
     rows, columns = (2, 2) if len(parts) > 2 else (len(parts), 1) if what != "all" else (1, 2)
     with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3, form) as fig:
         for ax, draw in zip(_lay_out(fig, rows, columns), parts, strict=False):
@@ -144,7 +148,9 @@ def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
         ax.axvspan(low, high, color=RED, alpha=0.12, linewidth=0)
 
 
-def _draw_torque(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
+def _draw_torque(
+    ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
+) -> None:
     """Half of peak to peak of the shafts with the largest; as stress, of those with a diameter,
     where the file limits it.
     """
@@ -154,7 +160,7 @@ def _draw_torque(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -
     by_stress = bool(stressed) and limit is not None
     shown = sorted((stressed if by_stress else largest)[:_MOST_SHAFTS])
     swings = response.stress if by_stress else response.torque
-    unit = (SI.stress if by_stress else SI.moment).fit(float(swings[:, shown].max()))
+    unit = (system.stress if by_stress else system.moment).fit(float(swings[:, shown].max()))
     for k, (line, colour) in zip(shown, cycle(_STYLES)):
         name = fit_name(result.system.shafts[k], 22)
         ax.plot(response.speeds_rpm, swings[:, k] / unit.size, line, color=colour, label=name)
@@ -187,7 +193,9 @@ def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
     ax.set(xlabel="rpm", ylabel=f"± {unit}")
 
 
-def _draw_waterfall(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
+def _draw_waterfall(
+    ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
+) -> None:
     """Torque of the shaft with the largest: every order a stream up the speeds, as wide as it is
     large.
     """
@@ -203,6 +211,6 @@ def _draw_waterfall(ax: Axes, result: TorsionAnalysis, response: TorsionResponse
     ax.grid(visible=False, axis="x")
     ax.set_xlim(0, float(response.orders[-1]) + gap)
     name = fit_name(result.system.shafts[shaft], 22)
-    unit = SI.moment.fit(float(amplitudes.max()))
+    unit = system.moment.fit(float(amplitudes.max()))
     largest = f"{number(unit.of(float(amplitudes.max())), 3)} {unit.name}"
     ax.set_title(f"Torque of {name} by order, its width; the largest {largest}", pad=22)
