@@ -96,7 +96,7 @@ class Problem(NamedTuple):
     Attributes:
         path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
         message: what is wrong there, and what would be right.
-        missing: paths of keys of which one has to be there, and none is; empty for other mistakes.
+        missing: paths of keys that are not there, without which it is a mistake; empty: of none.
     """
 
     path: str
