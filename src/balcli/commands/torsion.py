@@ -71,7 +71,7 @@ def torsion(
     ] = None,
     misfire: Annotated[
         list[int] | None,
-        optional("N", "Cylinder without gas, not even compressed; may be given again."),
+        optional("N", "Cylinder without gas, not even compressed (heat = 0 of [cylinder.N] is so); may be given again."),
     ] = None,
     damper: Annotated[
         DamperKind | None,
