@@ -110,7 +110,7 @@ def test_an_option_of_other_commands_is_told_with_them(balcli):
     assert last.startswith("Error: No such option: --units")
     assert last.endswith(
         ". Commands that have it: analyze, compare, sum, torque, plot, report, balance, field, "
-        "mounts"
+        "mounts, torsion"
     )
 
 

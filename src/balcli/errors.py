@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from enum import IntEnum
+from numbers import Real
 from os import PathLike
 from typing import NamedTuple
 
@@ -94,7 +96,7 @@ class Problem(NamedTuple):
     Attributes:
         path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
         message: what is wrong there, and what would be right.
-        missing: paths of keys of which one has to be there, and none is; empty for other mistakes.
+        missing: paths of keys that are not there, without which it is a mistake; empty: of none.
     """
 
     path: str
@@ -158,6 +160,19 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
     """
     if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
         raise wrong_type(function, value, wanted)
+
+
+def check_number(name: str, value: object, wanted: str) -> float:
+    """For the library: a number; one of hundreds of digits counts as infinite.
+
+    Raises:
+        TypeError: it is none.
+    """
+    check_type(name, value, Real, wanted)
+    try:
+        return float(value)  # type: ignore[arg-type]
+    except OverflowError:
+        return math.inf
 
 
 def list_words(

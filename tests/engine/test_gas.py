@@ -71,7 +71,7 @@ def test_a_cylinder_without_heat_compresses_and_expands_alike():
     assert len({id(c.torque) for c in engine.gas.cylinders}) == 2
 
 
-@pytest.mark.parametrize("cycle", ["otto", "diesel", "dual\"\nmax_pressure = \"60 bar"])
+@pytest.mark.parametrize("cycle", ["otto", "diesel", 'dual"\nmax_pressure = "60 bar'])
 def test_whatever_the_cycle_a_cylinder_without_heat_is_the_same(cycle):
     text = FOUR + WIEBE + "[cylinder.2]\nheat = 0\n"
     found, other = (

@@ -278,6 +278,27 @@ def test_mistakes_of_a_table_beside_a_misspelt_key_are_told():
     )
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            changed(("mass = 0.6\ncg = 45", "smallend = 0.2\nbig_end = 0.4")),
+            "rod.smallend: unknown key in [rod]; did you mean small_end?",
+        ),
+        (
+            GOOD + "[[counterweight]]\nmass = 1\nradus = 30\n",
+            "counterweight.1.radus: unknown key in [counterweight]; did you mean radius?",
+        ),
+        (
+            GOOD + "[gas]\ncycle = 'otto'\nimep = 5\ncompresion_ratio = 9\n",
+            "gas.compresion_ratio: unknown key in [gas]; did you mean compression_ratio?",
+        ),
+    ],
+)
+def test_what_is_misspelt_is_not_missing(text, told):
+    assert refusal(text) == f"e.toml: {told}"
+
+
 def test_rules_that_do_not_need_a_broken_key_are_applied():
     text = changed(("[1, 3, 4, 2]", "[1, 3, 4, 0]\nnumbering = [[1, 2], [2, 1]]"))
     assert refusal(text) == (

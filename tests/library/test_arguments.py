@@ -72,7 +72,7 @@ CHAIN = {
         ),
         (
             lambda: balcli.balance_rotor({"planes": ["a"], "run": [{"readings": ["5 @ 30"]}]}),
-            "engine: run: there is no trial weight in a; add a run with one, such as weights = "
+            "file of runs: run: there is no trial weight in a; add a run with one, such as weights = "
             '{ a = "10 @ 0" }, give influence, or leave the plane out with without a',
         ),
         (

@@ -44,6 +44,12 @@ HUGE = 10**5000  # Python does not write numbers of so many digits
         (lambda: parse_share("quantile", HUGE), "quantile an integer of about 5001 digits: give"),
         (lambda: balcli.analyze(FOUR, [HUGE]), "not an integer of about 5001 digits"),
         (lambda: balcli.analyze(FOUR, HUGE), "orders: a number of thousands of digits (int): give"),
+        (lambda: balcli.curves(FOUR, HUGE), "step_deg inf: give a step"),
+        (lambda: balcli.combine(FOUR, FOUR, phase_deg=HUGE), "phase_deg inf: give an angle"),
+        (lambda: balcli.combine(FOUR, FOUR, turn_deg=HUGE), "turn_deg inf: give an angle"),
+        (lambda: balcli.analyze(FOUR, guide_height_m=HUGE), "guide_height_m inf: the distance"),
+        (lambda: balcli.analyze_torque(GAS, fluctuation=HUGE), "fluctuation inf: give "),
+        (lambda: balcli.balance(FOUR, tools=balcli.Tools(HUGE)), "radius: inf mm; give figures"),
         (lambda: FOUR.vary({"rod.length": HUGE}), "rod.length: an integer of about 5001 digits"),
         (
             lambda: balcli.sweep(FOUR, {"rod.length": [HUGE]}, ["force.2.major"]),
@@ -505,7 +511,11 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
         TypeError,
         "balance_rotor: 5 (int): give the path, text or dict of a file of runs",
     ),
-    (lambda: balcli.balance_rotor({"planes": ["a"]}), balcli.InputError, "engine: run: is missing"),
+    (
+        lambda: balcli.balance_rotor({"planes": ["a"]}),
+        balcli.InputError,
+        "file of runs: run: is missing",
+    ),
     (lambda: balcli.balance_rotor("no.toml"), balcli.BalcliError, "no.toml: no such file"),
     (lambda: balcli.balance(V8, 5), TypeError, "balance: 5 (int): give the name of a scheme"),
     (
@@ -730,6 +740,54 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
             "without: 5 (int): give names of planes, such as ",
         )
         for names in (5, [5])
+    ),
+    (
+        lambda: balcli.analyze_mounts(MOUNTS, orders=3),
+        TypeError,
+        "orders: 3 (int): give numbers, such as [1, 2, 4]",
+    ),
+    *(
+        (
+            lambda orders=orders: balcli.analyze(V8, orders=orders),
+            TypeError,
+            f"orders: {orders!r} ({type(orders).__name__}): give numbers, such as [1, 2, 4]",
+        )
+        for orders in (np.array(3), b"12")
+    ),
+    *(
+        (
+            lambda limits=limits: balcli.search(V8, "throws", "force.1.major", limits=limits),
+            TypeError,
+            f"search: {limits!r} ({type(limits).__name__}): give a dict, such as ",
+        )
+        for limits in ("", [], np.array([1, 2]))
+    ),
+    *(
+        (ask, TypeError, f"{name}: 'no' (str): give True or False")
+        for name, ask in {
+            "by_cylinder": lambda: balcli.analyze(V8, by_cylinder="no"),
+            "reasons": lambda: balcli.analyze(V8, reasons="no"),
+            "even_firing": lambda: balcli.search(V8, "throws", "force.1.major", even_firing="no"),
+        }.items()
+    ),
+    *(
+        (
+            lambda name=name: balcli.balance(V8, "minimax", balcli.SchemeOptions(**{name: ()})),
+            TypeError,
+            f"SchemeOptions: {name}: () (tuple): give ",
+        )
+        for name in ("at", "planes", "factor")
+    ),
+    (
+        lambda: V8.vary({"counterweight.1.mass": 1}),
+        balcli.InputError,
+        "90-degree cross-plane V8 with counterweight.1.mass: counterweight.1.mass: there is no 1; "
+        "the file has none",
+    ),
+    (
+        lambda: V8.vary({"layout.firing_order": iter([])}),
+        balcli.InputError,
+        "90-degree cross-plane V8 with layout.firing_order: layout.firing_order: is an empty list",
     ),
     (
         lambda: balcli.combine(FOUR, FOUR, at_m="123"),

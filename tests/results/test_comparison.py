@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import pytest
+from support.commands import run_here
 from support.engines import GOOD, changed
 from support.gas_engines import WIEBE
 
@@ -24,6 +26,26 @@ def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
     assert lines["force", None].ratios == pytest.approx((1, 4))
     assert lines["force", 1].values == (0, 0)
     assert math.isnan(lines["force", 1].ratios[1])
+
+
+@pytest.mark.parametrize(
+    ("second", "rpm", "told"),
+    [
+        ("speed = 3000", 3000, "speed  3000 rpm"),
+        ("speed = 6000.5", 6000.5, "speeds  3000 rpm; 6000.5 rpm"),
+        ("", 1000, "speeds  3000 rpm; 1000 rpm, assumed: the file gives none"),
+    ],
+)
+def test_at_which_speeds_engines_are_compared_is_told(
+    tmp_path, second: str, rpm: float, told: str
+) -> None:
+    """Ratios of engines at different speeds are mostly those of their speeds."""
+    files = tmp_path / "one.toml", tmp_path / "other.toml"
+    for file, speed in zip(files, ("speed = 3000", second), strict=True):
+        file.write_text(changed(("speed = 3000", speed)), encoding="utf-8")
+    assert told in run_here("compare", *files).out.splitlines()
+    document = json.loads(run_here("compare", *files, "-f", "json").out)
+    assert document["speeds_rpm"] == [3000, rpm]
 
 
 def test_orders_of_every_engine_are_shown() -> None:

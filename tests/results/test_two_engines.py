@@ -334,6 +334,14 @@ def test_what_the_roll_is_stands_under_the_table(file, load, roll):
     assert told not in run(file, file).out
 
 
+def test_a_speed_that_no_file_gives_is_told_as_assumed(file, tmp_path):
+    """Both run at the first one's speed."""
+    slow = tmp_path / "slow.toml"
+    slow.write_text(Path(file).read_text().replace("speed = 3000", ""))
+    assert "speed      both at 3000 rpm\n" in run(file, str(slow)).out
+    assert "speed      both at 1000 rpm, assumed: the file gives none\n" in run(slow, file).out
+
+
 def test_engines_without_a_name_go_by_their_files(file, tmp_path):
     nameless = tmp_path / "twin.toml"
     nameless.write_text(Path(file).read_text().replace('name = "single"', ""))

@@ -6,7 +6,6 @@ import shlex
 from collections.abc import Sequence
 
 from ..errors import BalcliError
-from ..render import comparison as renderer
 from ..render.formats import Units
 from .file_names import text_format
 from .options import (
@@ -46,6 +45,7 @@ def compare(
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
+    from ..render import comparison as renderer
     from ..results.comparison import compare_engines
     from .inputs import name_engines, read_engine
 

@@ -106,6 +106,7 @@ class Compare(Document):
 
     format: Literal["balcli.compare/1"]
     engines: list[str]
+    speeds_rpm: list[float]
     figures: list[ComparedFigure]
 
 

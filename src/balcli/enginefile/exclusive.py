@@ -22,22 +22,23 @@ class Choice(NamedTuple):
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
         """What is wrong with these keys, in words that a table's name can stand before."""
-        begun = [(group, [key for key in group if key in given]) for group in self.groups]
-        chosen = [(group, keys) for group, keys in begun if keys]
-        if len(chosen) > 1:
-            keys = [key for _, some in chosen for key in some]
+        begun = [[key for key in group if key in given] for group in self.groups]
+        keys, missing = [key for some in begun for key in some], self.find_missing(given)
+        if sum(map(bool, begun)) > 1:
             yield f"has {join_words(keys)}; {self._wanted()}"
-        elif self.find_missing(given):
+        elif missing and not keys:
             yield f"has neither {' nor '.join(map(join_words, self.groups))}; {self._wanted()}"
-        elif chosen and self.complete and len(chosen[0][1]) < len(chosen[0][0]):
-            group, keys = chosen[0]
-            missing = [key for key in group if key not in keys]
+        elif missing:
             yield f"has {join_words(keys)} without {join_words(missing)}; {self._wanted()}"
 
     def find_missing(self, given: Collection[str]) -> tuple[str, ...]:
-        """The keys of which one must be given, if none is."""
-        keys = tuple(key for group in self.groups for key in group)
-        return keys if self.required and not any(key in given for key in keys) else ()
+        """Keys that are not there, and of which one has to be, or all."""
+        begun = [group for group in self.groups if any(key in given for key in group)]
+        if not begun and self.required:
+            return tuple(key for group in self.groups for key in group)
+        if len(begun) == 1 and self.complete:
+            return tuple(key for key in begun[0] if key not in given)
+        return ()
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """The keys that must not be given beside this one; none for a key of no group."""

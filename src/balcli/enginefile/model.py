@@ -7,7 +7,7 @@ a file has.
 """
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Set
+from collections.abc import Callable, Iterable, Iterator, Set
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple
@@ -102,13 +102,10 @@ class FileTable(BaseModel):
         of_choices = [mistake for choice in self.choices for mistake in choice.mistakes(given)]
         return [*of_choices, *self.contradictions()]
 
-    def contradictions(self, illegible: Collection[str] = ()) -> Iterator[str]:
-        """What the fields of this table say against each other, as far as that can be said without
-        those that could not be read.
-        """
+    def contradictions(self) -> Iterator[str]:
+        """What the fields of this table say against each other."""
         for rule in self.rules:
-            if rule.needs.isdisjoint(illegible):
-                yield from rule.check(self)
+            yield from rule.check(self)
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """Keys of what says the same as this one, of which only one may be given."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -47,7 +47,7 @@ def _plain(value: Any) -> Any:
         return {_key(key): _plain(inner) for key, inner in value.items() if inner is not None}
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, range, Iterator)):
         return [_plain(inner) for inner in value]
     return value
 
@@ -123,4 +123,5 @@ def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
         return labels.index(key)
     if key.isdecimal() and 0 < int(key) <= len(place):
         return int(key) - 1
-    raise InputError([Problem(path, f"there is no {key}; the file has {', '.join(labels[:8])}")])
+    there = ", ".join(labels[:8]) or "none"
+    raise InputError([Problem(path, f"there is no {key}; the file has {there}")])

@@ -6,7 +6,7 @@ What the tables say against each other is not looked at here: that takes an engi
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -249,12 +249,8 @@ class _Reader:
         findings in them.
         """
         findings = [found for found in error.errors(include_url=False) if found["loc"]]
-        for choice in table.choices:
-            missing = tuple(join_path(path, [key]) for key in choice.find_missing(value))
-            self.problems += (Problem(path, mistake, missing) for mistake in choice.mistakes(value))
         broken = {str(finding["loc"][0]) for finding in findings}
-        for mistake in _find_contradictions(table, value, broken):
-            self.add(path, mistake)
+        self.problems += _find_contradictions(path, table, value, broken)
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
@@ -265,18 +261,27 @@ class _Reader:
 
 
 def _find_contradictions(
-    table: type[FileTable], value: Mapping[str, Any], broken: set[str]
-) -> list[str]:
-    """What the keys of a table say against each other, without the broken ones; nothing where a key
-    is broken or missing that has to be there.
+    path: str, table: type[FileTable], value: Mapping[str, Any], broken: set[str]
+) -> Iterator[Problem]:
+    """What the keys of a table say against each other, and their values, as far as that can be said
+    without the broken ones; of values nothing where one that has to be there is broken or missing.
     """
+
+    def tell(mistakes: Iterable[str], keys: Iterable[str]) -> Iterator[Problem]:
+        missing = tuple(join_path(path, [key]) for key in keys if key not in value)
+        return (Problem(path, mistake, missing) for mistake in mistakes)
+
+    for choice in table.choices:
+        yield from tell(choice.mistakes(value), choice.find_missing(value))
     legible = {key: part for key, part in value.items() if key not in broken}
     try:
         draft = table.model_validate(legible, context=broken)
     except ValidationError:
-        return []
+        return
     draft.model_fields_set.update(broken & value.keys())  # these are given, too
-    return list(draft.contradictions(broken))
+    for rule in table.rules:
+        if rule.needs.isdisjoint(broken):
+            yield from tell(rule.check(draft), rule.needs)
 
 
 def _count_values(value: object) -> int:

@@ -68,9 +68,10 @@ class TableReader:
             return None
 
     def refusal(self, name: str) -> InputError:
-        """The error that lists the mistakes of the file with this name."""
+        """The error that lists the mistakes of the file with this name, or of one without."""
         more = max(len(self.problems) - MOST_MISTAKES_SHOWN, 0)
-        return InputError(self.problems[:MOST_MISTAKES_SHOWN], name, more)
+        named = name or self._file_kind.removeprefix("a ")
+        return InputError(self.problems[:MOST_MISTAKES_SHOWN], named, more)
 
     def _refuse_key(self, path: str, key: str, table: type[FileTable]) -> None:
         place = f"in {_heading(path)}" if path else f"in {self._file_kind}"

@@ -59,7 +59,8 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
 
 def _list_numbers(orders: object) -> list[float]:
     strange: object = orders
-    if isinstance(orders, Iterable) and not isinstance(orders, str):
+    is_number = isinstance(orders, np.ndarray) and orders.ndim == 0
+    if isinstance(orders, Iterable) and not (is_number or isinstance(orders, (str, bytes))):
         given = list(orders)
         if all(isinstance(one, (int, float, np.number)) for one in given):
             return given

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-import numpy as np
-
 from ..engine.build import Engine, check_engine
-from ..errors import check_type
+from ..errors import check_number, check_type
 from ..results.two_engines import Arrangement, Combined, Load, check_arrangement, combine_engines
 from .arguments import read_position, tell_arguments
 
@@ -50,11 +48,11 @@ def combine(
         >>> combine(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).force.value
     """
     checked = check_engine("combine", first), check_engine("combine", second)
-    for name, value in (("phase_deg", phase_deg), ("turn_deg", turn_deg)):
-        check_type(name, value, (int, float, np.number), "give an angle in degrees")
+    phase = check_number("phase_deg", phase_deg, "give an angle in degrees")
+    turn = check_number("turn_deg", turn_deg, "give an angle in degrees")
     check_type("reverse", reverse, bool, "give True or False")
     check_type("load", load, str, "give first, second or both")
     place = read_position("at_m", at_m)
-    arrangement = Arrangement(float(phase_deg), place, float(turn_deg), reverse, load)
+    arrangement = Arrangement(phase, place, turn, reverse, load)
     check_arrangement(arrangement)
     return combine_engines(*checked, arrangement, orders)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..engine.build import Engine, check_engine
-from ..errors import check_type
+from ..errors import check_number
 from ..forces.curves import Curves, divide_revolution
 from ..studies.curves import compute_curves
 from .arguments import check_count, tell_arguments
@@ -23,6 +21,8 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
 
     Returns:
         `crank_deg` and, by name with unit (`force_x_N`), `values` of the same shape (angles,).
+        Those of a cylinder count along it, outward, and across it, to the side to which the crank
+        pin moves after top dead centre; travel towards the crank (docs/json.md).
 
     Raises:
         BalcliError: a step that is too small or too large; no such cylinder.
@@ -32,6 +32,6 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
         >>> curves(load("i4.toml"), 10).to_pandas()
     """
     engine = check_engine("curves", engine)
-    check_type("step_deg", step_deg, (int, float, np.number), "give a step in degrees")
+    step = check_number("step_deg", step_deg, "give a step in degrees")
     number = None if cylinder is None else check_count("cylinder", cylinder)
-    return compute_curves(engine, number, divide_revolution(step_deg, engine.cycle_revolutions))
+    return compute_curves(engine, number, divide_revolution(step, engine.cycle_revolutions))

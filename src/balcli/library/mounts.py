@@ -15,6 +15,7 @@ from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.read import check_tables, read_tables
 from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import check_type, wrong_type
+from ..forces.orders import check_orders
 from ..mounting.read import check_mounted
 from ..mounting.report import MountReport, report_mounts
 from .arguments import check_mapping, check_speeds, tell_arguments
@@ -56,7 +57,7 @@ def analyze_mounts(
     beside = {} if others is None else check_mapping("analyze_mounts", others, '{"V8": engine}')
     engines = {str(name): check_engine("analyze_mounts", one) for name, one in beside.items()}
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
-    asked = None if orders is None else list(orders)
+    asked = None if orders is None else check_orders(orders).tolist()
     model, engine, name = _read(source)
     return report_mounts(model, engine, speeds, asked, scheme, list(engines.items()), name)
 

@@ -13,6 +13,8 @@ from ..field_balancing.balance import FieldBalance, find_corrections
 from ..field_balancing.read import check_runs, parse_runs, read_runs
 from .arguments import tell_arguments
 
+_UNNAMED = "file of runs"  # in messages, a text or dict
+
 
 @tell_arguments()
 def balance_rotor(
@@ -50,9 +52,9 @@ def balance_rotor(
     for name in without:
         check_type("without", name, str, 'give names of planes, such as ["front"]')
     if isinstance(runs, Mapping):
-        return find_corrections(check_runs(normalize_tables(runs)), minimise, without)
+        return find_corrections(check_runs(normalize_tables(runs)), minimise, without, _UNNAMED)
     if not isinstance(runs, (str, Path)):
         raise wrong_type("balance_rotor", runs, "give the path, text or dict of a file of runs")
     if isinstance(runs, str) and "\n" in runs:
-        return find_corrections(parse_runs(runs), minimise, without)
+        return find_corrections(parse_runs(runs), minimise, without, _UNNAMED)
     return find_corrections(read_runs(runs), minimise, without, name_file(runs))

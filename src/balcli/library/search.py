@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..engine.build import Engine, check_engine, take_model
-from ..errors import wrong_type
+from ..errors import check_type, wrong_type
 from ..limits import MOST_FOUND
 from ..studies.search.objective import parse_objective
 from ..studies.search.search import Search, search_arrangements
@@ -54,7 +54,9 @@ def search(
         wanted = ",".join(f"{name}={weight!r}" for name, weight in _as_floats(minimise).items())
     else:
         wanted = join_names("search", minimise) or ""
-    bounds = check_mapping("search", limits or {}, '{"moment.2.major": 100}')
+    given = {} if limits is None else limits
+    bounds = check_mapping("search", given, '{"moment.2.major": 100}')
+    check_type("even_firing", even_firing, bool, "give True or False")
     texts = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
     goal = parse_objective(wanted, texts, with_gas=model.gas is not None)
     return search_arrangements(

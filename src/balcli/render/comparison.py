@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import TORQUE
 from .csv import Rows, name_cell
+from .engine_facts import tell_speed
 from .sheet import (
     NEGLIGIBLE,
     UNKNOWN,
+    Facts,
     Grid,
     Sheet,
     Text,
@@ -34,6 +36,7 @@ def document(result: Comparison) -> dict[str, Any]:
     return {
         "format": "balcli.compare/1",
         "engines": list(result.names),
+        "speeds_rpm": [float(engine.speed_rpm) for engine in result.engines],
         "figures": [
             {
                 "quantity": _key(line),
@@ -81,7 +84,14 @@ def sheet(result: Comparison, system: System) -> Sheet:
         )
     if nothing:
         grids.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
-    return Sheet("Engines side by side", tuple(grids))
+    return Sheet("Engines side by side", (_tell_speeds(result), *grids))
+
+
+def _tell_speeds(result: Comparison) -> Facts:
+    """One for all, or each in the order of the engines."""
+    told = [tell_speed(engine) for engine in result.engines]
+    one_for_all = len(set(told)) == 1
+    return Facts((("speed", told[0]) if one_for_all else ("speeds", "; ".join(told)),))
 
 
 def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:

@@ -21,7 +21,7 @@ EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
 
 def speed_facts(engine: Engine) -> Facts:
     """The crank speed, and which cylinders have no gas, or burn nothing."""
-    return Facts((("speed", _speed(engine)), *list_silent(engine)))
+    return Facts((("speed", tell_speed(engine)), *list_silent(engine)))
 
 
 _TURNING = '"with the crank" is with the cylinders here, and counterweights stand on them'
@@ -51,7 +51,7 @@ def engine_facts(
         ("turning", _TURNING if engine.rotary else ""),
         ("firing" if engine.fires_deg else "cycle", _firing(engine)),
         *list_silent(engine),
-        ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else _speed(engine)),
+        ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
         ("masses", _masses(engine, system, whole=whole)),
         ("devices", devices),
         ("orders", orders if whole else ""),
@@ -61,7 +61,8 @@ def engine_facts(
     return Facts(tuple((name, value) for name, value in pairs if value))
 
 
-def _speed(engine: Engine) -> str:
+def tell_speed(engine: Engine) -> str:
+    """Its mean speed, and whether that is assumed or uneven."""
     uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
     assumed = ", assumed: the file gives none" if _is_speed_assumed(engine) else ""
     return f"{number(float(engine.speed_rpm), 6)} rpm{assumed}{uneven}"

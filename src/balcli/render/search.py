@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..forces.kinds import EVERY_KIND
+from ..forces.kinds import EVERY_KIND, VECTORS
 from ..studies.quantity_names import tell_speeds
 from .csv import Columns, Rows
 from .sheet import NAMELESS, Grid, Sheet, number
@@ -17,10 +17,7 @@ if TYPE_CHECKING:
     from .units import System
 
 
-_FORWARD = (
-    "Counterweights can take the part that turns with the crank: force.1.backward finds what they "
-    "cannot."
-)
+_FORWARD = "Counterweights can take the part that turns with the crank; what they cannot take is"
 _AS_BUILT = "Fn, Fn·a: the textbook's units of order n; figures are as built, with rotating masses."
 
 
@@ -109,8 +106,9 @@ def _notes(result: Search) -> Iterator[str]:
     added = list(dict.fromkeys(q.unit for q in result.objective.weights))
     if len(added) > 1:
         yield f"Objective: {' and '.join(added)} added as plain numbers; NAME=W weighs them."
-    if any(q.order == 1 and q.part == "major" for q in result.of_engine):
-        yield _FORWARD
+    kinds = {q.kind for q in result.of_engine if q.order == 1 and q.part == "major"}
+    if against := [f"{kind.name}.1.backward" for kind in VECTORS if kind.name in kinds]:
+        yield f"{_FORWARD} {' and '.join(against)}."
 
 
 def _cells(result: Search, one: Found) -> tuple[str, ...]:

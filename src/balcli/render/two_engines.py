@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
+from .engine_facts import tell_speed
 from .figures import assumptions, clean, figure_rows, order_entries, peak_entries
 from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Sheet, number
@@ -80,7 +81,7 @@ def sheet(result: Combined, system: System) -> Sheet:
                 f"{', and turns against the first' if how.reverse else ''}"
             ),
         ),
-        ("speed", f"{number(float(first.speed_rpm), 6)} rpm, both"),
+        ("speed", f"both at {tell_speed(first)}"),
         *_tell_gas(result),
         (
             "reference",

@@ -13,7 +13,7 @@ import numpy as np
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
 from ..engine.build import Engine, check_engine
-from ..errors import BalcliError, check_type, list_words
+from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.orders import (
     check_orders,
@@ -169,6 +169,8 @@ def analyze(
     """
     wanted = _choose_quantities(check_engine("analyze", engine), only)
     _check_height(guide_height_m)
+    check_type("by_cylinder", by_cylinder, bool, "give True or False")
+    check_type("reasons", reasons, bool, "give True or False")
     check_type("beside", beside, Collection, "give engines, such as [engine]")
     for one in beside:
         check_engine("analyze", one)
@@ -197,11 +199,10 @@ def analyze(
 def _check_height(guide_height_m: float | None) -> None:
     if guide_height_m is None:
         return
-    wanted = "give a length in m, such as 0.6"
-    check_type("guide_height_m", guide_height_m, (int, float, np.number), wanted)
-    if not 0 < guide_height_m < HIGHEST_GUIDE_M:
+    height = check_number("guide_height_m", guide_height_m, "give a length in m, such as 0.6")
+    if not 0 < height < HIGHEST_GUIDE_M:
         raise BalcliError(
-            f"guide_height_m {guide_height_m:g}: the distance from the crankshaft to the middle of "
+            f"guide_height_m {height:g}: the distance from the crankshaft to the middle of "
             f"the guides must be positive, below {HIGHEST_GUIDE_M:g} m"
         )
 

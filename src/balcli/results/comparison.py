@@ -74,11 +74,13 @@ class Comparison(Result):
 
     Attributes:
         names: of the engines.
+        engines: each at the speed at which it is compared.
         lines: one a figure.
         whole: whether people are shown orders that are negligible, too.
     """
 
     names: tuple[str, ...]
+    engines: tuple[Engine, ...]
     lines: tuple[Line, ...]
     whole: bool = False
 
@@ -115,7 +117,8 @@ def compare_engines(
     if only is None and all(engine.gas is not None for engine in engines):
         wanted.add(GAS.name)
     analyses = analyze_alike(engines, orders, partial(analyze, only=wanted, beside=engines))
-    return Comparison(tuple(names), list_lines(analyses), whole or orders is not None)
+    lines = list_lines(analyses)
+    return Comparison(tuple(names), tuple(engines), lines, whole or orders is not None)
 
 
 def analyze_alike(

@@ -98,9 +98,11 @@ class SchemeOptions(NamedTuple):
 
 
 def _are(values: object, kind: type) -> bool:
-    """Whether they are numbers of a kind, none with hundreds of digits."""
-    return isinstance(values, tuple) and all(
-        isinstance(value, kind) and _fits_float(value) for value in values
+    """Whether they are numbers of a kind, one at least, none with hundreds of digits."""
+    return (
+        isinstance(values, tuple)
+        and values != ()
+        and all(isinstance(value, kind) and _fits_float(value) for value in values)
     )
 
 

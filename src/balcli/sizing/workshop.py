@@ -5,15 +5,13 @@ its size in steel.
 from __future__ import annotations
 
 import math
-from numbers import Real
-from types import NoneType
 from typing import NamedTuple
 
 from ..core.drilled_hole import STEEL, find_drill_depth, find_drilled_unbalance
 from ..core.phasors import wrap_degrees
 from ..engine.build import Engine
 from ..enginefile.model import Counterweight, Shaft, Slider
-from ..errors import BalcliError, check_type
+from ..errors import BalcliError, check_number
 from ..limits import MOST_HOLES
 from .device_tables import DeviceTable, find_unbalance
 from .remedy import Remedy
@@ -86,11 +84,7 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     Raises BalcliError unless all lengths are positive and at most one of disc and thickness is
     given, TypeError if one is no number.
     """
-    for name, figure in tools._asdict().items():
-        wanted = (
-            "a density in kg/m3, such as 17500" if name == "slug" else "a length in m, such as 0.02"
-        )
-        check_type(f"Tools: {name}", figure, (Real, NoneType), f"give {wanted}")
+    tools = Tools(*map(_check_figure, Tools._fields, tools))
     strange = {
         name.replace("_", "-"): figure
         for name, figure in tools._asdict().items()
@@ -118,6 +112,13 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
             "a semicircular disc has its radius or its thickness given, not both: the other follows"
         )
     return tuple(_find_figures(engine, device, tools) for device in remedy.devices)
+
+
+def _check_figure(name: str, figure: float | None) -> float | None:
+    wanted = (
+        "a density in kg/m3, such as 17500" if name == "slug" else "a length in m, such as 0.02"
+    )
+    return None if figure is None else check_number(f"Tools: {name}", figure, f"give {wanted}")
 
 
 def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practical:

@@ -12,7 +12,7 @@ from ..core.phasors import Array
 from ..core.piecewise import Extreme
 from ..core.speed_variation import Surplus, surplus
 from ..engine.build import Engine, check_engine, find_row
-from ..errors import BalcliError, check_type, list_words
+from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.gas import take_gas
 from ..forces.orders import check_orders, list_gas_orders
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
@@ -124,7 +124,7 @@ def analyze_torque(
     gas = take_gas(check_engine("analyze_torque", engine))
     check_type("cylinder", cylinder, (int, np.integer), "give a whole number from 1")
     if fluctuation is not None:
-        check_type("fluctuation", fluctuation, (int, float, np.number), "give a number, as 1 / 200")
+        fluctuation = check_number("fluctuation", fluctuation, "give a number, as 1 / 200")
         if not 0 < fluctuation < 2:
             raise BalcliError(
                 f"fluctuation {fluctuation:g}: give (highest - lowest)/mean speed, such as 1 / 200"
