@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import inspect
 import re
 import shutil
@@ -43,6 +44,18 @@ def test_every_parameter_and_error_is_told(name):
     assert [p for p in parameters if not re.search(rf"\b{p}\b", args)] == []
     assert "Raises:" in text
     assert "Error: " in text.partition("Raises:")[2]
+
+
+ANSWERS = [name for name in balcli.__all__ if dataclasses.is_dataclass(getattr(balcli, name))]
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_every_attribute_is_told(name):
+    shown = getattr(balcli, name)
+    told = inspect.getdoc(shown).partition("Attributes:")[2]
+    heads = re.findall(r"(?:^ {4}|[.;] )(\w+(?:, \w+)*): ", told, re.MULTILINE)
+    named = {word for head in heads for word in head.split(", ")}
+    assert {field.name for field in dataclasses.fields(shown)} - named == set()
 
 
 @pytest.mark.parametrize("name", [name for name in balcli.__all__ if name[0] != "_"])

@@ -243,6 +243,11 @@ order = 1.3
         ),
         ('fixed = ["a", "b"]\n' + TWO, "fixed: clamps every node; leave one free"),
         (
+            'fixed = ["a"]\nangle_limit = 0.3\n' + TWO,
+            'angle_limit: is of the first node, and "a" is fixed; leave it out, or begin with the '
+            "node that may swing so far",
+        ),
+        (
             TWO.replace("inertia = 1e6\n", "").replace("inertia = 2e6\n", ""),
             "node.1.inertia: is missing; nothing that turns has any",
         ),

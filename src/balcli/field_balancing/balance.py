@@ -82,9 +82,11 @@ class FieldBalance(Result):
     """The answer.
 
     Attributes:
+        file: the runs.
         minimise: what was made smallest: the sum of squares, or the largest, of the readings.
         planes: those that were not left out.
         after: predicted readings, shape (readings,).
+        influence: what a unit of weight in each plane changes.
         condition: of the influence coefficients.
         bound: no weights leave less as the largest (weighted) reading; nan for squares.
         largest: the largest weighted reading after; rms: of the weighted readings.

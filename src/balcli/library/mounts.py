@@ -42,8 +42,9 @@ def analyze_mounts(
         others: engines by name, put on the same mounts and told beside.
 
     Returns:
-        `modes.six` (`hertz`, `motion`, shapes), `response` (forces of mounts, N, and motion of
-        points, m, by speed; None without an engine), `fitted`, `others`.
+        `modes.six` (`hertz`, `motion`, shapes), `response` (`force`, N, shape (orders, speeds,
+        mounts), `motion`, m, shape (orders, speeds, points), at `speeds_rpm`; `worst_force` and
+        `worst_motion`, the largest of the range; None without an engine), `fitted`, `others`.
 
     Raises:
         BalcliError: a resonance without damping; a scheme that cannot be fitted.

@@ -47,7 +47,16 @@ class Erratum:
 
 @dataclass(frozen=True, repr=False)
 class Table(Result):
-    """Rows as recomputed (`exact`) and as printed, of one shape; `errata` follow from the two."""
+    """Rows as recomputed and as printed, of one shape; `errata` follow from the two.
+
+    Attributes:
+        name, title, source: of the table, and where it is printed.
+        columns: their names.
+        exact: a row of cells for each of the table.
+        printed: the same as texts, as they are printed.
+        explanations: of errata.
+        stub: how many leading columns name a row.
+    """
 
     name: str
     title: str
@@ -56,7 +65,7 @@ class Table(Result):
     exact: tuple[Row, ...]
     printed: tuple[Words, ...]
     explanations: tuple[Explanation, ...] = ()
-    stub: int = 1  # leading columns that name a row
+    stub: int = 1
 
     @property
     def summary(self) -> str:

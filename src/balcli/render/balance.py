@@ -13,6 +13,7 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..results.balance import Balance
 from ..sizing.device_tables import name_kind
+from ..studies.quantity_names import tell_assumed_speed
 from .analysis_document import brief_document
 from .csv import Columns, Rows
 from .devices import (
@@ -24,6 +25,7 @@ from .devices import (
     practical_entry,
     practical_grid,
 )
+from .engine_facts import is_speed_assumed
 from .figures import assumptions, figure_rows
 from .overview import find_orders_that_matter, name_column, tell_others
 from .scheme_details import details_parts, tell_growing_rolls
@@ -65,7 +67,9 @@ def sheet(result: Balance, system: System) -> Sheet:
     else:
         why = () if remedy.note or not known else ("Orders 1 and 2 are balanced.",)
         parts.append(Text("Nothing is fitted", why))
-    if notes := tuple(filter(None, (remedy.note, *tell_growing_rolls(result, system)))):
+    growing, engine = tell_growing_rolls(result, system), result.before.engine
+    assumed = tell_assumed_speed(engine.model) if is_speed_assumed(engine) else ""
+    if notes := tuple(filter(None, (remedy.note, *growing, assumed))):
         parts.append(Text("Note", notes))
     if not known:
         parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))

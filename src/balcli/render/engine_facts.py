@@ -64,11 +64,12 @@ def engine_facts(
 def tell_speed(engine: Engine) -> str:
     """Its mean speed, and whether that is assumed or uneven."""
     uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
-    assumed = ", assumed: the file gives none" if _is_speed_assumed(engine) else ""
+    assumed = ", assumed: the file gives none" if is_speed_assumed(engine) else ""
     return f"{number(float(engine.speed_rpm), 6)} rpm{assumed}{uneven}"
 
 
-def _is_speed_assumed(engine: Engine) -> bool:
+def is_speed_assumed(engine: Engine) -> bool:
+    """Whether neither its file nor anybody else says its speed."""
     if engine.model is None or "speed" in engine.model.operation.model_fields_set:
         return False
     return float(engine.speed_rpm) == engine.model.operation.speed

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import EVERY_KIND, VECTORS
-from ..studies.quantity_names import tell_speeds
+from ..studies.quantity_names import tell_assumed_speed, tell_speeds
 from .csv import Columns, Rows
 from .sheet import NAMELESS, Grid, Sheet, number
 
@@ -99,6 +99,8 @@ def _notes(result: Search) -> Iterator[str]:
             f"The best {result.over} is an end of the range that was searched: beyond it may be "
             "better."
         )
+    if result.over != "operation.speed" and (assumed := tell_assumed_speed(result.model)):
+        yield assumed
     if _textbook(result, result.results[0]):
         yield _AS_BUILT
     if speeds := tell_speeds(q.name for q in result.objective.quantities):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..core.phasors import Array
+from ..studies.quantity_names import tell_assumed_speed
 from .sheet import NAMELESS, Grid, Sheet, number
 from .units import name_with_unit, unit_of_name
 
@@ -39,10 +40,14 @@ def make_sheet(sweep: Sweep, ends: Ends) -> Sheet:
     sizes = np.array([unit.size for unit in units])
     rows = [tuple(map(number, row, digits)) for row in (figures / sizes).tolist()]
     heads = map(name_with_unit, sweep.columns, (unit.name for unit in units))
-    note = ""
+    notes = []
     if ends.left_out:
         rows.insert(len(ends.first), ("…",) * len(sweep.columns))
         variants = len(figures) + ends.left_out
-        note = f"{variants} variants, of which {ends.left_out} are not shown: -o X.csv writes all."
-    grid = Grid("", tuple(heads), tuple(rows), note)
+        notes += [
+            f"{variants} variants, of which {ends.left_out} are not shown: -o X.csv writes all."
+        ]
+    if "operation.speed" not in sweep.columns and (assumed := tell_assumed_speed(sweep.file)):
+        notes += [assumed]
+    grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
     return Sheet(f"{sweep.file.name or NAMELESS}: variants", (grid,))

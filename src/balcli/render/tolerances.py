@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..studies.quantity_names import tell_speeds
+from ..studies.quantity_names import tell_assumed_speed, tell_speeds
 from .csv import Rows
 from .sheet import NAMELESS, Grid, Sheet, number
 
@@ -60,7 +60,11 @@ def rows(result: Scatter, _system: System) -> Rows:
 
 def sheet(result: Scatter, _system: System) -> Sheet:
     """Percentiles in SI units, and which tolerances matter most."""
-    notes = _tell_bound(result), tell_speeds(s.quantity.name for s in result.spreads)
+    notes = (
+        _tell_bound(result),
+        tell_speeds(s.quantity.name for s in result.spreads),
+        tell_assumed_speed(result.model),
+    )
     spread = Grid(
         f"Spread of {result.samples} {result.varied}",
         ("quantity", *_statistics(result.spreads[0])),

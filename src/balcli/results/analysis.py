@@ -54,7 +54,8 @@ class Analysis(Result):
     Attributes:
         engine: as analysed.
         spectra: phasors of the orders shown.
-        force, moment: largest value over a revolution (N, N m), of all orders, and its crank angle.
+        force, moment: largest `value` over a revolution (N, N m), of all orders, and its crank
+            angle `theta` (rad).
         sizing: devices of the scheme `auto`, and the analysis with them.
         cylinders: phasors of each cylinder alone (no devices), by cylinder number.
         why: whether the orders shown are balanced by symmetry.

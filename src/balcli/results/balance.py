@@ -43,6 +43,7 @@ class Balance(Result):
     """A remedy, and what the engine does without and with it.
 
     Attributes:
+        remedy: the new devices, and why these.
         before, after: analyses of the same orders.
         practical: the workshop's figures of each device, in the order of `remedy.devices`.
         tools: what the workshop has.

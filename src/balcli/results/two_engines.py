@@ -89,8 +89,10 @@ class Combined(Result):
 
     Attributes:
         engines: as they were given.
+        arrangement: where the second one stands, how it leads, and who drives the load.
         spectra: phasors of the orders shown, of both together.
-        force, moment: largest value over a revolution (N, N m), of all orders, and its crank angle.
+        force, moment: largest `value` over a revolution (N, N m), of all orders, and its crank
+            angle `theta` (rad).
         cylinders: none; each engine's own analysis has them.
     """
 

@@ -10,7 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import groupby
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from ..enginefile.model import EngineFile
 
 
 class Form(NamedTuple):
@@ -154,3 +157,10 @@ def _shorten(chapter: Chapter) -> Iterator[str]:
 def tell_speeds(names: Iterable[str]) -> str:
     """Over which speeds quantities of these names are the largest, where one could be misled."""
     return _OF_SHAFTS if any(name.startswith("shaft.") for name in names) else ""
+
+
+def tell_assumed_speed(model: EngineFile | None) -> str:
+    """A sentence, where there is a file that gives no speed."""
+    if model is None or "speed" in model.operation.model_fields_set:
+        return ""
+    return f"The file gives no speed: figures are those at {model.operation.speed:g} rpm."

@@ -61,7 +61,10 @@ class Scatter(Result):
     """Spreads of some quantities of an engine file, over so many random engines.
 
     Attributes:
+        model: the engine file.
+        samples: how many.
         shape: of the distribution of each deviation.
+        spreads: one a quantity: `nominal`, `mean`, `percentiles`, `largest`, `bound`, `shares`.
         varied: of what there are samples, in words: "engines".
     """
 

@@ -53,7 +53,13 @@ def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
         for label, gear in zip(called[len(file.shaft) :], file.gear, strict=True)
     ]
     clamped = [index[each] for each in file.fixed]
-    if problems := list(_find_faults(nodes, shafts, clamped, len(file.shaft))):
+    problems = list(_find_faults(nodes, shafts, clamped, len(file.shaft)))
+    if file.angle_limit is not None and 0 in clamped:
+        text = (
+            f"is of the first node, and {shorten(names[0])} is fixed; leave it out, or begin with"
+        )
+        problems.append(Problem("angle_limit", f"{text} the node that may swing so far"))
+    if problems:
         raise InputError(problems, name)
     limits = Limits(file.limit, file.angle_limit)
     return assemble_system(file.name or "", nodes, shafts, _excite(file, index), limits, clamped)

@@ -43,7 +43,10 @@ class Search(Result):
     """The best arrangements of an engine file, best first.
 
     Attributes:
+        model: the engine file.
         over: what was arranged.
+        objective: what was made small, and its limits.
+        results: best first, each with its `design`, the value of its `objective` and its `figures`.
         scale: what textbooks measure its forces and moments by.
         locked: from where to where (deg, to `angles.STEP`) the mechanism locks, so that no angle
             there was a candidate.

@@ -1,0 +1,38 @@
+"""Forces of a file without a speed are told as those at the speed that is assumed."""
+
+from __future__ import annotations
+
+import pytest
+from support.commands import run_here
+from support.engines import GOOD, changed
+
+TOLD = "The file gives no speed: figures are those at 1000 rpm."
+OF_ORDER_2 = ("--minimise", "force.2.major")
+
+
+@pytest.mark.parametrize(
+    ("command", "options", "others"),
+    [
+        ("balance", [], ["--speed", "3000"]),
+        (
+            "sweep",
+            ["-f", "table", "--vary", "rod.ratio=0.25,0.3"],
+            ["-f", "table", "--vary", "rpm=1000,3000"],
+        ),
+        (
+            "search",
+            ["--over", "rod.length=150:170", *OF_ORDER_2],
+            ["--over", "rpm=1000:3000", *OF_ORDER_2],
+        ),
+        ("scatter", ["--samples", "10"], []),
+    ],
+)
+def test_an_assumed_speed_is_told(command: str, options: list[str], others: list[str]) -> None:
+    """And not where the file gives one, or the speed is chosen or varied (`others`)."""
+    without = changed(("speed = 3000", ""))
+    assert TOLD in run_here(command, "-", *options, stdin=without).out
+    assert TOLD not in run_here(command, "-", *options, stdin=GOOD).out
+    if others:
+        found = run_here(command, "-", *others, stdin=without)
+        assert found.status == 0
+        assert TOLD not in found.out
