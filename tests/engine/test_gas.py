@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
@@ -52,6 +53,47 @@ def test_a_cycle_has_the_stated_mean_effective_pressure(seed):
 def test_bmep_is_imep_times_mechanical_efficiency():
     gas = build_text(FOUR + WIEBE.replace("imep = 9", "bmep = 9\nmechanical_efficiency = 0.9")).gas
     assert gas.cylinders[0].torque.imep == pytest.approx(10e5, rel=1e-12)
+
+
+def test_a_cylinder_without_heat_compresses_and_expands_alike():
+    """Its pressure by hand, p V^1.32 both ways; work is that of changing the gas alone."""
+    engine = build_text(FOUR + WIEBE + "intake = 1.6\nexhaust = 1.9\n[cylinder.3]\nheat = 0\n")
+    dead = engine.gas.cylinders[engine.numbers.index(3)]
+    swept = math.pi / 4 * 0.086**2 * 0.09
+    angle = np.radians(np.arange(-179.0, 180.0, 7.0))
+    height = 0.045 * np.cos(angle) + np.sqrt(0.15**2 - (0.045 * np.sin(angle)) ** 2)
+    volume = swept / 9 + math.pi / 4 * 0.086**2 * (0.195 - height)
+    exact = 1.6e5 * (swept / 9 * 10 / volume) ** 1.32
+    assert dead.torque.pressure.at(angle) == pytest.approx(exact, rel=1e-12)
+    assert dead.torque.work == pytest.approx(-0.3e5 * swept, rel=1e-12)
+    assert engine.without_burning == (3,)
+    assert engine.without_gas == ()
+    assert len({id(c.torque) for c in engine.gas.cylinders}) == 2
+
+
+@pytest.mark.parametrize("cycle", ["otto", "diesel", 'dual"\nmax_pressure = "60 bar'])
+def test_whatever_the_cycle_a_cylinder_without_heat_is_the_same(cycle):
+    text = FOUR + WIEBE + "[cylinder.2]\nheat = 0\n"
+    found, other = (
+        build_text(one).gas.cylinders[1].torque.pressure.at(np.linspace(-3, 9, 50))
+        for one in (text, text.replace("wiebe", cycle))
+    )
+    assert found == pytest.approx(other, rel=1e-13)
+
+
+def test_a_cylinder_may_have_a_heat_of_its_own():
+    """And what it had with the same heat as all others."""
+    alike = build_text(FOUR + WIEBE.replace("imep = 9", "heat = 900")).gas.cylinders[0].torque
+    own = build_text(FOUR + WIEBE + "[cylinder.1]\nheat = 900\n")
+    assert own.gas.cylinders[0].torque.imep == pytest.approx(alike.imep, rel=1e-13)
+    assert own.gas.cylinders[1].torque.imep == pytest.approx(9e5, rel=1e-12)
+    assert own.without_burning == ()
+
+
+def test_brake_work_is_not_known_where_a_cylinder_burns_nothing():
+    text = FOUR + WIEBE + "mechanical_efficiency = 0.9\n"
+    assert build_text(text).mechanical_efficiency == 0.9
+    assert build_text(text + "[cylinder.4]\nheat = 0\n").mechanical_efficiency is None
 
 
 def test_flywheel_crank_and_bearings():
@@ -368,6 +410,39 @@ def test_mistakes_by_path(text, told):
     assert len(found) == len(told)
     for one, start in zip(found, told, strict=True):
         assert one.startswith(start)
+
+
+@pytest.mark.parametrize(
+    ("gas", "own", "told"),
+    [
+        ("", "heat = 0", "cylinder.2.heat: needs [gas], which says what the gas does in all"),
+        (WIEBE, "heat = -1", "cylinder.2.heat: -1 is less than 0; an energy is wanted: a bare"),
+        (
+            WIEBE,
+            "heat = 0\nindicator = 'p.csv'",
+            "cylinder.2: has heat and indicator; give either heat or indicator",
+        ),
+        (
+            "[gas]\nharmonics = 'h.csv'\n",
+            "heat = 0",
+            "cylinder.2.heat: belongs to a computed cycle, and [gas] has none; give the cylinder a "
+            "diagram of its own (indicator)",
+        ),
+        (
+            WIEBE + "compression_index = 1\n",
+            "heat = 0",
+            "gas.compression_index: is 1: give more than 1: cylinder 2, which burns nothing, "
+            "expands as it was compressed",
+        ),
+        (
+            WIEBE.replace("wiebe", 'dual"\nmax_pressure = "60 bar'),
+            "heat = 20",
+            "cylinder.2.heat: is 20: this cycle needs 811.3 or more",
+        ),
+    ],
+)
+def test_mistakes_of_heat_of_a_cylinder(gas, own, told):
+    assert problems(f"{FOUR}{gas}[cylinder.2]\n{own}\n")[0].startswith(told)
 
 
 def test_a_misfire_is_told_of_a_cylinder_that_there_is():

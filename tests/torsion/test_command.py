@@ -346,6 +346,16 @@ def test_orders_are_those_asked_for():
 LONE = '[[node]]\nname = "a"\ninertia = 1e6\n[[excitation]]\nnode = "a"\norder = 1\ncos = 3\n'
 
 
+def test_a_chain_without_excitation_is_told_to_take_one():
+    text = LONE.partition("[[excitation]]")[0]
+    assert refusal("torsion", "-", "--speeds", "100", stdin=text) == (
+        "standard input: nothing excites it; give an [[excitation]]: node, order, cos"
+    )
+    assert refusal("torsion", "-", "--speeds", "100", "--damper", "viscous", stdin=text) == (
+        "--damper: nothing excites the system; give an [[excitation]]"
+    )
+
+
 def test_a_node_alone_swings_rigidly(tmp_path):
     """No shaft, no mode: what is left is `T/(J w^2)`."""
     said = ask(LONE, "--speeds", "100,200")

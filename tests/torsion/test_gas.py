@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.commands import refusal, run_here
 from support.diesel import INERTIAS, STIFFNESSES, write_diesel
+from support.paths import ENGINES
 
 BORE, RADIUS, ROD, RECIPROCATING = 0.105, 0.0685, 0.207, 2.521
 ORDER = (1, 5, 3, 6, 2, 4)
@@ -100,8 +101,21 @@ def test_cylinders_without_gas_are_named(diesel, said_in):
     assert "engine,,,,,no_gas_in,2 5," in run_here("torsion", diesel, *options, "-f", "csv").out
 
 
+def test_cylinders_that_burn_nothing_are_named(tmp_path):
+    text = (ENGINES / "i6_diesel.toml").read_text(encoding="utf-8")
+    diesel = tmp_path / "weak.toml"
+    diesel.write_text(f"{text}[cylinder.5]\nheat = 0\n", "utf-8")
+    assert ask(diesel)["no_burning_in"] == [5]
+    assert "\nno burning in  5\n" in run_here("torsion", diesel).out
+    assert "engine,,,,,no_burning_in,5," in run_here("torsion", diesel, "-f", "csv").out
+    for command in ("torque", "analyze"):
+        said = json.loads(run_here(command, diesel, "-f", "json").out)
+        assert said["no_burning_in"] == [5]
+    assert "no burning in     5\n" in run_here("torque", diesel).out
+
+
 def test_nothing_is_said_of_gas_where_all_cylinders_have_some(diesel):
-    assert "no_gas_in" not in ask(diesel)
+    assert not {"no_gas_in", "no_burning_in"} & set(ask(diesel))
     assert "no gas in" not in run_here("torsion", diesel).out
 
 

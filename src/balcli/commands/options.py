@@ -116,7 +116,11 @@ Whole = Annotated[
 ]
 Misfire = Annotated[
     list[int] | None,
-    optional("N", "A cylinder without gas, not even compressed; may be given again."),
+    optional(
+        "N",
+        "A cylinder without gas, not even compressed ([cylinder.N] heat = 0 compresses); may be "
+        "given again.",
+    ),
 ]
 GuideHeight = Annotated[
     str | None,

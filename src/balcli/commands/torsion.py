@@ -12,7 +12,7 @@ from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, require_ending, text_format
 from .named_files import refuse_leaving_files
-from .options import FormatOption, Output, ProgressAtOnce, UnitsOption
+from .options import FormatOption, Misfire, Output, ProgressAtOnce, UnitsOption
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
 
@@ -69,10 +69,7 @@ def torsion(
             'Holzer\'s table of a mode, or at "20 rad/s", "12 Hz"; may be given again.',
         ),
     ] = None,
-    misfire: Annotated[
-        list[int] | None,
-        optional("N", "Cylinder without gas, not even compressed; may be given again."),
-    ] = None,
+    misfire: Misfire = None,
     damper: Annotated[
         DamperKind | None,
         typer.Option(

@@ -141,6 +141,7 @@ class AnalysisFigures(TypedDict):
     engine: EngineSize
     speed_rpm: float
     no_gas_in: NotRequired[list[int]]
+    no_burning_in: NotRequired[list[int]]
     reference_mm: Place
     orders: list[OrderFigures]
     assumed: NotRequired[Assumed]

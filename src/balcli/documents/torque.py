@@ -85,6 +85,7 @@ class Torque(Document):
     format: Literal["balcli.torque/1"]
     speed_rpm: NotRequired[float]
     no_gas_in: NotRequired[list[int]]
+    no_burning_in: NotRequired[list[int]]
     cycle_deg: int | float
     imep_Pa: NotRequired[float]
     bmep_Pa: NotRequired[float]

@@ -308,6 +308,7 @@ class Torsion(Document):
     format: Literal["balcli.torsion/1"]
     name: str | None
     no_gas_in: NotRequired[list[int]]
+    no_burning_in: NotRequired[list[int]]
     nodes: list[Node]
     shafts: list[Joint]
     modes: list[TorsionMode]

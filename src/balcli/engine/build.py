@@ -259,11 +259,21 @@ class Engine:
         return tuple(sorted(number for number, own in shares if not own.share))
 
     @property
+    def without_burning(self) -> tuple[int, ...]:
+        """Numbers of the cylinders that compress, but burn nothing."""
+        if self.gas is None:
+            return ()
+        each = zip(self.numbers, self.gas.cylinders, strict=True)
+        return tuple(sorted(number for number, own in each if own.share and own.heat == 0))
+
+    @property
     def mechanical_efficiency(self) -> float | None:
-        """Brake over indicated work; None: the file does not say, or a cylinder has no gas, and yet
-        its friction.
+        """Brake over indicated work; None: the file does not say, or a cylinder burns nothing, and
+        yet has its friction.
         """
-        return None if self.gas is None or self.without_gas else self.gas.mechanical_efficiency
+        if self.gas is None or self.without_gas or self.without_burning:
+            return None
+        return self.gas.mechanical_efficiency
 
     @property
     def splay_for_even_firing(self) -> float | None:

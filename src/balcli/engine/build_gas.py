@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -73,7 +74,14 @@ class _Builder:
         nominal = self._find_nominal([piston.top for piston in found])
         return EngineGas(
             tuple(
-                CylinderGas(found[row], torque, nominal[row], self._share(numbers[row]), first)
+                CylinderGas(
+                    found[row],
+                    torque,
+                    nominal[row],
+                    self._share(numbers[row]),
+                    self._heat(numbers[row]),
+                    first,
+                )
                 for row, first in enumerate(like)
                 if (torque := torques[first]) is not None
             ),
@@ -104,6 +112,14 @@ class _Builder:
             for key in DIAGRAM_KEYS:
                 if key in gas.model_fields_set:
                     yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
+        if gas.cycle is None:
+            for number, table in model.cylinder.items():
+                if table.heat is not None:
+                    yield Problem(
+                        f"cylinder.{number}.heat",
+                        "belongs to a computed cycle, and [gas] has none; give the cylinder a "
+                        "diagram of its own (indicator)",
+                    )
         if self.strokes == 2 and gas.zero == "gas-exchange":
             yield Problem(
                 "gas.zero", 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
@@ -122,6 +138,13 @@ class _Builder:
         given = 1.0 if own is None or own.gas is None else own.gas
         return float(self.parts.figures.take(f"cylinder.{number}.gas", given))
 
+    def _heat(self, number: int) -> float | None:
+        """Its own, J."""
+        own = self.parts.model.cylinder.get(number)
+        given = None if own is None else own.heat
+        found = self.parts.figures.take_optional(f"cylinder.{number}.heat", given)
+        return None if found is None else float(found)
+
     def _source(self, number: int) -> GasSource:
         own = self.parts.model.cylinder.get(number)
         if own is not None and own.indicator is not None:
@@ -133,7 +156,7 @@ class _Builder:
         first: dict[tuple[object, ...], int] = {}
         each = zip(self.cylinders.mechanisms, self.parts.numbers, strict=True)
         return [
-            first.setdefault((*mechanism, self._source(number).indicator), row)
+            first.setdefault((*mechanism, self._source(number).indicator, self._heat(number)), row)
             for row, (mechanism, number) in enumerate(each)
         ]
 
@@ -141,13 +164,13 @@ class _Builder:
         """That of a cylinder; None after a mistake."""
         source = self._source(number)
         try:
-            return self._make(source, piston)
+            return self._make(number, source, piston)
         except BalcliError as error:
             path = source.path if source.indicator is not None else "gas.harmonics"
             self.problems.append(Problem(path, str(error)))
             return None
 
-    def _make(self, source: GasSource, piston: GasPiston) -> GasTorque | None:
+    def _make(self, number: int, source: GasSource, piston: GasPiston) -> GasTorque | None:
         gas = self.gas
         if source.indicator is not None:
             columns = self._columns(source.indicator, diagrams.HEADS)
@@ -157,7 +180,7 @@ class _Builder:
             return found
         if gas.harmonics is not None:
             return self._harmonics(gas.harmonics, piston)
-        pressure = self._cycle(piston)
+        pressure = self._cycle(number, piston)
         return None if pressure is None else PressureOnPiston(piston, pressure, gas.crankcase * BAR)
 
     def _columns(self, name: str, wanted: tuple[tuple[str, ...], ...]) -> NumberColumns:
@@ -199,19 +222,30 @@ class _Builder:
             raise BalcliError(f"{name}: {error}") from None
 
     # -------------------------------------------------------------- computed cycles
-    def _cycle(self, piston: GasPiston) -> CylinderPressure | None:
+    def _cycle(self, number: int, piston: GasPiston) -> CylinderPressure | None:
         process, burn, goal = self._process(), self._burn(), find_goal(self.gas)
+        heat = self._heat(number)
+        if heat is not None:
+            goal = Goal("heat", heat)
+        if heat == 0:  # it expands as it was compressed
+            burn, process = Otto(), replace(process, expansion_index=process.compression_index)
         wrong = list(find_cycle_mistakes(piston, process, burn, goal))
         if not wrong:
             try:
                 return gas_cycle(piston, process, burn, goal)
             except GasError as error:
                 wrong = [error]
-        self.problems += map(self._locate, wrong)
+        self.problems += (self._locate(error, number) for error in wrong)
         return None
 
-    def _locate(self, error: GasError) -> Problem:
-        """A mistake of a cycle by its path in the file."""
+    def _locate(self, error: GasError, number: int) -> Problem:
+        """A mistake of a cylinder's cycle by its path in the file."""
+        heat = self._heat(number)
+        if error.field == "heat" and heat is not None:
+            return Problem(f"cylinder.{number}.heat", str(error))
+        if error.field == "expansion_index" and heat == 0:
+            text = f"{error}: cylinder {number}, which burns nothing, expands as it was compressed"
+            return Problem("gas.compression_index", text)
         if error.field == "imep" and self.gas.bmep is not None:
             return Problem("gas.bmep", f"over mechanical_efficiency, the imep, {error}")
         return Problem(f"gas.{error.field}", str(error))

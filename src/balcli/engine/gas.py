@@ -26,14 +26,16 @@ class CylinderGas(NamedTuple):
         nominal_deg: crank angle, in [0, 720) or [0, 360), at which its crank pin stands along its
             axis when it fires.
         share: by which the gas force is multiplied; 0 is a misfire.
-        like: row of the first cylinder with an equal mechanism and the same diagram: what they have
-            but for `nominal_deg` and `share` is equal.
+        heat: supplied in a cycle, J, where that of this cylinder is its own.
+        like: row of the first cylinder with an equal mechanism, the same diagram and the same heat:
+            what they have but for `nominal_deg` and `share` is equal.
     """
 
     piston: GasPiston
     torque: GasTorque
     nominal_deg: float
     share: float
+    heat: float | None
     like: int
 
     @property

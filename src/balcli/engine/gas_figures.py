@@ -10,7 +10,9 @@ _KEYS = {
     "rod": frozenset({"length", "ratio"}),
     "piston": frozenset({"bore", "offset"}),
 }
-_OF_CYLINDER = frozenset({"piston_offset", "rod_length", "rod_ratio", "bank", "throw", "gas"})
+_OF_CYLINDER = frozenset(
+    {"piston_offset", "rod_length", "rod_ratio", "bank", "throw", "gas", "heat"}
+)
 
 
 def concerns_gas(path: str) -> bool:

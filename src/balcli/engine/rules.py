@@ -272,7 +272,7 @@ def check_gas(parts: Assembly) -> Iterator[Problem]:
     """Gas in every cylinder can be worked out; what a cylinder says of it has [gas] to refer to."""
     if parts.model.gas is None:
         for number, own in parts.model.cylinder.items():
-            for key in ("gas", "indicator"):
+            for key in ("gas", "heat", "indicator"):
                 if getattr(own, key) is not None:
                     yield Problem(
                         f"cylinder.{number}.{key}",

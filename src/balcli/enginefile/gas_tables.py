@@ -11,12 +11,11 @@ from pydantic import Field
 
 from .exclusive import Choice, join_words
 from .fields import FileName, Number, OneOf
-from .model import Angle, FileTable, Mass, Size, TableRule
-from .units import ANGLE, ENERGY, INERTIA, PLAIN, PRESSURE
+from .model import Angle, FileTable, Heat, Mass, Size, TableRule
+from .units import ANGLE, INERTIA, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
-Heat = Annotated[float, Number(ENERGY, least=0, most=1e12)]
 Ratio = Annotated[float, Number(PLAIN, above=1, most=1000)]
 Index = Annotated[float, Number(PLAIN, least=1, most=5)]
 ExpansionIndex = Annotated[float, Number(PLAIN, above=1, most=5)]

@@ -28,6 +28,7 @@ from .exclusive import Choice, find_repeated, join_words
 from .fields import FileName, Flag, Halves, Number, OneOf, Whole, counted, split_hyphens
 from .units import (
     ANGLE,
+    ENERGY,
     INERTIA,
     LENGTH,
     MASS,
@@ -59,6 +60,7 @@ Unbalance = Annotated[float, Number(UNBALANCE, most=1e24)]
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 ShareOfGas = Annotated[float, Number(PLAIN, least=0, most=100)]
+Heat = Annotated[float, Number(ENERGY, least=0, most=1e12)]
 RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
@@ -418,7 +420,10 @@ class Frame(FileTable):
 class Override(FileTable):
     """What differs in one cylinder."""
 
-    choices = tuple(choice.for_overrides("rod_") for choice in Rod.choices)
+    choices = (
+        *(choice.for_overrides("rod_") for choice in Rod.choices),
+        Choice((("heat",), ("indicator",))),
+    )
 
     piston_mass: Mass | None = Field(None, description="as piston.mass", examples=[0.502])
     piston_offset: Length | None = Field(None, description="as piston.offset", examples=[0.8])
@@ -432,6 +437,12 @@ class Override(FileTable):
     rod_pendulum: Pendulum | None = Field(None, description="as rod.pendulum")
     gas: ShareOfGas | None = Field(
         None, description="share of the gas force; 0: a misfire", examples=[0]
+    )
+    heat: Heat | None = Field(
+        None,
+        description="as gas.heat, of a computed cycle; 0: a cylinder that compresses and does not "
+        "burn",
+        examples=[0],
     )
     indicator: Annotated[str, FileName()] | None = Field(
         None, description="as gas.indicator, a diagram of its own", examples=["p_3.csv"]

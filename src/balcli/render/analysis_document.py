@@ -9,7 +9,15 @@ import numpy as np
 
 from .csv import Columns, Rows
 from .devices import device_entries
-from .figures import FigureRow, assumptions, clean, figure_rows, order_entries, peak_entries
+from .figures import (
+    FigureRow,
+    assumptions,
+    clean,
+    figure_rows,
+    order_entries,
+    peak_entries,
+    silent_entries,
+)
 
 if TYPE_CHECKING:
     from ..results.analysis import Analysis
@@ -29,7 +37,7 @@ def document(result: Analysis) -> dict[str, Any]:
             "displacement_m3": clean(engine.displacement_m3),
         },
         "speed_rpm": clean(engine.speed_rpm),
-        **({"no_gas_in": list(engine.without_gas)} if engine.without_gas else {}),
+        **silent_entries(engine),
         "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
         "orders": order_entries(result.spectra),
         **assumptions(result),

@@ -36,6 +36,16 @@ class OrdersAndPeaks(Located, Protocol):
     def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
 
 
+class PartlySilent(Protocol):
+    """An engine, or its shafts, some of whose cylinders may not fire."""
+
+    @property
+    def without_gas(self) -> tuple[int, ...]: ...
+
+    @property
+    def without_burning(self) -> tuple[int, ...]: ...
+
+
 class FigureRow(NamedTuple):
     """One figure of a result; `cylinder` 0 is the engine, order None the whole curve."""
 
@@ -50,6 +60,12 @@ class FigureRow(NamedTuple):
 def assumptions(result: Located) -> dict[str, list[str]]:
     """What JSON says of figures that rest on what the engine file does not say."""
     return {} if result.moments_known else {"assumed": ["crank.spacing = 0"]}
+
+
+def silent_entries(engine: PartlySilent) -> dict[str, list[int]]:
+    """Numbers of the cylinders without gas, and of those that compress and burn nothing."""
+    each = {"no_gas_in": engine.without_gas, "no_burning_in": engine.without_burning}
+    return {key: list(numbers) for key, numbers in each.items() if numbers}
 
 
 def clean(value: Any) -> float | None:

@@ -19,7 +19,16 @@ from ..torque.flywheel import Flywheel
 from ..torque.given_curve import CurveAnalysis
 from ..torque.loads import CycleLoad
 from .csv import Rows
-from .figures import Entry, FigureRow, clean, kind_entries, order_entries, order_rows, peak_deg
+from .figures import (
+    Entry,
+    FigureRow,
+    clean,
+    kind_entries,
+    order_entries,
+    order_rows,
+    peak_deg,
+    silent_entries,
+)
 from .sheet import order_number
 from .units import System
 
@@ -74,8 +83,8 @@ def _list_figures(result: Result) -> Iterator[_Figure]:
 
 def _list_work(result: TorqueAnalysis) -> Iterator[_Figure]:
     yield _Figure("engine", "speed_rpm", "rpm", clean(result.engine.speed_rpm))
-    if result.engine.without_gas:
-        yield _Figure("engine", "no_gas_in", "", result.engine.without_gas)
+    for key, numbers in silent_entries(result.engine).items():
+        yield _Figure("engine", key, "", tuple(numbers))
     yield _Figure("engine", "cycle_deg", "deg", result.cycle_deg)
     yield _Figure("engine", "imep", "Pa", clean(result.imep))
     if result.bmep is not None:

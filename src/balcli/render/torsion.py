@@ -12,6 +12,7 @@ import numpy as np
 from ..torsion.analysis import BEYOND, HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import TorsionResponse
+from .engine_facts import list_silent
 from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
 from .torsion_document import document, rows
 from .units import SI, ShownUnit, System
@@ -26,8 +27,8 @@ _MOST_ORDERS = 3  # of a shaft's torque, named beside it
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Modes first, then what was asked."""
     parts: list[Grid | Facts | Text] = []
-    if result.system.without_gas:
-        parts.append(Facts((("no gas in", ", ".join(map(str, result.system.without_gas))),)))
+    if silent := list_silent(result.system):
+        parts.append(Facts(tuple(silent)))
     if result.damper is not None:
         parts.append(_damper(result.damper, system))
     parts += [_modes(result), _shapes(result, system)]

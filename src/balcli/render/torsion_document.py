@@ -14,7 +14,7 @@ from ..torsion.modes import NaturalMode
 from ..torsion.response import TorsionResponse
 from ..torsion.system import TorsionalSystem
 from .csv import Rows, name_cell
-from .figures import clean, clean_each
+from .figures import clean, clean_each, silent_entries
 from .sheet import order_number
 from .units import SI, System
 
@@ -40,7 +40,7 @@ def document(result: TorsionAnalysis) -> dict[str, Any]:
     found: dict[str, Any] = {
         "format": "balcli.torsion/1",
         "name": system.name or None,
-        **({"no_gas_in": list(system.without_gas)} if system.without_gas else {}),
+        **silent_entries(system),
         "nodes": [
             {"name": name, "inertia_kg_m2": clean(inertia), "gear": clean(gear)}
             for name, inertia, gear in zip(
@@ -222,9 +222,8 @@ def _convert(line: Line, system: System) -> Line:
 
 
 def _lines(result: TorsionAnalysis) -> Iterator[Line]:
-    if result.system.without_gas:
-        silent = " ".join(map(str, result.system.without_gas))
-        yield "engine", None, None, None, "", "no_gas_in", silent, ""
+    for key, numbers in silent_entries(result.system).items():
+        yield "engine", None, None, None, "", key, " ".join(map(str, numbers)), ""
     yield from _system_lines(result.system)
     for number, mode in enumerate(result.modes, 1):
         yield from _mode_lines(number, mode, result.system)

@@ -68,11 +68,16 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
     """Those of numbers that change nothing of what the gas does: shares of none, or what belongs to
     another kind of cycle.
     """
+    own = [path for path in numbers if path.startswith("cylinder.")]
     if model.gas is None:
-        return [path for path in numbers if path.endswith(".gas")]
-    own_diagrams = any(table.indicator is not None for table in model.cylinder.values())
-    idle = model.gas.list_idle_keys(model.layout.strokes, own_diagrams)
-    return [path for path in numbers if path.removeprefix("gas.") in idle]
+        return [path for path in own if path.endswith((".gas", ".heat"))]
+    with_diagram = [n for n, table in model.cylinder.items() if table.indicator is not None]
+    idle = model.gas.list_idle_keys(model.layout.strokes, bool(with_diagram))
+    if model.gas.cycle is None:
+        idle_heats = [path for path in own if path.endswith(".heat")]
+    else:
+        idle_heats = [f"cylinder.{n}.heat" for n in with_diagram]
+    return [path for path in numbers if path.removeprefix("gas.") in idle or path in idle_heats]
 
 
 def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:

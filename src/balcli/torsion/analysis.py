@@ -115,7 +115,9 @@ def _analyze_system(
     criticals = () if excitation is None else find_criticals(excitation, named, span)
     response, barred = None, None
     if speeds is not None:
-        if excitation is None or not len(excitation.orders):
+        if excitation is None:
+            raise system.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
+        if not len(excitation.orders):
             raise system.refusal("nothing excites it at the orders asked for")
         response = find_response(system, excitation, speeds, tell)
         met = np.array([critical.speed_rpm for critical in criticals])

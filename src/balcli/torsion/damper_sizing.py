@@ -238,9 +238,11 @@ def _find_carrier(
 
 def _excite(system: TorsionalSystem, orders: Real | None) -> Excitation:
     excitation = system.excitation
-    if excitation is not None and orders is not None:
+    if excitation is None:
+        raise BalcliError("--damper: nothing excites the system; give an [[excitation]]")
+    if orders is not None:
         excitation = excitation.only(orders)
-    if excitation is None or not len(excitation.orders):
+    if not len(excitation.orders):
         raise BalcliError("--damper: nothing excites the system at the orders asked for")
     return excitation
 

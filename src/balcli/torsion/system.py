@@ -98,7 +98,8 @@ class TorsionalSystem:
         angle_limit: half swing of the first node, rad, above which a speed is barred.
         last: node at which Holzer's table ends.
         reference: node whose speed and orders are those of the system.
-        without_gas: numbers of the cylinders without gas, where others have some.
+        without_gas, without_burning: numbers of the cylinders without gas, where others have some,
+            and of those that compress and burn nothing.
         rated_rpm: speed of the file's own; None: it gives none.
         file: in which all this stands, for messages; may be empty.
     """
@@ -118,6 +119,7 @@ class TorsionalSystem:
     rated_rpm: float | None = None
     reference: int = 0
     without_gas: tuple[int, ...] = ()
+    without_burning: tuple[int, ...] = ()
     file: str = ""
 
     def refusal(self, message: str) -> BalcliError:
