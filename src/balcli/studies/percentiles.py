@@ -23,12 +23,13 @@ class Sample:
         self._count, self._sum = 0, 0.0
         self._counts: Array | None = None
         self._low, self._high = 0.0, 0.0
-        self.largest = -np.inf
+        self._smallest, self.largest = np.inf, -np.inf
 
     def add(self, values: Array) -> None:
         """Some more numbers, shape (numbers,)."""
         self._count += len(values)
         self._sum += float(values.sum())
+        self._smallest = min(self._smallest, float(values.min(initial=np.inf)))
         self.largest = max(self.largest, float(values.max(initial=-np.inf)))
         if self._counts is not None:
             self._count_in_bins(values, self._counts)
@@ -50,7 +51,8 @@ class Sample:
         below = np.concatenate([[0.0], np.cumsum(self._counts)])
         edges = np.linspace(self._low, self._high, BINS + 1)
         ranks = np.asarray(percentages) / 100 * self._count
-        return [float(value) for value in np.interp(ranks, below, edges)]
+        inside = np.clip(np.interp(ranks, below, edges), self._smallest, self.largest)
+        return [float(value) for value in inside]
 
     @property
     def _whole(self) -> Array:
