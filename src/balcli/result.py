@@ -42,7 +42,8 @@ class Result:
         return import_module("balcli.render.exchange").list_rows(self)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The rows as a DataFrame; units of columns are its `attrs["units"]`.
+        """The rows as a DataFrame; units of columns are its `attrs["units"]`, as far as neither
+        their names nor a column `unit` tell them.
 
         Raises:
             BalcliError: pandas is not installed.
@@ -51,7 +52,8 @@ class Result:
 
     def to_xarray(self) -> xarray.Dataset:
         """The rows as a Dataset: what a study varies are its dimensions, of other answers the
-        number of the row. Each variable has its unit as `attrs["units"]`.
+        number of the row. Each variable has its unit as `attrs["units"]`, as far as neither its
+        name nor a variable `unit` tells it.
 
         Raises:
             BalcliError: xarray is not installed.

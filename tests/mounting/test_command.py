@@ -52,6 +52,12 @@ def test_json_is_what_it_promises(four):
     assert max(mount["peak_N"]) <= mount["worst"]["force_N"] * (1 + 1e-12)
 
 
+def test_speeds_are_told_as_they_were_asked_for(four):
+    """What is computed in rad/s came back as 700.6000000000001 rpm."""
+    said = json.loads(run_here("mounts", four, "--speeds", "700:702:0.1", "-f", "json").out)
+    assert said["response"]["speeds_rpm"] == [k / 10 for k in range(7000, 7021)]
+
+
 def test_csv_has_the_figures_of_json(four):
     said = json.loads(run_here("mounts", four, "--speeds", "900,3000", "-f", "json").out)
     text = run_here("mounts", four, "--speeds", "900,3000", "-f", "csv").out

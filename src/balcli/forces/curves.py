@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from ..result import Result
 from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
+_PLAIN = 10**6  # largest denominator of a step that is taken for a fraction
 _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
@@ -69,7 +71,11 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
             f"--step {step:g}: give a step of the crank angle from {FINEST_STEP_DEG:g} to 360 "
             "degrees"
         )
-    return np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9)) * step
+    steps = np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9))
+    plain = Fraction(step).limit_denominator(_PLAIN)
+    if float(plain) != step:
+        return steps * step
+    return steps * plain.numerator / plain.denominator  # 3 steps of 0.1 are 0.3
 
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:

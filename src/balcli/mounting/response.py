@@ -144,8 +144,10 @@ class MountingResponse:
 
     @property
     def speeds_rpm(self) -> Real:
-        """(speeds,)."""
-        return self.omega / RPM
+        """(speeds,); short decimals as they were asked for, which rad/s keep but for rounding."""
+        rpm = self.omega / RPM
+        short = np.round(rpm, 9)
+        return np.where(short * RPM == self.omega, short, rpm)
 
 
 def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> BodyLoads:
