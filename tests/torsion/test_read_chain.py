@@ -255,6 +255,12 @@ order = 1.3
             'fixed = ["b"]\n' + TWO.replace("inertia = 1e6\n", ""),
             "node.1.inertia: is missing; nothing that turns has any",
         ),
+        (  # c meshes with b, and stands still as well: an internal error
+            'fixed = ["b"]\n'
+            + TWO.replace("inertia = 1e6\n", "")
+            + '[[node]]\nname = "c"\ninertia = 3\n[[gear]]\nfrom = "b"\nto = "c"\nratio = 2\n',
+            "node.1.inertia: is missing; nothing that turns has any",
+        ),
         (
             TWO.replace("stiffness = 1000", "stiffness = 1000\nlength = 3\ndiameter = 30"),
             "shaft.1: has stiffness and length; leave one of them out",

@@ -13,7 +13,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from .singular_values import Complex, Real
 from .sorted_sets import find_middle, sort_distinct
-from .torsional_chain import Branch, Chain, Damping, find_pieces, grow_branches, incidence
+from .torsional_chain import (
+    Branch,
+    Chain,
+    Damping,
+    find_pieces,
+    find_still,
+    grow_branches,
+    incidence,
+)
 from .vibration import solve_equations
 
 _WEAK_PIVOT = 1e-3  # sums that cancel to less than this are solved anew, with pivoting
@@ -92,6 +100,7 @@ def respond_chain(
     angle, torque, weak, singular = _solve_tree(chain, equations)
     if np.any(weak):
         angle[:, weak], torque[:, weak] = _solve_dense(chain, equations.at(weak), singular[weak])
+        angle[find_still(chain)] = 0
     return Twist(np.moveaxis(angle, 0, -1), np.moveaxis(torque, 0, -1))
 
 

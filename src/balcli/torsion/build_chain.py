@@ -111,7 +111,7 @@ def _find_faults(
         yield Problem("fixed", "clamps every node; leave one free")
         return
     yield from _find_loops(chain, lambda k: _find_path(k, first_gear))
-    heavy, free = chain.inertia > 0, ~chain.clamped
+    heavy, free = chain.inertia > 0, ~find_still(chain)
     pieces = [motion != 0 for motion in rigid_motions(chain)] or [free]
     for piece in [] if apart else pieces:
         if not np.any(heavy[piece]):
