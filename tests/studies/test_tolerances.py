@@ -145,6 +145,18 @@ def test_shares_of_lengths_are_what_a_changed_file_gives(text: str, number: int)
         assert shares[f"rod length {number}"] == pytest.approx(expected, rel=1e-5, abs=1e-6 * size)
 
 
+@pytest.mark.parametrize("text", [GOOD, RADIAL], ids=["plain", "articulated"])
+def test_rods_that_might_lock_are_refused(text: str) -> None:
+    """They were no figures, or 64 GB."""
+    quantities = parse_quantity_list("force.2.major")
+    with pytest.raises(BalcliError) as caught:
+        scatter_engine(load(text), Tolerances(length=0.8), quantities, 10)
+    said = "--length-scatter 80%: rods shorter by twice as much cannot be ("
+    assert str(caught.value).startswith(said)
+    assert str(caught.value).endswith("give a smaller one")
+    scatter_engine(load(text), Tolerances(length=0.1), quantities, 10)
+
+
 def test_nothing_exceeds_the_bound_of_masses() -> None:
     for shape in ("uniform", "normal"):
         result = scatter_engine(

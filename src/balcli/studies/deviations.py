@@ -23,7 +23,7 @@ from ..engine.gas import EngineGas
 from ..engine.layout import plan_cylinders
 from ..engine.rods import weigh_rod
 from ..enginefile.model import EngineFile
-from ..errors import BalcliError
+from ..errors import BalcliError, InputError
 from ..forces.quantity import Quantity
 from ..forces.spectrum import compute_spectra
 from .deviating_gas import DeviatingGas
@@ -71,7 +71,7 @@ class DeviatingEngine:
         sources: what deviates; tolerances of 0 and parts without mass are left out.
 
     Raises:
-        BalcliError: the cylinders turn, or nothing deviates.
+        BalcliError: the cylinders turn, rods might lock, or nothing deviates.
     """
 
     def __init__(self, model: EngineFile, tolerances: Tolerances) -> None:
@@ -81,6 +81,14 @@ class DeviatingEngine:
                 "masses with sweep"
             )
         self._model, self._engine = model, build(model, rank=1)
+        parts = assemble(model)
+        self._radius = parts.radius
+        self._rows_of_rods: dict[RodFigures, list[int]] = {}
+        for row, n in enumerate(self._engine.numbers):
+            rod = parts.rod_place(n, n in parts.masters).rod
+            self._rows_of_rods.setdefault(rod, []).append(row)
+        if tolerances.length:
+            self._refuse_locks(tolerances.length)
         self._gas = None if model.gas is None else DeviatingGas(model, tolerances.length)
         cells = {cell.number: cell for cell in plan_cylinders(model.crank, model.layout).cells}
         self._throws = [cells[number].throw + 1 for number in self._engine.numbers]
@@ -89,17 +97,31 @@ class DeviatingEngine:
         without_throws = build(_without_throws(model), rank=1).cylinders
         self._pistons = self._of_each(c.reciprocating - without_pistons.reciprocating)
         self._webs = self._of_each(c.rotating - without_throws.rotating)
-        parts = assemble(model)
-        self._radius = parts.radius
-        self._rows_of_rods: dict[RodFigures, list[int]] = {}
-        for row, n in enumerate(self._engine.numbers):
-            rod = parts.rod_place(n, n in parts.masters).rod
-            self._rows_of_rods.setdefault(rod, []).append(row)
         self._hung = np.array([[n in parts.masters] for n in self._engine.numbers])
         self._of_file = self._weigh_rods(np.zeros((1, 1)))
         self.sources = tuple(self._find_sources(tolerances))
         if not self.sources:
             raise BalcliError("nothing deviates; give a tolerance, such as --mass-scatter 0.5%")
+
+    def _refuse_locks(self, tolerance: float) -> None:
+        """BalcliError where rods cannot be shorter by twice their tolerance, beyond which next to
+        none is.
+        """
+        shortest = max(1 - 2 * tolerance, 1e-3)
+        lengths = {
+            f"cylinder.{self._engine.numbers[row]}.rod_length": (
+                1e3 * shortest * rod.length_for(self._radius)
+            )
+            for rod, rows in self._rows_of_rods.items()
+            for row in rows
+        }
+        try:
+            assemble(self._model, lengths, rank=1)
+        except InputError as error:
+            raise BalcliError(
+                f"--length-scatter {100 * tolerance:g}%: rods shorter by twice as much cannot be "
+                f"({error.problems[0].message}); give a smaller one"
+            ) from None
 
     def _of_each(self, rows: Array) -> Array:
         """One row a cylinder, shape (cylinders, 1)."""
