@@ -47,6 +47,15 @@ def torque(*arguments):
     return out
 
 
+def test_the_table_says_why_nothing_is_told_of_the_speed(four, tmp_path):
+    missing = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
+    assert missing not in torque(four)
+    light = tmp_path / "light.toml"
+    light.write_text(FOUR + WIEBE, encoding="utf-8")
+    assert f"Flywheel\n{missing}\n" in torque(light)
+    assert missing not in torque(light, "--fluctuation", "1/200")
+
+
 def test_json_has_what_the_file_allows(four):
     found = json.loads(torque(four, "--format", "json", "--fluctuation", "1/300"))
     assert set(found) == WHOLE | {"bmep_Pa", "flywheel"}

@@ -22,6 +22,8 @@ from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
+_NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
+
 
 def sheet(result: Result, system: System) -> Sheet:
     """Work, torque over the cycle, flywheel, and torque by order."""
@@ -34,6 +36,8 @@ def sheet(result: Result, system: System) -> Sheet:
     name = result.engine.name or NAMELESS
     parts = [_work_facts(result, system)]
     parts.append(_course_facts(result.curves.total, result.surplus, result.cycle_deg, system))
+    if result.flywheel is None:
+        parts.append(Text("Flywheel", (_NO_INERTIA,)))
     crank = 0.0 if result.engine.rotary else result.engine.crank_inertia
     parts += _flywheel_facts(
         result.flywheel, result.cycle_deg, system, None if crank is None else float(crank)
