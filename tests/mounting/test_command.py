@@ -161,6 +161,19 @@ def test_half_orders_are_written_as_elsewhere():
     assert re.search(r"(?m)^mode .* order ½ +order 1 +order 1½", out)
 
 
+def test_cylinders_that_do_not_fire_are_named(tmp_path):
+    path = tmp_path / "weak.toml"
+    weak = "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0\n[cylinder.4]\nheat = 0\n"
+    path.write_text(ENGINE + weak + WIEBE + block("loss = 0.1"), encoding="utf-8")
+    told = "the same diagram at every speed; no gas in 3; no burning in 4."
+    assert told in " ".join(run_here("mounts", path).out.split())
+    said = json.loads(run_here("mounts", path, "-f", "json").out)["response"]
+    assert (said["no_gas_in"], said["no_burning_in"]) == ([3], [4])
+    listed = run_here("mounts", path, "-f", "csv").out.splitlines()
+    assert "engine,,,,no_gas_in,3," in listed
+    assert "engine,,,,no_burning_in,4," in listed
+
+
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):
     path = tmp_path / "block.toml"
     path.write_text(block(), encoding="utf-8")

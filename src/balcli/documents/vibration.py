@@ -126,6 +126,8 @@ class Passed(TypedDict):
 class BodyResponse(TypedDict):
     """Of the body to the engine, over speeds."""
 
+    no_gas_in: NotRequired[list[int]]
+    no_burning_in: NotRequired[list[int]]
     speeds_rpm: Row
     mounts: list[MountForce]
     points: list[PointMotion]

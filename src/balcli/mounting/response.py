@@ -61,6 +61,7 @@ class BodyLoads:
         mean: N m about the crankshaft's axis on the body, steady: the reaction to a constant load,
             which takes the mean of the gas torque over the crank angle, at uneven speed too, less
             the share that goes into friction, for that acts between parts of the body.
+        without_gas, without_burning: numbers of the cylinders of which that holds, as of an engine.
     """
 
     orders: Real
@@ -68,6 +69,8 @@ class BodyLoads:
     omega: float
     gas: Complex | None = None
     mean: float = 0.0
+    without_gas: tuple[int, ...] = ()
+    without_burning: tuple[int, ...] = ()
 
     def at(self, omega: Real) -> Complex:
         """(orders, *speeds, 6) at speeds (rad/s, any shape)."""
@@ -176,7 +179,13 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Body
         gas[:, ROLL] = -found["gas"].x
         indicated = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
         efficiency = engine.mechanical_efficiency or 1.0
-        loads = replace(loads, gas=gas, mean=-efficiency * float(indicated))
+        loads = replace(
+            loads,
+            gas=gas,
+            mean=-efficiency * float(indicated),
+            without_gas=engine.without_gas,
+            without_burning=engine.without_burning,
+        )
     return loads if orders is not None else _leave_out_none(loads)
 
 

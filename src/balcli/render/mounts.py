@@ -9,6 +9,7 @@ from ..core.singular_values import Real
 from ..mounting.motions import AXES
 from ..mounting.report import MountReport
 from ..mounting.response import LargestAmplitude, MountingResponse
+from .engine_facts import list_silent
 from .mounts_document import document, rows
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name
 from .units import ShownUnit, System
@@ -59,7 +60,8 @@ def _answer(result: MountReport, response: MountingResponse, system: System) -> 
     if response.loads.gas is None:
         yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
     else:
-        yield "Of inertia and the torque of the gas, the same diagram at every speed."
+        silent = "".join(f"; {what} {numbers}" for what, numbers in list_silent(response.loads))
+        yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
     for other in result.beside:
         after = max(other.response.worst_force, key=lambda one: one.value)
         told = f"the largest force of any mount is {_tell(after, force)}{_less(after, worst)}"

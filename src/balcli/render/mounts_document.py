@@ -10,7 +10,7 @@ from ..mounting.motions import AXES
 from ..mounting.report import MountReport
 from ..mounting.response import LargestAmplitude, MountingResponse
 from .csv import Rows, name_cell
-from .figures import clean, clean_each
+from .figures import clean, clean_each, silent_entries
 from .sheet import order_number
 from .units import System
 
@@ -90,6 +90,7 @@ def _response(result: MountReport, response: MountingResponse) -> dict[str, Any]
         point["peak_mm"] = clean_each(1e3 * response.motion_peak[:, k])
         point["worst"] = _worst_entry(response.worst_motion[k], "motion_mm", 1e3)
     return {
+        **silent_entries(response.loads),
         "speeds_rpm": clean_each(response.speeds_rpm),
         "mounts": mounts,
         "points": points,
@@ -158,6 +159,8 @@ def _curves(
         ("mount", result.mounted.names, response.force, response.force_peak, force),
         ("point", result.mounted.point_names, response.motion, response.motion_peak, length),
     )
+    for key, numbers in silent_entries(response.loads).items():
+        yield f"{part}engine", "", None, None, key, " ".join(map(str, numbers)), ""
     for kind, names, by_order, peak, unit in groups:
         figure = "force" if kind == "mount" else "motion"
         for k, name in enumerate(names):
