@@ -75,7 +75,8 @@ def test_a_branch_to_a_clamp_is_a_spring_to_ground():
         ),
         (
             join_chain([1, 1, 1], [ChainShaft(0, 1, 6), ChainShaft(1, 2, np.inf, 2)], clamped=[2]),
-            "Holzer's table cannot have what meshes with a clamped node; clamp that",
+            "Holzer's table cannot have what meshes with a fixed node; fix it, too, and leave the "
+            "gear out",
         ),
         (
             join_chain([1, 1, 1], [ChainShaft(0, 2, 6), ChainShaft(0, 1, 4)]),

@@ -90,6 +90,19 @@ def test_a_cylinder_may_have_a_heat_of_its_own():
     assert own.without_burning == ()
 
 
+def test_equal_heat_is_equal_wherever_it_is_said():
+    """Of all cylinders, of one beside it, of each: the same cycles, and as symmetrical."""
+    of_all = FOUR + WIEBE.replace("imep = 9", "heat = 0")
+    alike = of_all + "[cylinder.3]\nheat = 0\n"
+    each = FOUR + WIEBE + "".join(f"[cylinder.{n}]\nheat = 0\n" for n in range(1, 5))
+    engines = [build_text(text) for text in (of_all, alike, each)]
+    assert {engine.without_burning for engine in engines} == {(1, 2, 3, 4)}
+    assert [len(engine.gas.group_equal()) for engine in engines] == [1, 1, 1]
+    pumping = -0.05e5 * math.pi / 4 * 0.086**2 * 0.09
+    for engine in engines:
+        assert engine.gas.cylinders[2].torque.work == pytest.approx(pumping, rel=1e-10)
+
+
 def test_brake_work_is_not_known_where_a_cylinder_burns_nothing():
     text = FOUR + WIEBE + "mechanical_efficiency = 0.9\n"
     assert build_text(text).mechanical_efficiency == 0.9
@@ -431,7 +444,7 @@ def test_mistakes_by_path(text, told):
         (
             WIEBE + "compression_index = 1\n",
             "heat = 0",
-            "gas.compression_index: is 1: give more than 1: cylinder 2, which burns nothing, "
+            "gas.compression_index: is 1: give more than 1; where cylinder 2 burns nothing, it "
             "expands as it was compressed",
         ),
         (

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from support.commands import run_here
 from support.engines import GOOD, changed
+from support.gas_engines import PETROL_FOUR
 
 from balcli import load
 from balcli.engine.load import parse
@@ -229,6 +230,10 @@ def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
     inside = run_here(*search, "crank.throws.2=90:270").out
     assert "180" in inside
     assert "an end of the range" not in inside
+    file.write_text(PETROL_FOUR)
+    search = ("search", file, "--minimise", "gas.2.amplitude", "--over")
+    assert "an end of the range" not in run_here(*search, "cylinder.2.heat=0:300").out
+    assert "an end of the range" in run_here(*search, "cylinder.2.heat=1:300").out
 
 
 def test_a_search_says_that_a_number_changes_nothing(tmp_path):

@@ -133,6 +133,24 @@ def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("own", "idle"),
+    [
+        ("heat = 900\n", {"imep", "bmep", "max_pressure", "cut_off", "heat"}),
+        ("gas = 0.5\n", set()),
+    ],
+)
+def test_what_all_cylinders_have_of_their_own_is_no_number_of_the_gas(own, idle, tmp_path):
+    path = tmp_path / "four.toml"
+    path.write_text(PETROL_FOUR + "".join(f"[cylinder.{n}]\n{own}" for n in (1, 2, 3, 4)), "utf-8")
+    told = json.loads(run_here("numbers", path, "-f", "json").out)["numbers"]
+    known = {number["path"].removeprefix("gas.") for number in told}
+    assert known.isdisjoint(idle)
+    assert "compression_ratio" in known
+    assert ("imep" in known) == (not idle)
+    assert "cylinder.2.heat" in known
+
+
+@pytest.mark.parametrize(
     ("vary", "told"),
     [
         (("gas.imep=8,9", "gas.heat=900"), "gas.imep and gas.heat say the same; vary one of them"),

@@ -166,6 +166,41 @@ def test_a_damper_is_tuned_to_the_mode_of_the_largest_stress(kind, share):
     assert damper["after_Pa"] < 0.3 * damper["before_Pa"]
 
 
+@pytest.mark.parametrize(
+    ("loss", "speeds"), [(0.02, "2000:2440:10"), (0, "500:3000:10"), (0, "2000:2440:10")]
+)
+def test_so_it_is_beside_the_resonance_and_where_nothing_damps_it(loss, speeds):
+    text = GENSET.replace("loss = 0.02", f"loss = {loss}")
+    options = ("--speeds", speeds, "--damper", "rubber", "-f", "json")
+    damper = json.loads(run_here("torsion", "-", *options, stdin=text).out)["damper"]
+    assert damper["mode"] == 2
+    assert damper["inertia_kg_m2"] == pytest.approx(0.165, rel=0.01)
+
+
+@pytest.mark.parametrize("inertia", ["1e6", "1000100"])
+def test_a_damper_is_for_a_mode_in_which_its_carrier_moves(inertia):
+    """The middle one of three equal discs, which stands still, or nearly so, in the first mode,
+    although that makes the largest torque.
+    """
+    shafts = "".join(
+        f'[[shaft]]\nfrom = "{a}"\nto = "{b}"\nstiffness = 1e5\n' for a, b in ("ab", "bc")
+    )
+    nodes = "".join(
+        f'[[node]]\nname = "{name}"\ninertia = {own}\n'
+        for name, own in (("a", 1e6), ("b", 1e6), ("c", inertia))
+    )
+    excited = "".join(
+        f'[[excitation]]\nnode = "{name}"\norder = {order}\ncos = {cos}\n'
+        for name, order, cos in (("a", 3, 50), ("b", 5, 60))
+    )
+    options = ("--speeds", "500:4000:10", "--damper", "viscous", "--damper-at", "b", "-f", "json")
+    text = f"loss = 0.02\n{nodes}{shafts}{excited}"
+    damper = json.loads(run_here("torsion", "-", *options, stdin=text).out)["damper"]
+    assert damper["mode"] == 2
+    assert damper["inertia_kg_m2"] == pytest.approx(0.3 * 1.5, rel=1e-3)
+    assert damper["after_Nm"] < damper["before_Nm"]
+
+
 def test_a_damper_of_the_file_is_the_one_that_is_sized():
     own = 'damper = { kind = "rubber", inertia = 12345, stiffness = 1, loss = 0.2 }\n'
     text = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}')

@@ -239,13 +239,21 @@ order = 1.3
         (
             TWO + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 1.02\n',
             "gear.1: closes a loop whose ratios contradict each other, 1.02 one way round and 1 "
-            "the other: a chain that turns would wind up its shafts without end",
+            "the other: a chain that turns would wind up its shafts without end; give ratios "
+            "with all digits",
         ),
         ('fixed = ["a", "b"]\n' + TWO, "fixed: clamps every node; leave one free"),
         (
             'fixed = ["a"]\nangle_limit = 0.3\n' + TWO,
             'angle_limit: is of the first node, and "a" is fixed; leave it out, or begin with the '
             "node that may swing so far",
+        ),
+        (
+            'fixed = ["c"]\nangle_limit = 0.3\n'
+            + TWO
+            + '[[node]]\nname = "c"\n[[gear]]\nfrom = "a"\nto = "c"\nratio = 2\n',
+            'angle_limit: is of the first node, and "a" meshes with a fixed node; leave it out, or '
+            "begin with the node that may swing so far",
         ),
         (
             TWO.replace("inertia = 1e6\n", "").replace("inertia = 2e6\n", ""),

@@ -48,7 +48,10 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     if not len(branches) == count - 1 == np.count_nonzero(stiff):
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
-        raise ValueError("Holzer's table cannot have what meshes with a clamped node; clamp that")
+        raise ValueError(
+            "Holzer's table cannot have what meshes with a fixed node; fix it, too, and leave the "
+            "gear out"
+        )
     onward = {branch.child: branch for branch in branches}
     way = []
     while first in onward:

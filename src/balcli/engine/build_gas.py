@@ -139,7 +139,13 @@ class _Builder:
         return float(self.parts.figures.take(f"cylinder.{number}.gas", given))
 
     def _heat(self, number: int) -> float | None:
-        """Its own, J."""
+        """Supplied in a cycle that is computed, J, where the file says so."""
+        if self._source(number).indicator is not None:
+            return None
+        own = self._own_heat(number)
+        return self.gas.heat if own is None else own
+
+    def _own_heat(self, number: int) -> float | None:
         own = self.parts.model.cylinder.get(number)
         given = None if own is None else own.heat
         found = self.parts.figures.take_optional(f"cylinder.{number}.heat", given)
@@ -240,12 +246,11 @@ class _Builder:
 
     def _locate(self, error: GasError, number: int) -> Problem:
         """A mistake of a cylinder's cycle by its path in the file."""
-        heat = self._heat(number)
-        if error.field == "heat" and heat is not None:
+        if error.field == "heat" and self._own_heat(number) is not None:
             return Problem(f"cylinder.{number}.heat", str(error))
-        if error.field == "expansion_index" and heat == 0:
-            text = f"{error}: cylinder {number}, which burns nothing, expands as it was compressed"
-            return Problem("gas.compression_index", text)
+        if error.field == "expansion_index" and self._heat(number) == 0:
+            what = f"where cylinder {number} burns nothing, it expands as it was compressed"
+            return Problem("gas.compression_index", f"{error}; {what}")
         if error.field == "imep" and self.gas.bmep is not None:
             return Problem("gas.bmep", f"over mechanical_efficiency, the imep, {error}")
         return Problem(f"gas.{error.field}", str(error))

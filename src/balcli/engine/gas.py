@@ -26,7 +26,7 @@ class CylinderGas(NamedTuple):
         nominal_deg: crank angle, in [0, 720) or [0, 360), at which its crank pin stands along its
             axis when it fires.
         share: by which the gas force is multiplied; 0 is a misfire.
-        heat: supplied in a cycle, J, where that of this cylinder is its own.
+        heat: supplied in a computed cycle, J, where the file says so.
         like: row of the first cylinder with an equal mechanism, the same diagram and the same heat:
             what they have but for `nominal_deg` and `share` is equal.
     """

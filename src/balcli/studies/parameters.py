@@ -65,8 +65,8 @@ def find_numbers(model: EngineFile) -> dict[str, Number]:
 
 
 def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
-    """Those of numbers that change nothing of what the gas does: shares of none, or what belongs to
-    another kind of cycle.
+    """Those of numbers that change nothing of what the gas does: shares of none, what belongs to
+    another kind of cycle, or what each of the cylinders has of its own.
     """
     own = [path for path in numbers if path.startswith("cylinder.")]
     if model.gas is None:
@@ -77,6 +77,9 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
         idle_heats = [path for path in own if path.endswith(".heat")]
     else:
         idle_heats = [f"cylinder.{n}.heat" for n in with_diagram]
+    with_heat = [n for n, table in model.cylinder.items() if table.heat is not None]
+    if {*with_diagram, *with_heat} >= set(plan_cylinders(model.crank, model.layout).numbers):
+        idle.update(model.gas.goals)
     return [path for path in numbers if path.removeprefix("gas.") in idle or path in idle_heats]
 
 

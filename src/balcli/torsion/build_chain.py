@@ -53,13 +53,8 @@ def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
         for label, gear in zip(called[len(file.shaft) :], file.gear, strict=True)
     ]
     clamped = [index[each] for each in file.fixed]
-    problems = list(_find_faults(nodes, shafts, clamped, len(file.shaft)))
-    if file.angle_limit is not None and 0 in clamped:
-        text = (
-            f"is of the first node, and {shorten(names[0])} is fixed; leave it out, or begin with"
-        )
-        problems.append(Problem("angle_limit", f"{text} the node that may swing so far"))
-    if problems:
+    limited = file.angle_limit is not None
+    if problems := list(_find_faults(nodes, shafts, clamped, len(file.shaft), limited)):
         raise InputError(problems, name)
     limits = Limits(file.limit, file.angle_limit)
     return assemble_system(file.name or "", nodes, shafts, _excite(file, index), limits, clamped)
@@ -89,8 +84,11 @@ def _find_faults(
     shafts: Sequence[PlannedShaft],
     clamped: Sequence[int],
     first_gear: int,
+    limited: bool,
 ) -> Iterator[Problem]:
-    """What hangs together wrongly; gears are the shafts from `first_gear` on."""
+    """What hangs together wrongly; gears are the shafts from `first_gear` on; `limited`: whether
+    the angle of the first node is.
+    """
     names = [node.name for node in nodes]
     table = np.array([each.shaft for each in shafts], float).reshape(-1, 4)
     ends = table[:, :2].astype(np.intp)
@@ -111,7 +109,12 @@ def _find_faults(
         yield Problem("fixed", "clamps every node; leave one free")
         return
     yield from _find_loops(chain, lambda k: _find_path(k, first_gear))
-    heavy, free = chain.inertia > 0, ~find_still(chain)
+    still = find_still(chain)
+    if limited and still[0]:
+        how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
+        text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
+        yield Problem("angle_limit", f"{text} the node that may swing so far")
+    heavy, free = chain.inertia > 0, ~still
     pieces = [motion != 0 for motion in rigid_motions(chain)] or [free]
     for piece in [] if apart else pieces:
         if not np.any(heavy[piece]):
@@ -143,5 +146,5 @@ def _find_loops(chain: Chain, path: Callable[[int], str]) -> Iterator[Problem]:
     ahead, behind = pieces.pace[chain.start] * chain.ratio, pieces.pace[chain.end]
     shaft = int(np.argmax(np.abs(ahead - behind) > SAME_RATIO * np.abs(behind)))
     text = f"closes a loop whose ratios contradict each other, {ahead[shaft]:.9g} one way round"
-    hint = "a chain that turns would wind up its shafts without end"
+    hint = "a chain that turns would wind up its shafts without end; give ratios with all digits"
     yield Problem(path(shaft), f"{text} and {behind[shaft]:.9g} the other: {hint}")

@@ -5,7 +5,8 @@ the one that makes the largest stress over a range of speeds least.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import count
 from typing import NamedTuple
 
@@ -34,6 +35,7 @@ _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  #
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 _PLACES = 13  # looked at over this range before the best is approached
 _END = 0.99  # of this range: a best one farther out is at its end
+_LOSS = 0.01  # of shafts, where nothing damps a resonance: modes are compared with it
 _HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
 _HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
 _RESPONSES = _PLACES + 2 + ROUNDS + 2  # the last of the best damper, and without any
@@ -104,8 +106,8 @@ def size_damper(
     weights = (
         np.nan_to_num(stress_by_torque(bare)) if any(bare.sections) else np.ones(len(bare.shafts))
     )
-    mode, order = _find_worst(bare, _excite(bare, orders), speeds, weights)
     place = bare.nodes.index(node)
+    mode, order = _find_worst(bare, _excite(bare, orders), speeds, weights, place)
     first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
     figure = _FIGURE[asked.kind]
     start = float(getattr(first, figure))
@@ -248,30 +250,58 @@ def _excite(system: TorsionalSystem, orders: Real | None) -> Excitation:
 
 
 def _find_worst(
-    system: TorsionalSystem, excitation: Excitation, speeds: Real, weights: Real
+    system: TorsionalSystem, excitation: Excitation, speeds: Real, weights: Real, node: int
 ) -> tuple[NaturalMode, float]:
-    """The mode that makes the largest stress in the range, and the order that drives it: of the
-    largest order there the mode nearest in frequency. By work alone that of a soft coupling would
-    be it, which hardly twists the crankshaft.
+    """The mode that a damper at a node is for, and the order that drives it: of the largest order
+    in the largest stress of the range the mode nearest in frequency. By work alone that of a soft
+    coupling would be it, which hardly twists the crankshaft.
 
-    Where nothing damps a resonance, the critical at which most work is done; where no order meets
-    a mode, the first mode and the lowest order.
+    Where the node hardly moves in that one, it is of those in which it does the one on which most
+    work is done, or else the nearest.
     """
     modes = find_natural_modes(system)
     if not modes:
         raise BalcliError("--damper: the system has no mode that could be damped")
-    met = find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1])))
-    if not met:
-        return modes[0], float(excitation.orders[0])
+    order, omega = _find_hardest(system, excitation, speeds, weights)
+
+    def find_nearest(some: Sequence[NaturalMode]) -> NaturalMode:
+        return min(some, key=lambda mode: abs(math.log(mode.omega / omega)))
+
+    whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
+    moved = [mode for mode in modes if _find_inertia_in(mode, system, node) <= 1.001 * whole]
+    numbers = {mode.number for mode in moved}
+    worst = find_nearest(modes)
+    if not moved or worst.number in numbers:
+        return worst, order
+    for met in find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1]))):
+        if met.mode in numbers:
+            return modes[met.mode - 1], met.order
+    return find_nearest(moved), order
+
+
+def _find_hardest(
+    system: TorsionalSystem, excitation: Excitation, speeds: Real, weights: Real
+) -> tuple[float, float]:
+    """The largest order in the largest stress of the range, and its frequency there, rad/s; with
+    some loss in every shaft where nothing damps a resonance.
+    """
+    shafts = range(len(weights))
     try:
-        rpm, torque = find_largest_torques(system, excitation, speeds, range(len(weights)))
-    except BalcliError:  # without bound
-        return modes[met[0].mode - 1], met[0].order
+        rpm, torque = find_largest_torques(system, excitation, speeds, shafts)
+    except BalcliError:
+        loss = np.maximum(system.damping.loss, _LOSS)
+        system = replace(system, damping=system.damping._replace(loss=loss))
+        rpm, torque = find_largest_torques(system, excitation, speeds, shafts)
     worst = int(np.argmax(weights * torque))
     by_order = np.abs(move(system, excitation, rpm[worst : worst + 1]).torque[:, 0, worst])
     order = float(excitation.orders[int(np.argmax(by_order))])
-    omega = order * float(rpm[worst]) * RPM
-    return min(modes, key=lambda mode: abs(math.log(mode.omega / omega))), order
+    return order, order * float(rpm[worst]) * RPM
+
+
+def _find_inertia_in(mode: NaturalMode, system: TorsionalSystem, node: int) -> float:
+    """What vibrates in a mode, as if all of it were at a node, kg m2; inf where that is still."""
+    moved = mode.shape[node] ** 2
+    return float(np.sum(system.chain.inertia * mode.shape**2)) / moved if moved else math.inf
 
 
 def _propose(
@@ -294,7 +324,7 @@ def _propose(
     own = own if own is not None and own.kind == asked.kind else None
     if mode.shape[node] == 0:
         raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
-    there = float(np.sum(system.chain.inertia * mode.shape**2)) / mode.shape[node] ** 2
+    there = _find_inertia_in(mode, system, node)
     known = None if own is None or own.inertia is None else own.inertia / 1e6
     inertia = asked.inertia or known or float(f"{_SHARE[asked.kind] * there:.4g}")
     ratio, written = inertia / there, float(f"{inertia * 1e6:.12g}")

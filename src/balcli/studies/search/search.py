@@ -22,7 +22,7 @@ from ...forces.orders import merge_orders
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
-from ..parameters import parse_parameter
+from ..parameters import find_numbers, parse_parameter
 from ..quantities import AnyQuantity, choose_of_engine, refuse_unknown_of_chapters
 from .designs import Design, Found, build_candidates, drop_firing_order
 from .even_firing import find_even_angles, fires_evenly
@@ -65,13 +65,17 @@ class Search(Result):
 
     @property
     def best_at_end(self) -> bool:
-        """Whether the best value is an end of the range, beyond which there may be a better one."""
+        """Whether the best value is an end of the range, beyond which there may be a better one,
+        and not as far as its number goes at all.
+        """
         design = self.results[0].design
         if self.ends is None or design.number is None or self.constant:
             return False
         low, high = self.ends
-        value, near = design.number[1], NEAR_AN_END * (high - low)
-        return bool(min(abs(value - low), abs(value - high)) <= near)
+        (path, value), near = design.number, NEAR_AN_END * (high - low)
+        number = find_numbers(self.model).get(path)
+        last = () if number is None else (number.least, number.most)
+        return any(abs(value - end) <= near for end in self.ends if end not in last)
 
     @property
     def summary(self) -> str:
