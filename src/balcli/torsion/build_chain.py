@@ -105,11 +105,11 @@ def _find_faults(
             path = _find_path(shaft, first_gear)
             yield Problem(path, "is in a loop of gears whose ratios lock each other")
             return
-    if np.all(find_still(chain)):
+    still = find_still(chain)
+    if np.all(still):
         yield Problem("fixed", "clamps every node; leave one free")
         return
     yield from _find_loops(chain, lambda k: _find_path(k, first_gear))
-    still = find_still(chain)
     if limited and still[0]:
         how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
         text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
