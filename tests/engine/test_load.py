@@ -388,7 +388,7 @@ def test_what_cannot_be_read(tmp_path):
     missing, folder = tmp_path / "none.toml", tmp_path
     for path, message in (
         (missing, f"{missing}: no such file"),
-        (folder, f"{folder}: is a folder; name an engine file in it"),
+        (folder, f"{folder}: is a folder; name a file in it"),
         ("a\0b", "'a\\x00b': cannot be read (embedded null byte)"),
     ):
         with pytest.raises(BalcliError) as caught:
