@@ -27,7 +27,7 @@ _MOST_ORDERS = 3  # of a shaft's torque, named beside it
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Modes first, then what was asked."""
     parts: list[Grid | Facts | Text] = []
-    if silent := list_silent(result.system):
+    if silent := list_silent(result.system.silent):
         parts.append(Facts(tuple(silent)))
     if result.damper is not None:
         parts.append(_damper(result.damper, system))
