@@ -218,6 +218,6 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     ]
     keys = {"speed": float(result.engine.speed_rpm), "speed_ripple": lines}
     text = set_keys(source.decode("utf-8-sig"), "operation", keys, _NOTE)
-    for number in result.engine.without_gas:
+    for number in result.engine.silent.without_gas:
         text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
     write_file(text, target)

@@ -281,7 +281,7 @@ def _find_contradictions(
     draft.model_fields_set.update(broken & value.keys())  # these are given, too
     for rule in table.rules:
         if rule.needs.isdisjoint(broken):
-            yield from tell(rule.check(draft), rule.needs)
+            yield from tell(rule.check(draft), {*rule.needs, *rule.wants})
 
 
 def _count_values(value: object) -> int:
