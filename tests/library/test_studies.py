@@ -181,6 +181,8 @@ def test_angles_of_a_search_are_numbers_of_a_frame():
     frame = balcli.search(balcli.load_example("v6_90_split"), "splay", "moment.1.major").to_pandas()
     assert frame["splay"].dtype == float
     assert frame.attrs["units"]["splay"] == "deg"
+    long = balcli.search(balcli.load_example("i4"), "rod.length=120:160", "force.2.major")
+    assert long.to_pandas().attrs["units"]["rod.length"] == "mm"
     throws = balcli.search(V8, "throws", "moment.1.major").to_pandas()["throws"]
     assert throws[0] == "0-180-90-270"
 

@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 
 LOADS = ("pin", "main")
 _NOTE = "by balcli torque"
+# Where an engine has what a curve is given by an option.
+_IN_ITS_FILE = {
+    "--inertia": "; that of an engine stands in its file: [crank] inertia, [flywheel]",
+}
 Engine = Annotated[
     str | None,
     typer.Argument(
@@ -187,7 +191,7 @@ def refuse_mixture(
     wrong = alone if path is None else given
     for option, value in wrong.items():
         if value:
-            needs = "an engine file" if path is None else "--curve"
+            needs = "an engine file" if path is None else f"--curve{_IN_ITS_FILE.get(option, '')}"
             raise BalcliError(f"{option} needs {needs}")
 
 

@@ -189,7 +189,7 @@ class Gas(FileTable):
 
 
 class Flywheel(FileTable):
-    """A flywheel, or all that turns with the crankshaft beyond it."""
+    """A flywheel, or all that turns with the crankshaft beyond it. [torsion] has its own."""
 
     choices = (
         Choice((("inertia",), ("mass", "radius_of_gyration")), required=True, complete=True),
