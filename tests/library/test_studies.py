@@ -582,6 +582,11 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
         "damper_inertia: 'x' (str): give a moment of inertia in kg m2, such as 0.1",
     ),
     (
+        lambda: balcli.analyze_torsion({"node": [{"name": "a"}], "fixed": ["a"]}),
+        balcli.InputError,
+        "chain file: fixed: clamps every node; leave one free",
+    ),
+    (
         lambda: balcli.analyze_torsion(DIESEL, orders=["a"]),
         TypeError,
         "orders: 'a' (str): give numbers, such as [1, 2, 4]",
