@@ -108,8 +108,11 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
         return [Difference(name, missing)]
     wanted = _list_recorded(engine)
     found = analyze(engine, only=wanted)
+    document = renderer.document(found)
     try:
         recorded = json.loads(record.read_text(encoding="utf-8"))
+        if document == recorded:  # to the last digit, as where the same processor recorded it
+            return []
         old = dict(_list_figures(recorded))
         if not all(map(math.isfinite, old.values())):  # beside infinity nothing would differ
             raise ValueError("a figure is not finite")
@@ -117,13 +120,11 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
         orders = {entry["order"] for entry in recorded["orders"]}
         if not orders <= set(found.orders):
             found = analyze(engine, {*orders, *found.orders}, wanted)
+            document = renderer.document(found)
     except _UNREADABLE as error:
         reason = f"{type(error).__name__}: {error}"
         broken = f"the result recorded in {where} cannot be read ({reason})"
         return [Difference(name, f"{broken}; check --update records it anew")]
-    document = renderer.document(found)
-    if document == recorded:  # to the last digit, as where the same processor recorded it
-        return []
     return [
         *_compare_exact_figures(name, exactly_old, _list_exact_figures(document)),
         *_compare_figures(name, old, dict(_list_figures(document)), _find_roundings(found.spectra)),

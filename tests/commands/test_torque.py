@@ -274,7 +274,10 @@ def test_with_imperial_units_a_bare_inertia_asks_for_its_unit(curve):
         ([], "give an engine file, or --curve with a torque"),
         (["{four}", "--curve", "{curve}"], "give an engine file, or --curve with a torque"),
         (["--curve", "{curve}", "--misfire", "1"], "--misfire needs an engine file"),
-        (["{four}", "--inertia", "3"], "--inertia needs --curve"),
+        (
+            ["{four}", "--inertia", "3"],
+            "--inertia needs --curve; that of an engine stands in its file: [crank] inertia, [flywheel]",
+        ),
         (["{four}", "--fluctuation", "x"], '--fluctuation "x": give (highest - lowest)/mean sp'),
         (["{four}", "--fluctuation", "1/0"], '--fluctuation "1/0": give (highest - lowest)/mea'),
         (["{four}", "--cylinder", "7"], "--cylinder 7: four has the cylinders 1, 2, 3, 4"),

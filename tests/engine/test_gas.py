@@ -66,8 +66,8 @@ def test_a_cylinder_without_heat_compresses_and_expands_alike():
     exact = 1.6e5 * (swept / 9 * 10 / volume) ** 1.32
     assert dead.torque.pressure.at(angle) == pytest.approx(exact, rel=1e-12)
     assert dead.torque.work == pytest.approx(-0.3e5 * swept, rel=1e-12)
-    assert engine.without_burning == (3,)
-    assert engine.without_gas == ()
+    assert engine.silent.without_burning == (3,)
+    assert engine.silent.without_gas == ()
     assert len({id(c.torque) for c in engine.gas.cylinders}) == 2
 
 
@@ -87,7 +87,7 @@ def test_a_cylinder_may_have_a_heat_of_its_own():
     own = build_text(FOUR + WIEBE + "[cylinder.1]\nheat = 900\n")
     assert own.gas.cylinders[0].torque.imep == pytest.approx(alike.imep, rel=1e-13)
     assert own.gas.cylinders[1].torque.imep == pytest.approx(9e5, rel=1e-12)
-    assert own.without_burning == ()
+    assert own.silent.without_burning == ()
 
 
 def test_equal_heat_is_equal_wherever_it_is_said():
@@ -96,7 +96,7 @@ def test_equal_heat_is_equal_wherever_it_is_said():
     alike = of_all + "[cylinder.3]\nheat = 0\n"
     each = FOUR + WIEBE + "".join(f"[cylinder.{n}]\nheat = 0\n" for n in range(1, 5))
     engines = [build_text(text) for text in (of_all, alike, each)]
-    assert {engine.without_burning for engine in engines} == {(1, 2, 3, 4)}
+    assert {engine.silent.without_burning for engine in engines} == {(1, 2, 3, 4)}
     assert [len(engine.gas.group_equal()) for engine in engines] == [1, 1, 1]
     pumping = -0.05e5 * math.pi / 4 * 0.086**2 * 0.09
     for engine in engines:

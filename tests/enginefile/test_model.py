@@ -293,6 +293,10 @@ def test_mistakes_of_a_table_beside_a_misspelt_key_are_told():
             GOOD + "[gas]\ncycle = 'otto'\nimep = 5\ncompresion_ratio = 9\n",
             "gas.compresion_ratio: unknown key in [gas]; did you mean compression_ratio?",
         ),
+        (
+            GOOD + "[gas]\ncycle = 'otto'\nimeep = 5\ncompression_ratio = 9\n",
+            "gas.imeep: unknown key in [gas]; did you mean imep?",
+        ),
     ],
 )
 def test_what_is_misspelt_is_not_missing(text, told):

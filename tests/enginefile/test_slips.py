@@ -30,6 +30,7 @@ def told(tmp_path, *changes, args=()):
     [
         ("stroke = 90", "stroke = 3.00 in", ': stroke = 3.00 in: a value with a unit stands in quotes: stroke = "3.00 in"'),
         ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma; a list stands in brackets, such as [68,6]"),
+        ("length = 160", "ratio = 2/7", ": ratio = 2/7: TOML knows no fractions; write ratio = 0.285714"),
         ("throws = [0, 180, 180, 0]", "throws = 0, 90", ": throws = 0, 90: a list stands in brackets: throws = [0, 90]"),
         ("throws = [0, 180, 180, 0]", "throws = 0,180,180,0", ": throws = 0,180,180,0: a list stands in brackets: throws = [0,180,180,0]"),
     ],

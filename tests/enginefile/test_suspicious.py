@@ -243,6 +243,39 @@ stiffness = 1e6
 """
 
 
+LIGHT = (
+    "less than 0.01 of what all rods and pistons have at the crank radius (8910); is it in kg mm^2? "
+    "Another unit is said as in "
+)
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ("[flywheel]\ninertia = 1.15\n", f'flywheel.inertia is 1.15 kg mm^2, {LIGHT}"1.15 kg m^2"'),
+        (
+            "[flywheel]\nmass = 12\nradius_of_gyration = 0.14\n",
+            f'flywheel.inertia is 0.2352 kg mm^2, {LIGHT}"0.2352 kg m^2"',
+        ),
+        (
+            TWIST % ("0.02", "1.1"),
+            f'torsion.throw_inertia, of all throws, is 0.08 kg mm^2, {LIGHT}"0.08 kg m^2"\n'
+            f"the heaviest part of [torsion], 'Flywheel', is 1.1 kg mm^2, {LIGHT}\"1.1 kg m^2\"",
+        ),
+        (TWIST % ("20000", "250000"), ""),
+        ("[flywheel]\ninertia = 100\n", ""),
+    ],
+)
+def test_inertias_in_kg_m2_are_asked_back(more, told):
+    assert "\n".join(find_suspicious(parse(changed(more=more)))) == told
+
+
+def test_a_crank_in_kg_m2_is_asked_back():
+    crank = changed(("throw_mass = 0.8", "throw_mass = 0.8\ninertia = 0.09"))
+    (told,) = find_suspicious(parse(crank))
+    assert told == f'crank.inertia is 0.09 kg mm^2, {LIGHT}"0.09 kg m^2"'
+
+
 @pytest.mark.parametrize("flywheel", ["inertia = 250000", "mass = 10\nradius_of_gyration = 158.1"])
 def test_inertias_that_are_said_twice(flywheel):
     """Once for `torque`, once for `torsion`: both are used as they are."""

@@ -61,6 +61,20 @@ def test_where_one_hole_is_not_enough_it_says_how_there_are_more(tmp_path):
     assert "All readings are cancelled." in out
 
 
+def test_holes_on_top_of_a_correction_are_new_ones(runs):
+    """How deep it was drilled before, and where, no run says."""
+    told = "Depths are of new holes: those drilled before are not in the file."
+    assert told not in run_here("field", runs).out
+    text = runs.read_text() + (
+        '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\n'
+        'readings = ["9 @ 40", "6 @ 310"]\n'
+    )
+    runs.write_text(text)
+    assert told in run_here("field", runs).out
+    runs.write_text(text.replace("drill = [4, 4]\ndeepest = [20, 20]\n", ""))
+    assert told not in run_here("field", runs).out
+
+
 def test_a_shop_that_works_in_inches_reads_inches(runs):
     """Radius, unbalance, drill, depth and what is permitted; weights and readings stay."""
     metric, inches = (run_here("field", runs, *more).out for more in ((), ("--units", "imperial")))

@@ -40,7 +40,7 @@ def test_names_read_back(name: str) -> None:
         ("forse.2.major", "forse.2.major is no quantity: did you mean force?"),
         (
             "noise.2.major",
-            "noise.2.major is no quantity: it begins with force, moment, couple, torque, roll or "
+            "noise.2.major is no quantity: one begins with force, moment, couple, torque, roll or "
             "peak",
         ),
         (

@@ -181,6 +181,8 @@ def test_angles_of_a_search_are_numbers_of_a_frame():
     frame = balcli.search(balcli.load_example("v6_90_split"), "splay", "moment.1.major").to_pandas()
     assert frame["splay"].dtype == float
     assert frame.attrs["units"]["splay"] == "deg"
+    long = balcli.search(balcli.load_example("i4"), "rod.length=120:160", "force.2.major")
+    assert long.to_pandas().attrs["units"]["rod.length"] == "mm"
     throws = balcli.search(V8, "throws", "moment.1.major").to_pandas()["throws"]
     assert throws[0] == "0-180-90-270"
 
@@ -578,6 +580,11 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
         lambda: balcli.analyze_torsion(DIESEL, damper="viscous", damper_inertia="x"),
         TypeError,
         "damper_inertia: 'x' (str): give a moment of inertia in kg m2, such as 0.1",
+    ),
+    (
+        lambda: balcli.analyze_torsion({"node": [{"name": "a"}], "fixed": ["a"]}),
+        balcli.InputError,
+        "chain file: fixed: clamps every node; leave one free",
     ),
     (
         lambda: balcli.analyze_torsion(DIESEL, orders=["a"]),

@@ -172,6 +172,11 @@ def test_cylinders_that_do_not_fire_are_named(tmp_path):
     listed = run_here("mounts", path, "-f", "csv").out.splitlines()
     assert "engine,,,,no_gas_in,3," in listed
     assert "engine,,,,no_burning_in,4," in listed
+    beside = tmp_path / "beside.toml"
+    beside.write_text(path.read_text("utf-8").replace("gas = 0", "gas = 1"), "utf-8")
+    told = " ".join(run_here("mounts", path, beside).out.split())
+    assert "; no gas in 3; no burning in 4. With " in told
+    assert "% more; no burning in 4. " in told
 
 
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):

@@ -118,6 +118,15 @@ def test_moments_that_no_body_has_are_doubted(tmp_path):
     assert "piston speed" in read_mounted(path).doubts[0]
 
 
+def test_inertias_in_kg_m2_are_doubted(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text(block().replace("8e6, 12e6, 14e6", "8, 12, 14"), encoding="utf-8")
+    assert read_mounted(path).doubts == (
+        "body.inertia: 14 kg mm^2 is that of 200 kg within 0.26 mm, and a mount stands 539 mm away; "
+        'is it in kg mm^2? Another unit is said as in "14 kg m^2"',
+    )
+
+
 @pytest.mark.parametrize("one", ["300", '"300 N/mm"'])
 def test_one_stiffness_holds_along_all_three_axes(tmp_path, one):
     path = tmp_path / "body.toml"

@@ -330,6 +330,15 @@ def test_in_a_page_colours_follow_it_and_ids_are_its_own(drawn):
     ET.fromstring(text)
 
 
+@pytest.mark.parametrize("share", [0, 0.5])
+def test_of_a_share_of_gas_its_pressure_is_drawn(share):
+    """Over that in the crankcase, 1 bar."""
+    weak = build_text(f"{GAS_FOUR}{WIEBE}[cylinder.1]\ngas = {share}\n")
+    drawn = compute_pictures(weak, "p-v").pressures
+    whole = compute_pictures(build_text(GAS_FOUR + WIEBE), "p-v").pressures
+    assert drawn.pressure == pytest.approx(1e5 + share * (whole.pressure - 1e5))
+
+
 @pytest.mark.parametrize("what", PAGES_OF_GAS)
 def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
     from matplotlib.backends.backend_agg import FigureCanvasAgg

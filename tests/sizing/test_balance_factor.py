@@ -104,6 +104,7 @@ position = 35
 INLINE = changed(
     ("throws = [0, 180, 180, 0]", "throws = [0, 240, 120]"), ("firing_order = [1, 3, 4, 2]", "")
 )
+FLAT_PLANE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 90"))
 
 
 def fit(text: str, factor: float = 0.5, **options: object) -> Remedy:
@@ -241,6 +242,19 @@ def test_nothing_is_missing_once_it_is_there(planes):
     assert not again.devices
     assert again.note == "nothing is missing: the counterweights of the file balance this factor"
     assert {need.missing for need in again.needs} == {0}
+
+
+@pytest.mark.parametrize("form", ["table", "card"])
+def test_pins_that_balance_each_other_are_not_called_a_balanced_engine(form, tmp_path):
+    """A flat-plane crank needs no weight in two planes, whatever its engine's second order."""
+    told = "nothing is missing: what the pins carry balances itself in these planes"
+    assert fit(FLAT_PLANE, planes="ends").note == told
+    assert len(fit(FLAT_PLANE).devices) == 4
+    (path := tmp_path / "flat.toml").write_text(FLAT_PLANE)
+    out = run_here("balance", path, "--factor", "50%", "--planes", "ends", "-f", form).out
+    assert told[1:] in " ".join(out.split())
+    assert "Orders 1 and 2 are balanced" not in out
+    assert "\n.\n" not in out
 
 
 def test_a_weight_in_a_plane_counts_in_that_plane_alone():

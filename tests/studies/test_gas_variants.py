@@ -150,6 +150,17 @@ def test_what_all_cylinders_have_of_their_own_is_no_number_of_the_gas(own, idle,
     assert "cylinder.2.heat" in known
 
 
+def test_where_all_cylinders_have_diagrams_no_number_is_of_the_cycle(tmp_path):
+    rows = "".join(f"{angle},{1 + (angle == 370)}\n" for angle in range(0, 721, 10))
+    (tmp_path / "p.csv").write_text("angle_deg,pressure_bar\n" + rows, "utf-8")
+    path = tmp_path / "four.toml"
+    own = "".join(f'[cylinder.{n}]\nindicator = "p.csv"\n' for n in (1, 2, 3, 4))
+    path.write_text(PETROL_FOUR + own, "utf-8")
+    told = json.loads(run_here("numbers", path, "-f", "json").out)["numbers"]
+    of_gas = {number["path"] for number in told if number["path"].startswith("gas.")}
+    assert of_gas == {"gas.phase", "gas.mechanical_efficiency", "gas.crankcase"}
+
+
 @pytest.mark.parametrize(
     ("vary", "told"),
     [

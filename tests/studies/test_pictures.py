@@ -9,6 +9,7 @@ import re
 import numpy as np
 import pytest
 from support.engines import GOOD, changed
+from support.gas_engines import FOUR, WIEBE
 from support.pictures import draw_page
 
 from balcli.core.mechanisms import harmonics
@@ -49,6 +50,14 @@ def test_flat_plane_vee_eight_over_its_bank_angle():
         K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K
     )
     assert banks.own_deg == 75
+
+
+def test_bars_about_the_crank_are_with_the_gas_where_there_is_some():
+    fired = compute_study(engine(FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"), "spectrum")
+    page = draw_page(PageSubject(**fired._asdict()), "spectrum", "svg")
+    texts = set(re.findall(r">([^<>]*)</text>", page.decode()))
+    assert {"About the crank, with gas", "gas torque", "total roll", "½"} <= texts
+    assert compute_study(engine(GOOD), "spectrum").now.spectra.gas is None
 
 
 def test_its_own_bank_angle_is_the_engine_as_it_is():

@@ -397,14 +397,16 @@ def test_a_mode_that_no_table_can_follow_has_none(first):
 
 def test_a_node_that_stands_still_is_told():
     """Of three equal discs the one in the middle: "nodes 1, node in –" stood there."""
-    text = "".join(node(name, 0.1) for name in "abc")
+    text = "".join(node(name, 1) for name in "abc")
     for start, end in ("ab", "bc"):
-        text += f'[[shaft]]\nfrom = "{start}"\nto = "{end}"\nstiffness = 1e4\n'
+        text += f'[[shaft]]\nfrom = "{start}"\nto = "{end}"\nstiffness = 1e5\n'
     first, second = ask(text)["modes"]
     assert (first["nodes"], first["node_in"], first["node_at"]) == (1, [], ["b"])
     assert (second["nodes"], second["node_in"], second["node_at"]) == (2, ["a-b", "b-c"], [])
     lines = run_here("torsion", "-", stdin=text).out.splitlines()
     assert [line.split()[3:] for line in lines if line.startswith("1 ")] == [["1", "at", "b"]]
+    table = run_here("torsion", "-", "--holzer", "1", stdin=text).out.partition("Holzer's")[2]
+    assert re.search(r"(?m)^b +1 +0 +0 ", table), "rounding errors stood there"
     held = ask('fixed = ["b"]\n' + text)["modes"]
     assert [(mode["nodes"], mode["node_at"]) for mode in held] == [(0, []), (0, [])]
 

@@ -291,7 +291,7 @@ def test_a_rigid_part_adds_to_its_neighbour():
 
 BAD_PARTS = """
 [torsion]
-throw_inertia = [1, 2]
+throw_inertia = [40000, 40000]
 throw_stiffness = [1, 2]
 [[torsion.front]]
 name = "a"
@@ -406,7 +406,7 @@ def test_a_rotary_has_no_crankshaft_that_twists():
         radial = 9
         rotary = true
         [torsion]
-        throw_inertia = 3
+        throw_inertia = 30000
         """
     assert refusal("torsion", "-", stdin=text) == (
         "standard input: torsion: is for crankshafts that turn; that of a rotary stands still"

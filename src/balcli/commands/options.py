@@ -54,7 +54,7 @@ UnitsOption = Annotated[
     typer.Option(
         "--units",
         case_sensitive=False,
-        help="imperial: lbf, lbf·ft, oz·in, psi, hp; JSON stays SI.",
+        help="imperial: lbf, lbf·ft, oz·in, lb·in², psi, hp; JSON stays SI.",
     ),
 ]
 Output = Annotated[

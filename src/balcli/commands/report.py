@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
-from ..forces.kinds import KINDS
 from ..render.formats import Units
 from ..render.units import SYSTEMS
 from . import scheme_options
@@ -76,8 +75,7 @@ def report(
     scheme = choose_scheme(scheme, options)
     asked = parse_orders(orders)
     _, model, engine = read_engine(path, parse_speed(speed))
-    shown = {*KINDS, "peak", *(["gas"] if engine.gas is not None else [])}
-    result = analyze(engine, asked, shown)
+    result = analyze(engine, asked)
     balanced = balance(engine, scheme, options, asked)
     mounted = None
     if model.body:

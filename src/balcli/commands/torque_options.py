@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 
 LOADS = ("pin", "main")
 _NOTE = "by balcli torque"
+# Where an engine has what a curve is given by an option.
+_IN_ITS_FILE = {
+    "--inertia": "; that of an engine stands in its file: [crank] inertia, [flywheel]",
+}
 Engine = Annotated[
     str | None,
     typer.Argument(
@@ -187,7 +191,7 @@ def refuse_mixture(
     wrong = alone if path is None else given
     for option, value in wrong.items():
         if value:
-            needs = "an engine file" if path is None else "--curve"
+            needs = "an engine file" if path is None else f"--curve{_IN_ITS_FILE.get(option, '')}"
             raise BalcliError(f"{option} needs {needs}")
 
 
@@ -214,6 +218,6 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     ]
     keys = {"speed": float(result.engine.speed_rpm), "speed_ripple": lines}
     text = set_keys(source.decode("utf-8-sig"), "operation", keys, _NOTE)
-    for number in result.engine.without_gas:
+    for number in result.engine.silent.without_gas:
         text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
     write_file(text, target)

@@ -18,7 +18,7 @@ from .cached_property import cached_property
 from .cylinders import Cylinders, Device
 from .mechanisms.fourier import Harmonics, Series
 from .phases import SUM, Phases, Vectors
-from .phasors import Array, Complex, Figure, Phasors
+from .phasors import Array, Complex, Figure, Phasors, put_together
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +169,7 @@ def find_pulls(
         across: Complex = np.asarray(1j * y.c, np.complex128)
         forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
         error = error + rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
-    return Vectors(forward, mirrored, error)
+    return Vectors(put_together(forward, mirrored), error)
 
 
 def find_couples(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Iterator[Series]:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .peaks import MOST_CANDIDATES, NEAR_TOP, find_move, find_peak
+from .peaks import MOST_CANDIDATES, NEAR_TOP, differentiate, find_move, find_peak
 from .phasors import Array, Complex, Phasors
 
 _AT_ONCE = 1 << 16  # samples of curves
@@ -100,7 +100,7 @@ def _climb(curves: _Curves, theta: Array, step: float) -> Array:
     values = np.empty(len(theta))
     moving = np.arange(len(theta))
     for _ in range(_ROUNDS):
-        f, f1, f2 = _evaluate(curves, theta)
+        f, f1, f2 = differentiate(curves.orders, curves.forward, curves.backward, theta)
         values[moving] = np.hypot(f.real, f.imag)
         move = find_move(f, f1, f2, step)
         on = np.abs(move) >= _SETTLED
@@ -108,12 +108,3 @@ def _climb(curves: _Curves, theta: Array, step: float) -> Array:
             break
         curves, theta, moving = curves.select(np.flatnonzero(on)), (theta + move)[on], moving[on]
     return values
-
-
-def _evaluate(curves: _Curves, theta: Array) -> tuple[Complex, Complex, Complex]:
-    """Each curve at its own angle, and two derivatives, each of shape (curves,)."""
-    n = curves.orders.astype(float)
-    turned = np.exp(1j * (theta[:, None] * n))
-    ahead, astern = curves.forward * turned, curves.backward * turned.conj()
-    both, rate = ahead + astern, n * (ahead - astern)
-    return both.sum(axis=-1), 1j * rate.sum(axis=-1), -(n**2 * both).sum(axis=-1)

@@ -137,17 +137,29 @@ def climb_peaks(curve: Phasors, theta: Array, step: float) -> Array:
     """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
     `step`.
     """
-    first = curve.derivative
-    curves = (curve, first, first.derivative)
     for _ in range(_CLIMBS):
-        ahead: Complex = np.exp(1j * np.multiply.outer(theta, curve.orders))
-        against = np.conj(ahead)
-        f, f1, f2 = (ahead @ each.forward + against @ each.backward for each in curves)
+        f, f1, f2 = differentiate(curve.orders, curve.forward, curve.backward, theta)
         move = find_move(f, f1, f2, step)
         theta = theta + move
         if np.max(np.abs(move)) < 1e-10:
             break
     return theta
+
+
+def differentiate(
+    orders: Array | NDArray[np.intp], forward: Complex, backward: Complex, theta: Array
+) -> tuple[Complex, Complex, Complex]:
+    """A curve at crank angles (rad), or each of many curves at its own, and two derivatives.
+
+    Args:
+        orders: shape (orders,).
+        forward, backward: phasors, shape (orders,); of many curves (angles, orders).
+        theta: shape (angles,), as of all that is returned.
+    """
+    turned = np.exp(1j * np.multiply.outer(theta, orders))
+    ahead, astern = forward * turned, backward * turned.conj()
+    both, rate = ahead + astern, orders * (ahead - astern)
+    return both.sum(axis=-1), 1j * rate.sum(axis=-1), -(orders**2 * both).sum(axis=-1)
 
 
 def find_move(f: Complex, f1: Complex, f2: Complex, step: float) -> Array:

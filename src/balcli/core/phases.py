@@ -14,7 +14,6 @@ any trailing axes; an axis along which nothing varies has length 1.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import groupby
 from typing import NamedTuple
 
@@ -36,13 +35,12 @@ class Vectors(NamedTuple):
     """A rotating vector of each cylinder in its own frame, x along its axis.
 
     Attributes:
-        forward: shape (orders, cylinders or 1, *trailing); a single one stands for all cylinders.
-        mirrored: conjugates of the backward vectors, likewise.
-        error: rounding error of either, likewise.
+        sides: shape (2, orders, cylinders or 1, *trailing); forward ones, then the conjugates of
+            backward ones; a single one stands for all cylinders.
+        error: rounding error of either, shape (orders, cylinders or 1, *trailing).
     """
 
-    forward: Array | Complex
-    mirrored: Array | Complex
+    sides: Array | Complex
     error: Array
 
 
@@ -93,15 +91,16 @@ class Phases:
             arms: shape (cylinders, *trailing).
             sizes: bounds of the arms that their rounding errors grow with, same shape.
         """
-        forward, mirrored, error = vectors
+        sides, error = vectors
         noise = self.add_figures(error, sizes)
-        if self._of_variants and len(forward[0]) == len(mirrored[0]) == 1:
+        if self._of_variants and _are_equal(sides):
             ahead, astern = self._add_turned(self._planar, _as_factors(arms))
-            ahead_side = Product(forward[:, 0], ahead)
-            astern_side = Product(mirrored[:, 0].conj(), astern.conj())
+            ahead_side = Product(sides[0, :, 0], ahead)
+            astern_side = Product(sides[1, :, 0].conj(), astern.conj())
             return FactoredPhasors(self.orders, (ahead_side, astern_side), noise)
-        ahead, astern = self._add(self._planar, (forward, mirrored), arms)
-        return Phasors.of(self.orders, ahead, astern.conj(), noise)
+        sums = self._add(self._planar, sides, arms)
+        np.conjugate(sums[1], out=sums[1])
+        return Phasors(self.orders, sums, noise)
 
     def add_scalars(self, series: Series) -> Phasors:
         """Sum of what the cylinders do about z."""
@@ -111,7 +110,7 @@ class Phases:
             half = series.c[:, 0] / 2
             sides = Product(half, turned), Product(half.conj(), turned.conj())
             return FactoredPhasors(self.orders, sides, noise)
-        (total,) = self._add(self._scalar, (series.c,), None)
+        (total,) = self._add(self._scalar, series.c[None], None)
         return Phasors.from_scalar(self.orders, total, noise)
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
@@ -134,39 +133,30 @@ class Phases:
     def _sum_shape(self) -> tuple[int, ...]:
         return self.n.shape[:1] + self.n.shape[2:]
 
-    def _add(
-        self, turns: Complex, sides: Sequence[Array | Complex], arms: Array | None
-    ) -> list[Complex]:
+    def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
         """`sum over banks of turns * sum over its cylinders of arms * vectors * e^{i n pin}`.
 
         Args:
             turns: shape (sides, orders, banks, *trailing).
-            sides: the vectors, each of shape (orders, cylinders or 1, *trailing).
+            sides: the vectors, shape (sides, orders, cylinders or 1, *trailing).
 
-        Returns: for each side, shape (orders, *trailing).
+        Returns: shape (sides, orders, *trailing).
         """
-        found = []
-        equal = None  # the sums without vectors: equal ones are taken out of them
-        for k, vectors in enumerate(sides):
-            if vectors.shape[1] > 1:
-                factors = vectors if arms is None else arms * vectors
-                found += self._add_turned(turns[k : k + 1], factors)
-            else:
-                if equal is None:
-                    equal = self._add_turned(turns, _as_factors(arms))
-                found.append(vectors[:, 0] * equal[k])
-        return found
+        if _are_equal(sides):
+            return np.asarray(sides[:, :, 0] * self._add_turned(turns, _as_factors(arms)))
+        each = (side if arms is None else arms * side for side in sides)
+        own = [self._add_turned(turns[k : k + 1], factors) for k, factors in enumerate(each)]
+        return np.concatenate(own)
 
-    def _add_turned(self, turns: Complex, factors: Array | Complex | None) -> list[Complex]:
+    def _add_turned(self, turns: Complex, factors: Array | Complex | None) -> Complex:
         """The same for factors of shape (1 or orders, cylinders, *trailing); None: all are 1."""
         of_banks = self._of_banks if factors is None else self._sum_banks(factors * self._still)
-        totals: list[Complex] = list(np.add.reduce(turns * of_banks, axis=2))
+        total: Complex = np.add.reduce(turns * of_banks, axis=2)
         for bank, rows in groupby(self._moving, self._bank):
             phases = ((k, self._moving[k]) for k in rows)
             moving = sum(phase if factors is None else factors[:, k] * phase for k, phase in phases)
-            for k, turn in enumerate(turns):
-                totals[k] = totals[k] + turn[:, bank] * moving
-        return totals
+            total = total + turns[:, :, bank] * moving
+        return total
 
     @property
     def _of_variants(self) -> bool:
@@ -215,19 +205,21 @@ class SeparatePhases(Phases):
     def _sum_shape(self) -> tuple[int, ...]:
         return len(self.orders), self.count
 
-    def _add(
-        self, turns: Complex, sides: Sequence[Array | Complex], arms: Array | None
-    ) -> list[Complex]:
-        """The terms of this sum, each of shape (orders, cylinders)."""
+    def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
+        """The terms of this sum, shape (sides, orders, cylinders)."""
         counts = np.diff([*self._starts, self.count])
         arms = self._ones if arms is None else arms
-        each = zip(np.repeat(turns, counts, axis=2), sides, strict=True)
-        return [turn * (arms * vectors * self._still) for turn, vectors in each]
+        return np.asarray(np.repeat(turns, counts, axis=2) * (arms * sides * self._still))
 
     @cached_property
     def _ones(self) -> Array:
         """A 1 for each cylinder, shape (cylinders,)."""
         return np.ones(self.count)
+
+
+def _are_equal(sides: Array | Complex) -> bool:
+    """Whether one vector stands for those of all cylinders, which is taken out of their sum."""
+    return sides.shape[2] == 1
 
 
 def _as_factors(arms: Array | None) -> Array | None:

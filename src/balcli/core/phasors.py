@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -67,6 +67,13 @@ def compose(real: Array, imaginary: Array) -> Complex:
     return result
 
 
+def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex:
+    """Both as one array, shape (2, *that to which they broadcast)."""
+    if forward.shape != backward.shape:
+        forward, backward = np.broadcast_arrays(forward, backward)
+    return np.array((forward, backward))
+
+
 def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
     """The same direction in (-turn/2, turn/2], any shape; `turn` is 180 for lines, 360 for
     vectors.
@@ -95,9 +102,7 @@ class Phasors:
     @classmethod
     def of(cls, orders: Array, forward: Complex, backward: Complex, noise: Array) -> Phasors:
         """Those of vectors with the crank and against it, each of shape (orders, *trailing)."""
-        if forward.shape != backward.shape:
-            forward, backward = np.broadcast_arrays(forward, backward)
-        return cls(orders, np.array((forward, backward)), noise)
+        return cls(orders, put_together(forward, backward), noise)
 
     @classmethod
     def from_scalar(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
@@ -129,7 +134,8 @@ class Phasors:
 
     def __rmul__(self, factor: complex | Figure | Complex) -> Phasors:
         """Scaled, or scaled and turned where the factor is complex."""
-        return Phasors(self.orders, factor * self.vectors, np.abs(factor) * self.noise)
+        size: Any = abs(factor)  # of a number, that is quicker than numpy's
+        return Phasors(self.orders, factor * self.vectors, size * self.noise)
 
     def about(self, p: complex | Complex) -> Phasors:
         """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a
@@ -145,7 +151,9 @@ class Phasors:
         nothing = self._sizes <= self.noise
         if not np.count_nonzero(nothing):
             return self
-        return Phasors(self.orders, np.where(nothing, 0, self.vectors), self.noise)
+        vectors = self.vectors.copy()
+        vectors[nothing] = 0
+        return Phasors(self.orders, vectors, self.noise)
 
     def select_orders(self, orders: ArrayLike) -> Phasors:
         """Those of these orders, each of which must be there."""

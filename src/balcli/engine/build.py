@@ -74,6 +74,21 @@ class Bearings(NamedTuple):
     main_m2: float | None = None
 
 
+class SilentCylinders(NamedTuple):
+    """Numbers of the cylinders of an engine that do not fire.
+
+    Attributes:
+        without_gas: no gas force, not even that of compression.
+        without_burning: they compress, but burn nothing.
+    """
+
+    without_gas: tuple[int, ...] = ()
+    without_burning: tuple[int, ...] = ()
+
+
+NONE_SILENT = SilentCylinders()
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Engine:
     """An engine, or variants of one, in SI units except where a name says otherwise.
@@ -251,27 +266,22 @@ class Engine:
         return dict(zip(self.numbers, self.cylinders.pin_deg, strict=True))
 
     @property
-    def without_gas(self) -> tuple[int, ...]:
-        """Numbers of the cylinders without gas, where there is gas in others."""
+    def silent(self) -> SilentCylinders:
+        """Those that do not fire; none of an engine whose file says nothing of gas."""
         if self.gas is None:
-            return ()
-        shares = zip(self.numbers, self.gas.cylinders, strict=True)
-        return tuple(sorted(number for number, own in shares if not own.share))
-
-    @property
-    def without_burning(self) -> tuple[int, ...]:
-        """Numbers of the cylinders that compress, but burn nothing."""
-        if self.gas is None:
-            return ()
-        each = zip(self.numbers, self.gas.cylinders, strict=True)
-        return tuple(sorted(number for number, own in each if own.share and own.heat == 0))
+            return NONE_SILENT
+        each = sorted(zip(self.numbers, self.gas.cylinders, strict=True))
+        return SilentCylinders(
+            tuple(number for number, own in each if not own.share),
+            tuple(number for number, own in each if own.share and own.heat == 0),
+        )
 
     @property
     def mechanical_efficiency(self) -> float | None:
         """Brake over indicated work; None: the file does not say, or a cylinder burns nothing, and
         yet has its friction.
         """
-        if self.gas is None or self.without_gas or self.without_burning:
+        if self.gas is None or any(self.silent):
             return None
         return self.gas.mechanical_efficiency
 

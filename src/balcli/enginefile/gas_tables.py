@@ -124,18 +124,18 @@ class Gas(FileTable):
         goals = self.goals if key in self.goals else ()
         return (*super().rivals(key), *(goal for goal in goals if goal != key))
 
-    def list_idle_keys(self, strokes: int, own_diagrams: bool) -> set[str]:
+    def list_idle_keys(self, strokes: int, measured: bool, computed: bool) -> set[str]:
         """Those of figures that change nothing of the gas in an engine of so many strokes;
-        `own_diagrams`: whether cylinders have diagrams of their own.
+        `measured`, `computed`: whether a cylinder has a diagram, or a cycle.
         """
         idle: set[str] = set()
-        if self.cycle is None:
+        if not computed:
             idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
         elif self.cycle != "wiebe":
             idle.update(_WIEBE_KEYS)
         if strokes == 2:
             idle.update(("exhaust", "intake_closes"))
-        if not (self.indicator or own_diagrams):
+        if not measured:
             idle.add("phase")
             if self.harmonics:
                 idle.add("crankcase")
@@ -182,14 +182,14 @@ class Gas(FileTable):
         TableRule(_check_misplaced, {"cycle", "indicator", "harmonics"}),
         TableRule(_check_wiebe, {"cycle"}),
         TableRule(_check_max_pressure, {"cycle", "max_pressure"}),
-        TableRule(_check_goals, {"cycle"}),
+        TableRule(_check_goals, {"cycle"}, {*_GOALS}),
         TableRule(_check_bmep, {"cycle", "bmep", "mechanical_efficiency"}),
         TableRule(_check_compression_ratio, {"cycle", "compression_ratio"}),
     )
 
 
 class Flywheel(FileTable):
-    """A flywheel, or all that turns with the crankshaft beyond it."""
+    """A flywheel, or all that turns with the crankshaft beyond it. [torsion] has its own."""
 
     choices = (
         Choice((("inertia",), ("mass", "radius_of_gyration")), required=True, complete=True),

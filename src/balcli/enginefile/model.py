@@ -76,10 +76,17 @@ Triple = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
 
 
 class TableRule(NamedTuple):
-    """What must hold in a table, and the keys without whose values nothing can be said of it."""
+    """What must hold in a table.
+
+    Attributes:
+        check: what is wrong, in words.
+        needs: keys without whose values nothing can be said of it.
+        wants: keys of which one is enough.
+    """
 
     check: Callable[[Any], Iterator[str]]
     needs: Set[str]
+    wants: Set[str] = frozenset()
 
 
 class FileTable(BaseModel):

@@ -314,7 +314,7 @@ def _find_contradictions(
         yield from tell(choice.mistakes(value), choice.find_missing(value))
     for rule in table.rules if draft is not None else ():
         if rule.needs.isdisjoint(broken):
-            yield from tell(rule.check(draft), rule.needs)
+            yield from tell(rule.check(draft), {*rule.needs, *rule.wants})
 
 
 def _count_values(value: object) -> int:

@@ -8,9 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from .exclusive import join_words
 from .model import Counterweight, EngineFile
+
+if TYPE_CHECKING:
+    from .torsion_tables import Torsion
 
 # Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
 # kg per m^3 of bore^3 (racing to lorry), in cast iron up to 3000. The limits leave room beyond; a
@@ -36,6 +40,9 @@ BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up 
 # Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
 NEIGHBOURS_CLOSE = 0.9
 UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
+# Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip
+# from kg m^2 to kg mm^2 is a factor of a million.
+TURNING_LIGHT = 0.01
 SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is rounded, or has bolts
 
 
@@ -43,7 +50,7 @@ def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     parts = (
         *(_piston, _proportions, _rod, _inertia, _motion, _neighbours, _layout),
-        *(_throw, _bobweight, _counterweights, _rotary, _gas, _torsion),
+        *(_throw, _bobweight, _counterweights, _rotary, _turning, _gas, _torsion),
     )
     return [warning for part in parts for warning in part(model)]
 
@@ -201,6 +208,37 @@ def _rotary(model: EngineFile) -> Iterator[str]:
         )
 
 
+def _turning(model: EngineFile) -> Iterator[str]:
+    """What turns with the crank, each inertia beside that of all rods and pistons on the pins."""
+    _, rods = _throws_and_rods(model)
+    beside = rods * _rod_and_piston(model) * (model.crank.stroke / 2) ** 2
+    for what, inertia in _list_turning(model):
+        if 0 < inertia < TURNING_LIGHT * beside:
+            yield (
+                f"{what} is {inertia:.4g} kg mm^2, less than {TURNING_LIGHT:g} of what all rods "
+                f"and pistons have at the crank radius ({beside:.4g}); is it in kg mm^2? Another "
+                f'unit is said as in "{inertia:.4g} kg m^2"'
+            )
+
+
+def _list_turning(model: EngineFile) -> Iterator[tuple[str, float]]:
+    """What it is, in words, with its inertia, kg mm2; 0 where the file gives none."""
+    yield "crank.inertia", model.crank.inertia or 0.0
+    yield "flywheel.inertia", _flywheel_inertia(model)
+    if model.torsion is not None:
+        yield "torsion.throw_inertia, of all throws,", _throw_inertia(model.torsion, model)
+        parts = {p.name: p.inertia or 0.0 for p in (*model.torsion.front, *model.torsion.rear)}
+        if parts:
+            name = max(parts, key=parts.__getitem__)
+            yield f"the heaviest part of [torsion], '{name}',", parts[name]
+
+
+def _throw_inertia(torsion: Torsion, model: EngineFile) -> float:
+    """Of all throws, as [torsion] gives it, kg mm2; 0 where it gives none."""
+    each = torsion.throw_inertia or ()
+    return sum(each) * (_throws_and_rods(model)[0] if len(each) == 1 else 1)
+
+
 def _gas(model: EngineFile) -> Iterator[str]:
     if model.gas is None:
         return
@@ -221,8 +259,7 @@ def _torsion(model: EngineFile) -> Iterator[str]:
     """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
     if model.torsion is None:
         return
-    each, whole = model.torsion.throw_inertia or (), model.crank.inertia
-    throws = sum(each) * (_throws_and_rods(model)[0] if len(each) == 1 else 1)
+    throws, whole = _throw_inertia(model.torsion, model), model.crank.inertia
     if whole is not None and throws > (1 + SAME_INERTIA) * whole:
         yield (
             f"crank.inertia is {whole / 1e6:.4g} kg m^2, and all throws of torsion.throw_inertia "

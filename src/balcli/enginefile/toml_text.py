@@ -112,6 +112,8 @@ def _guess(value: str) -> Iterator[str]:
         yield "write a decimal point, not a comma; a list stands in brackets, such as [{value}]"
     elif re.fullmatch(r"[+-]?[\d.]+(\s*,\s*[+-]?[\d.]+)+,?", value):
         yield "a list stands in brackets: {key} = [{value}]"
+    elif part := re.fullmatch(r"([+-]?\d{1,9})\s*/\s*([1-9]\d{0,8})", value):
+        yield f"TOML knows no fractions; write {{key}} = {int(part[1]) / int(part[2]):.6g}"
     elif re.fullmatch(r"[+-]?[\d./]+\s*[A-Za-z°%].*", value):
         yield 'a value with a unit stands in quotes: {key} = "{value}"'
     elif re.fullmatch(r"[A-Za-z].*", value):

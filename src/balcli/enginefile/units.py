@@ -168,7 +168,8 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
         raise ValueError(f"is not a number followed by a unit;{hint} {wanted(dimension)}")
     number, names = found
     if not names:
-        raise ValueError(f"has no unit; {wanted(dimension)}")
+        plain = f": {float(number):.6g}" if dimension is PLAIN else ""
+        raise ValueError(f"has no unit; {wanted(dimension)}{plain}")
     unit = read_unit(names, dimension)
     if unit.powers != dimension.powers:
         force = read_unit(re.sub(_POUND, "lbf", names), dimension)

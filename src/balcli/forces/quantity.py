@@ -109,7 +109,7 @@ def _parse_quantity(text: str) -> Quantity:
         raise BalcliError(f"{text} is no quantity: after peak comes force or moment")
     if kind not in EVERY_KIND:
         near = nearest(kind, (*EVERY_KIND, "peak"))
-        hint = f"did you mean {near}?" if near else f"it begins with {', '.join(KINDS)} or peak"
+        hint = f"did you mean {near}?" if near else f"one begins with {', '.join(KINDS)} or peak"
         raise BalcliError(f"{text} is no quantity: {hint}")
     order, part = split_order(rest)
     part = _SENSES.get(part, part)

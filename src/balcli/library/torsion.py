@@ -22,6 +22,7 @@ from ..torsion.read_chain import describes_chain, read_chain_tables
 from .arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 
 KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
+_UNNAMED = "chain file"  # in messages, a text or dict
 
 
 @tell_arguments(speeds="speeds_rpm")
@@ -93,6 +94,7 @@ def _read_source(source: Any, orders: Array | None) -> Source:
         wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
         raise wrong_type("analyze_torsion", source, wanted)
     if describes_chain(tables):
+        name = name or _UNNAMED
         return ChainSource(name, b"", read_chain_tables(tables, name))
     engine = source if isinstance(source, Engine) else load(source)
     return make_source(take_model(engine), engine, name or engine.name, orders)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -15,6 +16,8 @@ from ..enginefile.read import REQUIRED, Draft, read_tables
 from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
 from .build import find_mounting_faults
+
+SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines have 0.2 to 1
 
 
 class MountedFile(NamedTuple):
@@ -48,7 +51,23 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
         raise draft.refusal([*contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
     of_engine = find_suspicious(draft.model) if engine is not None else []
-    return MountedFile(draft.model, engine, (*of_engine, *_doubt_tensor(draft.model)))
+    return MountedFile(
+        draft.model, engine, (*of_engine, *_doubt_tensor(draft.model), *_doubt_size(draft.model))
+    )
+
+
+def _doubt_size(model: EngineFile) -> Iterator[str]:
+    """A body far smaller than the distance of its mounts: an inertia in kg m2, most likely."""
+    if model.body is None:
+        return
+    mass, centre, largest = model.body.mass, model.body.cg, max(model.body.inertia[:3])
+    across, farthest = math.sqrt(largest / mass), max(math.dist(m.at, centre) for m in model.mount)
+    if across < SMALL_BODY * farthest:
+        yield (
+            f"body.inertia: {largest:g} kg mm^2 is that of {mass:g} kg within {across:.2g} mm, and "
+            f"a mount stands {farthest:.3g} mm away; is it in kg mm^2? Another unit is said as in "
+            f'"{largest:g} kg m^2"'
+        )
 
 
 def _doubt_tensor(model: EngineFile) -> Iterator[str]:

@@ -25,7 +25,7 @@ from ..core.sorted_sets import sort_others
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
 from ..core.vibration import UNDAMPED, find_resonances, frequencies
-from ..engine.build import Engine
+from ..engine.build import NONE_SILENT, Engine, SilentCylinders
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
 from ..forces.in_time import compute_spectra_in_time
@@ -61,7 +61,7 @@ class BodyLoads:
         mean: N m about the crankshaft's axis on the body, steady: the reaction to a constant load,
             which takes the mean of the gas torque over the crank angle, at uneven speed too, less
             the share that goes into friction, for that acts between parts of the body.
-        without_gas, without_burning: numbers of the cylinders of which that holds, as of an engine.
+        silent: cylinders of the engine that do not fire.
     """
 
     orders: Real
@@ -69,8 +69,7 @@ class BodyLoads:
     omega: float
     gas: Complex | None = None
     mean: float = 0.0
-    without_gas: tuple[int, ...] = ()
-    without_burning: tuple[int, ...] = ()
+    silent: SilentCylinders = NONE_SILENT
 
     def at(self, omega: Real) -> Complex:
         """(orders, *speeds, 6) at speeds (rad/s, any shape)."""
@@ -179,13 +178,8 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Body
         gas[:, ROLL] = -found["gas"].x
         indicated = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
         efficiency = engine.mechanical_efficiency or 1.0
-        loads = replace(
-            loads,
-            gas=gas,
-            mean=-efficiency * float(indicated),
-            without_gas=engine.without_gas,
-            without_burning=engine.without_burning,
-        )
+        mean = -efficiency * float(indicated)
+        loads = replace(loads, gas=gas, mean=mean, silent=engine.silent)
     return loads if orders is not None else _leave_out_none(loads)
 
 

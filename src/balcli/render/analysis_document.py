@@ -37,7 +37,7 @@ def document(result: Analysis) -> dict[str, Any]:
             "displacement_m3": clean(engine.displacement_m3),
         },
         "speed_rpm": clean(engine.speed_rpm),
-        **silent_entries(engine),
+        **silent_entries(engine.silent),
         "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
         "orders": order_entries(result.spectra),
         **assumptions(result),

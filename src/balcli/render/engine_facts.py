@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..engine.build import Engine
+from ..engine.build import Engine, SilentCylinders
 from ..limits import HIGHEST_ORDER_UNASKED
-from .figures import PartlySilent, silent_entries
+from .figures import silent_entries
 from .sheet import Facts, number
 from .units import System
 
@@ -21,7 +21,7 @@ EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
 
 def speed_facts(engine: Engine) -> Facts:
     """The crank speed, and which cylinders have no gas, or burn nothing."""
-    return Facts((("speed", tell_speed(engine)), *list_silent(engine)))
+    return Facts((("speed", tell_speed(engine)), *list_silent(engine.silent)))
 
 
 _TURNING = '"with the crank" is with the cylinders here, and counterweights stand on them'
@@ -50,7 +50,7 @@ def engine_facts(
         ("throws", _throws(engine)),
         ("turning", _TURNING if engine.rotary else ""),
         ("firing" if engine.fires_deg else "cycle", _firing(engine)),
-        *list_silent(engine),
+        *list_silent(engine.silent),
         ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
         ("masses", _masses(engine, system, whole=whole)),
         ("devices", devices),
@@ -192,11 +192,11 @@ def tell_strokes(engine: Engine) -> str:
     return "two-stroke" if engine.strokes == 2 else "four-stroke"
 
 
-def list_silent(engine: PartlySilent) -> list[tuple[str, str]]:
+def list_silent(silent: SilentCylinders) -> list[tuple[str, str]]:
     """A line of the cylinders without gas, and one of those that compress and burn nothing."""
     return [
         (key.replace("_", " "), ", ".join(map(str, numbers)))
-        for key, numbers in silent_entries(engine).items()
+        for key, numbers in silent_entries(silent).items()
     ]
 
 

@@ -107,6 +107,8 @@ def _work(result: FieldBalance, length: ShownUnit) -> Grid:
         if drilled
         else "Together they do what the corrections do."
     )
+    if drilled and when:
+        note += " Depths are of new holes: those drilled before are not in the file."
     if result.limited:
         note += " Places and limits allow no better: see the readings below."
         if drilled and file.places is None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Phasors
+from ..engine.build import SilentCylinders
 from ..forces.kinds import EVERY_KIND, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
@@ -36,16 +37,6 @@ class OrdersAndPeaks(Located, Protocol):
     def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
 
 
-class PartlySilent(Protocol):
-    """An engine, or its shafts, some of whose cylinders may not fire."""
-
-    @property
-    def without_gas(self) -> tuple[int, ...]: ...
-
-    @property
-    def without_burning(self) -> tuple[int, ...]: ...
-
-
 class FigureRow(NamedTuple):
     """One figure of a result; `cylinder` 0 is the engine, order None the whole curve."""
 
@@ -62,9 +53,9 @@ def assumptions(result: Located) -> dict[str, list[str]]:
     return {} if result.moments_known else {"assumed": ["crank.spacing = 0"]}
 
 
-def silent_entries(engine: PartlySilent) -> dict[str, list[int]]:
+def silent_entries(silent: SilentCylinders) -> dict[str, list[int]]:
     """Numbers of the cylinders without gas, and of those that compress and burn nothing."""
-    each = {"no_gas_in": engine.without_gas, "no_burning_in": engine.without_burning}
+    each = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
     return {key: list(numbers) for key, numbers in each.items() if numbers}
 
 

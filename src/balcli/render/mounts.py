@@ -57,10 +57,10 @@ def _answer(result: MountReport, response: MountingResponse, system: System) -> 
     moved = _find_farthest(result, response)
     if moved and moved[1].value:
         yield f"The point {moved[0]} moves most: {_tell(moved[1], system.length)}."
+    silent = _tell_silent(response)
     if response.loads.gas is None:
         yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
     else:
-        silent = "".join(f"; {what} {numbers}" for what, numbers in list_silent(response.loads))
         yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
     for other in result.beside:
         after = max(other.response.worst_force, key=lambda one: one.value)
@@ -74,7 +74,15 @@ def _answer(result: MountReport, response: MountingResponse, system: System) -> 
         fired = other.response.loads.gas is not None
         if fired != (response.loads.gas is not None):
             told += ", its gas included" if fired else ", of inertia alone"
+        if (own := _tell_silent(other.response)) != silent:
+            told += own
         yield f"With {other.name} {told}."
+
+
+def _tell_silent(response: MountingResponse) -> str:
+    """Which cylinders do not fire, each after a semicolon."""
+    silent = list_silent(response.loads.silent)
+    return "".join(f"; {what} {numbers}" for what, numbers in silent)
 
 
 def _tell(worst: LargestAmplitude, unit: ShownUnit) -> str:

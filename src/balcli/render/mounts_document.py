@@ -90,7 +90,7 @@ def _response(result: MountReport, response: MountingResponse) -> dict[str, Any]
         point["peak_mm"] = clean_each(1e3 * response.motion_peak[:, k])
         point["worst"] = _worst_entry(response.worst_motion[k], "motion_mm", 1e3)
     return {
-        **silent_entries(response.loads),
+        **silent_entries(response.loads.silent),
         "speeds_rpm": clean_each(response.speeds_rpm),
         "mounts": mounts,
         "points": points,
@@ -159,7 +159,7 @@ def _curves(
         ("mount", result.mounted.names, response.force, response.force_peak, force),
         ("point", result.mounted.point_names, response.motion, response.motion_peak, length),
     )
-    for key, numbers in silent_entries(response.loads).items():
+    for key, numbers in silent_entries(response.loads.silent).items():
         yield f"{part}engine", "", None, None, key, " ".join(map(str, numbers)), ""
     for kind, names, by_order, peak, unit in groups:
         figure = "force" if kind == "mount" else "motion"

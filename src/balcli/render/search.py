@@ -10,6 +10,7 @@ from ..forces.kinds import EVERY_KIND, VECTORS
 from ..studies.quantity_names import tell_assumed_speed, tell_speeds
 from .csv import Columns, Rows
 from .sheet import NAMELESS, Grid, Sheet, number
+from .units import name_with_unit
 
 if TYPE_CHECKING:
     from ..studies.search.designs import Found
@@ -45,7 +46,8 @@ def columns(result: Search) -> Columns:
     found["objective"] = [one.objective for one in result.results]
     found |= {name: [one.figures[name] for one in result.results] for name in first.figures}
     units = {q.name: q.unit for q in result.objective.quantities}
-    return Columns(found, units | dict.fromkeys({"bank_angle", "splay"} & set(found), "deg"))
+    set_in = {key: unit for key in first.design.given() if (unit := result.find_unit(key))}
+    return Columns(found, units | set_in)
 
 
 def rows(result: Search, _system: System) -> Rows:
@@ -67,9 +69,9 @@ def sheet(result: Search, _system: System) -> Sheet:
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
     heads = [
-        *map(_in_words, first.design.given()),
+        *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design.given()),
         *(["objective"] if _is_sum(result) else []),
-        *(f"{name}, {units[name]}" for name in first.figures),
+        *(name_with_unit(name, units[name]) for name in first.figures),
     ]
     grid = Grid(
         f"Best {_in_words(result.over)}",

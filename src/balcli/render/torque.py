@@ -105,7 +105,7 @@ def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
         at = degrees(float(np.degrees(gas.angle)))
         largest = _size(gas.value, system.pressure)
         pairs.append(("largest pressure", f"{largest}, {at} deg after firing"))
-    pairs += list_silent(result.engine)
+    pairs += list_silent(result.engine.silent)
     kinds = {" indicated": 1.0}
     if result.mechanical_efficiency is not None:
         kinds[" brake"] = result.mechanical_efficiency

@@ -83,7 +83,7 @@ def _list_figures(result: Result) -> Iterator[_Figure]:
 
 def _list_work(result: TorqueAnalysis) -> Iterator[_Figure]:
     yield _Figure("engine", "speed_rpm", "rpm", clean(result.engine.speed_rpm))
-    for key, numbers in silent_entries(result.engine).items():
+    for key, numbers in silent_entries(result.engine.silent).items():
         yield _Figure("engine", key, "", tuple(numbers))
     yield _Figure("engine", "cycle_deg", "deg", result.cycle_deg)
     yield _Figure("engine", "imep", "Pa", clean(result.imep))

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..core.singular_values import Real
 from ..torsion.analysis import BEYOND, HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import TorsionResponse
@@ -27,7 +28,7 @@ _MOST_ORDERS = 3  # of a shaft's torque, named beside it
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Modes first, then what was asked."""
     parts: list[Grid | Facts | Text] = []
-    if silent := list_silent(result.system):
+    if silent := list_silent(result.system.silent):
         parts.append(Facts(tuple(silent)))
     if result.damper is not None:
         parts.append(_damper(result.damper, system))
@@ -182,9 +183,9 @@ def _holzer(result: TorsionAnalysis, asked: HolzerTable, system: System) -> Grid
         (
             name,
             number(inertia.of(float(chain.inertia[k]))),
-            number(float(table.angle[k]), 6),
-            number(unit.of(float(table.torque[k]))),
-            number(unit.of(_settle(asked, float(table.total[k])))),
+            number(_settle(table.angle[k], table.angle), 6),
+            number(unit.of(_settle(table.torque[k], table.torque))),
+            number(unit.of(_settle(table.total[k], table.torque))),
             _stiffness(stiffness.of(float(table.stiffness[k]))),
             number(float(table.twist[k]), 4) if table.stiffness[k] else "–",
         )
@@ -192,7 +193,8 @@ def _holzer(result: TorsionAnalysis, asked: HolzerTable, system: System) -> Grid
     )
     what = f"mode {asked.mode}" if asked.mode else "trial"
     title = f"Holzer's table, {what}: {number(asked.omega, 7)} rad/s; torques in {unit.name}"
-    left = f"Left over at the end: {size_text(_settle(asked, table.residual), system.moment, 5)}."
+    residual = _settle(table.residual, table.torque)
+    left = f"Left over at the end: {size_text(residual, system.moment, 5)}."
     heads = (
         "node",
         f"J, {inertia.name}",
@@ -209,10 +211,9 @@ def _stiffness(value: float) -> str:
     return "rigid" if np.isinf(value) else number(value) if value else "–"
 
 
-def _settle(asked: HolzerTable, value: float) -> float:
-    """A torque, as 0 where it is what rounding left over."""
-    size = float(np.abs(asked.table.torque).sum())
-    return 0.0 if abs(value) <= 1e-9 * size else value
+def _settle(value: float, beside: Real) -> float:
+    """An angle or torque, as 0 where it is what rounding left over of those beside it."""
+    return 0.0 if abs(value) <= 1e-9 * float(np.abs(beside).sum()) else float(value)
 
 
 def _response(result: TorsionAnalysis, response: TorsionResponse, system: System) -> Grid | Text:

@@ -40,7 +40,7 @@ def document(result: TorsionAnalysis) -> dict[str, Any]:
     found: dict[str, Any] = {
         "format": "balcli.torsion/1",
         "name": system.name or None,
-        **silent_entries(system),
+        **silent_entries(system.silent),
         "nodes": [
             {"name": name, "inertia_kg_m2": clean(inertia), "gear": clean(gear)}
             for name, inertia, gear in zip(
@@ -222,7 +222,7 @@ def _convert(line: Line, system: System) -> Line:
 
 
 def _lines(result: TorsionAnalysis) -> Iterator[Line]:
-    for key, numbers in silent_entries(result.system).items():
+    for key, numbers in silent_entries(result.system.silent).items():
         yield "engine", None, None, None, "", key, " ".join(map(str, numbers)), ""
     yield from _system_lines(result.system)
     for number, mode in enumerate(result.modes, 1):

@@ -32,6 +32,7 @@ from .remedy import Remedy, fit_devices
 from .scheme_figures import FactorPeaks, PlaneNeed
 
 COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
+OF_ITSELF = "nothing is missing: what the pins carry balances itself in these planes"
 OWN_PLACES = (
     "these planes are where the counterweights of the file stand; --planes throws asks what is "
     "missing at every throw instead"
@@ -83,7 +84,7 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
             fitting,
             best,
             planes,
-            complete=bool(own) and not fitting.remedy.devices,
+            own=bool(own),
             chosen=options.planes is None,
         ),
         card=fill_card(engine, best),
@@ -112,18 +113,20 @@ def _note(
     factor: float,
     planes: tuple[float, ...] | None,
     *,
-    complete: bool,
+    own: bool,
     chosen: bool,
 ) -> str:
-    """What to know besides; the planes may have been `chosen` without being asked for."""
+    """What to know besides; the file may have counterweights of its `own`, and the planes may have
+    been `chosen` without being asked for.
+    """
     if _loses_moment(fitting.engine, factor, planes):
         return SAME_PLACE
     if factor < 0:
         return "a factor below 0: not even all rotating mass is balanced"
     if factor > 1:
         return "a factor above 1: more than all reciprocating mass on the pin is balanced"
-    if complete:
-        return COMPLETE
+    if not fitting.remedy.devices:
+        return COMPLETE if own else OF_ITSELF
     return OWN_PLACES if chosen and planes is not None else ""
 
 

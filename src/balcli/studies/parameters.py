@@ -71,16 +71,17 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
     own = [path for path in numbers if path.startswith("cylinder.")]
     if model.gas is None:
         return [path for path in own if path.endswith((".gas", ".heat"))]
-    with_diagram = [n for n, table in model.cylinder.items() if table.indicator is not None]
-    idle = model.gas.list_idle_keys(model.layout.strokes, bool(with_diagram))
-    if model.gas.cycle is None:
-        idle_heats = [path for path in own if path.endswith(".heat")]
-    else:
-        idle_heats = [f"cylinder.{n}.heat" for n in with_diagram]
-    with_heat = [n for n, table in model.cylinder.items() if table.heat is not None]
-    if {*with_diagram, *with_heat} >= set(plan_cylinders(model.crank, model.layout).numbers):
+    cylinders = {*plan_cylinders(model.crank, model.layout).numbers}
+    with_diagram = {n for n, table in model.cylinder.items() if table.indicator is not None}
+    if model.gas.indicator is not None:
+        with_diagram = cylinders
+    with_heat = {n for n, table in model.cylinder.items() if table.heat is not None}
+    computed = model.gas.cycle is not None and not cylinders <= with_diagram
+    idle = model.gas.list_idle_keys(model.layout.strokes, bool(with_diagram), computed)
+    if cylinders <= with_diagram | with_heat:
         idle.update(model.gas.goals)
-    return [path for path in numbers if path.removeprefix("gas.") in idle or path in idle_heats]
+    heats = {f"cylinder.{n}.heat" for n in (with_diagram if computed else cylinders)}
+    return [path for path in numbers if path in heats or path.removeprefix("gas.") in idle]
 
 
 def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:

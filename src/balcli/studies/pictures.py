@@ -14,7 +14,6 @@ from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads
-from ..forces.kinds import KINDS
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import Analysis, analyze, find_inner_loads
 from ..results.balance import balance
@@ -85,9 +84,7 @@ def compute_study(
             none; a bank angle is asked of an engine that is no vee.
     """
     if what == "factor":
-        return Study(
-            analyze(engine, orders, KINDS), factors=_sweep_factors(engine, scheme, options)
-        )
+        return Study(analyze(engine, orders), factors=_sweep_factors(engine, scheme, options))
     if what in _ALONE:
         refuse_scheme(scheme, what)
     if scheme is not None:
@@ -96,7 +93,7 @@ def compute_study(
         return Study(
             found.after, found.before, found.remedy, bent=tuple(map(find_inner_loads, engines))
         )
-    now = analyze(engine, orders, KINDS)
+    now = analyze(engine, orders)
     if what in PAGES:
         return Study(now, gas=compute_pictures(engine, what))
     if what == "inner":

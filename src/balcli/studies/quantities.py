@@ -89,7 +89,7 @@ def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
     chapter = find_chapter(word)
     if chapter is None:
         near = nearest(word.partition(".")[0], BEGINNINGS)
-        there = f"it begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
+        there = f"one begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
         raise BalcliError(f"{word} is no quantity: {f'did you mean {near}?' if near else there}")
     if chapter is ENGINE:
         return parse_quantity_list(word, with_gas=with_gas)[0]

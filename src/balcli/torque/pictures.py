@@ -23,7 +23,7 @@ _BESIDE = 1e-7  # deg, on both sides of a jump
 
 
 class Pressures(NamedTuple):
-    """Pressure in cylinder 1 over its cycle.
+    """Pressure in cylinder 1 over its cycle: what of its gas counts, all of it or a share.
 
     Attributes:
         cycle_deg: from the gas-exchange dead centre to the next, 0 at firing, shape (angles,).
@@ -151,7 +151,9 @@ def _find_pressures(engine: Engine) -> Pressures:
     known = gas.compression_ratio is not None
     swept = cylinder.piston.area * cylinder.piston.travel(at)
     volume = cylinder.piston.volume(at, gas.compression_ratio) if gas.compression_ratio else swept
-    return Pressures(angle, cylinder.torque.pressure.at(at), volume, known)
+    under = cylinder.torque.crankcase
+    pressure = under + cylinder.share * (cylinder.torque.pressure.at(at) - under)
+    return Pressures(angle, pressure, volume, known)
 
 
 def _find_torques(engine: Engine) -> Torques:

@@ -36,7 +36,8 @@ _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the searc
 _PLACES = 13  # looked at over this range before the best is approached
 _END = 0.99  # of this range: a best one farther out is at its end
 _LOSS = 0.01  # of shafts, where nothing damps a resonance: modes are compared with it
-_MOVES = 1.001  # times the whole inertia: with more at a node in a mode it hardly moves there
+_MOVES = 1.001  # times the whole inertia: with more at a node in a mode it hardly moves there,
+# unless in every other mode there is more still
 _HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
 _HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
 _RESPONSES = _PLACES + 2 + ROUNDS + 2  # the last of the best damper, and without any
@@ -269,10 +270,12 @@ def _find_worst(
         return min(some, key=lambda mode: abs(math.log(mode.omega / omega)))
 
     whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
-    moved = [mode for mode in modes if _find_inertia_in(mode, system, node) <= _MOVES * whole]
+    heavy = [_find_inertia_in(mode, system, node) for mode in modes]
+    most = _MOVES * max(whole, min(heavy))
+    moved = [mode for mode, inertia in zip(modes, heavy, strict=True) if inertia <= most]
     numbers = {mode.number for mode in moved}
     worst = find_nearest(modes)
-    if not moved or worst.number in numbers:
+    if worst.number in numbers:
         return worst, order
     for met in find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1]))):
         if met.mode in numbers:

@@ -15,6 +15,7 @@ from ..core.singular_values import Complex, Indices, Real
 from ..core.sorted_sets import are_among
 from ..core.torsional_chain import Chain, Damping, find_pieces
 from ..core.torsional_dampers import pendulum_inertia, viscous_inertia
+from ..engine.build import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
 
 
@@ -98,9 +99,8 @@ class TorsionalSystem:
         angle_limit: half swing of the first node, rad, above which a speed is barred.
         last: node at which Holzer's table ends.
         reference: node whose speed and orders are those of the system.
-        without_gas, without_burning: numbers of the cylinders without gas, where others have some,
-            and of those that compress and burn nothing.
         rated_rpm: speed of the file's own; None: it gives none.
+        silent: cylinders of the engine that do not fire.
         file: in which all this stands, for messages; may be empty.
     """
 
@@ -118,8 +118,7 @@ class TorsionalSystem:
     last: int = -1
     rated_rpm: float | None = None
     reference: int = 0
-    without_gas: tuple[int, ...] = ()
-    without_burning: tuple[int, ...] = ()
+    silent: SilentCylinders = NONE_SILENT
     file: str = ""
 
     def refusal(self, message: str) -> BalcliError:

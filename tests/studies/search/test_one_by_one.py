@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 from io import StringIO
 from itertools import permutations
 
@@ -207,6 +208,13 @@ def test_a_number_stays_as_it_is_typed():
     out = run_here("search", path, "--over", "layout.bank_angle=80:100", *asked).out
     assert "Best layout.bank_angle\n" in out
     assert "Best bank angle\n" in run_here("search", path, "--over", "bank_angle", *asked).out
+
+
+def test_heads_of_a_table_have_the_units_of_numbers_and_figures():
+    path = ENGINES / "i4_wiebe.toml"
+    asked = ("--over", "gas.imep=8:12", "--minimise", "fluctuation")
+    head = run_here("search", path, *asked).out.splitlines()[3]
+    assert re.split(r" {2,}", head) == ["gas.imep, bar", "fluctuation"]
 
 
 def test_a_firing_order_of_no_account_leaves_room_for_a_bank_angle():

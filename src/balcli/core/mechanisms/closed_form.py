@@ -179,23 +179,31 @@ def _gauss(m: Array, z: Figure) -> Array:
     largest = max(z if isinstance(z, float) else float(z.max(initial=0.0)), 1e-300)
     terms = 1 + int(math.log(EPS / 64) / math.log(largest))
     step = max(_AT_ONCE // len(m), 1)
+    if isinstance(z, float) and terms <= step:  # few calls instead of two a term
+        coefficients, powers = _coefficients(terms, m.shape)
+        return np.asarray(np.add.reduce(coefficients * z**powers))
     total: Figure = 1.0
     for last in range(terms, 0, -step):
-        ratios = _ratios(last, max(last - step, 0), m.shape)
-        if isinstance(z, float):  # all terms at once: a few calls instead of two a term
-            products = np.multiply.accumulate(ratios[::-1] * z)
-            products[-1] *= total
-            total = np.add.reduce(products[::-1]) + 1.0  # the smallest first
-        else:  # variants one term after the other, which takes less memory
-            for ratio in ratios:
-                factor = ratio * z
-                factor *= total
-                factor += 1.0
-                total = factor
+        for ratio in _ratios(last, max(last - step, 0), m.shape):
+            factor = ratio * z
+            factor *= total
+            factor += 1.0
+            total = factor
     return np.asarray(total)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=8)
+def _coefficients(terms: int, shape: tuple[int, ...]) -> tuple[Array, Array]:
+    """Those of the powers of z in G_m, and these powers as a column, the highest (the smallest
+    term) first, shape (terms + 1, *shape of the column m).
+    """
+    ratios = _ratios(terms, 0, shape)
+    ascending = np.cumprod(np.concatenate([np.ones((1, *shape)), ratios[::-1]]), axis=0)
+    powers = np.arange(float(terms), -1.0, -1.0).reshape(-1, *(1,) * len(shape))
+    return ascending[::-1].copy(), powers
+
+
+@lru_cache(maxsize=8)
 def _ratios(last: int, before: int, shape: tuple[int, ...]) -> Array:
     """What makes each coefficient of G_m from the one before, the last term first and down to
     `before` (without it), shape (terms, *shape of the column m).

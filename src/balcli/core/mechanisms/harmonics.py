@@ -39,14 +39,15 @@ def find_distinct_harmonics(
     orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str]
 ) -> tuple[Harmonics, Rows]:
     """Those of the mechanisms that differ, and which of them each cylinder has."""
+    last = float(np.asarray(orders, float).max(initial=0))
+    if lam.size == eps.size == 1 and eps.item() == 0 and last <= CLOSED_FORM:  # most engines
+        axes = max(lam.ndim, eps.ndim)
+        return closed_form.find_harmonics(orders, lam.ravel(), wanted), np.zeros((1,) * axes, int)
     few = find_distinct(lam, eps)
     ratios, offsets = few.figures
     centred = offsets == 0
-    last = float(np.asarray(orders, float).max(initial=0))
     if last > CLOSED_FORM:
         centred[:] = False
-    elif few.which.shape == (1,) and centred[0]:  # most engines: one mechanism for all cylinders
-        return closed_form.find_harmonics(orders, ratios, wanted), few.which
     one_engine = few.which.ndim == 1  # of one an order is the same among any others
     found = []
     if np.count_nonzero(centred):

@@ -77,6 +77,13 @@ class Search(Result):
         last = () if number is None else (number.least, number.most)
         return any(abs(value - end) <= near for end in self.ends if end not in last)
 
+    def find_unit(self, key: str) -> str:
+        """That of an angle, and of a number of the file by its dotted name; else empty."""
+        if key in ("bank_angle", "splay"):
+            return "deg"
+        number = find_numbers(self.model).get(key)
+        return "" if number is None else number.dimension.unit
+
     @property
     def summary(self) -> str:
         """Over what, and how many were found."""
