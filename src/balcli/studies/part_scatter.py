@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.telling import Tell, tell_nobody
 from ..engine.build import build
 from ..enginefile.model import EngineFile, label_table
 from ..enginefile.shafting import find_stiffness
@@ -21,8 +20,8 @@ from ..forces.target_quantity import TargetQuantity
 from ..limits import MOST_MOUNT_SAMPLES
 from .quantities import group_by_chapter, load_chapter
 from .quantity_names import MOUNTS
-from .spread_one_by_one import Drawing, spread_one_by_one
-from .tolerances import Scatter, Shape
+from .spread_one_by_one import spread_one_by_one
+from .tolerances import Drawing, Scatter
 
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # tolerance of stiffness, unless another is given
 
@@ -48,10 +47,7 @@ def scatter_parts(
     stiffness: float | None,
     mass: float,
     quantities: Sequence[TargetQuantity],
-    samples: int,
-    seed: int | None = None,
-    shape: Shape = "uniform",
-    tell: Tell = tell_nobody,
+    drawing: Drawing,
 ) -> Scatter:
     """Spread of quantities over random mounts, or shafts and inertias, each variant computed by
     itself.
@@ -60,9 +56,6 @@ def scatter_parts(
         stiffness: tolerance of that of every mount or shaft; None: OF_MOUNTS, OF_SHAFTS.
         mass: of every inertia and piston, for quantities of torsion.
         quantities: of mounts, or of torsion.
-        seed: of the random numbers, to repeat them.
-        shape: uniform within the tolerance, or normal with a third of it as standard deviation.
-        tell: is told how many samples have been computed, and says whether these are enough.
 
     Raises:
         InputError, BalcliError: what is wrong with the file; quantities of what it does not have;
@@ -70,10 +63,10 @@ def scatter_parts(
     """
     (chapter,) = group_by_chapter(quantities)
     of_mounts = chapter is MOUNTS
-    if not 1 <= samples <= MOST_MOUNT_SAMPLES:
+    if not 1 <= drawing.samples <= MOST_MOUNT_SAMPLES:
         where = "on mounts" if of_mounts else "of torsion"
         raise BalcliError(
-            f"{samples} samples: {where}, where each is computed by itself, from 1 to "
+            f"{drawing.samples} samples: {where}, where each is computed by itself, from 1 to "
             f"{MOST_MOUNT_SAMPLES} are allowed"
         )
     load_chapter(chapter).refuse_unknown(model, quantities)
@@ -95,10 +88,9 @@ def scatter_parts(
         }
         return np.array(variants.evaluate(values))
 
-    drawing = Drawing(samples, seed, shape, tell)
     count, spreads = spread_one_by_one(sources, quantities, evaluate, drawing)
     varied = "sets of mounts" if of_mounts else "crankshafts"
-    return Scatter(model, count, shape, spreads, varied)
+    return Scatter(model, count, drawing.shape, spreads, varied)
 
 
 # ------------------------------------------------------------------ what deviates
