@@ -147,7 +147,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
         (["analyze", "no.toml"], "no.toml: no such file"),
         (
             ["analyze", str(ENGINES)],
-            f"{ENGINES}: is a folder; name an engine file in it",
+            f"{ENGINES}: is a folder; name a file in it",
         ),
         (
             ["analyze", V8, "--orders", "0x"],

@@ -621,11 +621,12 @@ def test_curves_that_cannot_be(tmp_path, content, told):
     assert told in err
 
 
-def test_semicolons_part_columns_and_commas_decimals(tmp_path):
+@pytest.mark.parametrize("mark", [";", "\t"])
+def test_semicolons_or_tabs_part_columns_and_commas_decimals(tmp_path, mark):
     path = tmp_path / "t.csv"
     path.write_text("angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
     english = torque("--curve", path)
-    path.write_text("angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n")
+    path.write_text("angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n".replace(";", mark))
     assert torque("--curve", path) == english
 
 

@@ -107,6 +107,7 @@ RESULTS = {
     "throws": ("search", I4, "--over", "throws", "--minimise", "moment.1.major"),
     "firing order": ("search", I4, "--over", "firing_order", "--minimise", "moment.1.major"),
     "bank angle": ("search", TWO_BANKS, "--over", "bank_angle", "--minimise", "force.1.major"),
+    "a number": ("search", I4, "--over", "rod.ratio=0.2:0.3", "--minimise", "force.2.major"),
     "numbers": ("numbers", V8),
     "scatter": ("scatter", I4, "--samples", "50"),
     "mounts": ("mounts", ENGINES / "i4_mounts.toml", I4, "--scheme", "auto", *SPEEDS),
@@ -129,6 +130,9 @@ RESULTS = {
     "bearings not known": ("torque", "-", "--loads", "pin,main"),
     "given torque": ("torque", "--curve", "curve.csv", "--speed", "1000"),
 }
+NO_UNIT = """\
+planes = ["fan"]
+run = [{ readings = ["5 @ 0"] }, { readings = ["3 @ 0"], weights = { fan = "1 @ 180" } }]"""
 NO_PLACES = f"""\
 crank = {{ stroke = 90, throws = [0, 180] }}
 rod.length = 160
@@ -153,6 +157,7 @@ def test_what_every_command_prints_keeps_to_its_schema(
 
 def test_field_and_a_chain_of_shafts() -> None:
     assert check(run_here("field", "-", "-f", "json", stdin=read_runs()).out)["corrections"]
+    assert check(run_here("field", "-", "-f", "json", stdin=NO_UNIT).out)["unit"] is None
     assert check(run_here("torsion", "-", "-f", "json", stdin=read_chain()).out)["modes"]
 
 

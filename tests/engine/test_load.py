@@ -270,6 +270,40 @@ def test_all_mistakes_at_once():
     )
 
 
+def test_a_mistake_in_the_crank_hides_none_that_does_not_depend_on_it():
+    """Which cylinders there are does not depend on the stroke, nor on its mass whether it turns."""
+    text = """
+crank = { stroke = -90, throws = [0, 180], positions = [0] }
+rod = { length = 160 }
+piston.mass = 0.5"""
+    assert refusal(text) == (
+        f"2 mistakes\n  crank: positions has 1 place for 2 throws; give one for each throw\n"
+        f"  crank.stroke: -90 is not above 0; {LENGTH}, above 0"
+    )
+    text = """
+crank = { stroke = -90, throws = [0, 180] }
+rod = { length = 160 }
+piston.mass = 0.5
+layout.firing_order = [1, 3]
+articulation = { master = 2, knuckle_radius = 40, rod = { length = 120 } }"""
+    assert refusal(text) == (
+        f"2 mistakes\n  crank.stroke: -90 is not above 0; {LENGTH}, above 0\n"
+        "  layout.firing_order: there is no cylinder 3, cylinder 2 is missing: each of the "
+        "cylinders 1 to 2 must stand once"
+    )
+    text = """
+crank = { stroke = 90, throws = [0, 180], throw_mass = "2 mm", splay = 10 }
+rod = { length = 40 }
+piston.mass = 0.5
+cylinder.9.piston_mass = 0.6"""
+    assert [line.split(": ")[0] for line in refusal(text).splitlines()] == [
+        "3 mistakes",
+        "  crank.throw_mass",
+        "  cylinder.9",
+        "  rod.length",
+    ]
+
+
 def test_missing_tables_come_with_an_example():
     assert (
         refusal("")
@@ -388,7 +422,7 @@ def test_what_cannot_be_read(tmp_path):
     missing, folder = tmp_path / "none.toml", tmp_path
     for path, message in (
         (missing, f"{missing}: no such file"),
-        (folder, f"{folder}: is a folder; name an engine file in it"),
+        (folder, f"{folder}: is a folder; name a file in it"),
         ("a\0b", "'a\\x00b': cannot be read (embedded null byte)"),
     ):
         with pytest.raises(BalcliError) as caught:

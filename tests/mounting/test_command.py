@@ -220,6 +220,18 @@ def test_picture(four, tmp_path, form):
             assert words.encode() in content
 
 
+@pytest.mark.parametrize("asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto")])
+def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path, asked):
+    bare = tmp_path / "bare.toml"
+    bare.write_text(block("loss = 0.1"), encoding="utf-8")
+    status, out, err = run_here("mounts", bare, *asked)
+    assert (status, out) == (0, run_here("mounts", bare).out)
+    assert err == (
+        f"warning: {bare}: nothing shakes this body, so speeds, orders and schemes say nothing of "
+        "it: add [crank], [rod] and [piston], or name an engine file after this one\n"
+    )
+
+
 def test_picture_of_a_body_alone(tmp_path):
     path, picture = tmp_path / "block.toml", tmp_path / "block.svg"
     path.write_text(block(), encoding="utf-8")

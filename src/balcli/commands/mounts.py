@@ -85,6 +85,11 @@ def mounts(
         result = report_mounts(
             model, engine, rpm, asked, scheme, beside, name_file(paths[0]), tell, options
         )
+    if result.response is None and any((speeds, orders, scheme)):
+        warn(
+            f"{name_file(paths[0])}: nothing shakes this body, so speeds, orders and schemes say "
+            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
+        )
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import draw_mounts  # brings matplotlib
 

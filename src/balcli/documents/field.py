@@ -72,8 +72,8 @@ class Field(Document):
     """Weights that balance a rotor on the machine."""
 
     format: Literal["balcli.field/1"]
-    name: str
-    unit: str
+    name: str | None
+    unit: str | None
     weight_unit: str
     phases: str
     weights: str

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, NotRequired
 
+from pydantic import ConfigDict, with_config
 from typing_extensions import TypedDict
 
 from .figures import Assumed, Document, NamedEngine, Order
@@ -22,8 +23,9 @@ class Sweep(Document):
     rows: list[list[float | None]]
 
 
+@with_config(ConfigDict(extra="allow"))
 class Arranged(TypedDict):
-    """One arrangement; one of the first four says it."""
+    """One arrangement: one of the first four says it, or a key that is called as `over`."""
 
     throws: NotRequired[list[float]]
     firing_order: NotRequired[list[int]]
@@ -34,11 +36,13 @@ class Arranged(TypedDict):
 
 
 class Search(Document):
-    """Best arrangements, best first; locked: angles at which articulated rods cannot turn."""
+    """Best arrangements, best first; over: throws, firing_order, bank_angle, splay, or the dotted
+    name of a number; locked: angles at which articulated rods cannot turn.
+    """
 
     format: Literal["balcli.search/1"]
     engine: NamedEngine
-    over: Literal["throws", "firing_order", "bank_angle", "splay"]
+    over: str
     results: list[Arranged]
     locked: NotRequired[list[list[float]]]
 

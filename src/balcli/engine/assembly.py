@@ -15,7 +15,7 @@ from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine
-from ..enginefile.model import EngineFile
+from ..enginefile.model import Crank, EngineFile
 from . import firing
 from .arrays import column, shared_column
 from .figures import (
@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from ..core.mechanisms.rotary import Rotary
     from .gas import EngineGas
 
+# What a file without mistakes has that can be relied on (`enginefile.read.Draft`).
+ALL_KEYS = frozenset(EngineFile.model_fields) | {f"crank.{key}" for key in Crank.model_fields}
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
 
 
@@ -58,7 +60,7 @@ class Assembly:
         model: EngineFile,
         varied: Mapping[str, Figure] | None = None,
         rank: int = 0,
-        legible: Iterable[str] = EngineFile.model_fields,
+        legible: Iterable[str] = ALL_KEYS,
         known_gas: EngineGas | None = None,
     ) -> None:
         self.model, self._known_gas = model, known_gas
@@ -70,7 +72,12 @@ class Assembly:
         # to the gas of a single one.
         self.order = model.layout.firing_order
         needed = model.gas is not None and not self.rank
-        if varied and not needed and "crank" in self.legible and model.crank.throws is not None:
+        if (
+            varied
+            and not needed
+            and "crank.throws" in self.legible
+            and model.crank.throws is not None
+        ):
             self.order = None
         # In which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1

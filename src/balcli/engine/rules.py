@@ -29,6 +29,7 @@ from .rods import (
 from .split_pins import find_fitting_splay
 
 STANDSTILL = 1e-12  # of the mean speed: rounding
+_PLAN = frozenset({"crank.throws", "crank.positions", "layout"})  # which cylinders there are
 
 
 class Rule(NamedTuple):
@@ -105,7 +106,7 @@ def _list_rods(parts: Assembly) -> list[tuple[int, bool]]:
     """Cylinders, and whether their rods are articulated; number 0 stands for what holds for all
     where it is not known which cylinders there are.
     """
-    if not parts.legible >= {"crank", "layout", "articulation"}:
+    if not parts.legible >= {*_PLAN, "articulation"}:
         return [(0, False)]
     try:
         return [(number, number in parts.masters) for number in parts.plan.numbers]
@@ -122,15 +123,15 @@ def _check_rod(parts: Assembly, place: RodPlace) -> Iterator[Problem]:
         return
     if not one_end:
         yield from check_rod_inertia(place, gear)
-    if "crank" in parts.legible and not place.articulated:
+    if "crank.stroke" in parts.legible and not place.articulated:
         yield from check_turning(place, gear, parts.radius)
 
 
 def _weigh_rod(parts: Assembly, place: RodPlace) -> RunningGear | None:
     """A rod with its piston, or without where that is not known; None where its length is not."""
-    if parts.legible >= {"crank", "piston"}:
+    if parts.legible >= {"crank.stroke", "piston"}:
         return parts.gear_of(place)
-    if "crank" in parts.legible:
+    if "crank.stroke" in parts.legible:
         return weigh_rod(place.rod, place.rod.length_for(parts.radius))
     return None if place.rod.length is None else weigh_rod(place.rod, place.rod.length)
 
@@ -285,8 +286,8 @@ def check_gas(parts: Assembly) -> Iterator[Problem]:
 _WHOLE = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder"})
 RULES = (
     (
-        Rule(check_cylinders, frozenset({"crank", "layout"})),
-        Rule(check_masters, frozenset({"crank", "layout", "articulation"})),
+        Rule(check_cylinders, _PLAN),
+        Rule(check_masters, _PLAN | {"crank.splay", "articulation"}),
         Rule(check_rods, frozenset({"rod"})),
         Rule(check_half_orders, frozenset({"operation", "layout", "gas"})),
         Rule(check_speed, frozenset({"operation"})),

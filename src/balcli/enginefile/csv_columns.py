@@ -50,8 +50,8 @@ def locate_beside(folder: Path, name: str) -> Path:
 
 def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> NumberColumns:
     """Some columns of a CSV file; other columns, empty lines and lines that begin with # count for
-    nothing. Where semicolons part the heading, they part the lines, and decimals may have commas;
-    elsewhere a number to the right of the heading is refused: "0,5,1,3" might be two.
+    nothing. Where semicolons or tabs part the heading, they part the lines, and decimals may have
+    commas; elsewhere a number to the right of the heading is refused: "0,5,1,3" might be two.
 
     Args:
         wanted: the names that each column may have.
@@ -84,14 +84,14 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> NumberColumns:
     if re.fullmatch(r"[-+\d.,;eE\s]+", first) and re.search(r"\d", first):
         usual = (";" if ";" in first else ",").join(some[0] for some in wanted)
         raise ValueError(f"begins with figures, without a heading; put the line {usual} above them")
-    semicolons = bool(lines) and lines[0][1].count(";") > lines[0][1].count(",")
-    if semicolons:
-        lines = [(n, line.replace(",", ".").replace(";", ",")) for n, line in lines]
+    mark = max(",;\t", key=first.count)  # the comma, where none of them is there
+    if mark != ",":
+        lines = [(n, line.replace(",", ".").replace(mark, ",")) for n, line in lines]
     cells = csv.reader(line for _, line in lines)
     heading = [cell.strip() for cell in next(cells, [])]
     places = [_find_head(names, heading, wanted) for names in wanted]
     numbers = [number for number, _ in lines[1:]]
-    width = None if semicolons else len(heading)
+    width = len(heading) if mark == "," else None
     rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
     return NumberColumns(tuple(heading[place] for place in places), rows, tuple(numbers))
 

@@ -34,7 +34,7 @@ from .messages import (
     is_miscounted,
     join_path,
 )
-from .model import EngineFile, FileTable, Override
+from .model import Crank, EngineFile, FileTable, Override
 from .toml_text import parse_toml
 from .unknown_keys import (
     INSTEAD,
@@ -58,7 +58,8 @@ class Draft(NamedTuple):
     Attributes:
         model: the file. Where there are mistakes, tables that could not be read are left out of it:
             their defaults stand there, or nothing where there is none.
-        legible: keys of the file that can be relied on: what they say, or do not say, was read.
+        legible: keys of the file that can be relied on: what they say, or do not say, was read;
+            those of [crank] one by one, too, as crank.throws.
         problems: mistakes of the text.
         unknown: keys that an engine file does not have.
     """
@@ -142,6 +143,8 @@ class _Reader:
     def __init__(self) -> None:
         self.problems: list[Problem] = []
         self.unknown: list[UnknownKey] = []
+        # Of [crank], on which most depends, what can be read where some of its keys cannot.
+        self.partial_crank: _Partial | None = None
 
     def add(self, path: str, message: str) -> None:
         self.problems.append(Problem(path, message))
@@ -156,11 +159,15 @@ class _Reader:
         if None in cylinders.values():
             broken.add("cylinder")
             read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
+        of_crank = set() if "crank" in broken else set(Crank.model_fields)
+        if self.partial_crank is not None:
+            read["crank"] = self.partial_crank.draft
+            of_crank = Crank.model_fields.keys() - self.partial_crank.broken
         model = EngineFile.model_construct(set(read), **read)
         model._folder = folder
         return Draft(
             model,
-            frozenset(KNOWN) - broken,
+            frozenset(KNOWN) - broken | {f"crank.{key}" for key in of_crank},
             tuple(self.problems),
             tuple(self.unknown),
         )
@@ -250,7 +257,11 @@ class _Reader:
         """
         findings = [found for found in error.errors(include_url=False) if found["loc"]]
         broken = {str(finding["loc"][0]) for finding in findings}
-        self.problems += _find_contradictions(path, table, value, broken)
+        draft = _read_without(table, value, broken)
+        contradictions = list(_find_contradictions(path, table, value, broken, draft))
+        self.problems += contradictions
+        if path == "crank" and draft is not None and not contradictions:
+            self.partial_crank = _Partial(draft, frozenset(broken))
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
@@ -260,11 +271,39 @@ class _Reader:
                 self.problems.append(describe_finding(path, finding, table))
 
 
+class _Partial(NamedTuple):
+    """A table read without its broken keys: those that have to be there are their examples."""
+
+    draft: FileTable
+    broken: frozenset[str]
+
+
+def _read_without(
+    table: type[FileTable], value: Mapping[str, Any], broken: set[str]
+) -> FileTable | None:
+    """The table without its broken keys, with examples of those that have to be there; None where
+    that is none, either.
+    """
+    known = {key: part for key, part in value.items() if key not in broken}
+    needed = {key: field for key, field in table.keys().items() if field.is_required()}
+    examples = {key: (field.examples or [None])[0] for key, field in needed.items()}
+    try:
+        draft = table.model_validate(examples | known, context=broken)
+    except ValidationError:
+        return None
+    draft.model_fields_set.update(broken & value.keys())  # these are given, too
+    return draft
+
+
 def _find_contradictions(
-    path: str, table: type[FileTable], value: Mapping[str, Any], broken: set[str]
+    path: str,
+    table: type[FileTable],
+    value: Mapping[str, Any],
+    broken: set[str],
+    draft: FileTable | None,
 ) -> Iterator[Problem]:
     """What the keys of a table say against each other, and their values, as far as that can be said
-    without the broken ones; of values nothing where one that has to be there is broken or missing.
+    without the broken ones, which `draft` lacks.
     """
 
     def tell(mistakes: Iterable[str], keys: Iterable[str]) -> Iterator[Problem]:
@@ -273,13 +312,7 @@ def _find_contradictions(
 
     for choice in table.choices:
         yield from tell(choice.mistakes(value), choice.find_missing(value))
-    legible = {key: part for key, part in value.items() if key not in broken}
-    try:
-        draft = table.model_validate(legible, context=broken)
-    except ValidationError:
-        return
-    draft.model_fields_set.update(broken & value.keys())  # these are given, too
-    for rule in table.rules:
+    for rule in table.rules if draft is not None else ():
         if rule.needs.isdisjoint(broken):
             yield from tell(rule.check(draft), {*rule.needs, *rule.wants})
 

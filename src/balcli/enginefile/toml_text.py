@@ -35,7 +35,7 @@ def read_bytes(source: str | Path) -> bytes:
         with Path(source).open("rb") as stream:
             return stream.read(LARGEST_FILE_BYTES + 1)
     except IsADirectoryError:
-        raise BalcliError(f"{source}: is a folder; name an engine file in it") from None
+        raise BalcliError(f"{source}: is a folder; name a file in it") from None
     except FileNotFoundError:
         raise BalcliError(f"{source}: no such file{find_near_file(source)}") from None
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
