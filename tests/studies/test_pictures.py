@@ -58,6 +58,9 @@ def test_bars_about_the_crank_are_with_the_gas_where_there_is_some():
     texts = set(re.findall(r">([^<>]*)</text>", page.decode()))
     assert {"About the crank, with gas", "gas torque", "total roll", "½"} <= texts
     assert compute_study(engine(GOOD), "spectrum").now.spectra.gas is None
+    shafts = compute_study(engine(FOUR + WIEBE), "spectrum", scheme="two-shaft")
+    page = draw_page(PageSubject(**shafts._asdict()), "spectrum", "svg")
+    assert b"About the crank, with gas" in page
 
 
 def test_its_own_bank_angle_is_the_engine_as_it_is():

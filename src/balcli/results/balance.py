@@ -11,16 +11,14 @@ import numpy as np
 
 from ..engine.build import Engine, check_engine
 from ..errors import check_type
-from ..forces.kinds import ROLL_TOTAL
 from ..forces.orders import merge_orders
 from ..result import Result
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Tools, find_practical
-from .analysis import QUANTITIES, Analysis, analyze
+from .analysis import Analysis, analyze
 
-_SHOWN = frozenset(QUANTITIES) - {"sizing"}  # without and with the remedy
 _UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
 
 
@@ -113,11 +111,10 @@ def analyze_both(
     engine: Engine, changed: Engine, orders: Iterable[float] | None
 ) -> tuple[Analysis, Analysis]:
     """An engine without and with a remedy, by the same orders: those asked for, or 1 and 2 and all
-    that are not negligible in one of them. With gas, the roll of inertia and gas together, too.
+    that are not negligible in one of them.
     """
-    shown = _SHOWN if engine.gas is None else _SHOWN | {ROLL_TOTAL.name}
-    before, after = analyze(engine, orders, shown), analyze(changed, orders, shown)
+    before, after = analyze(engine, orders), analyze(changed, orders)
     if np.array_equal(before.orders, after.orders):
         return before, after
     both = merge_orders(before.orders, after.orders)
-    return analyze(engine, both, shown), analyze(changed, both, shown)
+    return analyze(engine, both), analyze(changed, both)

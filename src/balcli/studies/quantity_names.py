@@ -94,7 +94,7 @@ CYCLE = Chapter(
 MOUNTS = Chapter(
     "mounting.quantity",
     (
-        Form("mode.N.Hz", "Hz", "natural frequency on the mounts, N from 1 to 6", "mount"),
+        Form("mode.N.Hz", "Hz", "natural frequency on the mounts", "mount"),
         Form("mode.N.share", "%", "largest share of its energy in one motion", "mount"),
         Form("mode.N.damping", "%", "its damping ratio", "mount"),
         Form(
