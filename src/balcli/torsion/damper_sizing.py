@@ -26,7 +26,7 @@ from .largest import find_hottest, find_largest_of_all, find_largest_torques
 from .load import Source
 from .modes import NaturalMode, find_criticals, find_natural_modes
 from .motion import move, stress_by_torque
-from .system import Excitation, TorsionalSystem
+from .system import TorsionalSystem
 
 RUBBER_LOSS = 0.15  # usual for damper rubber
 # of the mode's inertia at the node, where nothing says how heavy a damper is
@@ -104,12 +104,16 @@ def size_damper(
         BalcliError: nothing can carry it, or nothing excites the system.
     """
     node, own = _find_carrier(source.dampers(), asked.node)
-    bare = source.with_damper(node, None).system()
+
+    def build(damper: Damper | None) -> TorsionalSystem:
+        return _excite(source.with_damper(node, damper).system(), orders)
+
+    bare = build(None)
     weights = (
         np.nan_to_num(stress_by_torque(bare)) if any(bare.sections) else np.ones(len(bare.shafts))
     )
     place = bare.nodes.index(node)
-    mode, order = _find_worst(bare, _excite(bare, orders), speeds, weights, place)
+    mode, order = _find_worst(bare, speeds, weights, place)
     first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
     figure = _FIGURE[asked.kind]
     start = float(getattr(first, figure))
@@ -119,10 +123,10 @@ def size_damper(
         """Largest stress or torque of the shafts that are there without it, between the speeds,
         too.
         """
-        system = source.with_damper(node, damper).system()
+        system = build(damper)
         shafts = [system.shafts.index(name) for name in bare.shafts]
         tell(next(tried) / _RESPONSES)
-        return find_largest_of_all(system, _excite(system, orders), speeds, shafts, weights)
+        return find_largest_of_all(system, speeds, shafts, weights)
 
     width = math.log(_WIDTH[asked.kind])
     farther = _minimise(
@@ -132,7 +136,7 @@ def size_damper(
     )
     best = float(f"{start * math.exp(farther):.6g}")
     damper = _with(first, figure, best)
-    heat, heat_rpm = _find_heat(source.with_damper(node, damper).system(), node, speeds, orders)
+    heat, heat_rpm = _find_heat(build(damper), node, speeds)
     found = SizedDamper(
         node,
         damper,
@@ -207,11 +211,9 @@ def _find_inertia(damper: Damper) -> float:
     return (damper.mass or 0.0) * out**2
 
 
-def _find_heat(
-    system: TorsionalSystem, node: str, speeds: Real, orders: Real | None
-) -> tuple[float, float]:
+def _find_heat(system: TorsionalSystem, node: str, speeds: Real) -> tuple[float, float]:
     """Largest power that the damper of a node turns to heat, W, and at which speed, rpm."""
-    rpm, heat = find_hottest(system, _excite(system, orders), speeds)
+    rpm, heat = find_hottest(system, speeds)
     mine = (k for k, name in enumerate(system.dampers) if name.removesuffix(" ring") == node)
     ring = next(mine, None)
     return (0.0, float(speeds[0])) if ring is None else (float(heat[ring]), float(rpm[ring]))
@@ -240,7 +242,8 @@ def _find_carrier(
     return name, carriers[name]
 
 
-def _excite(system: TorsionalSystem, orders: Real | None) -> Excitation:
+def _excite(system: TorsionalSystem, orders: Real | None) -> TorsionalSystem:
+    """The same, excited at these orders alone; None: at all."""
     excitation = system.excitation
     if excitation is None:
         raise BalcliError("--damper: nothing excites the system; give an [[excitation]]")
@@ -248,11 +251,11 @@ def _excite(system: TorsionalSystem, orders: Real | None) -> Excitation:
         excitation = excitation.only(orders)
     if not len(excitation.orders):
         raise BalcliError("--damper: nothing excites the system at the orders asked for")
-    return excitation
+    return replace(system, excitation=excitation)
 
 
 def _find_worst(
-    system: TorsionalSystem, excitation: Excitation, speeds: Real, weights: Real, node: int
+    system: TorsionalSystem, speeds: Real, weights: Real, node: int
 ) -> tuple[NaturalMode, float]:
     """The mode that a damper at a node is for, and the order that drives it: of the largest order
     in the largest stress of the range the mode nearest in frequency. By work alone that of a soft
@@ -264,7 +267,7 @@ def _find_worst(
     modes = find_natural_modes(system)
     if not modes:
         raise BalcliError("--damper: the system has no mode that could be damped")
-    order, omega = _find_hardest(system, excitation, speeds, weights)
+    order, omega = _find_hardest(system, speeds, weights)
 
     def find_nearest(some: Sequence[NaturalMode]) -> NaturalMode:
         return min(some, key=lambda mode: abs(math.log(mode.omega / omega)))
@@ -277,28 +280,27 @@ def _find_worst(
     worst = find_nearest(modes)
     if worst.number in numbers:
         return worst, order
-    for met in find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1]))):
+    span = float(speeds[0]), float(speeds[-1])
+    for met in find_criticals(system.require_excitation(), modes, span):
         if met.mode in numbers:
             return modes[met.mode - 1], met.order
     return find_nearest(moved), order
 
 
-def _find_hardest(
-    system: TorsionalSystem, excitation: Excitation, speeds: Real, weights: Real
-) -> tuple[float, float]:
+def _find_hardest(system: TorsionalSystem, speeds: Real, weights: Real) -> tuple[float, float]:
     """The largest order in the largest stress of the range, and its frequency there, rad/s; with
     some loss in every shaft where nothing damps a resonance.
     """
     shafts = range(len(weights))
     try:
-        rpm, torque = find_largest_torques(system, excitation, speeds, shafts)
+        rpm, torque = find_largest_torques(system, speeds, shafts)
     except BalcliError:
         loss = np.maximum(system.damping.loss, _LOSS)
         system = replace(system, damping=system.damping._replace(loss=loss))
-        rpm, torque = find_largest_torques(system, excitation, speeds, shafts)
+        rpm, torque = find_largest_torques(system, speeds, shafts)
     worst = int(np.argmax(weights * torque))
-    by_order = np.abs(move(system, excitation, rpm[worst : worst + 1]).torque[:, 0, worst])
-    order = float(excitation.orders[int(np.argmax(by_order))])
+    by_order = np.abs(move(system, rpm[worst : worst + 1]).torque[:, 0, worst])
+    order = float(system.require_excitation().orders[int(np.argmax(by_order))])
     return order, order * float(rpm[worst]) * RPM
 
 
