@@ -14,7 +14,7 @@ from ..core.phasors import Array
 from ..engine.build import build
 from ..enginefile.model import EngineFile, label_table
 from ..enginefile.shafting import find_stiffness
-from ..enginefile.torsion_tables import Part, Torsion
+from ..enginefile.torsion_tables import Part
 from ..errors import BalcliError
 from ..forces.target_quantity import TargetQuantity
 from ..limits import MOST_MOUNT_SAMPLES
@@ -110,7 +110,7 @@ def _spell_out(model: EngineFile) -> EngineFile:
     given by its length.
     """
     torsion = model.torsion
-    if not isinstance(torsion, Torsion):
+    if torsion is None:
         return model
     throws = len(build(model).throws_m)
     stiffness, inertia = torsion.throw_stiffness or (), torsion.throw_inertia
@@ -130,7 +130,7 @@ def _stiffen(part: Part) -> Part:
 def _list_shafting(model: EngineFile, stiffness: float, mass: float) -> Iterator[PartSource]:
     """Stiffness of every shaft, inertia of every node, mass of every piston."""
     torsion = model.torsion
-    if not isinstance(torsion, Torsion):
+    if torsion is None:
         return
     for k, value in enumerate(torsion.throw_stiffness or (), 1):
         path = f"torsion.throw_stiffness.{k}"
@@ -141,13 +141,17 @@ def _list_shafting(model: EngineFile, stiffness: float, mass: float) -> Iterator
         yield PartSource("inertia crankshaft", mass, {"crank.inertia": model.crank.inertia})
     for key, parts in (("front", torsion.front), ("rear", torsion.rear)):
         for k, part in enumerate(parts, 1):
-            path = f"torsion.{key}.{k}"
-            if part.stiffness is not None and isfinite(part.stiffness):
-                figures = {f"{path}.stiffness": part.stiffness}
-                yield PartSource(f"stiffness {part.name}", stiffness, figures)
-            if part.inertia is not None:
-                yield PartSource(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})
+            yield from _list_part(part, f"torsion.{key}.{k}", stiffness, mass)
     engine = build(model)
     for number, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
         figures = {f"cylinder.{number}.piston_mass": float(weighed.piston)}
         yield PartSource(f"piston mass {number}", mass, figures)
+
+
+def _list_part(part: Part, path: str, stiffness: float, mass: float) -> Iterator[PartSource]:
+    """Stiffness of a part's shaft unless that is rigid, and the part's inertia."""
+    if part.stiffness is not None and isfinite(part.stiffness):
+        figures = {f"{path}.stiffness": part.stiffness}
+        yield PartSource(f"stiffness {part.name}", stiffness, figures)
+    if part.inertia is not None:
+        yield PartSource(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})

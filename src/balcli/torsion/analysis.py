@@ -11,7 +11,8 @@ from ..core.holzer_table import Holzer, tabulate_holzer
 from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
 from ..result import Result
-from .damper_sizing import DamperAsked, SizedDamper, size_damper
+from .damper_proposal import DamperAsked
+from .damper_sizing import SizedDamper, size_damper
 from .load import Source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes
 from .response import TorsionResponse, find_barred, find_response
