@@ -7,7 +7,7 @@ a file has.
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Set
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple
@@ -513,6 +513,21 @@ def label_table(table: FileTable, number: int) -> str:
     """
     name = getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)
+
+
+def change_figure(whole: Any, keys: Sequence[str], value: float) -> Any:
+    """A table, or a list of tables or figures, with another figure in it, by the keys that lead
+    there (`rear`, `1`, `stiffness`); members of lists count from 1.
+    """
+    if not keys:
+        return value
+    first, *rest = keys
+    if isinstance(whole, FileTable):
+        changed = change_figure(getattr(whole, first), rest, value)
+        return whole.model_copy(update={first: changed})
+    members = list(whole)
+    members[int(first) - 1] = change_figure(members[int(first) - 1], rest, value)
+    return tuple(members)
 
 
 class EngineFile(FileTable):

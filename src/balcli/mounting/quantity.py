@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.speeds import RPM
 from ..engine.variants import EngineVariants
-from ..enginefile.model import EngineFile, FileTable, label_table
+from ..enginefile.model import EngineFile, FileTable, change_figure, label_table
 from ..errors import BalcliError, InputError, Problem
 from ..forces.target_quantity import (
     Subject,
@@ -95,7 +95,7 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
         start = next((s for s in tables if path.startswith(f"{s}.")), "")
         if _begin(start) in _TABLES:
             table = changed.get(start, tables[start])
-            changed[start] = _change(table, path[len(start) + 1 :], value)
+            changed[start] = change_figure(table, path[len(start) + 1 :].split("."), value)
     faults = [
         Problem(path, fault) for path, table in changed.items() for fault in table.list_faults()
     ]
@@ -109,16 +109,6 @@ def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
         for key in ("mount", "point")
     }
     return model.model_copy(update={"body": changed.get("body", model.body), **rows})
-
-
-def _change(table: FileTable, key: str, value: float) -> FileTable:
-    """With another figure: `mass`, or one of a list (`stiffness.2`)."""
-    name, _, number = key.partition(".")
-    if not number:
-        return table.model_copy(update={name: value})
-    figures = list(getattr(table, name))
-    figures[int(number) - 1] = value
-    return table.model_copy(update={name: tuple(figures)})
 
 
 class Variants:

@@ -28,13 +28,9 @@ _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inert
 def sheet(result: Result, system: System) -> Sheet:
     """Work, torque over the cycle, flywheel, and torque by order."""
     if isinstance(result, CurveAnalysis):
-        cycle = float(np.degrees(result.torque.period))
-        parts: list[Grid | Facts | Text] = [_curve_facts(result, system)]
-        parts.append(_course_facts(result.torque, result.surplus, cycle, system))
-        parts += _flywheel_facts(result.flywheel, cycle, system)
-        return Sheet(f"{result.name}: torque", (*parts, _curve_table(result, system)))
+        return _curve_sheet(result, system)
     name = result.engine.name or NAMELESS
-    parts = [_work_facts(result, system)]
+    parts: list[Grid | Facts | Text] = [_work_facts(result, system)]
     parts.append(_course_facts(result.curves.total, result.surplus, result.cycle_deg, system))
     if result.flywheel is None:
         parts.append(Text("Flywheel", (_NO_INERTIA,)))
@@ -45,6 +41,17 @@ def sheet(result: Result, system: System) -> Sheet:
     parts += _load_tables(result, system)
     parts.append(_order_table(result, system))
     return Sheet(f"{name}: torque on the crank", tuple(parts))
+
+
+def _curve_sheet(result: CurveAnalysis, system: System) -> Sheet:
+    cycle = float(np.degrees(result.torque.period))
+    parts: tuple[Grid | Facts | Text, ...] = (
+        _curve_facts(result, system),
+        _course_facts(result.torque, result.surplus, cycle, system),
+        *_flywheel_facts(result.flywheel, cycle, system),
+        _curve_table(result, system),
+    )
+    return Sheet(f"{result.name}: torque", parts)
 
 
 def tenths(angle_deg: float) -> str:
@@ -97,10 +104,10 @@ def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
     gas = result.max_pressure
     pairs = [("cycle", f"{tell_strokes(result.engine)}, {round_angle(result.cycle_deg)} deg")]
     pairs.append(("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm"))
-    pairs.append(("mean pressure", f"{_size(result.imep, system.pressure)} indicated"))
+    mean = f"{_size(result.imep, system.pressure)} indicated"
     if result.bmep is not None:
-        brake = _size(result.bmep, system.pressure)
-        pairs[-1] = (pairs[-1][0], f"{pairs[-1][1]}, {brake} brake")
+        mean += f", {_size(result.bmep, system.pressure)} brake"
+    pairs.append(("mean pressure", mean))
     if gas is not None:
         at = degrees(float(np.degrees(gas.angle)))
         largest = _size(gas.value, system.pressure)
@@ -164,25 +171,24 @@ def _flywheel_facts(
     if flywheel is None:
         return
     pairs, unit = [], system.inertia
-    parts = number(unit.of(flywheel.moving))
-    moving = f"of it moving parts {parts}" if flywheel.moving else ""
     if flywheel.mean is not None:
-        pairs.append(("inertia", f"{_size(flywheel.mean, unit)}{moving and f', {moving}'}"))
+        inertia = _size(flywheel.mean, unit)
+        if flywheel.moving:
+            inertia += f", of it moving parts {number(unit.of(flywheel.moving))}"
+        pairs.append(("inertia", inertia))
     if flywheel.speed is not None:
         pairs += _speed_pairs(flywheel.speed, cycle_deg)
     if flywheel.stall:
         pairs.append(("speed", flywheel.stall))
     if flywheel.needed is not None:
-        pairs.append(("needed", f"{_size(flywheel.needed, unit)} in all"))
+        needed = f"{_size(flywheel.needed, unit)} in all"
         own = flywheel.needed - flywheel.moving - (crank or 0.0)
-        place = "crankshaft and flywheel" if crank is None else "the flywheel"
-        share = (
-            f"{number(unit.of(own))} of it in {place}"
-            if own > 0
-            else "which is there without a flywheel"
-        )
-        if moving:
-            pairs[-1] = ("needed", f"{pairs[-1][1]}, {share}")
+        if flywheel.moving and own > 0:
+            place = "crankshaft and flywheel" if crank is None else "the flywheel"
+            needed += f", {number(unit.of(own))} of it in {place}"
+        elif flywheel.moving:
+            needed += ", which is there without a flywheel"
+        pairs.append(("needed", needed))
     yield Facts(tuple(pairs), "Flywheel")
 
 

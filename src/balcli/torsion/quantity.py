@@ -12,7 +12,7 @@ import numpy as np
 from ..core.singular_values import Real
 from ..engine.build import Engine, build
 from ..engine.variants import EngineVariants, Values, remember
-from ..enginefile.model import EngineFile, FileTable
+from ..enginefile.model import EngineFile, FileTable, change_figure
 from ..enginefile.torsion_tables import Torsion
 from ..errors import BalcliError, InputError, Problem
 from ..forces.target_quantity import (
@@ -89,7 +89,7 @@ def vary_torsion(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
     torsion: Any = model.torsion
     varied = {path: value for path, value in values.items() if path.startswith("torsion.")}
     for path, value in varied.items():
-        torsion = _change(torsion, path.split(".")[1:], value)
+        torsion = change_figure(torsion, path.split(".")[1:], value)
     faults = [fault for path in varied for fault in _find_faults(torsion, path)]
     if faults:
         raise InputError(list(dict.fromkeys(faults)))
@@ -107,18 +107,6 @@ def _find_faults(torsion: Torsion, path: str) -> Iterator[Problem]:
         else:
             place = place[int(key) - 1]
         name = f"{name}.{key}"
-
-
-def _change(whole: Any, keys: Sequence[str], value: float) -> Any:
-    """A table or list with another figure in it."""
-    if not keys:
-        return value
-    first, *rest = keys
-    if isinstance(whole, FileTable):
-        return whole.model_copy(update={first: _change(getattr(whole, first), rest, value)})
-    members = list(whole)
-    members[int(first) - 1] = _change(members[int(first) - 1], rest, value)
-    return tuple(members)
 
 
 class Variants:
