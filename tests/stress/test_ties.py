@@ -16,7 +16,7 @@ from balcli.forces.quantity import parse_quantity_list
 from balcli.studies.deviations import Tolerances
 from balcli.studies.search.objective import Objective, parse_objective
 from balcli.studies.search.search import search_arrangements
-from balcli.studies.tolerances import scatter_engine
+from balcli.studies.tolerances import Drawing, scatter_engine
 
 pytestmark = pytest.mark.stress
 
@@ -28,7 +28,7 @@ def test_equal_shares_of_a_scatter(name: str) -> None:
     """Parts of one kind stand by their numbers."""
     quantities = parse_quantity_list("force.1.major,force.2.major,moment.1.major,moment.2.major")
     for spread in scatter_engine(
-        read(ENGINES / f"{name}.toml"), Tolerances(mass=0.01), quantities, 10, seed=1
+        read(ENGINES / f"{name}.toml"), Tolerances(mass=0.01), quantities, Drawing(10, 1)
     ).spreads:
         for _, equal in groupby(
             spread.shares, key=lambda pair: (f"{abs(pair[1]):.6g}", pair[0].what)

@@ -14,7 +14,7 @@ from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
 from balcli.studies.deviations import Tolerances
 from balcli.studies.stated_tolerances import parse_tolerances
-from balcli.studies.tolerances import scatter_engine
+from balcli.studies.tolerances import Drawing, scatter_engine
 
 FORCES = parse_quantity_list("force.1.major,force.2.major,moment.1.major")
 TWIN = changed(
@@ -35,7 +35,7 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
     """
     t, samples = 0.01, 200_000
     (spread,) = scatter_engine(
-        load(TWIN), Tolerances(mass=t), parse_quantity_list("force.1.major"), samples, seed=1
+        load(TWIN), Tolerances(mass=t), parse_quantity_list("force.1.major"), Drawing(samples, 1)
     ).spreads
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
     deviation = t * math.sqrt(2 / 9) / math.sqrt(samples)  # of the mean of |d1 - d2|
@@ -47,7 +47,7 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
 
 def test_shares_are_what_a_changed_file_gives() -> None:
     (spread,) = scatter_engine(
-        load(GOOD), Tolerances(mass=0.01), parse_quantity_list("force.2.major"), 10, seed=1
+        load(GOOD), Tolerances(mass=0.01), parse_quantity_list("force.2.major"), Drawing(10, 1)
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     heavier = build(load(GOOD + "[cylinder.2]\npiston_mass = 0.505\n"))
@@ -64,7 +64,7 @@ def test_a_rod_deviates_without_its_shells() -> None:
     shells = "[bobweight]\nrod_bearing = 0.05\noil = 0.01\n"
     quantity = parse_quantity_list("force.1.forward")
     without, with_shells = (
-        scatter_engine(load(text), Tolerances(mass=0.01), quantity, 10, seed=1).spreads[0]
+        scatter_engine(load(text), Tolerances(mass=0.01), quantity, Drawing(10, 1)).spreads[0]
         for text in (GOOD, GOOD + shells)
     )
     assert with_shells.bound == pytest.approx(without.bound, rel=1e-12)
@@ -76,8 +76,7 @@ def test_shares_of_angles_and_lengths_are_derivatives() -> None:
         load(weighed),
         Tolerances(length=1e-6, angle_deg=1e-5),
         parse_quantity_list("force.2.major"),
-        10,
-        seed=1,
+        Drawing(10, 1),
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     longer = build(load(weighed + "[cylinder.3]\nrod_length = 160.00016\n"))
@@ -104,8 +103,7 @@ def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
         load(text),
         Tolerances(length=1e-4),
         parse_quantity_list("force.1.backward,couple.1.amplitude"),
-        10,
-        seed=1,
+        Drawing(10, 1),
     ).spreads
     w2 = (3000 * math.pi / 30) ** 2
     assert against.shares[0][1] == pytest.approx(-1e-4 * 0.6 * 0.045 / 0.2 * 0.002 * w2 / 2)
@@ -129,7 +127,7 @@ def test_shares_of_lengths_are_what_a_changed_file_gives(text: str, number: int)
     quantities = parse_quantity_list("force.1.forward,force.2.backward,couple.1.amplitude")
     step, key = 1e-5, f"cylinder.{number}.rod_length"
     model = load(text)
-    spreads = scatter_engine(model, Tolerances(length=step), quantities, 10, seed=1).spreads
+    spreads = scatter_engine(model, Tolerances(length=step), quantities, Drawing(10, 1)).spreads
     engine = build(model)
     row = engine.numbers.index(number)
     lam = engine.cylinders.lam[row % len(engine.cylinders.lam)]
@@ -150,18 +148,16 @@ def test_rods_that_might_lock_are_refused(text: str) -> None:
     """They were no figures, or 64 GB."""
     quantities = parse_quantity_list("force.2.major")
     with pytest.raises(BalcliError) as caught:
-        scatter_engine(load(text), Tolerances(length=0.8), quantities, 10)
+        scatter_engine(load(text), Tolerances(length=0.8), quantities, Drawing(10))
     said = "--length-scatter 80%: rods shorter by twice as much cannot be ("
     assert str(caught.value).startswith(said)
     assert str(caught.value).endswith("give a smaller one")
-    scatter_engine(load(text), Tolerances(length=0.1), quantities, 10)
+    scatter_engine(load(text), Tolerances(length=0.1), quantities, Drawing(10))
 
 
 def test_nothing_exceeds_the_bound_of_masses() -> None:
     for shape in ("uniform", "normal"):
-        result = scatter_engine(
-            load(GOOD), Tolerances(mass=0.02), FORCES, 5000, seed=3, shape=shape
-        )
+        result = scatter_engine(load(GOOD), Tolerances(mass=0.02), FORCES, Drawing(5000, 3, shape))
         for s in result.spreads:
             assert s.percentiles["p05"] <= s.percentiles["p50"] <= s.percentiles["p95"] <= s.largest
             assert shape == "normal" or s.largest <= s.bound * (1 + 1e-12)
@@ -169,7 +165,7 @@ def test_nothing_exceeds_the_bound_of_masses() -> None:
 
 def test_a_seed_repeats_and_chunks_do_not_matter() -> None:
     runs = [
-        scatter_engine(load(GOOD), Tolerances(mass=0.01), FORCES, 20_000, seed=seed)
+        scatter_engine(load(GOOD), Tolerances(mass=0.01), FORCES, Drawing(20_000, seed))
         for seed in (7, 7, 8)
     ]
     assert runs[0].spreads == runs[1].spreads
@@ -208,13 +204,13 @@ def test_what_cannot_be_scattered_is_told(
     tolerance: Tolerances, quantity: str, samples: int, message: str
 ) -> None:
     with pytest.raises(BalcliError) as caught:
-        scatter_engine(load(GOOD), tolerance, parse_quantity_list(quantity), samples)
+        scatter_engine(load(GOOD), tolerance, parse_quantity_list(quantity), Drawing(samples))
     assert str(caught.value).startswith(message)
 
 
 def test_percentiles_are_those_of_the_samples() -> None:
     result = scatter_engine(
-        load(TWIN), Tolerances(mass=0.01), parse_quantity_list("force.1.major"), 50_000, seed=1
+        load(TWIN), Tolerances(mass=0.01), parse_quantity_list("force.1.major"), Drawing(50_000, 1)
     )
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
     median = (
@@ -237,7 +233,10 @@ def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
         ARTICULATED
     )
     (found,) = scatter_engine(
-        load(ARTICULATED), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1
+        load(ARTICULATED),
+        Tolerances(mass=0.005),
+        parse_quantity_list("force.1.major"),
+        Drawing(10, 1),
     ).spreads
     assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(
         heavier, rel=1e-3
@@ -250,5 +249,8 @@ def test_rotary_engines_have_no_scatter() -> None:
         BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"
     ):
         scatter_engine(
-            load(rotary), Tolerances(mass=0.005), parse_quantity_list("force.1.major"), 10, 1
+            load(rotary),
+            Tolerances(mass=0.005),
+            parse_quantity_list("force.1.major"),
+            Drawing(10, 1),
         )

@@ -32,7 +32,7 @@ def look(text, speeds, shaft):
     engine = build(model)
     excitation = excite_engine(model, engine, None)
     system = build_engine_system(model, engine, excitation)
-    torque = move(system, excitation, speeds).torque[:, :, shaft]
+    torque = move(system, speeds).torque[:, :, shaft]
     return find_swing(excitation.orders, torque).half
 
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..forces.quantity import Quantity
     from ..studies.deviations import Tolerances
     from ..studies.quantities import Scattered
-    from ..studies.tolerances import Scatter
+    from ..studies.tolerances import Drawing, Scatter
 
 
 class Distribution(StrEnum):
@@ -121,6 +121,7 @@ def scatter(
     form = text_format(output, form)
     from ..studies.quantities import parse_quantities, sort_scattered
     from ..studies.stated_tolerances import parse_percentage, parse_tolerances
+    from ..studies.tolerances import Drawing
     from .inputs import read_engine
 
     within = parse_tolerances(mass, length, angle)
@@ -138,17 +139,15 @@ def scatter(
     draw, usual = _choose_way(model, within, share, asked)
     count = usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
-        found = draw(count, seed, distribution.value, progress)
+        found = draw(Drawing(count, seed, distribution.value, progress))
     show([found], renderer, form, output)
     exit_if_cut_short(progress, "the figures are of these")
 
 
 def _choose_way(
     model: EngineFile, within: Tolerances, stiffness: float | None, asked: Scattered
-) -> tuple[Callable[..., Scatter], int]:
-    """What draws the samples, by their number, seed, distribution and who is told of them; and
-    their usual number.
-    """
+) -> tuple[Callable[[Drawing], Scatter], int]:
+    """What draws the samples, and their usual number."""
     from ..studies import cycle_scatter, part_scatter, tolerances
     from ..studies.spread_one_by_one import RANDOM_SINGLES
 

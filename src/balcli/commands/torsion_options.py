@@ -12,7 +12,7 @@ from ..errors import BalcliError
 from ..limits import HIGHEST_TORSION_ORDER
 from ..render.formats import Units
 from ..torsion.analysis import HolzerAsked, TorsionQuestion
-from ..torsion.damper_sizing import DamperAsked
+from ..torsion.damper_proposal import DamperAsked
 from .amounts import read_inertia
 from .speed_range import parse_speeds
 

@@ -14,7 +14,7 @@ from ..studies.part_scatter import scatter_parts
 from ..studies.quantities import parse_quantities, sort_scattered
 from ..studies.spread_one_by_one import RANDOM_SINGLES
 from ..studies.stated_tolerances import DEGREES
-from ..studies.tolerances import RANDOM_ENGINES, Scatter, scatter_engine
+from ..studies.tolerances import RANDOM_ENGINES, Drawing, Scatter, scatter_engine
 from .arguments import Words, check_count, join_names, parse_share, tell_arguments
 
 
@@ -75,10 +75,11 @@ def scatter(
     seed = None if seed is None else check_count("seed", seed, 0)
     if distribution not in ("uniform", "normal"):
         raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')
+    drawing = Drawing(count, seed, distribution)
     if of_parts:
         share = None if stiffness is None else parse_share("stiffness", stiffness)
         heavier = parse_share("mass", mass)
-        return scatter_parts(model, share, heavier, of_parts, count, seed, distribution)
+        return scatter_parts(model, share, heavier, of_parts, drawing)
     if stiffness is not None:
         raise BalcliError("stiffness: is of mounts and shafts, and none of these quantities asks")
     if asked is None:
@@ -87,8 +88,8 @@ def scatter(
         parse_share("mass", mass), parse_share("length", length), _read_angle(angle_deg)
     )
     if of_cycle:
-        return scatter_cycles(model, tolerances, of_cycle, count, seed, distribution)
-    return scatter_engine(model, tolerances, of_engine, count, seed, distribution)
+        return scatter_cycles(model, tolerances, of_cycle, drawing)
+    return scatter_engine(model, tolerances, of_engine, drawing)
 
 
 def _read_angle(value: float | str) -> float:

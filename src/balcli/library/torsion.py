@@ -16,7 +16,7 @@ from ..enginefile.plain_tables import normalize_tables
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..errors import BalcliError, check_type, wrong_type
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
-from ..torsion.damper_sizing import DamperAsked
+from ..torsion.damper_proposal import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
 from .arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments

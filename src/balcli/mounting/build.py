@@ -102,21 +102,18 @@ def find_mounting_faults(
     if "body" in legible and model.body is None:
         example = "mass = 163.9"
         yield Problem.of_missing("body", f'give it, such as "[body]" and "{example}" below it')
-    if "mount" in legible:
-        if not model.mount:
-            yield Problem.of_missing("mount", "write [[mount]] for every mount")
-        if len(model.mount) > MOST_MOUNTS:
-            message = f"stands {len(model.mount)} times; at most {MOST_MOUNTS} are taken"
-            yield Problem("mount", message)
-        yield from _find_twice("mount", model.mount)
-    if "point" in legible:
-        if len(model.point) > MOST_MOUNTS:
-            message = f"stands {len(model.point)} times; at most {MOST_MOUNTS} are taken"
-            yield Problem("point", message)
-        yield from _find_twice("point", model.point)
+    if "mount" in legible and not model.mount:
+        yield Problem.of_missing("mount", "write [[mount]] for every mount")
+    lists: dict[str, Sequence[Mount | Point]] = {"mount": model.mount, "point": model.point}
+    for key, tables in lists.items():
+        if key in legible:
+            yield from _find_list_faults(key, tables)
 
 
-def _find_twice(key: str, tables: Sequence[Mount | Point]) -> Iterator[Problem]:
+def _find_list_faults(key: str, tables: Sequence[Mount | Point]) -> Iterator[Problem]:
+    """Too many tables of a kind, and names that come twice."""
+    if len(tables) > MOST_MOUNTS:
+        yield Problem(key, f"stands {len(tables)} times; at most {MOST_MOUNTS} are taken")
     met: dict[str, int] = {}
     for number, table in enumerate(tables, 1):
         first = met.setdefault(table.name, number)

@@ -22,7 +22,7 @@ from .build import build_mounted_body
 from .modes import BodyModes, find_mounted_modes
 from .motions import AXES, ROLL
 from .report import choose_mount_speeds
-from .response import find_largest_amplitudes, find_loads
+from .response import LargestAmplitude, find_largest_amplitudes, find_loads
 
 _SUBJECTS = {
     "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
@@ -141,34 +141,31 @@ class Variants:
         Raises:
             InputError, BalcliError: it cannot be.
         """
-        model = vary_mounting(self._model, values)
-        mounted = build_mounted_body(model)
-        modes = find_mounted_modes(mounted)
-        forces: list[float] = []
-        motions: list[float] = []
-        if self._runs or self._leans:
-            own = {path: value for path, value in values.items() if _begin(path) not in _TABLES}
-            engine = self._engines.build(own)
-            loads = find_loads(engine, mounted.body.centre)
-            modes = find_mounted_modes(mounted, loads.mean)
-            if self._runs:
-                omega = choose_mount_speeds(engine) * RPM
-                largest = [
-                    worst.value for worst in find_largest_amplitudes(mounted, modes, loads, omega)
-                ]
-                count = len(mounted.names)
-                forces, motions = largest[:count], largest[count:]
-        found = []
-        for q in self._quantities:
-            if q.kind == "mode":
-                found.append(_read_mode(modes, q))
-                continue
-            k = self._targets[q.kind].index(q.target)
-            if q.part == "static":
-                found.append(float(np.linalg.norm(modes.settled.forces[k])))
-            else:
-                found.append((forces if q.kind == "mount" else motions)[k])
-        return found
+        mounted = build_mounted_body(vary_mounting(self._model, values))
+        if not (self._runs or self._leans):
+            modes = find_mounted_modes(mounted)
+            return [self._read(q, modes, ()) for q in self._quantities]
+        own = {path: value for path, value in values.items() if _begin(path) not in _TABLES}
+        engine = self._engines.build(own)
+        loads = find_loads(engine, mounted.body.centre)
+        modes = find_mounted_modes(mounted, loads.mean)
+        largest: Sequence[LargestAmplitude] = ()
+        if self._runs:
+            omega = choose_mount_speeds(engine) * RPM
+            largest = find_largest_amplitudes(mounted, modes, loads, omega)
+        return [self._read(q, modes, largest) for q in self._quantities]
+
+    def _read(
+        self, q: TargetQuantity, modes: BodyModes, largest: Sequence[LargestAmplitude]
+    ) -> float:
+        """A quantity; `largest`: of every mount, then of every point, if one asks for it."""
+        if q.kind == "mode":
+            return _read_mode(modes, q)
+        k = self._targets[q.kind].index(q.target)
+        if q.part == "static":
+            return float(np.linalg.norm(modes.settled.forces[k]))
+        first = 0 if q.kind == "mount" else len(self._targets["mount"])
+        return largest[first + k].value
 
 
 def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:

@@ -4,6 +4,8 @@ the readings before and after.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
 from ..field_balancing.shop import Piece, find_angle_deg
 from .field_balancing_document import document, find_senses, rows
@@ -59,22 +61,25 @@ def _corrections(result: FieldBalance, system: System) -> Grid:
             cells.append(number(system.unbalance.of(p.unbalance / 1e6), 4))
         return (*cells, f"{p.own:.0%}{', at its limit' if p.limited else ''}")
 
-    marked = {(k, 1) for k, p in enumerate(result.planes) if p.limited}
-    note = "Weights to add, counted from the rotor as found, all trial weights off. "
+    marked = frozenset((k, 1) for k, p in enumerate(result.planes) if p.limited)
+    note = " ".join(_explain_corrections(result))
+    return Grid("Corrections", tuple(heads), tuple(map(row, result.planes)), note, marked)
+
+
+def _explain_corrections(result: FieldBalance) -> Iterator[str]:
+    file, trimmed = result.file, result.influence.trimmed
+    yield "Weights to add, counted from the rotor as found, all trial weights off."
     if trimmed:
-        note += f"Add now: on top of what was on in '{trimmed}'. "
-    note += f"Own effect: what no other plane can do; condition {number(result.condition, 3)}."
+        yield f"Add now: on top of what was on in '{trimmed}'."
+    yield f"Own effect: what no other plane can do; condition {number(result.condition, 3)}."
     for p in result.planes:
         if p.limited:
             amount, angle = _polar(p.total - p.step + p.wanted)
             best = f"{amount} {file.weight_unit} at {angle} deg"
-            note += f" Without its limit, {p.plane} would take {best}."
+            yield f"Without its limit, {p.plane} would take {best}."
     left_out = [plane for plane in file.planes if plane not in {p.plane for p in result.planes}]
     if left_out:
-        note += f" Left out: {', '.join(left_out)}."
-    return Grid(
-        "Corrections", tuple(heads), tuple(map(row, result.planes)), note, frozenset(marked)
-    )
+        yield f"Left out: {', '.join(left_out)}."
 
 
 def _polar(value: complex, size: int = 4) -> tuple[str, str]:
@@ -101,20 +106,25 @@ def _work(result: FieldBalance, length: ShownUnit) -> Grid:
             rows.append((p.plane, *["–"] * (len(heads) - 1)))
     what = "Holes to drill" if drilled else "Weights to put on"
     when = f", on top of '{result.influence.trimmed}'" if result.influence.trimmed else ""
-    note = (
-        "Radial holes in steel, from the rim inwards; each removes this weight, opposite to where "
-        "one would be added."
-        if drilled
-        else "Together they do what the corrections do."
-    )
-    if drilled and when:
-        note += " Depths are of new holes: those drilled before are not in the file."
+    return Grid(f"{what}{when}", tuple(heads), tuple(rows), " ".join(_explain_work(result)))
+
+
+def _explain_work(result: FieldBalance) -> Iterator[str]:
+    drilled = result.file.drill is not None
+    if drilled:
+        yield (
+            "Radial holes in steel, from the rim inwards; each removes this weight, opposite to "
+            "where one would be added."
+        )
+    else:
+        yield "Together they do what the corrections do."
+    if drilled and result.influence.trimmed:
+        yield "Depths are of new holes: those drilled before are not in the file."
     if result.limited:
-        note += " Places and limits allow no better: see the readings below."
-        if drilled and file.places is None:
-            some = [24] * len(file.planes)
-            note += f" For more than one hole in a plane give places, such as places = {some}."
-    return Grid(f"{what}{when}", tuple(heads), tuple(rows), note)
+        yield "Places and limits allow no better: see the readings below."
+    if result.limited and drilled and result.file.places is None:
+        some = [24] * len(result.file.planes)
+        yield f"For more than one hole in a plane give places, such as places = {some}."
 
 
 def _place(result: FieldBalance, p: PlaneCorrection, piece: Piece) -> str:

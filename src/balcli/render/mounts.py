@@ -57,26 +57,34 @@ def _answer(result: MountReport, response: MountingResponse, system: System) -> 
     moved = _find_farthest(result, response)
     if moved and moved[1].value:
         yield f"The point {moved[0]} moves most: {_tell(moved[1], system.length)}."
-    silent = _tell_silent(response)
     if response.loads.gas is None:
         yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
     else:
+        silent = _tell_silent(response)
         yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
     for other in result.beside:
-        after = max(other.response.worst_force, key=lambda one: one.value)
-        told = f"the largest force of any mount is {_tell(after, force)}{_less(after, worst)}"
-        farthest = _find_farthest(result, other.response)
-        if moved and farthest and (moved[1].value or farthest[1].value):
-            told += (
-                f"; the point {farthest[0]} moves most, {_tell(farthest[1], system.length)}"
-                f"{_less(farthest[1], moved[1])}"
-            )
-        fired = other.response.loads.gas is not None
-        if fired != (response.loads.gas is not None):
-            told += ", its gas included" if fired else ", of inertia alone"
-        if (own := _tell_silent(other.response)) != silent:
-            told += own
-        yield f"With {other.name} {told}."
+        yield f"With {other.name} {''.join(_compare(result, response, other.response, system))}."
+
+
+def _compare(
+    result: MountReport, own: MountingResponse, other: MountingResponse, system: System
+) -> Iterator[str]:
+    """What is worst of another response, how much less than of the engine's own, and whether gas
+    counts in the one and not in the other.
+    """
+    (_, before), (_, after) = _find_hardest(result, own), _find_hardest(result, other)
+    yield f"the largest force of any mount is {_tell(after, system.force)}{_less(after, before)}"
+    moved, farthest = _find_farthest(result, own), _find_farthest(result, other)
+    if moved and farthest and (moved[1].value or farthest[1].value):
+        yield (
+            f"; the point {farthest[0]} moves most, {_tell(farthest[1], system.length)}"
+            f"{_less(farthest[1], moved[1])}"
+        )
+    fired = other.loads.gas is not None
+    if fired != (own.loads.gas is not None):
+        yield ", its gas included" if fired else ", of inertia alone"
+    if (silent := _tell_silent(other)) != _tell_silent(own):
+        yield silent
 
 
 def _tell_silent(response: MountingResponse) -> str:

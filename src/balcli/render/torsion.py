@@ -38,8 +38,8 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     parts += [_holzer(result, table, system) for table in result.holzer]
     if result.response is not None:
         parts.append(_response(result, result.response, system))
-    if result.response is not None and (limits := tuple(_judge_limits(result, system))):
-        parts.append(Facts(limits, "Limits"))
+        if limits := tuple(_judge_limits(result, system)):
+            parts.append(Facts(limits, "Limits"))
     return Sheet(f"{result.system.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
@@ -111,12 +111,10 @@ def _modes(result: TorsionAnalysis) -> Grid | Text:
     note = "Node in: the shafts whose ends turn against each other."
     if result.system.rings:
         note += " Rings in oil are left out, as if they were not there."
-    if result.system.pendulums:
-        note += (
-            " So are pendulums, which follow the order."
-            if result.system.rings
-            else (" Pendulums are left out; they follow the order.")
-        )
+    if result.system.pendulums and result.system.rings:
+        note += " So are pendulums, which follow the order."
+    elif result.system.pendulums:
+        note += " Pendulums are left out; they follow the order."
     return Grid(
         "Natural modes", ("mode", "Hz", "1/min", "nodes", "node in"), rows, note, words=(0, 4)
     )
@@ -234,17 +232,6 @@ def _response(result: TorsionAnalysis, response: TorsionResponse, system: System
         if stressed:
             cells.append(number(stress.of(float(worst.stress[k])), 4))
         rows.append((*cells, _name_orders(response, k, unit)))
-    note = (
-        "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
-        f"do not peak together. {_tell_swing(result, response)}"
-    )
-    note += _tell_gas(result, " Gas as in the file at every speed.")
-    for k, name in enumerate(response.dampers):
-        note += (
-            f" The damper of {name.removesuffix(' ring')} turns up to "
-            f"{size_text(float(worst.heat[k]), system.heat)} to heat, at "
-            f"{number(float(worst.hottest_rpm[k]))} rpm."
-        )
     heads = [
         "shaft",
         f"± {unit.name}",
@@ -253,8 +240,24 @@ def _response(result: TorsionAnalysis, response: TorsionResponse, system: System
         *[stress.name] * stressed,
         "largest orders",
     ]
-    title = f"Vibratory torque, {span}"
+    title, note = f"Vibratory torque, {span}", _explain_response(result, response, system)
     return Grid(title, tuple(heads), tuple(rows), note, words=(0, len(heads) - 1))
+
+
+def _explain_response(result: TorsionAnalysis, response: TorsionResponse, system: System) -> str:
+    """What the torques are, how far the first node swings, and what dampers turn to heat."""
+    note = (
+        "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
+        f"do not peak together. {_tell_swing(result, response)}"
+    )
+    note += _tell_gas(result, " Gas as in the file at every speed.")
+    for k, name in enumerate(response.dampers):
+        note += (
+            f" The damper of {name.removesuffix(' ring')} turns up to "
+            f"{size_text(float(response.worst.heat[k]), system.heat)} to heat, at "
+            f"{number(float(response.worst.hottest_rpm[k]))} rpm."
+        )
+    return note
 
 
 def _tell_span(response: TorsionResponse) -> str:

@@ -240,6 +240,7 @@ def _lines(result: TorsionAnalysis) -> Iterator[Line]:
             yield "damper", None, None, None, node, name, value, unit
     if result.response is not None:
         yield from _response_lines(result.system, result.response)
+        yield from _worst_lines(result.system, result.response)
     for number, (low, high) in enumerate(result.barred_rpm or (), 1):
         yield "barred", number, None, None, "", "from", clean(low), "rpm"
         yield "barred", number, None, None, "", "to", clean(high), "rpm"
@@ -274,23 +275,27 @@ def _holzer_lines(number: int, result: TorsionAnalysis, asked: HolzerTable) -> I
 
 
 def _response_lines(system: TorsionalSystem, response: TorsionResponse) -> Iterator[Line]:
-    stressed = [section is not None for section in system.sections]
+    """At every speed."""
     for s, speed in enumerate(response.speeds_rpm):
         where = ("response", None, clean(speed), None)
         for k, name in enumerate(map(name_cell, system.shafts)):
             yield *where, name, "half_peak_to_peak", clean(response.torque[s, k]), "N m"
             yield *where, name, "sum_of_amplitudes", clean(response.sums[s, k]), "N m"
-            if stressed[k]:
+            if system.sections[k] is not None:
                 yield *where, name, "stress", clean(response.stress[s, k]), "Pa"
         yield *where, "", "free_end", clean(np.degrees(response.free_end[s])), "deg"
         for k, name in enumerate(response.dampers):
             node = name_cell(name.removesuffix(" ring"))
             yield *where, node, "heat", clean(response.heat[s, k]), "W"
+
+
+def _worst_lines(system: TorsionalSystem, response: TorsionResponse) -> Iterator[Line]:
+    """The largest over all speeds."""
     worst = response.worst
     for k, name in enumerate(map(name_cell, system.shafts)):
         where = ("worst", None, clean(worst.speeds_rpm[k]), None)
         yield *where, name, "half_peak_to_peak", clean(worst.torque[k]), "N m"
-        if stressed[k]:
+        if system.sections[k] is not None:
             yield *where, name, "stress", clean(worst.stress[k]), "Pa"
         for order, amplitude in zip(response.orders, worst.amplitudes[:, k], strict=True):
             at_order = (*where[:3], order_number(float(order)))

@@ -77,16 +77,11 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
     best = min(sweep, key=lambda peaks: peaks.cost).factor
     fitting = _fit_factor(engine, best, planes).add_details(*_describe(engine, options, best))
-    own = _find_counterweights(engine)[1].any()
+    own = bool(_find_counterweights(engine)[1].any())
     needs = _find_needs(engine, best, planes)
+    unasked = options.planes is None and planes is not None
     return fitting.remedy._replace(
-        note=_note(
-            fitting,
-            best,
-            planes,
-            own=bool(own),
-            chosen=options.planes is None,
-        ),
+        note=_note(fitting, best, needs, own=own, unasked=unasked),
         card=fill_card(engine, best),
         needs=tuple(_count_from_pin(engine, need) for need in needs) if own else (),
         sweep=sweep if len(sweep) > 1 else (),
@@ -109,17 +104,12 @@ def find_best_factor(
 
 
 def _note(
-    fitting: Fitting,
-    factor: float,
-    planes: tuple[float, ...] | None,
-    *,
-    own: bool,
-    chosen: bool,
+    fitting: Fitting, factor: float, needs: Sequence[PlaneNeed], *, own: bool, unasked: bool
 ) -> str:
-    """What to know besides; the file may have counterweights of its `own`, and the planes may have
-    been `chosen` without being asked for.
+    """What to know besides; the file may have counterweights of its `own`, and planes may have been
+    chosen `unasked`, where these stand.
     """
-    if _loses_moment(fitting.engine, factor, planes):
+    if _loses_moment(fitting.engine, factor, needs):
         return SAME_PLACE
     if factor < 0:
         return "a factor below 0: not even all rotating mass is balanced"
@@ -127,12 +117,12 @@ def _note(
         return "a factor above 1: more than all reciprocating mass on the pin is balanced"
     if not fitting.remedy.devices:
         return COMPLETE if own else OF_ITSELF
-    return OWN_PLACES if chosen and planes is not None else ""
+    return OWN_PLACES if unasked else ""
 
 
-def _loses_moment(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> bool:
+def _loses_moment(engine: Engine, factor: float, needs: Sequence[PlaneNeed]) -> bool:
     """Whether there is one plane alone, about which pins or weights elsewhere make a moment."""
-    z = {need.z for need in _find_needs(engine, factor, planes)}
+    z = {need.z for need in needs}
     if len(z) != 1 or not engine.places_known:
         return False
     loads, (places, weights) = _list_loads(engine, factor), _find_counterweights(engine)

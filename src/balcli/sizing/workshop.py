@@ -81,10 +81,17 @@ class Practical(NamedTuple):
 def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, ...]:
     """Figures of all devices, in the order of `remedy.devices`.
 
-    Raises BalcliError unless all lengths are positive and at most one of disc and thickness is
-    given, TypeError if one is no number.
+    Raises:
+        BalcliError: tools that cannot be, or that do not go together.
+        TypeError: one is no number.
     """
     tools = Tools(*map(_check_figure, Tools._fields, tools))
+    _refuse_impossible(tools)
+    return tuple(_find_figures(engine, device, tools) for device in remedy.devices)
+
+
+def _refuse_impossible(tools: Tools) -> None:
+    """BalcliError for figures that are not above 0, or that do not go together."""
     strange = {
         name.replace("_", "-"): figure
         for name, figure in tools._asdict().items()
@@ -96,8 +103,8 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
             for name, figure in strange.items()
         )
         raise BalcliError(f"{', '.join(told)}; give figures above 0")
-    of_holes = tools.max_depth is not None or tools.slug is not None
-    if of_holes and tools.drill is None:
+    for_holes = tools.max_depth is not None or tools.slug is not None
+    if for_holes and tools.drill is None:
         raise BalcliError(
             "--max-depth and --slug are for holes: give the diameter of the drill, too, "
             "with --drill"
@@ -111,7 +118,6 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
         raise BalcliError(
             "a semicircular disc has its radius or its thickness given, not both: the other follows"
         )
-    return tuple(_find_figures(engine, device, tools) for device in remedy.devices)
 
 
 def _check_figure(name: str, figure: float | None) -> float | None:

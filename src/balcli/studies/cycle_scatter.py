@@ -10,7 +10,6 @@ from typing import cast
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.telling import Tell, tell_nobody
 from ..engine.build import build
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
@@ -23,32 +22,28 @@ from ..torque.quantity import NO_INERTIA, CycleQuantity
 from .deviations import DeviatingEngine, Tolerances
 from .quantities import ChapterQuantity, group_by_chapter, refuse_unknown_of_chapters
 from .quantity_names import CYCLE, GUIDE
-from .spread_one_by_one import Drawing, spread_one_by_one
-from .tolerances import Scatter, Shape
+from .spread_one_by_one import spread_one_by_one
+from .tolerances import Drawing, Scatter
 
 
 def scatter_cycles(
     model: EngineFile,
     tolerances: Tolerances,
     quantities: Sequence[ChapterQuantity],
-    samples: int,
-    seed: int | None = None,
-    shape: Shape = "uniform",
-    tell: Tell = tell_nobody,
+    drawing: Drawing,
 ) -> Scatter:
     """Spread of quantities over random engines, each computed by itself.
 
     Args:
         quantities: of the cycle (`torque.max`), or of guide-force moments (`guide.6.H`).
-        seed, shape, tell: as in `tolerances.scatter_engine`.
 
     Raises:
         BalcliError: quantities of what the file does not have; too many samples, no tolerance.
     """
-    if not 1 <= samples <= MOST_CYCLE_SAMPLES:
+    if not 1 <= drawing.samples <= MOST_CYCLE_SAMPLES:
         raise BalcliError(
-            f"{samples} samples: of {quantities[0].name}, where each engine is computed by itself, "
-            f"from 1 to {MOST_CYCLE_SAMPLES} are allowed"
+            f"{drawing.samples} samples: of {quantities[0].name}, where each engine is computed by "
+            f"itself, from 1 to {MOST_CYCLE_SAMPLES} are allowed"
         )
     engines = DeviatingEngine(model, tolerances)
     refuse_unknown_of_chapters(model, quantities)
@@ -70,6 +65,5 @@ def scatter_cycles(
             found |= dict(zip(of_guides, values, strict=True))
         return np.array([found[q] for q in quantities])
 
-    drawing = Drawing(samples, seed, shape, tell)
     count, spreads = spread_one_by_one(engines.sources, quantities, evaluate, drawing)
-    return Scatter(model, count, shape, spreads, "engines, one by one")
+    return Scatter(model, count, drawing.shape, spreads, "engines, one by one")

@@ -11,18 +11,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.telling import Tell, tell_nobody
 from ..engine.build import build
 from ..enginefile.model import EngineFile, label_table
 from ..enginefile.shafting import find_stiffness
-from ..enginefile.torsion_tables import Part, Torsion
+from ..enginefile.torsion_tables import Part
 from ..errors import BalcliError
 from ..forces.target_quantity import TargetQuantity
 from ..limits import MOST_MOUNT_SAMPLES
 from .quantities import group_by_chapter, load_chapter
 from .quantity_names import MOUNTS
-from .spread_one_by_one import Drawing, spread_one_by_one
-from .tolerances import Scatter, Shape
+from .spread_one_by_one import spread_one_by_one
+from .tolerances import Drawing, Scatter
 
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # tolerance of stiffness, unless another is given
 
@@ -48,10 +47,7 @@ def scatter_parts(
     stiffness: float | None,
     mass: float,
     quantities: Sequence[TargetQuantity],
-    samples: int,
-    seed: int | None = None,
-    shape: Shape = "uniform",
-    tell: Tell = tell_nobody,
+    drawing: Drawing,
 ) -> Scatter:
     """Spread of quantities over random mounts, or shafts and inertias, each variant computed by
     itself.
@@ -60,9 +56,6 @@ def scatter_parts(
         stiffness: tolerance of that of every mount or shaft; None: OF_MOUNTS, OF_SHAFTS.
         mass: of every inertia and piston, for quantities of torsion.
         quantities: of mounts, or of torsion.
-        seed: of the random numbers, to repeat them.
-        shape: uniform within the tolerance, or normal with a third of it as standard deviation.
-        tell: is told how many samples have been computed, and says whether these are enough.
 
     Raises:
         InputError, BalcliError: what is wrong with the file; quantities of what it does not have;
@@ -70,10 +63,10 @@ def scatter_parts(
     """
     (chapter,) = group_by_chapter(quantities)
     of_mounts = chapter is MOUNTS
-    if not 1 <= samples <= MOST_MOUNT_SAMPLES:
+    if not 1 <= drawing.samples <= MOST_MOUNT_SAMPLES:
         where = "on mounts" if of_mounts else "of torsion"
         raise BalcliError(
-            f"{samples} samples: {where}, where each is computed by itself, from 1 to "
+            f"{drawing.samples} samples: {where}, where each is computed by itself, from 1 to "
             f"{MOST_MOUNT_SAMPLES} are allowed"
         )
     load_chapter(chapter).refuse_unknown(model, quantities)
@@ -95,10 +88,9 @@ def scatter_parts(
         }
         return np.array(variants.evaluate(values))
 
-    drawing = Drawing(samples, seed, shape, tell)
     count, spreads = spread_one_by_one(sources, quantities, evaluate, drawing)
     varied = "sets of mounts" if of_mounts else "crankshafts"
-    return Scatter(model, count, shape, spreads, varied)
+    return Scatter(model, count, drawing.shape, spreads, varied)
 
 
 # ------------------------------------------------------------------ what deviates
@@ -118,7 +110,7 @@ def _spell_out(model: EngineFile) -> EngineFile:
     given by its length.
     """
     torsion = model.torsion
-    if not isinstance(torsion, Torsion):
+    if torsion is None:
         return model
     throws = len(build(model).throws_m)
     stiffness, inertia = torsion.throw_stiffness or (), torsion.throw_inertia
@@ -138,7 +130,7 @@ def _stiffen(part: Part) -> Part:
 def _list_shafting(model: EngineFile, stiffness: float, mass: float) -> Iterator[PartSource]:
     """Stiffness of every shaft, inertia of every node, mass of every piston."""
     torsion = model.torsion
-    if not isinstance(torsion, Torsion):
+    if torsion is None:
         return
     for k, value in enumerate(torsion.throw_stiffness or (), 1):
         path = f"torsion.throw_stiffness.{k}"
@@ -149,13 +141,17 @@ def _list_shafting(model: EngineFile, stiffness: float, mass: float) -> Iterator
         yield PartSource("inertia crankshaft", mass, {"crank.inertia": model.crank.inertia})
     for key, parts in (("front", torsion.front), ("rear", torsion.rear)):
         for k, part in enumerate(parts, 1):
-            path = f"torsion.{key}.{k}"
-            if part.stiffness is not None and isfinite(part.stiffness):
-                figures = {f"{path}.stiffness": part.stiffness}
-                yield PartSource(f"stiffness {part.name}", stiffness, figures)
-            if part.inertia is not None:
-                yield PartSource(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})
+            yield from _list_part(part, f"torsion.{key}.{k}", stiffness, mass)
     engine = build(model)
     for number, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
         figures = {f"cylinder.{number}.piston_mass": float(weighed.piston)}
         yield PartSource(f"piston mass {number}", mass, figures)
+
+
+def _list_part(part: Part, path: str, stiffness: float, mass: float) -> Iterator[PartSource]:
+    """Stiffness of a part's shaft unless that is rigid, and the part's inertia."""
+    if part.stiffness is not None and isfinite(part.stiffness):
+        figures = {f"{path}.stiffness": part.stiffness}
+        yield PartSource(f"stiffness {part.name}", stiffness, figures)
+    if part.inertia is not None:
+        yield PartSource(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})

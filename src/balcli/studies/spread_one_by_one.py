@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.telling import Tell, tell_nobody
 from .quantities import ChapterQuantity
-from .tolerances import PERCENTILES, TOLD, Shape, Spread
+from .tolerances import PERCENTILES, Drawing, Spread, rank_shares
 
 if TYPE_CHECKING:
     from .deviations import Source
@@ -19,22 +18,6 @@ if TYPE_CHECKING:
 RANDOM_SINGLES = 500  # samples, unless their number is given: each takes milliseconds
 _ROUNDING = 1e-12  # of a figure: a smaller change of it is none
 _LEAST = -0.99  # relative deviation: a normal one makes no mass and no spring negative
-
-
-class Drawing(NamedTuple):
-    """What is drawn at random.
-
-    Attributes:
-        samples: how many.
-        seed: of the random numbers, to repeat them.
-        shape: uniform within the tolerance, or normal with a third of it as standard deviation.
-        tell: is told how many samples have been computed, and says whether these are enough.
-    """
-
-    samples: int
-    seed: int | None = None
-    shape: Shape = "uniform"
-    tell: Tell = tell_nobody
 
 
 def spread_one_by_one(
@@ -94,11 +77,6 @@ def _spread(
     sources: Sequence[Source | PartSource],
     changes: Array,
 ) -> Spread:
-    unit = np.abs(changes).max() * TOLD or 1.0
-    shares = sorted(
-        zip(sources, map(float, changes), strict=True),
-        key=lambda share: -round(abs(share[1]) / unit),
-    )
     percentiles = np.percentile(values, list(PERCENTILES.values())).tolist()
     return Spread(
         quantity,
@@ -107,5 +85,5 @@ def _spread(
         percentiles=dict(zip(PERCENTILES, percentiles, strict=True)),
         largest=float(values.max()),
         bound=nominal + float(np.abs(changes).sum()),
-        shares=tuple(shares),
+        shares=rank_shares(sources, changes),
     )

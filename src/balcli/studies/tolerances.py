@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -28,10 +28,26 @@ if TYPE_CHECKING:
 RANDOM_ENGINES = 100_000  # samples, unless their number is given
 CHUNK = 8_192  # samples at a time
 AT_ONCE = 400_000  # deviations at a time, where there are many sources
-TOLD = 1e-8  # of the largest share: those that differ by less are equal
+_EQUAL = 1e-8  # of the largest share: those that differ by less are equal
 PERCENTILES = {"p05": 5.0, "p50": 50.0, "p95": 95.0}
 SPREADS = ("major", "forward", "backward", "amplitude")
 Shape = Literal["uniform", "normal"]
+
+
+class Drawing(NamedTuple):
+    """What is drawn at random.
+
+    Attributes:
+        samples: how many.
+        seed: of the random numbers, to repeat them.
+        shape: uniform within the tolerances, or normal with a third of them as standard deviation.
+        tell: is told how many samples have been computed, and says whether these are enough.
+    """
+
+    samples: int
+    seed: int | None = None
+    shape: Shape = "uniform"
+    tell: Tell = tell_nobody
 
 
 @dataclass(frozen=True)
@@ -84,17 +100,9 @@ def scatter_engine(
     model: EngineFile,
     tolerances: Tolerances,
     quantities: Sequence[Quantity],
-    samples: int,
-    seed: int | None = None,
-    shape: Shape = "uniform",
-    tell: Tell = tell_nobody,
+    drawing: Drawing,
 ) -> Scatter:
     """Spread of quantities over random engines.
-
-    Args:
-        seed: of the random numbers, to repeat them.
-        shape: uniform within the tolerances, or normal with a third of them as standard deviation.
-        tell: is told how many samples have been drawn, and says whether these are enough.
 
     Raises:
         BalcliError: quantities that are no sizes of vectors, too many samples, no tolerance at all.
@@ -104,32 +112,32 @@ def scatter_engine(
             f"{strange[0]} has no scatter of its own; choose one of {', '.join(SPREADS)} of an "
             "order, such as force.1.major"
         )
-    if not 1 <= samples <= MOST_TOLERANCE_SAMPLES:
-        raise BalcliError(f"{samples} samples: from 1 to {MOST_TOLERANCE_SAMPLES} are allowed")
+    if not 1 <= drawing.samples <= MOST_TOLERANCE_SAMPLES:
+        raise BalcliError(
+            f"{drawing.samples} samples: from 1 to {MOST_TOLERANCE_SAMPLES} are allowed"
+        )
     engines = DeviatingEngine(model, tolerances)
     refuse_unknown(build(model), quantities)
     drawn, count = [Sample() for _ in quantities], 0
-    for deviations in _draw(engines.sources, samples, seed, shape):
+    for deviations in _draw(engines.sources, drawing):
         found = evaluate_quantities(engines.deviate(deviations), quantities)
         for sample, values in zip(drawn, found, strict=True):
             sample.add(np.broadcast_to(values, deviations.shape[1:]))
         count += deviations.shape[1]
-        if tell(count):
+        if drawing.tell(count):
             break
     spreads = [_spread(engines, q, sample) for q, sample in zip(quantities, drawn, strict=True)]
-    return Scatter(model, count, shape, tuple(spreads))
+    return Scatter(model, count, drawing.shape, tuple(spreads))
 
 
-def _draw(
-    sources: Sequence[Source], samples: int, seed: int | None, shape: Shape
-) -> Iterator[Array]:
+def _draw(sources: Sequence[Source], drawing: Drawing) -> Iterator[Array]:
     """Random deviations chunk by chunk, shape (sources, samples)."""
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(drawing.seed)
     tolerance = np.array([source.tolerance for source in sources])[:, None]
     most = min(CHUNK, max(AT_ONCE // len(sources), 1))
-    for start in range(0, samples, most):
-        size = len(sources), min(most, samples - start)
-        if shape == "uniform":
+    for start in range(0, drawing.samples, most):
+        size = len(sources), min(most, drawing.samples - start)
+        if drawing.shape == "uniform":
             yield tolerance * (2 * random.random(size) - 1)
         else:
             yield tolerance / 3 * random.standard_normal(size)
@@ -145,12 +153,6 @@ def _spread(engines: DeviatingEngine, quantity: Quantity, sample: Sample) -> Spr
         for vector, each in zip(vectors, changes, strict=True)
     ]
     slopes = _find_growth(vectors, changes, np.broadcast_to(change.noise, change.forward.shape)[0])
-    slopes = np.broadcast_to(slopes, len(engines.sources))
-    unit = np.abs(slopes).max(initial=0) * TOLD or 1.0
-    shares = sorted(
-        zip(engines.sources, map(float, slopes), strict=True),
-        key=lambda share: -round(abs(share[1]) / unit),
-    )
     percentiles = sample.find_percentiles([*PERCENTILES.values()])
     return Spread(
         quantity,
@@ -159,8 +161,17 @@ def _spread(engines: DeviatingEngine, quantity: Quantity, sample: Sample) -> Spr
         percentiles=dict(zip(PERCENTILES, percentiles, strict=True)),
         largest=sample.largest,
         bound=sum(reaches),
-        shares=tuple(shares),
+        shares=rank_shares(engines.sources, np.broadcast_to(slopes, len(engines.sources))),
     )
+
+
+def rank_shares(
+    sources: Sequence[Source | PartSource], changes: Array
+) -> tuple[tuple[Source | PartSource, float], ...]:
+    """Each source with its change (sources,), largest first; equal ones in their order."""
+    unit = np.abs(changes).max() * _EQUAL or 1.0
+    shares = zip(sources, map(float, changes), strict=True)
+    return tuple(sorted(shares, key=lambda share: -round(abs(share[1]) / unit)))
 
 
 def _sides(phasors: Phasors, part: str) -> list[Complex]:

@@ -11,7 +11,8 @@ from ..core.holzer_table import Holzer, tabulate_holzer
 from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
 from ..result import Result
-from .damper_sizing import DamperAsked, SizedDamper, size_damper
+from .damper_proposal import DamperAsked
+from .damper_sizing import SizedDamper, size_damper
 from .load import Source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes
 from .response import TorsionResponse, find_barred, find_response
@@ -103,25 +104,22 @@ def _analyze_system(
     system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """The answer about a system as it is."""
-    excitation = system.excitation
-    if question.orders is not None and excitation is not None:
-        excitation = excitation.only(question.orders)
-        system = replace(system, excitation=excitation)
+    if question.orders is not None and system.excitation is not None:
+        system = replace(system, excitation=system.excitation.only(question.orders))
     named = find_natural_modes(system)
     speeds = question.speeds_rpm
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
     if speeds is not None:
         span = float(speeds[0]), float(speeds[-1])
+    excitation = system.excitation
     criticals = () if excitation is None else find_criticals(excitation, named, span)
     response, barred = None, None
     if speeds is not None:
-        if excitation is None:
-            raise system.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
-        if not len(excitation.orders):
+        if not len(system.require_excitation().orders):
             raise system.refusal("nothing excites it at the orders asked for")
-        response = find_response(system, excitation, speeds, tell)
+        response = find_response(system, speeds, tell)
         met = np.array([critical.speed_rpm for critical in criticals])
-        barred = find_barred(system, excitation, response, met)
+        barred = find_barred(system, response, met)
     tables = tuple(_tabulate(system, named, asked) for asked in question.holzer)
     return TorsionAnalysis(system, named, criticals, tables, response, barred)
 

@@ -54,30 +54,32 @@ def assemble_system(
     rings, ring_shafts = _hang_rubber(nodes)
     every, joined = [*nodes, *rings], [*shafts, *ring_shafts]
     return TorsionalSystem(
-        name,
-        tuple(node.name for node in every),
-        tuple(each.name for each in joined),
-        join_chain([node.inertia for node in every], [each.shaft for each in joined], clamped),
-        Damping(
+        name=name,
+        nodes=tuple(node.name for node in every),
+        shafts=tuple(each.name for each in joined),
+        chain=join_chain(
+            [node.inertia for node in every], [each.shaft for each in joined], clamped
+        ),
+        damping=Damping(
             np.array([each.loss for each in joined]),
             np.array([each.dashpot for each in joined]),
             np.array([node.damping for node in every]),
         ),
-        tuple(each.section for each in joined),
-        tuple(
+        sections=tuple(each.section for each in joined),
+        rings=tuple(
             ViscousRing(k, (damper.inertia or 0.0) / 1e6, damper.damping or 0.0)
             for k, damper in _find_dampers(nodes, "viscous")
         ),
-        tuple(
+        pendulums=tuple(
             Pendulums(k, damper.mass or 0.0, (damper.radius or 0) / 1e3, (damper.length or 0) / 1e3)
             for k, damper in _find_dampers(nodes, "pendulum")
         ),
-        excitation,
-        None if limits.stress is None else limits.stress * 1e6,
-        None if limits.angle is None else float(np.radians(limits.angle)),
-        len(nodes) - 1,
-        rated_rpm,
-        reference,
+        excitation=excitation,
+        limit_pa=None if limits.stress is None else limits.stress * 1e6,
+        angle_limit=None if limits.angle is None else float(np.radians(limits.angle)),
+        last=len(nodes) - 1,
+        rated_rpm=rated_rpm,
+        reference=reference,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -57,7 +58,9 @@ def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
     if problems := list(_find_faults(nodes, shafts, clamped, len(file.shaft), limited)):
         raise InputError(problems, name)
     limits = Limits(file.limit, file.angle_limit)
-    return assemble_system(file.name or "", nodes, shafts, _excite(file, index), limits, clamped)
+    excitation = _excite(file, index)
+    system = assemble_system(file.name or "", nodes, shafts, excitation, limits, clamped)
+    return replace(system, file=name)
 
 
 def _tell_apart(names: Sequence[str]) -> Iterator[str]:

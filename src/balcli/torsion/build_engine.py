@@ -75,7 +75,7 @@ def build_engine_system(
     system = assemble_system(
         engine.name, nodes, shafts, excitation, limits, rated_rpm=rated, reference=front
     )
-    return replace(system, silent=engine.silent)
+    return replace(system, silent=engine.silent, file=name)
 
 
 def _plan_part(part: Part) -> PlannedNode:

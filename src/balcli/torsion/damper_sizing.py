@@ -5,57 +5,32 @@ the one that makes the largest stress over a range of speeds least.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from itertools import count
 from typing import NamedTuple
 
 import numpy as np
-from pydantic import ValidationError
 
 from ..core.golden_section import ROUNDS, find_least
 from ..core.singular_values import Real
-from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
-from ..core.torsional_dampers import best_viscous_damping
 from ..enginefile.fields import printable
-from ..enginefile.messages import describe_finding
 from ..enginefile.shafting import Damper
 from ..errors import BalcliError
-from .largest import find_hottest, find_largest_of_all, find_largest_torques
+from .damper_proposal import DamperAsked, find_mode_to_damp, propose_damper
+from .largest import find_hottest, find_largest_of_all
 from .load import Source
-from .modes import NaturalMode, find_criticals, find_natural_modes
-from .motion import move, stress_by_torque
-from .system import Excitation, TorsionalSystem
+from .motion import stress_by_torque
+from .system import TorsionalSystem
 
-RUBBER_LOSS = 0.15  # usual for damper rubber
-# of the mode's inertia at the node, where nothing says how heavy a damper is
-_SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 _PLACES = 13  # looked at over this range before the best is approached
 _END = 0.99  # of this range: a best one farther out is at its end
-_LOSS = 0.01  # of shafts, where nothing damps a resonance: modes are compared with it
-_MOVES = 1.001  # times the whole inertia: with more at a node in a mode it hardly moves there,
-# unless in every other mode there is more still
 _HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
 _HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
 _RESPONSES = _PLACES + 2 + ROUNDS + 2  # the last of the best damper, and without any
-
-
-class DamperAsked(NamedTuple):
-    """What is to be sized.
-
-    Attributes:
-        kind: viscous, rubber or pendulum.
-        node: what carries it, by name; None: the first that can.
-        inertia: of ring or pendulums, kg m2; None: that of the file's damper there, or a usual
-            share of the mode's.
-    """
-
-    kind: str
-    node: str | None = None
-    inertia: float | None = None
 
 
 class SizedDamper(NamedTuple):
@@ -104,13 +79,17 @@ def size_damper(
         BalcliError: nothing can carry it, or nothing excites the system.
     """
     node, own = _find_carrier(source.dampers(), asked.node)
-    bare = source.with_damper(node, None).system()
+
+    def build(damper: Damper | None) -> TorsionalSystem:
+        return _excite(source.with_damper(node, damper).system(), orders)
+
+    bare = build(None)
     weights = (
         np.nan_to_num(stress_by_torque(bare)) if any(bare.sections) else np.ones(len(bare.shafts))
     )
     place = bare.nodes.index(node)
-    mode, order = _find_worst(bare, _excite(bare, orders), speeds, weights, place)
-    first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
+    mode, order = find_mode_to_damp(bare, speeds, weights, place)
+    first = propose_damper(asked, own, bare, place, mode, order, source.crank_radius)
     figure = _FIGURE[asked.kind]
     start = float(getattr(first, figure))
     tried = count(1)
@@ -119,10 +98,10 @@ def size_damper(
         """Largest stress or torque of the shafts that are there without it, between the speeds,
         too.
         """
-        system = source.with_damper(node, damper).system()
+        system = build(damper)
         shafts = [system.shafts.index(name) for name in bare.shafts]
         tell(next(tried) / _RESPONSES)
-        return find_largest_of_all(system, _excite(system, orders), speeds, shafts, weights)
+        return find_largest_of_all(system, speeds, shafts, weights)
 
     width = math.log(_WIDTH[asked.kind])
     farther = _minimise(
@@ -132,7 +111,7 @@ def size_damper(
     )
     best = float(f"{start * math.exp(farther):.6g}")
     damper = _with(first, figure, best)
-    heat, heat_rpm = _find_heat(source.with_damper(node, damper).system(), node, speeds, orders)
+    heat, heat_rpm = _find_heat(build(damper), node, speeds)
     found = SizedDamper(
         node,
         damper,
@@ -207,11 +186,9 @@ def _find_inertia(damper: Damper) -> float:
     return (damper.mass or 0.0) * out**2
 
 
-def _find_heat(
-    system: TorsionalSystem, node: str, speeds: Real, orders: Real | None
-) -> tuple[float, float]:
+def _find_heat(system: TorsionalSystem, node: str, speeds: Real) -> tuple[float, float]:
     """Largest power that the damper of a node turns to heat, W, and at which speed, rpm."""
-    rpm, heat = find_hottest(system, _excite(system, orders), speeds)
+    rpm, heat = find_hottest(system, speeds)
     mine = (k for k, name in enumerate(system.dampers) if name.removesuffix(" ring") == node)
     ring = next(mine, None)
     return (0.0, float(speeds[0])) if ring is None else (float(heat[ring]), float(rpm[ring]))
@@ -240,7 +217,8 @@ def _find_carrier(
     return name, carriers[name]
 
 
-def _excite(system: TorsionalSystem, orders: Real | None) -> Excitation:
+def _excite(system: TorsionalSystem, orders: Real | None) -> TorsionalSystem:
+    """The same, excited at these orders alone; None: at all."""
     excitation = system.excitation
     if excitation is None:
         raise BalcliError("--damper: nothing excites the system; give an [[excitation]]")
@@ -248,125 +226,7 @@ def _excite(system: TorsionalSystem, orders: Real | None) -> Excitation:
         excitation = excitation.only(orders)
     if not len(excitation.orders):
         raise BalcliError("--damper: nothing excites the system at the orders asked for")
-    return excitation
-
-
-def _find_worst(
-    system: TorsionalSystem, excitation: Excitation, speeds: Real, weights: Real, node: int
-) -> tuple[NaturalMode, float]:
-    """The mode that a damper at a node is for, and the order that drives it: of the largest order
-    in the largest stress of the range the mode nearest in frequency. By work alone that of a soft
-    coupling would be it, which hardly twists the crankshaft.
-
-    Where the node hardly moves in that one, it is of those in which it does the one on which most
-    work is done, or else the nearest.
-    """
-    modes = find_natural_modes(system)
-    if not modes:
-        raise BalcliError("--damper: the system has no mode that could be damped")
-    order, omega = _find_hardest(system, excitation, speeds, weights)
-
-    def find_nearest(some: Sequence[NaturalMode]) -> NaturalMode:
-        return min(some, key=lambda mode: abs(math.log(mode.omega / omega)))
-
-    whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
-    heavy = [_find_inertia_in(mode, system, node) for mode in modes]
-    most = _MOVES * max(whole, min(heavy))
-    moved = [mode for mode, inertia in zip(modes, heavy, strict=True) if inertia <= most]
-    numbers = {mode.number for mode in moved}
-    worst = find_nearest(modes)
-    if worst.number in numbers:
-        return worst, order
-    for met in find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1]))):
-        if met.mode in numbers:
-            return modes[met.mode - 1], met.order
-    return find_nearest(moved), order
-
-
-def _find_hardest(
-    system: TorsionalSystem, excitation: Excitation, speeds: Real, weights: Real
-) -> tuple[float, float]:
-    """The largest order in the largest stress of the range, and its frequency there, rad/s; with
-    some loss in every shaft where nothing damps a resonance.
-    """
-    shafts = range(len(weights))
-    try:
-        rpm, torque = find_largest_torques(system, excitation, speeds, shafts)
-    except BalcliError:
-        loss = np.maximum(system.damping.loss, _LOSS)
-        system = replace(system, damping=system.damping._replace(loss=loss))
-        rpm, torque = find_largest_torques(system, excitation, speeds, shafts)
-    worst = int(np.argmax(weights * torque))
-    by_order = np.abs(move(system, excitation, rpm[worst : worst + 1]).torque[:, 0, worst])
-    order = float(excitation.orders[int(np.argmax(by_order))])
-    return order, order * float(rpm[worst]) * RPM
-
-
-def _find_inertia_in(mode: NaturalMode, system: TorsionalSystem, node: int) -> float:
-    """What vibrates in a mode, as if all of it were at a node, kg m2; inf where that is still."""
-    moved = mode.shape[node] ** 2
-    return float(np.sum(system.chain.inertia * mode.shape**2)) / moved if moved else math.inf
-
-
-def _propose(
-    asked: DamperAsked,
-    own: Damper | None,
-    system: TorsionalSystem,
-    node: int,
-    mode: NaturalMode,
-    order: float,
-    crank_radius: float | None,
-) -> Damper:
-    """A damper of the inertia that is wanted, tuned as the optimum of a system with one degree of
-    freedom has it: Houdaille's for oil, Den Hartog's tuning for rubber, the order itself for
-    pendulums. Those hang where the file says, else as far out as the crank pins (m).
-
-    Raises:
-        BalcliError: what is to carry it stands still in the mode; nothing says where pendulums
-            hang.
-    """
-    own = own if own is not None and own.kind == asked.kind else None
-    if mode.shape[node] == 0:
-        raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
-    there = _find_inertia_in(mode, system, node)
-    known = None if own is None or own.inertia is None else own.inertia / 1e6
-    inertia = asked.inertia or known or float(f"{_SHARE[asked.kind] * there:.4g}")
-    ratio, written = inertia / there, float(f"{inertia * 1e6:.12g}")
-    if asked.kind == "viscous":
-        damping = best_viscous_damping(inertia, ratio, mode.omega)
-        return _make("viscous", inertia=written, damping=damping)
-    if asked.kind == "rubber":
-        stiffness = inertia * (mode.omega / (1 + ratio)) ** 2
-        loss = RUBBER_LOSS if own is None else own.loss
-        return _make("rubber", inertia=written, stiffness=stiffness, loss=loss)
-    radius = crank_radius if own is None or own.radius is None else own.radius / 1e3
-    if radius is None:
-        raise BalcliError(
-            "--damper pendulum: a chain has no crank that says how far out pendulums hang: give "
-            f"{printable(system.nodes[node])} one, such as damper = "
-            '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
-        )
-    length = radius * (system.gears[node] / order) ** 2
-    mass = float(f"{inertia / (radius + length) ** 2:.4g}")
-    if own is not None and own.mass is not None and asked.inertia is None:
-        mass = own.mass
-    return _make("pendulum", mass=mass, radius=radius * 1e3, length=length * 1e3)
-
-
-def _make(kind: str, **figures: float | None) -> Damper:
-    """A damper with these figures.
-
-    Raises:
-        BalcliError: one that no damper has.
-    """
-    try:
-        return Damper.model_validate({"kind": kind} | figures)
-    except ValidationError as error:
-        wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
-        raise BalcliError(
-            f"--damper {kind}: the best there cannot be: {wrong.path}: {wrong.message}; are "
-            "inertias and stiffnesses of the system in the right units?"
-        ) from None
+    return replace(system, excitation=excitation)
 
 
 def _with(damper: Damper, figure: str, value: float) -> Damper:

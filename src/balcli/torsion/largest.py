@@ -24,7 +24,7 @@ from .motion import (
     split_speeds,
     stress_by_torque,
 )
-from .system import Excitation, TorsionalSystem
+from .system import TorsionalSystem
 
 _ROUNDS = np.array([1 / 24, 1 / 6])  # parts of the speeds, those with large amplitudes first
 _NEAR = 0.9  # of the largest at the speeds looked at: what a peak beside them may exceed
@@ -67,14 +67,18 @@ class _Curves(NamedTuple):
     """
 
     system: TorsionalSystem
-    excitation: Excitation
     columns: Sequence[int]
     weights: Real
     together: bool = False
 
+    @property
+    def orders(self) -> Real:
+        """(orders,) of what excites the system."""
+        return self.system.require_excitation().orders
+
     def at(self, rpm: Real) -> Complex:
         """By order, (orders, speeds, curves)."""
-        motion = move(self.system, self.excitation, rpm)
+        motion = move(self.system, rpm)
         found = np.empty((len(self.columns), *motion.torque.shape[:2]), complex)
         for curve, column, weight in zip(found, self.columns, self.weights, strict=True):
             shaft = column < len(self.system.shafts)
@@ -86,15 +90,15 @@ class _Curves(NamedTuple):
         """By order, (orders, *speeds), one curve at each speed; `curve` broadcasts to these."""
         few = sort_distinct(rpm)  # many curves peak between the same two
         which, curve = np.searchsorted(few, rpm), np.broadcast_to(curve, rpm.shape)
-        found = np.empty((len(self.excitation.orders), *rpm.shape), complex)
-        for some in split_speeds(self.system, self.excitation, few):
+        found = np.empty((len(self.orders), *rpm.shape), complex)
+        for some in split_speeds(self.system, few):
             here = (which >= some.start) & (which < some.stop)
             found[:, here] = self.at(few[some])[:, which[here] - some.start, curve[here]]
         return found
 
     def swing(self, rpm: Real, curve: NDArray[np.intp]) -> Real:
         """Half of peak to peak (*speeds) of one curve at each speed."""
-        return find_swing(self.excitation.orders, self.pick(rpm, curve)).half
+        return find_swing(self.orders, self.pick(rpm, curve)).half
 
     def level(self, largest: Real) -> Real:
         """What each has to exceed (curves,), where each so far is this large."""
@@ -102,7 +106,7 @@ class _Curves(NamedTuple):
 
 
 def find_largest_vibration(
-    system: TorsionalSystem, excitation: Excitation, rpm: Real, swings: Real, heat: Real
+    system: TorsionalSystem, rpm: Real, swings: Real, heat: Real
 ) -> LargestVibration:
     """Of every shaft, the first node and every damper.
 
@@ -111,7 +115,7 @@ def find_largest_vibration(
         heat: (speeds, dampers), likewise.
     """
     count = len(system.shafts)
-    curves = _Curves(system, excitation, range(count + 1), np.ones(count + 1))
+    curves = _Curves(system, range(count + 1), np.ones(count + 1))
     at, height = _approach_largest(curves, rpm, swings)
     torque = curves.pick(at[:count], np.arange(count))
     return LargestVibration(
@@ -122,12 +126,12 @@ def find_largest_vibration(
         np.abs(torque),
         float(at[count]),
         float(height[count]),
-        *_approach_hottest(system, excitation, rpm, heat),
+        *_approach_hottest(system, rpm, heat),
     )
 
 
 def find_largest_torques(
-    system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real, shafts: Sequence[int]
+    system: TorsionalSystem, speeds_rpm: Real, shafts: Sequence[int]
 ) -> tuple[Real, Real]:
     """At which speed, rpm, the vibratory torque of some shafts is largest, and half of peak to peak
     there, N m, (shafts,) each, between the first and last of speeds (speeds,), rising.
@@ -138,44 +142,35 @@ def find_largest_torques(
     Raises:
         BalcliError: an undamped mode is driven at its own frequency.
     """
-    return _search(_Curves(system, excitation, shafts, np.ones(len(shafts))), speeds_rpm)
+    return _search(_Curves(system, shafts, np.ones(len(shafts))), speeds_rpm)
 
 
 def find_largest_of_all(
-    system: TorsionalSystem,
-    excitation: Excitation,
-    speeds_rpm: Real,
-    shafts: Sequence[int],
-    weights: Real,
+    system: TorsionalSystem, speeds_rpm: Real, shafts: Sequence[int], weights: Real
 ) -> float:
     """The highest that `find_largest_torques` finds of some shafts, each multiplied by its weight
     (shafts,); in less time.
     """
-    return float(
-        _search(_Curves(system, excitation, shafts, weights, True), speeds_rpm)[1].max(initial=0)
-    )
+    _, largest = _search(_Curves(system, shafts, weights, together=True), speeds_rpm)
+    return float(largest.max(initial=0))
 
 
-def find_hottest(
-    system: TorsionalSystem, excitation: Excitation, speeds_rpm: Real
-) -> tuple[Real, Real]:
+def find_hottest(system: TorsionalSystem, speeds_rpm: Real) -> tuple[Real, Real]:
     """At which speed, rpm, every damper turns most to heat, and how much, W, (dampers,) each,
     between the first and last of speeds (speeds,), rising.
     """
-    return _approach_hottest(
-        system, excitation, speeds_rpm, _find_heat(system, excitation, speeds_rpm)
-    )
+    return _approach_hottest(system, speeds_rpm, _find_heat(system, speeds_rpm))
 
 
 def find_resonant_speeds(
-    system: TorsionalSystem, excitation: Excitation, rpm: Real, widest: float = np.inf
+    system: TorsionalSystem, rpm: Real, widest: float = np.inf
 ) -> tuple[Real, Real]:
     """Speeds within a range at which an order meets a damped resonance, and how wide it is there,
     rpm, (resonances,) each; `widest`: as many steps of these speeds (rpm) as it may be wide.
     """
     if len(rpm) == 1:
         return np.zeros(0), np.zeros(0)
-    orders = excitation.orders
+    orders = system.require_excitation().orders
     if system.pendulums:  # their inertia differs from order to order
         poles = [find_poles(system, float(order)) for order in orders]
     else:
@@ -193,9 +188,8 @@ def find_resonant_speeds(
 
 # ------------------------------------------------------------------ the search
 def _search(curves: _Curves, rpm: Real) -> tuple[Real, Real]:
-    system, excitation = curves.system, curves.excitation
-    refuse_too_many(len(excitation.orders), len(rpm), len(system.shafts))
-    refuse_torsional_resonance(system, excitation, rpm)
+    refuse_too_many(curves.system, len(rpm))
+    refuse_torsional_resonance(curves.system, rpm)
     swings = _find_large_swings(curves, rpm, np.zeros(len(curves.columns)))
     return _approach_largest(curves, rpm, swings)
 
@@ -206,7 +200,7 @@ def _approach_largest(curves: _Curves, rpm: Real, swings: Real) -> tuple[Real, R
 
     Narrow resonances are looked at; at their sides, too, where they are high.
     """
-    at, width = find_resonant_speeds(curves.system, curves.excitation, rpm, _WIDE)
+    at, width = find_resonant_speeds(curves.system, rpm, _WIDE)
     tops = _find_large_swings(curves, at, swings.max(axis=0))
     largest = curves.level(np.concatenate([swings, tops]).max(axis=0))
     high = np.any(tops >= _NEAR * largest, axis=1)
@@ -230,9 +224,8 @@ def _find_large_swings(curves: _Curves, rpm: Real, largest: Real) -> Real:
 
     No curve swings further than that sum, so that most need not be added up.
     """
-    orders, swings = curves.excitation.orders, np.zeros((len(rpm), len(largest)))
-    largest = curves.level(largest)
-    for piece in split_speeds(curves.system, curves.excitation, rpm):
+    swings, largest = np.zeros((len(rpm), len(largest))), curves.level(largest)
+    for piece in split_speeds(curves.system, rpm):
         found, here = curves.at(rpm[piece]), swings[piece]
         here[:] = sum_amplitudes(found)
         falling = np.argsort(-here, axis=0)
@@ -241,36 +234,34 @@ def _find_large_swings(curves: _Curves, rpm: Real, largest: Real) -> Real:
             speed, curve = np.nonzero(near)
             at = some[speed, curve]
             if len(at):
-                here[at, curve] = found_here = find_swing(orders, found[:, at, curve]).half
+                here[at, curve] = found_here = find_swing(curves.orders, found[:, at, curve]).half
                 np.maximum.at(largest, curve, found_here)
                 largest = curves.level(largest)
     return swings
 
 
-def _approach_hottest(
-    system: TorsionalSystem, excitation: Excitation, rpm: Real, heat: Real
-) -> tuple[Real, Real]:
+def _approach_hottest(system: TorsionalSystem, rpm: Real, heat: Real) -> tuple[Real, Real]:
     """Where each damper turns most to heat, rpm, and how much, W, (dampers,) each, with the heat at
     these speeds (speeds, dampers). Narrow resonances are looked at, and their sides.
     """
     if not heat.shape[1]:
         return np.zeros(0), np.zeros(0)
-    at, width = find_resonant_speeds(system, excitation, rpm, _WIDE)
+    at, width = find_resonant_speeds(system, rpm, _WIDE)
     more = np.concatenate([at, _look_beside(at, width, rpm)])
     speeds = np.concatenate([rpm, more])
     rising = np.argsort(speeds, kind="stable")
     speeds = speeds[rising]
-    heat = np.concatenate([heat, _find_heat(system, excitation, more)])[rising]
+    heat = np.concatenate([heat, _find_heat(system, more)])[rising]
 
     def judge(rpm: Real, damper: NDArray[np.intp]) -> Real:
         few = sort_distinct(rpm)
-        return _find_heat(system, excitation, few)[np.searchsorted(few, rpm), damper]
+        return _find_heat(system, few)[np.searchsorted(few, rpm), damper]
 
     return find_highest(judge, speeds, heat, heat.max(axis=0), _NEAR)
 
 
-def _find_heat(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> Real:
+def _find_heat(system: TorsionalSystem, rpm: Real) -> Real:
     """Power that dampers turn to heat (speeds, dampers), W."""
-    pieces = split_speeds(system, excitation, rpm)
-    parts = [move(system, excitation, rpm[some]).heat.sum(axis=0) for some in pieces]
+    pieces = split_speeds(system, rpm)
+    parts = [move(system, rpm[some]).heat.sum(axis=0) for some in pieces]
     return np.concatenate([np.zeros((0, len(system.dampers))), *parts])

@@ -33,7 +33,7 @@ class ChainSource:
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what hangs together wrongly."""
-        return replace(build_chain(self.model, self.file), file=self.file)
+        return build_chain(self.model, self.file)
 
     def doubts(self) -> tuple[str, ...]:
         """What is suspicious of the file, in words."""
@@ -72,8 +72,7 @@ class EngineSource:
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what does not fit together in [torsion]."""
-        made = build_engine_system(self.model, self.engine, self.excitation, self.file)
-        return replace(made, file=self.file)
+        return build_engine_system(self.model, self.engine, self.excitation, self.file)
 
     def doubts(self) -> tuple[str, ...]:
         """What is suspicious of the file, in words, each by its path."""

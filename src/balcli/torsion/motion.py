@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from ..core.vibration import UndampedResonanceError, find_resonances, frequencie
 from ..errors import BalcliError
 from ..limits import MOST_TORSION_TORQUES
 from .modes import find_poles
-from .system import Excitation, TorsionalSystem
+from .system import TorsionalSystem
 
 UNDAMPED = 1e-9  # a pole with a smaller share of damping is rounding
 _AT_A_TIME = 1 << 20  # samples of a cycle, or torques by order, of all shafts and speeds
@@ -31,9 +32,9 @@ class ChainMotion(NamedTuple):
     heat: Real
 
 
-def move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> ChainMotion:
+def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
     """Motion order by order at these speeds (rpm)."""
-    speeds = rpm * RPM
+    excitation, speeds = system.require_excitation(), rpm * RPM
     w = frequencies(excitation.orders, speeds)
     load = excitation.on_nodes(speeds, len(system.nodes))
     order = np.broadcast_to(excitation.orders[:, None], w.shape)
@@ -72,17 +73,17 @@ def stress_by_torque(system: TorsionalSystem) -> Real:
     return np.array(found)
 
 
-def refuse_torsional_resonance(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
+def refuse_torsional_resonance(system: TorsionalSystem, rpm: Real) -> None:
     """Refuse a range in which an undamped mode is driven at its own frequency."""
     lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
     if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses
         return
     if system.pendulums:  # their inertia differs from order to order, and so do the modes
-        _drive_undamped(system, excitation, rpm)
+        _drive_undamped(system, rpm)
         return
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
-    speeds = rpm * RPM
+    excitation, speeds = system.require_excitation(), rpm * RPM
     load = excitation.on_nodes(speeds, len(system.nodes))
     met = find_resonances(modes, loss, excitation.orders, speeds, load)
     if met:
@@ -92,17 +93,18 @@ def refuse_torsional_resonance(system: TorsionalSystem, excitation: Excitation, 
         raise _refuse_resonance(system, float(hertz), speed)
 
 
-def _drive_undamped(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> None:
+def _drive_undamped(system: TorsionalSystem, rpm: Real) -> None:
     """Vibration at every speed of a range at which an order meets an undamped resonance: there is
     one only where it drives nothing.
     """
+    excitation = system.require_excitation()
     for order in excitation.orders:
         poles = find_poles(system, float(order))
         free = poles[(poles.imag > 0) & (-poles.real <= UNDAMPED * np.abs(poles))]
         met = free.imag / (RPM * order)
         met = met[(met >= rpm[0]) & (met <= rpm[-1])]
         if len(met):
-            move(system, excitation.only(order), met)
+            move(replace(system, excitation=excitation.only(order)), met)
 
 
 def _refuse_resonance(system: TorsionalSystem, hertz: float, speed: str = "") -> BalcliError:
@@ -112,7 +114,9 @@ def _refuse_resonance(system: TorsionalSystem, hertz: float, speed: str = "") ->
     )
 
 
-def refuse_too_many(orders: int, speeds: int, shafts: int) -> None:
+def refuse_too_many(system: TorsionalSystem, speeds: int) -> None:
+    """Refuse more torques by order, shaft and speed than memory is meant for."""
+    orders, shafts = len(system.require_excitation().orders), len(system.shafts)
     if orders * speeds * shafts > MOST_TORSION_TORQUES:
         raise BalcliError(
             f"{orders} orders at {speeds} speeds in {shafts} shafts are {orders * speeds * shafts} "
@@ -120,11 +124,9 @@ def refuse_too_many(orders: int, speeds: int, shafts: int) -> None:
         )
 
 
-def split_speeds(
-    system: TorsionalSystem, excitation: Excitation, speeds: Real, samples: float = 1
-) -> Iterator[slice]:
+def split_speeds(system: TorsionalSystem, speeds: Real, samples: float = 1) -> Iterator[slice]:
     """Pieces of the range that keep memory small; `samples`: of a cycle, taken of every curve."""
-    work = len(excitation.orders) * (len(system.nodes) + len(system.shafts))
+    work = len(system.require_excitation().orders) * (len(system.nodes) + len(system.shafts))
     size = max(int(_AT_A_TIME / max(samples * (len(system.shafts) + 1), work)), 1)
     for start in range(0, len(speeds), size):
         yield slice(start, min(start + size, len(speeds)))

@@ -151,16 +151,16 @@ class Variants:
             modes = find_natural_modes(system)
             found |= {q: modes[int(q.target) - 1].frequency_hz for q in of_modes}
         if of_shafts := [q for q in self._quantities if q.kind == "shaft"]:
-            found |= _find_largest(system, excitation, choose_torsion_speeds(engine), of_shafts)
+            found |= _find_largest(system, choose_torsion_speeds(engine), of_shafts)
         return [found[q] for q in self._quantities]
 
 
 def _find_largest(
-    system: TorsionalSystem, excitation: Excitation, speeds: Real, quantities: list[TargetQuantity]
+    system: TorsionalSystem, speeds: Real, quantities: list[TargetQuantity]
 ) -> dict[TargetQuantity, float]:
     """Torque and stress of shafts."""
     shafts = sorted({system.shafts.index(q.target) for q in quantities})
-    _, torques = find_largest_torques(system, excitation, speeds, shafts)
+    _, torques = find_largest_torques(system, speeds, shafts)
     largest = dict(zip(shafts, map(float, torques), strict=True))
     by_torque = {"torque": np.ones(len(system.shafts)), "stress": stress_by_torque(system)}
     return {

@@ -20,6 +20,8 @@ from .chain_file import ChainFile, ChainShaft, Excitation, Gear, Node
 
 LISTS: tuple[type[FileTable], ...] = (Node, ChainShaft, Gear, Excitation)
 KEYS = ("node", "shaft", "gear", "excitation")
+# keys of these tables that name nodes
+_ENDS = {"shaft": ("from", "to"), "gear": ("from", "to"), "excitation": ("node",)}
 
 
 def describes_chain(data: Mapping[str, Any]) -> bool:
@@ -69,11 +71,7 @@ def _find_misfits(data: Mapping[str, Any]) -> Iterator[Problem]:
         name = node.get("name")
         if isinstance(name, str) and name in names[: k - 1]:
             yield Problem(f"node.{k}.name", f"{shorten(name)} is there twice; give each its own")
-    for key, ends in (
-        ("shaft", ("from", "to")),
-        ("gear", ("from", "to")),
-        ("excitation", ("node",)),
-    ):
+    for key, ends in _ENDS.items():
         for k, table in _tables(data, key):
             yield from _check_ends(f"{key}.{k}", table, ends, known)
     fixed = data.get("fixed", ())

@@ -19,7 +19,7 @@ from .motion import (
     split_speeds,
     stress_by_torque,
 )
-from .system import Excitation, TorsionalSystem
+from .system import TorsionalSystem
 
 _HALVINGS = 24  # of an interval of speeds in which a limit is passed
 
@@ -55,26 +55,21 @@ class TorsionResponse(NamedTuple):
 
 
 def find_response(
-    system: TorsionalSystem,
-    excitation: Excitation,
-    speeds_rpm: Real,
-    tell: Tell = tell_nobody,
+    system: TorsionalSystem, speeds_rpm: Real, tell: Tell = tell_nobody
 ) -> TorsionResponse:
     """Vibration at speeds (speeds,), rising.
 
     Args:
-        excitation: by which; that of the system, or some of its orders.
         tell: is told which share of the speeds is done.
 
     Raises:
-        BalcliError: an undamped mode is driven at its own frequency.
+        BalcliError: nothing excites it; an undamped mode is driven at its own frequency.
     """
-    refuse_too_many(len(excitation.orders), len(speeds_rpm), len(system.shafts))
-    refuse_torsional_resonance(system, excitation, speeds_rpm)
-    parts = []
-    samples = 16 * (excitation.orders.max() + 1)
-    for some in split_speeds(system, excitation, speeds_rpm, samples):
-        parts.append(_summarise(system, excitation, speeds_rpm[some]))
+    refuse_too_many(system, len(speeds_rpm))
+    refuse_torsional_resonance(system, speeds_rpm)
+    parts, orders = [], system.require_excitation().orders
+    for some in split_speeds(system, speeds_rpm, samples=16 * (orders.max() + 1)):
+        parts.append(_summarise(system, orders, speeds_rpm[some]))
         tell(some.stop / len(speeds_rpm))
     joined = [
         np.concatenate(each, axis=axis)
@@ -83,7 +78,7 @@ def find_response(
     torque, sums, free_end, amplitudes, swings, heat = joined
     return TorsionResponse(
         speeds_rpm,
-        excitation.orders,
+        orders,
         torque,
         sums,
         torque * stress_by_torque(system),
@@ -92,19 +87,17 @@ def find_response(
         swings,
         heat,
         system.dampers,
-        find_largest_vibration(
-            system, excitation, speeds_rpm, np.column_stack([torque, free_end]), heat
-        ),
+        find_largest_vibration(system, speeds_rpm, np.column_stack([torque, free_end]), heat),
     )
 
 
 _AXES = (0, 0, 0, 1, 1, 0)  # the axis of speeds in what is summed up
 
 
-def _summarise(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> tuple[Real, ...]:
-    motion = move(system, excitation, rpm)
+def _summarise(system: TorsionalSystem, orders: Real, rpm: Real) -> tuple[Real, ...]:
+    motion = move(system, rpm)
     first = motion.angle[:, :, :1]
-    swing = find_swing(excitation.orders, np.concatenate([motion.torque, first], axis=-1)).half
+    swing = find_swing(orders, np.concatenate([motion.torque, first], axis=-1)).half
     return (
         swing[:, :-1],
         sum_amplitudes(motion.torque),
@@ -116,7 +109,7 @@ def _summarise(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> tu
 
 
 def find_barred(
-    system: TorsionalSystem, excitation: Excitation, response: TorsionResponse, criticals_rpm: Real
+    system: TorsionalSystem, response: TorsionResponse, criticals_rpm: Real
 ) -> tuple[tuple[float, float], ...] | None:
     """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none that can
     be judged: of a stress, where no shaft has a diameter.
@@ -128,25 +121,25 @@ def find_barred(
     if not _weigh_limits(system).any():
         return None
     known = response.speeds_rpm
-    resonant, width = find_resonant_speeds(system, excitation, known)
+    resonant, width = find_resonant_speeds(system, known)
     worst = [*response.worst.speeds_rpm, response.worst.swing_rpm]
     about = np.concatenate([worst, criticals_rpm, resonant, resonant - width, resonant + width])
     between = sort_others(about[(about > known[0]) & (about < known[-1])], known)
     speeds = np.concatenate([known, between])
     swings = np.column_stack([response.torque, response.free_end])
     here = np.any(swings * _weigh_limits(system) > 1, axis=1)
-    above = np.concatenate([here, _pass_limits(system, excitation, between)])
+    above = np.concatenate([here, _pass_limits(system, between)])
     rising = np.argsort(speeds)
     speeds, above = speeds[rising], above[rising]
     gaps = np.flatnonzero(above[1:] & above[:-1])  # such as between two resonances
     middle = (speeds[gaps] + speeds[gaps + 1]) / 2
     speeds = np.insert(speeds, gaps + 1, middle)
-    above = np.insert(above, gaps + 1, _pass_limits(system, excitation, middle))
+    above = np.insert(above, gaps + 1, _pass_limits(system, middle))
     changes = np.flatnonzero(above[1:] != above[:-1])
     low, high, upward = speeds[changes], speeds[changes + 1], above[changes + 1]
     for _ in range(_HALVINGS if len(changes) else 0):
         middle = (low + high) / 2
-        passed = _pass_limits(system, excitation, middle) == upward
+        passed = _pass_limits(system, middle) == upward
         low, high = np.where(passed, low, middle), np.where(passed, middle, high)
     ends = (low + high) / 2
     starts = [*speeds[:1][above[:1]].tolist(), *ends[upward].tolist()]
@@ -154,13 +147,14 @@ def find_barred(
     return tuple(zip(starts, stops, strict=True))
 
 
-def _pass_limits(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> NDArray[np.bool_]:
+def _pass_limits(system: TorsionalSystem, rpm: Real) -> NDArray[np.bool_]:
     """Whether a limit is passed at each speed (speeds,); only curves are added up in time whose
     amplitudes together pass it.
     """
     passed, weights = np.zeros(len(rpm), bool), _weigh_limits(system)
-    for some in split_speeds(system, excitation, rpm):
-        motion = move(system, excitation, rpm[some])
+    orders = system.require_excitation().orders
+    for some in split_speeds(system, rpm):
+        motion = move(system, rpm[some])
         every = np.concatenate([motion.torque, motion.angle[:, :, :1]], axis=-1)
         curves = np.asarray(every * weights, complex)
         most, here = sum_amplitudes(curves), passed[some]
@@ -168,7 +162,7 @@ def _pass_limits(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> 
         for which in (first, ~first):  # one curve mostly tells
             speed, curve = np.nonzero(which & (most > 1) & ~here[:, None])
             if len(speed):
-                swings = find_swing(excitation.orders, curves[:, speed, curve]).half
+                swings = find_swing(orders, curves[:, speed, curve]).half
                 here[speed[swings > 1]] = True
     return passed
 

@@ -125,6 +125,16 @@ class TorsionalSystem:
         """An error that begins with the file."""
         return BalcliError(f"{self.file}: {message}" if self.file else message)
 
+    def require_excitation(self) -> Excitation:
+        """What excites it.
+
+        Raises:
+            BalcliError: nothing does.
+        """
+        if self.excitation is None:
+            raise self.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
+        return self.excitation
+
     @cached_property
     def gears(self) -> Real:
         """(nodes,) speed of each node over that of the reference, where it hangs with it."""

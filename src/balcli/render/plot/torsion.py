@@ -4,7 +4,7 @@ orders one behind the other (waterfall).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import cycle, product
 from typing import TYPE_CHECKING, Any
 
@@ -54,20 +54,10 @@ def make_torsion(
     result: TorsionAnalysis, what: str, form: Form, system: System = SI, *, titled: bool = True
 ) -> Figure:
     """What `draw_torsion` writes, as a figure of matplotlib."""
-    parts: list[Callable[[Axes], None]] = []
-    if what in ("all", "modes"):
-        parts.append(lambda ax: _draw_modes(ax, result))
-    if what in ("all", "campbell"):
-        parts.append(lambda ax: _draw_campbell(ax, result))
-    response, shafts = result.response, result.system.shafts
-    if response is not None:
-        if what in ("all", "response") and shafts:
-            parts.append(lambda ax: _draw_torque(ax, result, response, system))
-        if what == "response":
-            parts.append(lambda ax: _draw_swing(ax, result, response))
-        if what in ("all", "waterfall") and shafts:
-            parts.append(lambda ax: _draw_waterfall(ax, result, response, system))
-    rows, columns = (2, 2) if len(parts) > 2 else (len(parts), 1) if what != "all" else (1, 2)
+    parts = list(_choose_parts(result, what, system))
+    rows, columns = (2, 2) if len(parts) > 2 else (1, 2)
+    if what != "all":
+        rows, columns = len(parts), 1
     with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3, form) as fig:
         for ax, draw in zip(_lay_out(fig, rows, columns), parts, strict=False):
             draw(ax)
@@ -75,6 +65,25 @@ def make_torsion(
         if titled:
             put_title(fig, f"{name}: torsion")
         return fig
+
+
+def _choose_parts(
+    result: TorsionAnalysis, what: str, system: System
+) -> Iterator[Callable[[Axes], None]]:
+    """What draws each of the pictures that a page of PAGES has, as far as they were computed."""
+    if what in ("all", "modes"):
+        yield lambda ax: _draw_modes(ax, result)
+    if what in ("all", "campbell"):
+        yield lambda ax: _draw_campbell(ax, result)
+    response, shafts = result.response, result.system.shafts
+    if response is None:
+        return
+    if what in ("all", "response") and shafts:
+        yield lambda ax: _draw_torque(ax, result, response, system)
+    if what == "response":
+        yield lambda ax: _draw_swing(ax, result, response)
+    if what in ("all", "waterfall") and shafts:
+        yield lambda ax: _draw_waterfall(ax, result, response, system)
 
 
 def _lay_out(fig: Figure, rows: int, columns: int) -> list[Axes]:
