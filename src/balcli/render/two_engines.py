@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
@@ -12,13 +13,20 @@ from .sheet import Facts, Sheet, number
 
 if TYPE_CHECKING:
     from ..results.two_engines import Combined, Load
-    from .units import System
+    from .units import ShownUnit, System
 
 _GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
 _ROLL: dict[Load, str] = {
     "first": f"{_GEARED} It drives the load, and the roll is C − T.",
     "second": f"{_GEARED} The second one drives the load, against its sense: the roll is C + T.",
     "both": f"{_GEARED} Each has its own flywheel and load: the roll is C − T1 + T2.",
+}
+# Whose gas counts, by whether the first and the second have some.
+_GAS = {
+    (True, True): "of both; their torques add as those of inertia do",
+    (True, False): "of the first alone; the file of the second has no [gas]",
+    (False, True): "of the second alone; the file of the first has no [gas]",
+    (False, False): "",
 }
 
 
@@ -59,57 +67,36 @@ def rows(result: Combined, system: System) -> Rows:
 
 def sheet(result: Combined, system: System) -> Sheet:
     """The engines, how they stand, and what they do together."""
-    first, how, length = result.engines[0], result.arrangement, system.length
-    names = [engine.name for engine in result.engines]
-
-    def place(values: tuple[Any, ...]) -> str:
-        return f"x, y, z = {', '.join(number(length.of(float(v))) for v in values)} {length.name}"
-
-    pairs = (
-        *(
-            (
-                which,
-                f"{engine.name}, {(count := engine.cylinders.count)} cylinder{'s' * (count > 1)}",
-            )
-            for which, engine in zip(("first", "second"), result.engines, strict=True)
-        ),
-        ("place", f"the second at {place(how.at_m)}, turned by {how.turn_deg:g} deg"),
-        (
-            "crank",
-            (
-                f"the second leads by {how.phase_deg:g} deg"
-                f"{', and turns against the first' if how.reverse else ''}"
-            ),
-        ),
-        ("speed", f"both at {tell_speed(first)}"),
-        *_tell_gas(result),
-        (
-            "reference",
-            f"moments about {place(first.reference_m)}"
-            if result.moments_known
-            else "moments are not known: crank.spacing is missing",
-        ),
-    )
-    known = result.moments_known
-    spectra = result.spectra if known else result.spectra.without_moment()
+    spectra = result.spectra if result.moments_known else result.spectra.without_moment()
+    how = result.arrangement
     return Sheet(
-        " and ".join(names),
+        " and ".join(engine.name for engine in result.engines),
         (
-            Facts(pairs),
+            Facts(tuple(_list_facts(result, system))),
             *order_tables(spectra, system, _ROLL[how.load] if how.reverse else ""),
             peak_facts(result, system, "Largest over a revolution, all orders"),
         ),
     )
 
 
-def _tell_gas(result: Combined) -> tuple[tuple[str, str], ...]:
-    """Whose gas counts, in a line; none where neither has some."""
-    match result.has_gas:
-        case True, True:
-            return (("gas", "of both; their torques add as those of inertia do"),)
-        case True, False:
-            return (("gas", "of the first alone; the file of the second has no [gas]"),)
-        case False, True:
-            return (("gas", "of the second alone; the file of the first has no [gas]"),)
-        case _:
-            return ()
+def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
+    """The engines, and how they stand and turn beside each other."""
+    first, how = result.engines[0], result.arrangement
+    for which, engine in zip(("first", "second"), result.engines, strict=True):
+        count = engine.cylinders.count
+        yield which, f"{engine.name}, {count} cylinder{'s' * (count > 1)}"
+    place = _tell_place(how.at_m, system.length)
+    yield "place", f"the second at {place}, turned by {how.turn_deg:g} deg"
+    against = ", and turns against the first" if how.reverse else ""
+    yield "crank", f"the second leads by {how.phase_deg:g} deg{against}"
+    yield "speed", f"both at {tell_speed(first)}"
+    if gas := _GAS[result.has_gas]:
+        yield "gas", gas
+    if result.moments_known:
+        yield "reference", f"moments about {_tell_place(first.reference_m, system.length)}"
+    else:
+        yield "reference", "moments are not known: crank.spacing is missing"
+
+
+def _tell_place(point: Iterable[Any], unit: ShownUnit) -> str:
+    return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...forces.crankshaft import AlongCrank
-from ..units import ShownUnit
+from ..units import System
 from .legends import put_legend_above
 from .style import BLUE, SOFT
 
@@ -19,26 +19,26 @@ if TYPE_CHECKING:
 def draw_along(
     ax: Axes,
     now_and_before: Sequence[AlongCrank],
-    titles: tuple[str, str],
-    unit: ShownUnit,
-    length: ShownUnit,
-    steps: str = "default",
-    over: str = "a revolution",
+    title: str,
+    what: str,
+    system: System,
+    steps: str,
+    over: str,
 ) -> None:
     """Draw the largest values over a revolution, or a cycle, at places along the crank.
 
     Args:
         now_and_before: one curve, or two to compare.
-        titles: of the picture, and what is measured.
-        length: of the places.
+        title: of the picture.
+        what: is measured, "force" or "moment".
         steps: how matplotlib joins the places; empty: columns.
         over: what the values are the largest of.
     """
-    title, what = titles
     curves = [
-        (found.z_m / length.size, np.array([p.value for p in found.peaks]))
+        (found.z_m / system.length.size, np.array([p.value for p in found.peaks]))
         for found in now_and_before
     ]
+    unit = system.force if what == "force" else system.moment
     s = unit.fit(max((float(values.max()) for _, values in curves), default=0.0))
     looks: Any = (
         (

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ...forces.in_bearings import LoadsWithGas
 
 _VECTORS = tuple(kind.name for kind in VECTORS)
 BELOW_TITLE = 0.1  # inches between the title of a page and those of its panels
@@ -216,54 +215,32 @@ def _lay_out_bank(fig: Figure, subject: PageSubject) -> None:
 
 
 def _lay_out_inner(fig: Figure, subject: PageSubject) -> None:
-    if gas := [inner.with_gas for inner in subject.bent if inner.with_gas is not None]:
-        _lay_out_inner_with_gas(fig, gas, subject.system)
-        return
-    shear, bending, bearings = fig.subplots(3, 1, sharex=True)
-    draw_along(
-        shear,
-        [b.shear for b in subject.bent],
-        ("Shear force along the crankshaft", "force"),
-        subject.system.force,
-        subject.system.length,
-        "steps-post",
-    )
-    draw_along(
-        bending,
-        [b.bending for b in subject.bent],
-        ("Bending moment", "moment"),
-        subject.system.moment,
-        subject.system.length,
-    )
-    draw_along(
-        bearings,
-        [b.bearings for b in subject.bent if b.bearings],
-        ("Inertia load of each main bearing", "force"),
-        subject.system.force,
-        subject.system.length,
-        "",
-    )
-    bearings.set_xlabel(_name_places(subject.system))
-    for ax in (shear, bending):
+    """Along the crankshaft: shear, bending and bearings; with gas bending of shaft and block, and
+    bearings.
+    """
+    bent, system = subject.bent, subject.system
+    if gas := [inner.with_gas for inner in bent if inner.with_gas is not None]:
+        over = "the cycle"
+        pictures = (
+            ("Bending moment in the crankshaft, with gas", "moment", [b.bending for b in gas]),
+            ("Bending moment in the block, with gas", "moment", [b.block_bending for b in gas]),
+            ("Load of each main bearing, with gas", "force", [b.bearings for b in gas]),
+        )
+        joints = "default", "default", ""
+    else:
+        over = "a revolution"
+        loads = [b.bearings for b in bent if b.bearings]
+        pictures = (
+            ("Shear force along the crankshaft", "force", [b.shear for b in bent]),
+            ("Bending moment", "moment", [b.bending for b in bent]),
+            ("Inertia load of each main bearing", "force", loads),
+        )
+        joints = "steps-post", "default", ""
+    axes = fig.subplots(3, 1, sharex=True)
+    for ax, (title, what, curves), steps in zip(axes, pictures, joints, strict=True):
+        draw_along(ax, curves, title, what, system, steps, over)
         ax.label_outer()
-
-
-def _name_places(system: System) -> str:
-    return f"z, {system.length.name} (free end on the left)"
-
-
-def _lay_out_inner_with_gas(fig: Figure, loads: Sequence[LoadsWithGas], system: System) -> None:
-    shaft, block, bearings = fig.subplots(3, 1, sharex=True)
-    titles = "Bending moment in the crankshaft, with gas", "moment"
-    over, z = "the cycle", system.length
-    draw_along(shaft, [found.bending for found in loads], titles, system.moment, z, over=over)
-    titles = "Bending moment in the block, with gas", "moment"
-    draw_along(block, [found.block_bending for found in loads], titles, system.moment, z, over=over)
-    titles = "Load of each main bearing, with gas", "force"
-    draw_along(bearings, [found.bearings for found in loads], titles, system.force, z, "", over)
-    bearings.set_xlabel(_name_places(system))
-    for ax in (shaft, block):
-        ax.label_outer()
+    axes[-1].set_xlabel(f"z, {system.length.name} (free end on the left)")
 
 
 def _lay_out_pressure(fig: Figure, subject: PageSubject) -> None:
