@@ -194,6 +194,13 @@ def test_harmonics_of_a_triangle_wave():
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
 
 
+def test_harmonics_of_thousands_of_waves_within_a_panel():
+    """The polynomial of a power of e^1000 of them would be no number, and its degree had no end."""
+    found = polyline([0, np.pi, TURN], [1, -1, 1]).harmonics(5001)
+    expected = [8 / (np.pi * k) ** 2 if k % 2 else 0 for k in range(5002)]
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
+
+
 # ---------------------------------------------------------------- breakpoints
 @pytest.mark.parametrize("turns", [-3, 0, 1, 7])
 def test_a_breakpoint_is_itself_however_many_turns_off_and_however_rounded(turns):

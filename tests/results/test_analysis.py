@@ -9,7 +9,8 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from support.engines import alone, engine
+from support.engines import alone, build_text, engine
+from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
 from balcli.core.mechanisms import harmonics
@@ -194,6 +195,20 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
     monkeypatch.setattr(harmonics, "find_distinct_harmonics", spy)
     analyze(example("i4"), [1, 2], only=["force"])
     assert asked == [([1, 2], {"piston"})]
+
+
+def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
+    """Of the tens of thousands that peaks need there is no end."""
+    locked = (
+        (FOUR + WIEBE).replace("length = 150", "ratio = 0.999999").replace("inertia = 2600", "")
+    )
+    fired = analyze(build_text(locked))
+    few = analyze(build_text(locked), [2, 4, 8])
+    for order, torque in zip((2, 4, 8), few.spectra.gas.major, strict=True):
+        at = fired.orders.tolist().index(order)
+        assert fired.spectra.gas.major[at] == pytest.approx(torque, rel=1e-9)
+    motored = analyze(build_text(locked.replace(WIEBE, "")))
+    assert few.force.value == fired.force.value == motored.force.value
 
 
 def test_an_unknown_quantity():

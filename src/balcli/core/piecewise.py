@@ -9,6 +9,7 @@ across a corner or a jump.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -30,6 +31,7 @@ _NOISE = 1e-5  # last terms below this share that halving hardly lowers are roun
 _HARDLY = 0.75
 _HALVINGS = 48
 _EVERYWHERE = 256  # times as many panels: what these do not show is nothing but noise
+_LONGEST_REACH = 1000.0  # rad, of waves over a half panel: the terms of more are no numbers
 _SAME = 1e-11  # rad; an angle so near to a breakpoint is the breakpoint
 _SAME_X = 1e-15  # of a panel's half width, where Newton's method has arrived
 _NOTHING = 1e-9  # values below this share of the largest have no sign
@@ -163,7 +165,7 @@ class PiecewiseCurve:
         """
         unit = 2 * np.pi / self.period
         middle, half = _panels(self.breaks)
-        x, weights = gauss(_nodes_for(len(self.series), highest * unit * float(half.max())))
+        x, weights = _nodes_of_waves(len(self.series), highest * unit * float(half.max()))
         angle = middle + half * x[:, None]
         values = legendre(x, len(self.series)).T @ self.series
         shares = (values * half * weights[:, None]).reshape(-1) * (2 / self.period)
@@ -351,6 +353,16 @@ def cut(breaks: Array, widest: float) -> Array:
         for low, high, count in zip(breaks[:-1], breaks[1:], wide, strict=True)
     ]
     return np.append(np.concatenate(parts), breaks[-1])
+
+
+def _nodes_of_waves(terms: int, reach: float) -> tuple[Array, Array]:
+    """Nodes and weights that integrate a series times e^{i reach x} over [-1, 1]: of many waves, of
+    each of several equal parts.
+    """
+    parts = max(1, math.ceil(reach / _LONGEST_REACH))
+    x, weights = gauss(_nodes_for(terms, reach / parts))
+    middle = (2 * np.arange(parts)[:, None] + 1) / parts - 1
+    return (middle + x / parts).reshape(-1), np.tile(weights / parts, parts)
 
 
 def _nodes_for(terms: int, reach: float) -> int:

@@ -530,6 +530,11 @@ def change_figure(whole: Any, keys: Sequence[str], value: float) -> Any:
     return tuple(members)
 
 
+# Tables on which most depends: what depends on some of their keys does not on others, which may
+# be mistaken.
+ONE_BY_ONE: dict[str, type[FileTable]] = {"crank": Crank, "layout": Layout}
+
+
 class EngineFile(FileTable):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 

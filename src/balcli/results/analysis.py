@@ -179,15 +179,14 @@ def analyze(
     peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(EVERY_KIND)
     computed = _choose_computed(engine, asked, whole=bool(peaked))
-    everything = compute_spectra(engine, computed, shown | peaked)
-    visible = everything.only(shown)
+    visible, whole = _compute_visible_and_whole(engine, computed, asked, shown, peaked)
     visible = visible.select_orders(choose_orders(visible, engine) if asked is None else asked)
     cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
     return Analysis(
         engine,
         visible,
-        find_peak(everything["force"]) if peaked else None,
-        find_peak(everything["moment"]) if peaked else None,
+        find_peak(whole["force"]) if peaked else None,
+        find_peak(whole["moment"]) if peaked else None,
         sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
         cylinders=cylinders,
         why=_explain(engine, visible.orders, shown) if reasons else None,
@@ -237,6 +236,19 @@ def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Arr
     due = DEFAULT_ORDERS if asked is None else asked
     of_gas = () if engine.gas is None else list_gas_orders(engine)
     return merge_orders(find_relevant_orders(engine), of_gas, due)
+
+
+def _compute_visible_and_whole(
+    engine: Engine, computed: Array, asked: Array | None, shown: set[str], peaked: set[str]
+) -> tuple[Spectra, Spectra]:
+    """What may be shown, and what has the peaks. Near its lock an engine has tens of thousands of
+    orders, all of which its peaks need: its gas is computed for the few that may be shown.
+    """
+    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED or not peaked:
+        everything = compute_spectra(engine, computed, shown | peaked)
+        return everything.only(shown), everything
+    few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+    return compute_spectra(engine, few, shown), compute_spectra(engine, computed, peaked)
 
 
 def _analyze_cylinders(
