@@ -304,6 +304,20 @@ cylinder.9.piston_mass = 0.6"""
     ]
 
 
+def test_a_mistake_in_the_layout_hides_none_that_does_not_depend_on_it():
+    text = """
+crank = { stroke = 90, throws = [0, 180] }
+rod = { length = 160 }
+piston.mass = 0.5
+layout = { strokes = 3, stagger = "2 kg", firing_order = [1, 3] }"""
+    assert [line.split(": ")[0] for line in refusal(text).splitlines()] == [
+        "3 mistakes",
+        "  layout.stagger",
+        "  layout.strokes",
+        "  layout.firing_order",
+    ]
+
+
 def test_missing_tables_come_with_an_example():
     assert (
         refusal("")

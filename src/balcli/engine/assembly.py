@@ -15,7 +15,7 @@ from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine
-from ..enginefile.model import Crank, EngineFile
+from ..enginefile.model import ONE_BY_ONE, EngineFile
 from . import firing
 from .arrays import column, shared_column
 from .figures import (
@@ -37,7 +37,9 @@ if TYPE_CHECKING:
     from .gas import EngineGas
 
 # What a file without mistakes has that can be relied on (`enginefile.read.Draft`).
-ALL_KEYS = frozenset(EngineFile.model_fields) | {f"crank.{key}" for key in Crank.model_fields}
+ALL_KEYS = frozenset(EngineFile.model_fields) | {
+    f"{path}.{key}" for path, table in ONE_BY_ONE.items() for key in table.model_fields
+}
 PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
 
 

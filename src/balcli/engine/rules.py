@@ -29,7 +29,10 @@ from .rods import (
 from .split_pins import find_fitting_splay
 
 STANDSTILL = 1e-12  # of the mean speed: rounding
-_PLAN = frozenset({"crank.throws", "crank.positions", "layout"})  # which cylinders there are
+_BANKS = ("bank_angle", "banks", "radial", "rods", "numbering", "firing_order")
+_PLAN = frozenset(  # which cylinders there are
+    {"crank.throws", "crank.positions", *(f"layout.{key}" for key in _BANKS)}
+)
 
 
 class Rule(NamedTuple):
@@ -289,7 +292,7 @@ RULES = (
         Rule(check_cylinders, _PLAN),
         Rule(check_masters, _PLAN | {"crank.splay", "articulation"}),
         Rule(check_rods, frozenset({"rod"})),
-        Rule(check_half_orders, frozenset({"operation", "layout", "gas"})),
+        Rule(check_half_orders, frozenset({"operation", "layout.strokes", "gas"})),
         Rule(check_speed, frozenset({"operation"})),
     ),
     (Rule(check_dead_centres, _WHOLE),),

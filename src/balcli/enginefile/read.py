@@ -34,7 +34,7 @@ from .messages import (
     is_miscounted,
     join_path,
 )
-from .model import Crank, EngineFile, FileTable, Override
+from .model import ONE_BY_ONE, EngineFile, FileTable, Override
 from .toml_text import parse_toml
 from .unknown_keys import (
     INSTEAD,
@@ -59,7 +59,7 @@ class Draft(NamedTuple):
         model: the file. Where there are mistakes, tables that could not be read are left out of it:
             their defaults stand there, or nothing where there is none.
         legible: keys of the file that can be relied on: what they say, or do not say, was read;
-            those of [crank] one by one, too, as crank.throws.
+            those of [crank] and [layout] one by one, too, as crank.throws.
         problems: mistakes of the text.
         unknown: keys that an engine file does not have.
     """
@@ -143,8 +143,7 @@ class _Reader:
     def __init__(self) -> None:
         self.problems: list[Problem] = []
         self.unknown: list[UnknownKey] = []
-        # Of [crank], on which most depends, what can be read where some of its keys cannot.
-        self.partial_crank: _Partial | None = None
+        self.partial: dict[str, _Partial] = {}  # tables of `ONE_BY_ONE` with broken keys
 
     def add(self, path: str, message: str) -> None:
         self.problems.append(Problem(path, message))
@@ -159,18 +158,15 @@ class _Reader:
         if None in cylinders.values():
             broken.add("cylinder")
             read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
-        of_crank = set() if "crank" in broken else set(Crank.model_fields)
-        if self.partial_crank is not None:
-            read["crank"] = self.partial_crank.draft
-            of_crank = Crank.model_fields.keys() - self.partial_crank.broken
+        legible = set(KNOWN) - broken
+        for path, table in ONE_BY_ONE.items():
+            lost = set(table.model_fields) if path in broken else set()
+            if path in self.partial:
+                read[path], lost = self.partial[path]
+            legible |= {f"{path}.{key}" for key in table.model_fields.keys() - lost}
         model = EngineFile.model_construct(set(read), **read)
         model._folder = folder
-        return Draft(
-            model,
-            frozenset(KNOWN) - broken | {f"crank.{key}" for key in of_crank},
-            tuple(self.problems),
-            tuple(self.unknown),
-        )
+        return Draft(model, frozenset(legible), tuple(self.problems), tuple(self.unknown))
 
     def read_text(self, key: str, value: object) -> str | None:
         if not isinstance(value, str):
@@ -260,8 +256,8 @@ class _Reader:
         draft = _read_without(table, value, broken)
         contradictions = list(_find_contradictions(path, table, value, broken, draft))
         self.problems += contradictions
-        if path == "crank" and draft is not None and not contradictions:
-            self.partial_crank = _Partial(draft, frozenset(broken))
+        if path in ONE_BY_ONE and draft is not None and not contradictions:
+            self.partial[path] = _Partial(draft, broken)
         for finding in findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
@@ -275,7 +271,7 @@ class _Partial(NamedTuple):
     """A table read without its broken keys: those that have to be there are their examples."""
 
     draft: FileTable
-    broken: frozenset[str]
+    broken: set[str]
 
 
 def _read_without(
