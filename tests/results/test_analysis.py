@@ -207,6 +207,8 @@ def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
     for order, torque in zip((2, 4, 8), few.spectra.gas.major, strict=True):
         at = fired.orders.tolist().index(order)
         assert fired.spectra.gas.major[at] == pytest.approx(torque, rel=1e-9)
+    peakless = analyze(build_text(locked), only="gas").spectra.gas
+    assert peakless.major.max() == pytest.approx(fired.spectra.gas.major.max(), rel=1e-12)
     motored = analyze(build_text(locked.replace(WIEBE, "")))
     assert few.force.value == fired.force.value == motored.force.value
 

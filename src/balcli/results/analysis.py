@@ -244,11 +244,12 @@ def _compute_visible_and_whole(
     """What may be shown, and what has the peaks. Near its lock an engine has tens of thousands of
     orders, all of which its peaks need: its gas is computed for the few that may be shown.
     """
-    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED or not peaked:
+    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
         return everything.only(shown), everything
     few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-    return compute_spectra(engine, few, shown), compute_spectra(engine, computed, peaked)
+    visible = compute_spectra(engine, few, shown)
+    return visible, compute_spectra(engine, computed, peaked) if peaked else visible
 
 
 def _analyze_cylinders(
