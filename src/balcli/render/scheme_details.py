@@ -25,20 +25,7 @@ _FOR_PROGRAMS = {"condition number", "relative error bound", "axial distance", "
 def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     """All that the scheme says besides its devices and its note."""
     remedy = result.remedy
-    details = list(remedy.details)
-    if remedy.optima:
-        fitted = list_optimum(remedy.optima, remedy.optima.found[0], "fitted")
-        details = [Detail("unit force", "force", remedy.optima.unit_force), *fitted, *details]
-    if result.speed_note:
-        details.append(Detail("speed", "", result.speed_note))
-    if not result.before.moments_known:
-        details = [d._replace(value=nan) if _needs_places(d) else d for d in details]
-    if result.before.engine.gas is not None:
-        details = [d._replace(label=_BESIDE_GAS.get(d.label, d.label)) for d in details]
-    details = [
-        _name_order(detail, remedy.order) for detail in details if detail.label not in _FOR_PROGRAMS
-    ]
-    if details:
+    if details := _choose_details(result):
         pairs = tuple(pair for detail in details for pair in _list_facts(detail, system))
         yield Facts(pairs, "Details")
     if remedy.needs:
@@ -51,6 +38,22 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         yield _sweep_grid(peaks, system)
     if remedy.optima:
         yield _optima_grid(remedy.optima)
+
+
+def _choose_details(result: Balance) -> list[Detail]:
+    """Figures that people are shown, as they are called beside each other; nan: not known."""
+    remedy = result.remedy
+    details = list(remedy.details)
+    if remedy.optima:
+        fitted = list_optimum(remedy.optima, remedy.optima.found[0], "fitted")
+        details = [Detail("unit force", "force", remedy.optima.unit_force), *fitted, *details]
+    if result.speed_note:
+        details.append(Detail("speed", "", result.speed_note))
+    if not result.before.moments_known:
+        details = [d._replace(value=nan) if _needs_places(d) else d for d in details]
+    if result.before.engine.gas is not None:
+        details = [d._replace(label=_BESIDE_GAS.get(d.label, d.label)) for d in details]
+    return [_name_order(d, remedy.order) for d in details if d.label not in _FOR_PROGRAMS]
 
 
 def _needs_places(detail: Detail) -> bool:

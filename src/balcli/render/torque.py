@@ -181,15 +181,24 @@ def _flywheel_facts(
     if flywheel.stall:
         pairs.append(("speed", flywheel.stall))
     if flywheel.needed is not None:
-        needed = f"{_size(flywheel.needed, unit)} in all"
-        own = flywheel.needed - flywheel.moving - (crank or 0.0)
-        if flywheel.moving and own > 0:
-            place = "crankshaft and flywheel" if crank is None else "the flywheel"
-            needed += f", {number(unit.of(own))} of it in {place}"
-        elif flywheel.moving:
-            needed += ", which is there without a flywheel"
-        pairs.append(("needed", needed))
+        share = _tell_share_of_flywheel(flywheel.needed, flywheel.moving, crank, unit)
+        pairs.append(("needed", f"{_size(flywheel.needed, unit)} in all{share}"))
     yield Facts(tuple(pairs), "Flywheel")
+
+
+def _tell_share_of_flywheel(
+    needed: float, moving: float, crank: float | None, unit: ShownUnit
+) -> str:
+    """How much of the inertia that is needed (kg m2) moving parts and crankshaft leave to the
+    flywheel; nothing where moving parts are not known.
+    """
+    if not moving:
+        return ""
+    own = needed - moving - (crank or 0.0)
+    if own <= 0:
+        return ", which is there without a flywheel"
+    place = "crankshaft and flywheel" if crank is None else "the flywheel"
+    return f", {number(unit.of(own))} of it in {place}"
 
 
 def _speed_pairs(speed: Speed, cycle_deg: float) -> Iterator[tuple[str, str]]:
