@@ -184,8 +184,8 @@ class _Slung:
 
 
 # ---------------------------------------------------------------- pressure and torque
-class CylinderPressure(ABC):
-    """Absolute pressure over a cycle, smooth between breakpoints."""
+class CycleCurve(ABC):
+    """A figure of one cylinder over its cycle, smooth between breakpoints."""
 
     @property
     @abstractmethod
@@ -194,14 +194,18 @@ class CylinderPressure(ABC):
 
     @abstractmethod
     def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
-        """Pa at any cycle angles (rad), of their shape; at a jump the value after it, or
+        """The figure at any cycle angles (rad), of their shape; at a jump the value after it, or
         `before`.
         """
 
     @cached_property
     def curve(self) -> PiecewiseCurve:
-        """The pressure as polynomials on panels."""
+        """The same as polynomials on panels."""
         return resolved(self.at, self.breaks)
+
+
+class CylinderPressure(CycleCurve):
+    """Absolute pressure, Pa."""
 
     def highest(self) -> Extreme:
         """The highest pressure, Pa, and the first cycle angle (rad, in [-period/2, period/2)) at
@@ -214,26 +218,8 @@ class CylinderPressure(ABC):
         return Extreme((angle + period / 2) % period - period / 2, value)
 
 
-class GasTorque(ABC):
-    """Torque of the gas in one cylinder on the crankshaft, over its cycle."""
-
-    @property
-    @abstractmethod
-    def breaks(self) -> Array:
-        """Cycle angles, rad, rising, between which the torque is smooth; the last a period after
-        the first.
-        """
-
-    @abstractmethod
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
-        """N m at any cycle angles (rad), of their shape; at a jump the value after it, or
-        `before`.
-        """
-
-    @cached_property
-    def curve(self) -> PiecewiseCurve:
-        """The torque as polynomials on panels."""
-        return resolved(self.at, self.breaks)
+class GasTorque(CycleCurve):
+    """Torque of the gas on the crankshaft, N m."""
 
     @property
     def work(self) -> float:
