@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from oracle import momentum
 from support.commands import refusal, run_here
+from support.engines import build_text
+from support.gas_engines import FOUR, WIEBE
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
@@ -370,3 +372,16 @@ def test_engines_without_a_name_go_by_their_files(file, tmp_path):
 )
 def test_arrangements_that_cannot_be_are_refused(file, options, message):
     assert refusal("sum", file, file, *options) == message
+
+
+def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
+    """The tens of thousands that peaks need would take minutes."""
+    text = (FOUR + WIEBE).replace("length = 150", "ratio = 0.999999").replace("inertia = 2600", "")
+    fired, motored = build_text(text), build_text(text.replace(WIEBE, ""))
+    how = Arrangement(phase_deg=90.0)
+    found, still = combine_engines(fired, fired, how), combine_engines(motored, motored, how)
+    few = combine_engines(fired, fired, how, [4, 8])
+    assert found.force == few.force == still.force
+    at = np.searchsorted(found.spectra.orders, [4, 8])
+    assert few.spectra.gas.major == pytest.approx(found.spectra.gas.major[at], rel=1e-9)
+    assert few.spectra.gas.major[0] > 100  # N m

@@ -11,7 +11,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from ..core.peaks import Peak, find_peak
-from ..core.phasors import Complex, Figure, Phasors, unit
+from ..core.phasors import Array, Complex, Figure, Phasors, unit
 from ..core.speed_ripple import RippleLine
 from ..engine.build import Engine
 from ..errors import BalcliError
@@ -24,7 +24,7 @@ from ..forces.orders import (
     merge_orders,
 )
 from ..forces.spectrum import Spectra, add_parts, compute_spectra
-from ..limits import FARTHEST_DEG, FARTHEST_M
+from ..limits import FARTHEST_DEG, FARTHEST_M, HIGHEST_ORDER_UNASKED
 from ..result import Result
 from .analysis import DEFAULT_ORDERS
 
@@ -146,19 +146,27 @@ def combine_engines(
         DEFAULT_ORDERS if asked is None else asked,
         *(list_gas_orders(engine) for engine in (first, second) if engine.gas is not None),
     )
-    about_origin = replace(second, reference_m=(0.0, 0.0, 0.0))
-    own = compute_spectra(about_origin, computed, _list_kinds(second))
-    moved = place_spectra(own, arrangement, first.reference_m)
-    alone = compute_spectra(first, computed, _list_kinds(first))
-    everything = _add_spectra(alone, moved, arrangement)
-    shown = choose_orders(everything, first, second) if asked is None else asked
+    few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+    visible = whole = _compute_sum(first, second, arrangement, few)
+    if len(few) < len(computed):  # near the lock tens of thousands: all have a part in the peaks
+        one, other = (replace(engine, gas=None) for engine in (first, second))
+        whole = _compute_sum(one, other, arrangement, computed)
+    shown = choose_orders(visible, first, second) if asked is None else asked
     return Combined(
         (first, second),
         arrangement,
-        everything.select_orders(shown),
-        find_peak(everything["force"]),
-        find_peak(everything["moment"]),
+        visible.select_orders(shown),
+        find_peak(whole["force"]),
+        find_peak(whole["moment"]),
     )
+
+
+def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders: Array) -> Spectra:
+    """All that both do, with gas where one of them has some."""
+    about_origin = replace(second, reference_m=(0.0, 0.0, 0.0))
+    own = compute_spectra(about_origin, orders, _list_kinds(second))
+    moved = place_spectra(own, arrangement, first.reference_m)
+    return _add_spectra(compute_spectra(first, orders, _list_kinds(first)), moved, arrangement)
 
 
 def _list_kinds(engine: Engine) -> tuple[str, ...]:
