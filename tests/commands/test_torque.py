@@ -159,6 +159,23 @@ def test_what_a_crank_needs_that_stalls(four, tmp_path):
     assert "balcli: --write: the shaft stalls at" in err
 
 
+def test_a_crank_that_stalls_is_an_error_with_the_angle_beside_all_else(four, curve):
+    for arguments in (
+        (four, "--speed", "100"),
+        ("--curve", curve, "--inertia", "1", "--speed", "9"),
+    ):
+        status, out, err = run_here("torque", *arguments)
+        assert status == 2
+        assert "Torque over the cycle" in out
+        name = arguments[0] if arguments[0] == four else curve
+        stall = r"the shaft stalls at \d+\.\d°: with this inertia it needs a mean speed above \d+"
+        assert re.match(rf"balcli: {re.escape(str(name))}: {stall}", err)
+        status, out, _ = run_here("torque", *arguments, "--format", "json")
+        assert status == 2
+        assert json.loads(out)["flywheel"]["stall"] in err
+        assert run_here("torque", *arguments, "--fluctuation", "1/50")[::2] == (0, "")
+
+
 def test_a_curve_needs_no_engine(curve):
     found = json.loads(torque("--curve", curve, "--format", "json"))
     assert set(found) == {

@@ -30,7 +30,8 @@ def torque(
     """Torque of gas and inertia on the crank: by order and over the cycle, mean torque and power,
     the uneven speed and the flywheel; or what a given torque curve does.
 
-    `balcli torque v8.toml --fluctuation 1/200` says which inertia keeps the speed to that.
+    `balcli torque v8.toml --fluctuation 1/200` says which inertia keeps the speed to that. Where
+    the crank stalls with the inertia it has, that is an error, with the angle; all else is told.
 
     \b
     Examples:
@@ -49,6 +50,7 @@ def torque(
     if curve is not None:
         given = own.analyze_given(curve, load, inertia, speed, orders, fluctuation, units)
         show([given], renderer, form, output, units)
+        own.exit_if_it_stalls(str(curve), given.flywheel, fluctuation)
         return
     text, result = own.analyze_file(
         path or "", speed, orders, cylinder, misfire, fluctuation, loads
@@ -56,3 +58,4 @@ def torque(
     if write is not None:
         own.write_uneven(path or "", text, result, write)
     show([result], renderer, form, output, units)
+    own.exit_if_it_stalls(path or "", result.flywheel, fluctuation)

@@ -22,6 +22,7 @@ from .output import write_file
 
 if TYPE_CHECKING:
     from ..torque.analysis import TorqueAnalysis
+    from ..torque.flywheel import Flywheel
     from ..torque.given_curve import CurveAnalysis
 
 LOADS = ("pin", "main")
@@ -193,6 +194,16 @@ def refuse_mixture(
         if value:
             needs = "an engine file" if path is None else f"--curve{_IN_ITS_FILE.get(option, '')}"
             raise BalcliError(f"{option} needs {needs}")
+
+
+def exit_if_it_stalls(path: str, flywheel: Flywheel | None, fluctuation: str | None) -> None:
+    """End with an error where inertia does not carry the crank over a cycle, unless it was asked
+    which inertia does.
+    """
+    if flywheel is not None and flywheel.stall and fluctuation is None:
+        from .inputs import exit_on_errors
+
+        exit_on_errors([f"{name_file(path)}: {flywheel.stall}"])
 
 
 def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:
