@@ -647,6 +647,14 @@ def test_semicolons_or_tabs_part_columns_and_commas_decimals(tmp_path, mark):
     assert torque("--curve", path) == english
 
 
+def test_columns_parted_by_commas_may_stand_below_each_other_by_tabs(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_text("angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
+    plain = torque("--curve", path)
+    path.write_text("angle_deg,\t\ttorque_Nm\n0,\t\t1.5\n90.5,\t\t-2.25\n360,\t\t1.5\n")
+    assert torque("--curve", path) == plain
+
+
 def test_columns_without_a_heading_count_for_nothing(tmp_path):
     """Words after the last headed column, and where semicolons part columns, numbers, too."""
     path = tmp_path / "t.csv"

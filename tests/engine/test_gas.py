@@ -197,6 +197,19 @@ def test_harmonics_are_of_the_mean_tangential_pressure(beside):
         ),
         (
             'indicator = "p.csv"',
+            "0\t1,5\n10\t2\n",
+            "gas.indicator: {folder}/p.csv: begins with figures, without a heading; put the line "
+            "angle_deg\tpressure_bar above them",
+        ),
+        (
+            'indicator = "p.csv"',
+            "angle;pressure_bar\n0;1,5\n",
+            'gas.indicator: {folder}/p.csv: the heading "angle;pressure_bar" has no angle_deg; '
+            "head the file angle_deg;pressure_bar (or pressure_MPa, pressure_kPa, pressure_Pa, "
+            "pressure_psi, pressure_barg, pressure_psig)",
+        ),
+        (
+            'indicator = "p.csv"',
             "angle,pressure_bar\n0,1\n",
             'gas.indicator: {folder}/p.csv: the heading "angle,pressure_bar" has no angle_deg; '
             "head the file angle_deg,pressure_bar (or pressure_MPa, pressure_kPa, pressure_Pa, "

@@ -82,28 +82,33 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> NumberColumns:
         raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
     first = lines[0][1] if lines else ""
     if re.fullmatch(r"[-+\d.,;eE\s]+", first) and re.search(r"\d", first):
-        usual = (";" if ";" in first else ",").join(some[0] for some in wanted)
+        mark = next((mark for mark in ";\t" if mark in first), ",")
+        usual = mark.join(some[0] for some in wanted)
         raise ValueError(f"begins with figures, without a heading; put the line {usual} above them")
-    mark = max(",;\t", key=first.count)  # the comma, where none of them is there
+    # The comma, where none of them is there; tabs after a comma are room.
+    mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
     if mark != ",":
         lines = [(n, line.replace(",", ".").replace(mark, ",")) for n, line in lines]
     cells = csv.reader(line for _, line in lines)
     heading = [cell.strip() for cell in next(cells, [])]
-    places = [_find_head(names, heading, wanted) for names in wanted]
+    places = [_find_head(names, heading, wanted, mark) for names in wanted]
     numbers = [number for number, _ in lines[1:]]
     width = len(heading) if mark == "," else None
     rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
     return NumberColumns(tuple(heading[place] for place in places), rows, tuple(numbers))
 
 
-def _find_head(names: Sequence[str], heading: list[str], wanted: Sequence[Sequence[str]]) -> int:
+def _find_head(
+    names: Sequence[str], heading: list[str], wanted: Sequence[Sequence[str]], mark: str
+) -> int:
+    """Where a heading has one of these names; `mark` parts its columns."""
     for place, head in enumerate(heading):
         if head in names:
             return place
-    usual = ",".join(some[0] for some in wanted)
+    usual = mark.join(some[0] for some in wanted)
     others = [name for some in wanted for name in some[1:]]
     also = f" (or {', '.join(others)})" if others else ""
-    found = shorten(",".join(heading))
+    found = shorten(mark.join(heading))
     raise ValueError(f"the heading {found} has no {names[0]}; head the file {usual}{also}")
 
 
