@@ -318,6 +318,29 @@ layout = { strokes = 3, stagger = "2 kg", firing_order = [1, 3] }"""
     ]
 
 
+@pytest.mark.parametrize(
+    ("layout", "told"),
+    [
+        (
+            "layout = { bank_angel = 180, firing_order = [1, 3, 2, 4] }",
+            "layout.bank_angel: unknown key in [layout]; did you mean bank_angle?",
+        ),
+        (
+            "layuot = { bank_angle = 180, firing_order = [1, 3, 2, 4] }\ncylinder.4.gas = 0",
+            "layuot: unknown key in an engine file; did you mean layout?",
+        ),
+    ],
+)
+def test_what_depends_on_a_misspelt_key_is_not_told(layout, told):
+    """Without it two cylinders were left of four."""
+    text = f"""
+crank = {{ stroke = 90, throws = [0, 180] }}
+rod = {{ length = 160 }}
+piston.mass = 0.5
+{layout}"""
+    assert refusal(text) == told
+
+
 def test_missing_tables_come_with_an_example():
     assert (
         refusal("")

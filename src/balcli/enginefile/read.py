@@ -58,8 +58,9 @@ class Draft(NamedTuple):
     Attributes:
         model: the file. Where there are mistakes, tables that could not be read are left out of it:
             their defaults stand there, or nothing where there is none.
-        legible: keys of the file that can be relied on: what they say, or do not say, was read;
-            those of [crank] and [layout] one by one, too, as crank.throws.
+        legible: keys of the file that can be relied on: what they say, or do not say, was read,
+            and none that was probably meant is misspelt; those of [crank] and [layout] one by one,
+            too, as crank.throws.
         problems: mistakes of the text.
         unknown: keys that an engine file does not have.
     """
@@ -158,12 +159,18 @@ class _Reader:
         if None in cylinders.values():
             broken.add("cylinder")
             read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
-        legible = set(KNOWN) - broken
+        misspelt = {path for _, path in map(describe_unknown_key, self.unknown)}
+        broken |= misspelt & (set(KNOWN) - parts.keys())
+        legible: set[str] = set()
         for path, table in ONE_BY_ONE.items():
             lost = set(table.model_fields) if path in broken else set()
             if path in self.partial:
                 read[path], lost = self.partial[path]
-            legible |= {f"{path}.{key}" for key in table.model_fields.keys() - lost}
+            paths = {f"{path}.{key}" for key in table.model_fields.keys() - lost} - misspelt
+            if len(paths) < len(table.model_fields):
+                broken.add(path)
+            legible |= paths
+        legible |= set(KNOWN) - broken
         model = EngineFile.model_construct(set(read), **read)
         model._folder = folder
         return Draft(model, frozenset(legible), tuple(self.problems), tuple(self.unknown))
