@@ -159,7 +159,8 @@ class _Reader:
         if None in cylinders.values():
             broken.add("cylinder")
             read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
-        misspelt = {path for _, path in map(describe_unknown_key, self.unknown)}
+        told = self.unknown[:MOST_MISTAKES_SHOWN]  # the rest is told as a number
+        misspelt = {path for _, path in map(describe_unknown_key, told)}
         broken |= misspelt & (set(KNOWN) - parts.keys())
         legible: set[str] = set()
         for path, table in ONE_BY_ONE.items():
