@@ -113,7 +113,7 @@ def _work(result: FieldBalance, length: ShownUnit) -> Grid:
 def _explain_work(result: FieldBalance) -> Iterator[str]:
     drilled = result.file.drill is not None
     if drilled:
-        yield "Radial holes in steel, from the rim inwards, opposite to where weights would be added."
+        yield "Radial holes in steel, from the rim inwards, opposite to where weights would go."
         as_much = "Each does as much as this weight at the rim; its steel, further in, weighs more."
         yield as_much if is_mass(result.file) else "Each removes this unbalance."
     else:
