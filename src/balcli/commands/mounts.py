@@ -102,11 +102,10 @@ def _read_files(
 ) -> tuple[EngineFile, Engine | None, list[tuple[str, Engine]]]:
     """A body on its mounts with its engine, if there is one, and engines to show beside by name."""
     from ..mounting.read import read_mounted
-    from .inputs import name_engines, read_engine
+    from .inputs import name_engines, read_engine, warn_each
 
     model, engine, doubts = read_mounted(paths[0])
-    for doubt in doubts:
-        warn(f"{name_file(paths[0])}: {doubt}")
+    warn_each(doubts, name_file(paths[0]))
     others = [read_engine(path).engine for path in paths[1:]]
     names = name_engines([model.name, *(other.name for other in others)], paths)
     return model, engine, list(zip(names[1:], others, strict=True))
