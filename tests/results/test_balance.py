@@ -237,6 +237,17 @@ def test_a_rotary_engine_has_no_factor(tmp_path):
     )
 
 
+def test_weights_of_a_rotary_engine_stand_on_its_cylinders(tmp_path, file):
+    path = tmp_path / "rotary.toml"
+    path.write_text(
+        SINGLE.replace("strokes = 4", "radial = 5\nrotary = true")
+        + "[cylinder.2]\npiston_mass = 0.6\n"
+    )
+    told = "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis"
+    assert told in run(path).out
+    assert "Counterweights stand" not in run(file).out
+
+
 def test_the_engine_file_itself_is_never_written(file):
     assert "choose another name" in refusal("balance", file, "--write", file)
     assert file.read_text() == GOOD

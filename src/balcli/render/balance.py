@@ -52,6 +52,12 @@ if TYPE_CHECKING:
     from ..results.analysis import Analysis
 
 
+_TURNING_WEIGHTS = (
+    "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis; the "
+    "crank stands still."
+)
+
+
 def sheet(result: Balance, system: System) -> Sheet:
     """Why and what, the workshop's figures, and both analyses side by side."""
     remedy, known = result.remedy, result.before.moments_known
@@ -69,7 +75,8 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("Nothing is fitted", why))
     growing, engine = tell_growing_rolls(result, system), result.before.engine
     assumed = tell_assumed_speed(engine.model) if is_speed_assumed(engine) else ""
-    if notes := tuple(filter(None, (remedy.note, *growing, assumed))):
+    turning = _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else ""
+    if notes := tuple(filter(None, (remedy.note, turning, *growing, assumed))):
         parts.append(Text("Note", notes))
     if not known:
         parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))

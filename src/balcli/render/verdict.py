@@ -26,6 +26,10 @@ _NAMES: dict[float, str] = {
 _AXES = {"0.0": "x", "90.0": "y"}
 _SWAYS = {"x": "yawing", "y": "pitching"}
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
+_UNEVEN = (
+    "At this uneven speed orders have parts of one another: what cancels an order at steady speed, "
+    "for which balance sizes devices, cancels its parts in all others, too."
+)
 
 
 class _Vector(NamedTuple):
@@ -48,12 +52,19 @@ class _Vector(NamedTuple):
 
 
 def verdict(
-    spectra: Spectra, system: System, single: Mapping[str, float] = _UNKNOWN
+    spectra: Spectra,
+    system: System,
+    single: Mapping[str, float] = _UNKNOWN,
+    *,
+    steady: bool = True,
 ) -> tuple[str, ...]:
     """A sentence for every order that matters; empty if neither forces nor moments were asked for.
 
-    `single`: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an order
-    may be negligible.
+    Args:
+        single: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an
+            order may be negligible.
+        steady: whether the speed is. If not, orders are told without what cancels them: most of an
+            order may be what the unevenness makes of another, and goes with that one.
     """
     vectors = [
         _Vector(kind.name, phasors, system.unit(kind), single.get(kind.name, 0.0))
@@ -63,9 +74,10 @@ def verdict(
         return ()
     rows = [(k, order) for k, order in enumerate(spectra.orders) if order > 0]
     higher = [(k, order) for k, order in rows if order not in (1, 2)]
-    told = [_tell_low_order(k, int(order), vectors) for k, order in rows if order in (1, 2)]
+    told = [_tell_low_order(k, int(order), vectors, steady) for k, order in rows if order in (1, 2)]
     if any(vector.matters(k) for k, _ in rows for vector in vectors):
-        told += [_tell_high_order(k, order, vectors) for k, order in higher]
+        told += [_tell_high_order(k, order, vectors, steady) for k, order in higher]
+        told.append("" if steady else _UNEVEN)
     else:
         told.append(_tell_negligible(higher, vectors))
     return tuple(filter(None, told))
@@ -77,9 +89,14 @@ def _order_name(order: float) -> str:
     return f"{_NAMES.get(order) or f'{order:g}th'} order"
 
 
-def _tell_low_order(k: int, order: int, vectors: list[_Vector]) -> str:
-    """Orders 1 and 2: what is there, which way it turns, and what meets it."""
-    there = [_tell_vector(k, order, vector) for vector in vectors if not vector.phasors.balanced[k]]
+def _tell_low_order(k: int, order: int, vectors: list[_Vector], steady: bool) -> str:
+    """Orders 1 and 2: what is there, which way it turns, and at steady speed what meets it."""
+    there = [
+        f"{told}: {cure}." if cure and steady else f"{told}."
+        for told, cure in (
+            _tell_vector(k, order, vector) for vector in vectors if not vector.phasors.balanced[k]
+        )
+    ]
     free = [vector.what for vector in vectors if vector.phasors.balanced[k]]
     if not there:
         return f"{_order_name(order)}: free of {' and '.join(free)}."
@@ -87,7 +104,7 @@ def _tell_low_order(k: int, order: int, vectors: list[_Vector]) -> str:
     return f"{_order_name(order)}: " + " ".join([there[0], *map(capitalized, [*there[1:], *rest])])
 
 
-def _tell_high_order(k: int, order: float, vectors: list[_Vector]) -> str:
+def _tell_high_order(k: int, order: float, vectors: list[_Vector], steady: bool) -> str:
     """A higher order: its size, if it is worth a word."""
     sizes = [
         f"{vector.what} up to {vector.size(k)}"
@@ -96,8 +113,10 @@ def _tell_high_order(k: int, order: float, vectors: list[_Vector]) -> str:
     ]
     if not sizes:
         return ""
-    cure = f"rarely balanced, it would take shafts at {order:g} times crank speed"
-    return f"{_order_name(order)}: {', '.join(sizes)}; {cure}."
+    told = f"{_order_name(order)}: {', '.join(sizes)}"
+    if not steady:
+        return f"{told}."
+    return f"{told}; rarely balanced, it would take shafts at {order:g} times crank speed."
 
 
 def _tell_negligible(higher: list[tuple[int, float]], vectors: list[_Vector]) -> str:
@@ -110,19 +129,21 @@ def _tell_negligible(higher: list[tuple[int, float]], vectors: list[_Vector]) ->
     return f"Higher orders: negligible, at most {' and '.join(told)}." if told else ""
 
 
-def _tell_vector(k: int, order: int, vector: _Vector) -> str:
-    """One vector of order 1 or 2: its size, how it turns, and what cancels it."""
+def _tell_vector(k: int, order: int, vector: _Vector) -> tuple[str, str]:
+    """One vector of order 1 or 2: its size and how it turns; and what cancels it, nothing where it
+    is negligible.
+    """
     what, phasors, unit, size = vector.what, vector.phasors, vector.unit_at(k), vector.size(k)
     if not vector.matters(k):
-        return f"{what} of up to {size}, negligible."
+        return f"{what} of up to {size}, negligible", ""
     forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
     if backward == 0:
         by_weights = "counterweights on the crankshaft cancel it"
         cure = by_weights if order == 1 else _cure_by_shafts(f"a balancer shaft at +{order}")
-        return f"{what} of {size}, turning with the crank: {cure}."
+        return f"{what} of {size}, turning with the crank", cure
     if forward == 0:
         cure = _cure_by_shafts(f"a balancer shaft at -{order}")
-        return f"{what} of {size}, turning against the crank: {cure}."
+        return f"{what} of {size}, turning against the crank", cure
     by_both = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
     cure = (
         by_both if order == 1 else _cure_by_shafts(f"two balancer shafts, at +{order} and -{order}")
@@ -130,7 +151,7 @@ def _tell_vector(k: int, order: int, vector: _Vector) -> str:
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
     parts = f"{ahead} turns with the crank, {against} against it"
     direction = _tell_direction(what, float(phasors.axis_deg[k]))
-    return f"{what} of up to {size} {direction} ({parts}): {cure}."
+    return f"{what} of up to {size} {direction} ({parts})", cure
 
 
 def _tell_direction(what: str, axis_deg: float) -> str:
