@@ -28,7 +28,7 @@ from .overview import (
     tell_others,
     vectors_grid,
 )
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, sentence
 from .terminal_plot import sketches
 from .units import System
 from .verdict import verdict
@@ -154,7 +154,7 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         told = verdict(spectra, system, result.of_one_cylinder, steady=steady)
         if rocking := tell_rocking(spectra, system):
             told = (*told, rocking)
-        yield Text("Verdict", told if known else (*told, capitalized(f"{MOMENTS_UNKNOWN}.")))
+        yield Text("Verdict", told if known else (*told, sentence(MOMENTS_UNKNOWN)))
 
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
