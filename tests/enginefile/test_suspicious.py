@@ -81,6 +81,13 @@ def test_ordinary_engines_pass(text):
             ),
         ),
         (
+            changed(("length = 160", "ratio = 0.99999")),  # not told as 1, which would lock
+            (
+                "crank radius / rod length is 0.99999, where 0.15 to 0.4 is usual; crank.stroke is "
+                "twice the crank radius, rod.length the distance of its two centres"
+            ),
+        ),
+        (
             changed(("length = 160", "ratio = 0.1")),
             (
                 "crank radius / rod length is 0.1, where 0.15 to 0.4 is usual; crank.stroke is "

@@ -81,8 +81,9 @@ def _proportions(model: EngineFile) -> Iterator[str]:
     ratio = _lambda(model)
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA_HIGH
     if ratio is not None and not LAMBDA_LOW <= ratio <= most:
+        shown = f"{ratio:.4g}" if ratio < 0.999 else f"{ratio:.7g}"  # at 1 the crank locks
         yield (
-            f"crank radius / rod length is {ratio:.4g}, where {LAMBDA_LOW:g} to {most:g} is usual; "
+            f"crank radius / rod length is {shown}, where {LAMBDA_LOW:g} to {most:g} is usual; "
             "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
         )
     if model.piston.bore is not None:
