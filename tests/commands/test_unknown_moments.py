@@ -165,6 +165,15 @@ def test_so_is_what_is_sized_by_moments(balcli, twin, command, args):
     assert err.endswith(f"{UNKNOWN}\n")
 
 
+def test_a_weight_in_one_plane_takes_the_whole_force(balcli, tmp_path):
+    """What moment it makes is not known, and lessens nothing."""
+    file = tmp_path / "skew.toml"
+    file.write_text(changed((FLAT_CRANK[0], "throws = [0, 90]"), NO_ORDER, NO_SPACING))
+    out = balcli("balance", file, "--scheme", "counterweights", "--planes=20", "-f", "json")[1]
+    first = json.loads(out)["after"]["orders"][0]
+    assert first["force_N"]["forward"] == [0, 0]
+
+
 def test_forces_are_swept_and_a_spacing_that_is_varied_is_known(balcli, twin):
     swept = balcli("sweep", twin, "--vary", "rod.length=150,160", "-q", "force.2.major")
     assert swept[::2] == (0, "")

@@ -216,6 +216,29 @@ def test_cylinders_that_do_not_fire_are_named(tmp_path):
     assert "% more; no burning in 4. " in told
 
 
+def test_a_misfire_is_a_cylinder_whose_gas_does_nothing(tmp_path):
+    """As the file has it with `gas = 0`; of every engine that is shown."""
+    order = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
+    fired, weak = tmp_path / "fired.toml", tmp_path / "weak.toml"
+    for path, extra in ((fired, ""), (weak, "[cylinder.3]\ngas = 0\n")):
+        path.write_text(ENGINE + order + extra + WIEBE + block("loss = 0.1"), encoding="utf-8")
+    asked = ("--speeds", "700:900:50", "-f", "json")
+    of_option = run_here("mounts", fired, "--misfire", "3", *asked).out
+    assert json.loads(of_option) == json.loads(run_here("mounts", weak, *asked).out)
+    beside = json.loads(run_here("mounts", fired, weak, "--misfire", "1", *asked).out)
+    assert beside["response"]["no_gas_in"] == [1]
+    assert "no gas in 1, 3" in run_here("mounts", fired, weak, "--misfire", "1").out
+
+
+def test_what_cannot_misfire_is_told(four, tmp_path):
+    told = refusal("mounts", four, "--misfire", "1")
+    assert told.startswith(f"{four}: has no [gas]; give a diagram, a cycle or harmonics")
+    fired = tmp_path / "fired.toml"
+    order = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
+    fired.write_text(ENGINE + order + WIEBE + block("loss = 0.1"), encoding="utf-8")
+    assert "--misfire 9: " in refusal("mounts", fired, "--misfire", "9")
+
+
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):
     path = tmp_path / "block.toml"
     path.write_text(block(), encoding="utf-8")
@@ -257,15 +280,17 @@ def test_picture(four, tmp_path, form):
             assert words.encode() in content
 
 
-@pytest.mark.parametrize("asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto")])
+@pytest.mark.parametrize(
+    "asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto"), ("--misfire", "1")]
+)
 def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path, asked):
     bare = tmp_path / "bare.toml"
     bare.write_text(block("loss = 0.1"), encoding="utf-8")
     status, out, err = run_here("mounts", bare, *asked)
     assert (status, out) == (0, run_here("mounts", bare).out)
     assert err == (
-        f"warning: {bare}: nothing shakes this body, so speeds, orders and schemes say nothing of "
-        "it: add [crank], [rod] and [piston], or name an engine file after this one\n"
+        f"warning: {bare}: nothing shakes this body, so speeds, orders, misfires and schemes say "
+        "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one\n"
     )
 
 

@@ -178,6 +178,40 @@ def test_in_brief_the_verdict_comes_first_and_only_orders_that_matter():
     assert "10" in parts(inline_engine(WIDE), View(whole=True))[1]
 
 
+def test_at_uneven_speed_no_order_has_a_cure_of_its_own():
+    """Of a crank whose throw is all that shakes, order 2 is what order 1 of the speed makes of it:
+    its counterweight takes that as well, and no shaft at twice the speed is wanted.
+    """
+    throw_alone = """
+[crank]
+stroke = 80
+throw_mass = 1
+[rod]
+length = 140
+[piston]
+mass = 1e-9
+[operation]
+speed = 3000
+"""
+    ripple = "speed_ripple = [{ order = 1, amplitude = 0.1 }]\n"
+    weight = "[[counterweight]]\nunbalance = 40000\nangle = 180\n"
+    uneven, balanced = (build_text(throw_alone + ripple + more) for more in ("", weight))
+    second, left = (
+        analyze(engine, orders=[2]).spectra.force.major[0] for engine in (uneven, balanced)
+    )
+    assert left < 1e-6 * second
+    told, steady = (
+        " ".join(shown(engine, only=["force", "moment", "sizing"]).split())
+        for engine in (uneven, build_text(throw_alone))
+    )
+    assert "Second order: force of" in told
+    assert "nothing on the crankshaft" not in told
+    assert "what cancels an order at steady speed" in told
+    assert "no free force or moment of orders 1 and 2 at steady speed" in told
+    assert "counterweights cancel" in steady
+    assert "steady" not in steady
+
+
 def test_what_is_left_out_is_named_in_one_line():
     """A straight six has nothing below order 6, where ellipses are as small as the series."""
     found = analysis.sheet(analyze(inline_engine(SIX)), SYSTEMS["si"])

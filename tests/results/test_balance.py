@@ -237,6 +237,17 @@ def test_a_rotary_engine_has_no_factor(tmp_path):
     )
 
 
+def test_weights_of_a_rotary_engine_stand_on_its_cylinders(tmp_path, file):
+    path = tmp_path / "rotary.toml"
+    path.write_text(
+        SINGLE.replace("strokes = 4", "radial = 5\nrotary = true")
+        + "[cylinder.2]\npiston_mass = 0.6\n"
+    )
+    told = "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis"
+    assert told in run(path).out
+    assert "Counterweights stand" not in run(file).out
+
+
 def test_the_engine_file_itself_is_never_written(file):
     assert "choose another name" in refusal("balance", file, "--write", file)
     assert file.read_text() == GOOD
@@ -468,3 +479,28 @@ def test_orders_that_are_negligible_before_and_after_are_told_in_one_line() -> N
     assert note.endswith(f", moment {moment:.4g} N·m, roll {roll:.4g} N·m).")
     asked = list_orders("--orders", "1,8,9")
     assert [row.split()[0] for row in asked] == ["1", "8", "9"]
+
+
+NEGLIGIBLE_ORDER = "Order {} is negligible beside one cylinder, hardly worth a device."
+
+
+def test_a_scheme_for_a_negligible_order_says_so():
+    """The only force of a three is that of order 6, a ten thousandth of one cylinder's; the only
+    one of a nine-cylinder star that turns against the crank that of order 8.
+    """
+    assert NEGLIGIBLE_ORDER.format(6) in run(ENGINES / "i3.toml", "--scheme", "single-shaft").out
+    assert (
+        NEGLIGIBLE_ORDER.format(8) in run(ENGINES / "radial9.toml", "--scheme", "single-shaft").out
+    )
+    for order in (2, 4, 6):
+        out = run(ENGINES / "i4.toml", "--scheme", "two-shaft", f"--order={order}").out
+        assert (NEGLIGIBLE_ORDER.format(order) in out) == (order == 6)
+    out = run(ENGINES / "i4.toml", "--scheme", "two-shaft", "--order=2", "--orders=1").out
+    assert "hardly worth" not in out
+
+
+def test_notes_are_sentences():
+    note = (
+        "There is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments."
+    )
+    assert note in run(ENGINES / "i3.toml", "--scheme", "four-shaft").out.splitlines()

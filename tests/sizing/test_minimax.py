@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from support.engines import rotary_engine
 from support.remedies import SMALL, figures, find_orders, write_engine
 
 from balcli.core import enclosing_circle as circle
@@ -105,6 +106,14 @@ def test_minimax_without_a_force():
     in_planes = size(engine, "minimax", SchemeOptions(planes="ends"))
     assert [d.position for d in in_planes.counterweights] == [-100, 100]
     assert (figures(in_planes)["improvement"], figures(in_planes)["relative error bound"]) == (0, 0)
+
+
+def test_minimax_of_a_rotary_engine_is_compared_with_no_factor():
+    """Its crank pins stand still with all that is on them: `factor` refuses it."""
+    told = figures(size(rotary_engine(more="[cylinder.2]\npiston_mass = 1.5\n"), "minimax"))
+    assert told["peak force"] > 0
+    assert "factor half peak" not in told
+    assert "improvement" not in told
 
 
 def test_minimax_of_an_engine_without_any_force():

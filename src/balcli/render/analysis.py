@@ -28,7 +28,7 @@ from .overview import (
     tell_others,
     vectors_grid,
 )
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, sentence
 from .terminal_plot import sketches
 from .units import System
 from .verdict import verdict
@@ -150,10 +150,11 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
     """The verdict; of forces alone where moments are not known, which it then says."""
     spectra, known = _known_spectra(result), result.moments_known
     if result.spectra.vectors():
-        told = verdict(spectra, system, result.of_one_cylinder)
+        steady = not result.engine.ripple
+        told = verdict(spectra, system, result.of_one_cylinder, steady=steady)
         if rocking := tell_rocking(spectra, system):
             told = (*told, rocking)
-        yield Text("Verdict", told if known else (*told, capitalized(f"{MOMENTS_UNKNOWN}.")))
+        yield Text("Verdict", told if known else (*told, sentence(MOMENTS_UNKNOWN)))
 
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
@@ -169,10 +170,11 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
             ),
         )
         return
+    steady = ", at steady speed" if after.engine.ripple else ""
     yield Text(
-        "Sizing: what leaves no free force or moment of orders 1 and 2"
+        f"Sizing: what leaves no free force or moment of orders 1 and 2{steady}"
         if after.moments_known
-        else "Sizing: what leaves no free force of orders 1 and 2 (moments are not known)",
+        else f"Sizing: what leaves no free force of orders 1 and 2{steady} (moments are not known)",
         tuple(dict.fromkeys(remedy.reasons)),
     )
     yield device_grid(remedy, system)

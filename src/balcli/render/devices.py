@@ -64,8 +64,8 @@ def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Ite
     shafts = zip(devices, free, strict=True)
     if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
         yield (
-            "At 0, 0, the crank's centre line, a shaft adds no roll; elsewhere, where a real one "
-            "stands, it does."
+            "At 0, 0, the crank's centre line, a shaft adds no roll about it; elsewhere, where a "
+            "real one stands, it does."
         )
 
 

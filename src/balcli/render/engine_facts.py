@@ -139,7 +139,7 @@ def _crank(engine: Engine, system: System) -> str:
     radius_shown, rod_shown = number(unit.of(radius)), number(unit.of(radius / lam))
     return (
         f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}, "
-        f"λ = {number(lam, 4)}{_unequal(engine)}"
+        f"λ = {number(lam, 4 if lam < 0.999 else 7)}{_unequal(engine)}"  # at 1 the crank locks
     )
 
 

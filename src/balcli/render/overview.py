@@ -135,7 +135,8 @@ def sizing_in_brief(sizing: Sizing, system: System) -> Text:
     else:
         told = [f"{text} {place}" for text, place in zip(told, places, strict=True)]
     fitted = "; ".join(told)
-    result = f"They leave {left} of orders 1 and 2. Details: balcli balance."
+    steady = " at steady speed" if sizing.after.engine.ripple else ""
+    result = f"They leave {left} of orders 1 and 2{steady}. Details: balcli balance."
     return Text("Sizing", (f"{capitalized(fitted)}.", result))
 
 
