@@ -11,6 +11,12 @@ from balcli.engine.load import parse
 from balcli.enginefile import templates as new
 from balcli.enginefile.suspicious import find_suspicious
 
+FREE = ("firing_order = [1, 3, 4, 2]\n", "")  # no firing order, which throws would have to fit
+WITHIN = (
+    'of one another; bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 '
+    'rad", and numbers of cylinders stand in layout.firing_order'
+)
+
 
 @pytest.mark.parametrize("text", [GOOD, *map(new.template, new.KINDS)], ids=["good", *new.KINDS])
 def test_ordinary_engines_pass(text):
@@ -48,6 +54,22 @@ def test_ordinary_engines_pass(text):
             changed(("mass = 0.5", "mass = 0")),
             "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
             "and locks",
+        ),
+        (
+            # no bore: that of 0.2 to 3 strokes of 90 mm, by 100 and 5000 kg per m^3 of its cube
+            changed(
+                ("mass = 0.5", "mass = 500"), ("bore = 86\n", ""), ("mass = 0.6", "mass = 600")
+            ),
+            "piston.mass is 500 kg at a stroke of 90 mm, where 0.00058 to 98 kg is usual; are the "
+            "units right? Bare numbers are kg and mm",
+        ),
+        (
+            changed(("throws = [0, 180, 180, 0]", "throws = [1, 3, 4, 2]"), FREE),
+            f"crank.throws are all within 3 deg {WITHIN}",
+        ),
+        (
+            changed(("throws = [0, 180, 180, 0]", "throws = [0, 3.14159, 3.14159, 0]"), FREE),
+            f"crank.throws are all within 3.142 deg {WITHIN}",
         ),
         (
             changed(("length = 160", "length = 100")),
@@ -186,6 +208,11 @@ def test_ordinary_engines_pass(text):
 )
 def test_warnings(text, warning):
     assert find_suspicious(parse(text)) == [warning]
+
+
+@pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])
+def test_throws_side_by_side_are_no_slip(throws):
+    assert find_suspicious(parse(changed(("[0, 180, 180, 0]", throws), FREE))) == []
 
 
 ENGINES = Path(__file__).parents[2] / "engines"

@@ -359,9 +359,9 @@ def test_less_than_the_rotating_mass_is_told():
     assert remedy.note == "a factor below 0: not even all rotating mass is balanced"
 
 
-@pytest.mark.parametrize(("factor", "told"), [(1.0, ""), (1.02, ABOVE_ALL), (5.0, ABOVE_ALL)])
+@pytest.mark.parametrize(("factor", "told"), [(1.0, ""), (1.02, ABOVE_ALL), (2.0, ABOVE_ALL)])
 def test_more_than_all_reciprocating_mass_is_told(factor, told):
-    """102 % may be meant of one cylinder's mass, 500 % for 50 %."""
+    """102 % may be meant of one cylinder's mass, 200 % for 20 %."""
     assert fit(TWIN, factor).note == told
 
 
@@ -399,6 +399,12 @@ def test_a_range_tells_bobweight_counterweight_and_what_is_left():
             TWIN,
             SchemeOptions(factor=(51.0,)),
             "--factor 51: is no share of the reciprocating mass; did you mean 51%? give one such "
+            "as 0.5 or 51%, or a range such as 50%:54%:1%",
+        ),
+        (
+            TWIN,
+            SchemeOptions(factor=(0.0, 5.0)),  # of 0,5
+            "--factor 5: is no share of the reciprocating mass; did you mean 5%? give one such "
             "as 0.5 or 51%, or a range such as 50%:54%:1%",
         ),
         (

@@ -107,11 +107,10 @@ def _read_files(
     each with these cylinders without gas.
     """
     from ..mounting.read import read_mounted
-    from .inputs import name_engines, read_engine, silence_cylinders
+    from .inputs import name_engines, read_engine, silence_cylinders, warn_each
 
     model, engine, doubts = read_mounted(paths[0])
-    for doubt in doubts:
-        warn(f"{name_file(paths[0])}: {doubt}")
+    warn_each(doubts, name_file(paths[0]))
     if engine is not None:
         engine = silence_cylinders(engine, misfires, paths[0])
     others = [silence_cylinders(read_engine(path).engine, misfires, path) for path in paths[1:]]

@@ -39,6 +39,8 @@ THROW_HEAVY = 20.0  # unbalanced mass of a throw / its rods and pistons: engines
 BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
 # Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
 NEIGHBOURS_CLOSE = 0.9
+# deg, of all throws: cranks have 60 or more, or none; [1, 3, 4, 2] and radians have this little.
+THROWS_NEAR = 1.0, 10.0
 UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 # Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip
 # from kg m^2 to kg mm^2 is a factor of a million.
@@ -49,7 +51,7 @@ SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is round
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     parts = (
-        *(_piston, _proportions, _rod, _inertia, _motion, _neighbours, _layout),
+        *(_piston, _proportions, _rod, _inertia, _motion, _neighbours, _throw_angles, _layout),
         *(_throw, _bobweight, _counterweights, _rotary, _turning, _gas, _torsion),
     )
     return [warning for part in parts for warning in part(model)]
@@ -63,15 +65,15 @@ def _piston(model: EngineFile) -> Iterator[str]:
             "and locks"
         )
         return
-    if bore is None:
-        return
+    stroke = model.crank.stroke
+    bores = (BORE_SHORT * stroke, BORE_LONG * stroke) if bore is None else (bore, bore)
     heavy = CROSSHEAD_HEAVY if _has_crosshead(model) else PISTON_HEAVY
-    low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, heavy))
+    low, high = (k * (b * 1e-3) ** 3 for k, b in zip((PISTON_LIGHT, heavy), bores, strict=True))
     if not low <= mass <= high:
+        beside = f"at a stroke of {stroke:g}" if bore is None else f"in a bore of {bore:g}"
         yield (
-            f"{_name_piston_mass(model)} {mass:.4g} kg in a bore of {bore:g} mm, where "
-            f"{_round(low)} to {_round(high)} kg is usual; are the units right? Bare numbers are "
-            "kg and mm"
+            f"{_name_piston_mass(model)} {mass:.4g} kg {beside} mm, where {_round(low)} to "
+            f"{_round(high)} kg is usual; are the units right? Bare numbers are kg and mm"
         )
 
 
@@ -151,6 +153,17 @@ def _neighbours(model: EngineFile) -> Iterator[str]:
             f"crank.{key} puts neighbouring cylinders of one bank {gap:g} mm apart, which is less "
             f"than their bore of {bore:g} mm; is it in mm? Another unit is said as in "
             '"4.4 in" or "1.02 m"'
+        )
+
+
+def _throw_angles(model: EngineFile) -> Iterator[str]:
+    throws = model.crank.throws or (0.0,)
+    span = max(throws) - min(throws)
+    if THROWS_NEAR[0] <= span < THROWS_NEAR[1]:
+        yield (
+            f"crank.throws are all within {span:.4g} deg of one another; bare numbers are degrees, "
+            'another unit is said as in "1/2 turn" or "3.1416 rad", and numbers of cylinders stand '
+            "in layout.firing_order"
         )
 
 

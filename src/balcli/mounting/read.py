@@ -13,7 +13,6 @@ from ..engine.load import build_named
 from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
 from ..enginefile.read import REQUIRED, Draft, read_tables
-from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
 from .build import find_mounting_faults
 
@@ -50,7 +49,7 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
         contradictions = find_contradictions(whole) if has_engine and draft.has_mistakes else []
         raise draft.refusal([*contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
-    of_engine = find_suspicious(draft.model) if engine is not None else []
+    of_engine = () if engine is None else engine.unlikely
     return MountedFile(
         draft.model, engine, (*of_engine, *_doubt_tensor(draft.model), *_doubt_size(draft.model))
     )
