@@ -212,6 +212,24 @@ speed = 3000
     assert "steady" not in steady
 
 
+@pytest.mark.parametrize("gas", ["", '[gas]\ncycle = "otto"\ncompression_ratio = 9\nimep = 8\n'])
+@pytest.mark.parametrize("view", [IN_BRIEF, View(whole=True)])
+def test_couple_and_roll_are_told_to_be_about_the_point_of_reference(gas, view):
+    """A force on the crank axis has a lever about a point beside it; about one along it none."""
+    told = [
+        analysis.sheet(
+            analyze(build_text(f"{GOOD}{gas}[frame]\nreference = {point}\n")), SYSTEMS["si"], view
+        )
+        for point in ([0, 0, 300], [0, 50, 300])
+    ]
+    on_axis, beside = ([p.title for p in s.parts if p.title.startswith("About")] for s in told)
+    assert bool(on_axis) == bool(gas or view is not IN_BRIEF)
+    assert [
+        title.replace("the crank axis", "the point of reference") for title in on_axis
+    ] == beside
+    assert all("the crank axis" in title for title in on_axis)
+
+
 def test_what_is_left_out_is_named_in_one_line():
     """A straight six has nothing below order 6, where ellipses are as small as the series."""
     found = analysis.sheet(analyze(inline_engine(SIX)), SYSTEMS["si"])
