@@ -329,6 +329,19 @@ def test_lengths_of_tools_are_positive(name, length):
         find_practical(engine(), Remedy(""), Tools(**{name: length}))
 
 
+@pytest.mark.parametrize(
+    ("tools", "told"),
+    [
+        # the crank radius of 45 mm; mm where m are wanted
+        (Tools(drill=0.0901), "--drill: a hole of 90.1 mm is wider than its rim of radius 45 mm"),
+        (Tools(drill=12, radius=0.08), "--drill: a hole of 12000 mm is wider than its rim of "),
+    ],
+)
+def test_a_hole_is_narrower_than_its_rim(tools, told):
+    with pytest.raises(BalcliError, match=f"^{re.escape(told)}"):
+        find_practical(engine(), Remedy(""), tools)
+
+
 def test_a_hole_ends_at_the_axis():
     """Drilled from the rim to the axis, `rim^2/2` times area and density is removed: that much, and
     no more.
