@@ -10,6 +10,8 @@ import re
 import pytest
 from support.engines import GOOD, changed
 
+from balcli import analyze, load
+
 UNKNOWN = (
     "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
     "that all throws stand in one plane"
@@ -274,3 +276,11 @@ def test_the_shops_factor_leaves_a_force_and_says_nothing_of_the_moment(balcli, 
     out = balcli("balance", twin, *factors)[1]
     swept = out.partition("Largest values by factor")[2].splitlines()
     assert [line.split()[-1] for line in swept if " %  " in line] == ["–"] * 3
+
+
+def test_rows_in_python_have_no_figure_of_a_moment(twin):
+    """Nor a direction: the axis of a vector that is not known was 90 deg."""
+    row, *_ = analyze(load(twin)).rows()
+    moments = {name: value for name, value in row.items() if name.startswith("moment.")}
+    assert len(moments) == 5
+    assert set(moments.values()) == {None}

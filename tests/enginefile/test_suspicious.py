@@ -81,7 +81,9 @@ def test_ordinary_engines_pass(text):
             ),
         ),
         (
-            changed(("length = 160", "ratio = 0.99999")),  # not told as 1, which would lock
+            changed(
+                ("length = 160", "ratio = 0.99999"), ("cg = 45", "cg = 15")
+            ),  # not told as 1, which would lock
             (
                 "crank radius / rod length is 0.99999, where 0.15 to 0.4 is usual; crank.stroke is "
                 "twice the crank radius, rod.length the distance of its two centres"
@@ -122,6 +124,15 @@ def test_ordinary_engines_pass(text):
                 "centre "
                 "towards the small end"
             ),
+        ),
+        (
+            changed(("cg = 45", "cg = 115")),
+            "rod.cg is 115 mm, nearer to the small end than to the big end (160 mm apart); it is "
+            "measured from the big-end centre",
+        ),
+        (
+            changed(("mass = 0.6\ncg = 45", "small_end = 0.42\nbig_end = 0.18")),
+            "rod.small_end is 0.42 kg, more than rod.big_end with 0.18 kg; are they exchanged?",
         ),
         (
             changed(("cg = 45", "cg = 45\ninertia = 0.0023")),
@@ -302,6 +313,18 @@ LIGHT = (
 )
 def test_inertias_in_kg_m2_are_asked_back(more, told):
     assert "\n".join(find_suspicious(parse(changed(more=more)))) == told
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "twist"),  # 1 MPa x pi/4 (86 mm)^2 x 90 mm = 523 N m
+    [("1e3", "0.52"), ("[1e6, 9e3, 1e16]", "0.058")],
+)
+def test_stiffness_of_throws_in_another_unit_is_asked_back(stiffness, twist):
+    text = changed(more=(TWIST % ("20000", "250000")).replace("= 1e6", f"= {stiffness}", 1))
+    assert find_suspicious(parse(text)) == [
+        f"torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by {twist} rad, "
+        'where at most 0.05 is usual; is it in N m/rad? Another unit is said as in "1.2 MN m/rad"'
+    ]
 
 
 def test_a_crank_in_kg_m2_is_asked_back():

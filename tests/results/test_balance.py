@@ -163,6 +163,19 @@ def test_uneven_speed_is_said(file):
     assert "steady mean speed" in run(file).out
 
 
+def test_what_is_balanced_is_so_at_steady_speed(tmp_path, file):
+    """Uneven speed makes order 2 of what orders 4 and 6 are."""
+    six = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120, 240, 240, 120, 0]"),
+        ("firing_order = [1, 3, 4, 2]", "strokes = 4"),
+    )
+    path = tmp_path / "six.toml"
+    path.write_text(six)
+    assert "Orders 1 and 2 are balanced.\n" in run(path).out
+    path.write_text(six + "speed_ripple = [{ order = 4, amplitude = 0.1 }]\n")
+    assert "Orders 1 and 2 are balanced at steady speed.\n" in run(path).out
+
+
 def test_written_file_reads_back(file, tmp_path):
     doc = document(file, "--scheme", "auto", "--write", tmp_path / "out.toml")
     result = run_here("analyze", tmp_path / "out.toml", "--format", "json")
@@ -327,6 +340,19 @@ def test_a_first_guess_of_a_device_in_steel():
 def test_lengths_of_tools_are_positive(name, length):
     with pytest.raises(BalcliError, match=rf"^--{name}: .* mm; give figures above 0$"):
         find_practical(engine(), Remedy(""), Tools(**{name: length}))
+
+
+@pytest.mark.parametrize(
+    ("tools", "told"),
+    [
+        # the crank radius of 45 mm; mm where m are wanted
+        (Tools(drill=0.0901), "--drill: a hole of 90.1 mm is wider than its rim of radius 45 mm"),
+        (Tools(drill=12, radius=0.08), "--drill: a hole of 12000 mm is wider than its rim of "),
+    ],
+)
+def test_a_hole_is_narrower_than_its_rim(tools, told):
+    with pytest.raises(BalcliError, match=f"^{re.escape(told)}"):
+        find_practical(engine(), Remedy(""), tools)
 
 
 def test_a_hole_ends_at_the_axis():

@@ -6,6 +6,7 @@ remedy.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -26,6 +27,7 @@ CROSSHEAD_LAMBDA = 0.6  # with a crosshead rods are short
 LAMBDA_LOW, LAMBDA_HIGH = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
 BORE_SHORT, BORE_LONG = 0.2, 3.0  # bore / stroke: crosshead from 0.25, racing engines to 2.5
 ROD_LIGHT, ROD_HEAVY = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
+SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the
 # ends 1/4, and no rod between its two centres can have more; bosses and bolts beyond them add a
 # little.
@@ -45,13 +47,26 @@ UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 
 # Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip
 # from kg m^2 to kg mm^2 is a factor of a million.
 TURNING_LIGHT = 0.01
+# rad, by the work that a cylinder does at 10 bar as a torque: engines have 2e-4 to 5e-3; much
+# less is said of shafts that are taken for rigid.
+TWIST_MOST = 0.05
 SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is rounded, or has bolts
 
 
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     parts = (
-        *(_piston, _proportions, _rod, _inertia, _motion, _neighbours, _throw_angles, _layout),
+        *(
+            _piston,
+            _proportions,
+            _rod,
+            _rod_ends,
+            _inertia,
+            _motion,
+            _neighbours,
+            _throw_angles,
+            _layout,
+        ),
         *(_throw, _bobweight, _counterweights, _rotary, _turning, _gas, _torsion),
     )
     return [warning for part in parts for warning in part(model)]
@@ -112,6 +127,22 @@ def _rod(model: EngineFile) -> Iterator[str]:
         yield (
             f"rod.cg is {cg:g} mm, outside the rod (0 to {length:g} mm); it is measured from the "
             "big-end centre towards the small end"
+        )
+
+
+def _rod_ends(model: EngineFile) -> Iterator[str]:
+    """A rod that is heavier at its small end: measured from there, most likely."""
+    rod, length = model.rod, _rod_length(model)
+    small, big = rod.small_end, rod.big_end
+    if small is not None and big is not None and small > SMALL_END_HEAVY * (small + big):
+        yield (
+            f"rod.small_end is {small:.4g} kg, more than rod.big_end with {big:.4g} kg; are they "
+            "exchanged?"
+        )
+    if rod.cg is not None and length and SMALL_END_HEAVY * length < rod.cg <= length:
+        yield (
+            f"rod.cg is {rod.cg:g} mm, nearer to the small end than to the big end ({length:g} mm "
+            "apart); it is measured from the big-end centre"
         )
 
 
@@ -273,6 +304,7 @@ def _torsion(model: EngineFile) -> Iterator[str]:
     """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
     if model.torsion is None:
         return
+    yield from _throw_stiffness(model.torsion, model)
     throws, whole = _throw_inertia(model.torsion, model), model.crank.inertia
     if whole is not None and throws > (1 + SAME_INERTIA) * whole:
         yield (
@@ -292,6 +324,20 @@ def _torsion(model: EngineFile) -> Iterator[str]:
                 f"[flywheel] has {flywheel / 1e6:.4g} kg m^2, and the part '{name}' of [torsion] "
                 f"{inertia / 1e6:.4g}: `torque` takes the one, `torsion` the other"
             )
+
+
+def _throw_stiffness(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """A crankshaft that the torque of a cylinder would wind up."""
+    if model.piston.bore is None or not torsion.throw_stiffness:
+        return
+    work = 1e-3 * math.pi / 4 * model.piston.bore**2 * model.crank.stroke  # J at 10 bar, N m
+    twist = work / min(torsion.throw_stiffness)
+    if twist > TWIST_MOST:
+        yield (
+            "torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by "
+            f"{twist:.2g} rad, where at most {TWIST_MOST:g} is usual; is it in N m/rad? Another "
+            'unit is said as in "1.2 MN m/rad"'
+        )
 
 
 def _flywheel_inertia(model: EngineFile) -> float:

@@ -24,6 +24,11 @@ def speed_facts(engine: Engine) -> Facts:
     return Facts((("speed", tell_speed(engine)), *list_silent(engine.silent)))
 
 
+def tell_pivot(engine: Engine) -> str:
+    """About what couple and roll are told."""
+    return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
+
+
 _TURNING = '"with the crank" is with the cylinders here, and counterweights stand on them'
 
 
