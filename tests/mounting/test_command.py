@@ -109,6 +109,15 @@ def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
     assert "yaw" not in out.split("\n\n")[1]
 
 
+def test_a_dashpot_beside_which_all_else_is_rounding_is_told(tmp_path):
+    """It was an internal error."""
+    path = tmp_path / "stiff.toml"
+    path.write_text(ENGINE + block("damping = [1e12, 1, 1]"), encoding="utf-8")
+    told = refusal("mounts", path)
+    assert re.search(r"at [\d.]+ Hz the motion of the body is lost in rounding errors", told)
+    assert told.endswith("is damping in N s/mm?")
+
+
 def test_orders_that_do_not_fit_are_counted(tmp_path):
     """Half orders from 1/2 to 3 stood there, and nothing of those above."""
     text = DAMPED + "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0.5\n" + WIEBE

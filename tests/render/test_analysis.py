@@ -58,6 +58,18 @@ def test_inner_as_json():
     )
 
 
+def test_without_bearings_bending_ends_with_the_free_moment_about_the_last_place():
+    """An engine of two throws in phase has a free force, and so another moment about its middle."""
+    about_middle = inline_engine([0, 0])
+    about_last = inline_engine([0, 0], more="[frame]\nreference = [0, 0, 50]\n")
+    told = shown(about_middle, only=["inner"])
+    assert "at the last place is the free moment of all these loads about it" in told
+    last = document(about_middle, only=["inner"])["inner"]["sections"][-1]
+    assert last["position_mm"] == pytest.approx(50)
+    assert last["bending_Nm"]["peak"] == pytest.approx(analyze(about_last).moment.value)
+    assert analyze(about_middle).moment.value == pytest.approx(0, abs=1e-6)
+
+
 def test_guide_as_json():
     found = document(inline_engine([0, 180]), only=["guide"], orders=[1, 2])["guide"]
     assert found["includes"] == "inertia, without gas"
@@ -210,6 +222,10 @@ speed = 3000
     assert "no free force or moment of orders 1 and 2 at steady speed" in told
     assert "counterweights cancel" in steady
     assert "steady" not in steady
+    whole = analysis.sheet(analyze(uneven), SYSTEMS["si"], View(whole=True)).parts
+    book = next(part for part in whole if part.title == "Free force in textbook units")
+    assert [row[1] for row in book.rows][:3] == ["balanced", "1", "1"]
+    assert book.note.endswith("without devices, at steady speed.")
 
 
 @pytest.mark.parametrize("gas", ["", '[gas]\ncycle = "otto"\ncompression_ratio = 9\nimep = 8\n'])

@@ -163,6 +163,19 @@ def test_uneven_speed_is_said(file):
     assert "steady mean speed" in run(file).out
 
 
+def test_what_is_balanced_is_so_at_steady_speed(tmp_path, file):
+    """Uneven speed makes order 2 of what orders 4 and 6 are."""
+    six = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120, 240, 240, 120, 0]"),
+        ("firing_order = [1, 3, 4, 2]", "strokes = 4"),
+    )
+    path = tmp_path / "six.toml"
+    path.write_text(six)
+    assert "Orders 1 and 2 are balanced.\n" in run(path).out
+    path.write_text(six + "speed_ripple = [{ order = 4, amplitude = 0.1 }]\n")
+    assert "Orders 1 and 2 are balanced at steady speed.\n" in run(path).out
+
+
 def test_written_file_reads_back(file, tmp_path):
     doc = document(file, "--scheme", "auto", "--write", tmp_path / "out.toml")
     result = run_here("analyze", tmp_path / "out.toml", "--format", "json")

@@ -26,7 +26,7 @@ from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_others
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
-from ..core.vibration import UNDAMPED, find_resonances, frequencies
+from ..core.vibration import UNDAMPED, UndampedResonanceError, find_resonances, frequencies
 from ..engine.build import NONE_SILENT, Engine, SilentCylinders
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
@@ -265,7 +265,13 @@ def _find_peaks(orders: Real, curves: Complex, tell: Tell) -> Real:
 
 def _move(mounted: MountedBody, loads: BodyLoads, omega: Real) -> BodyResponse:
     w = frequencies(loads.orders, omega)
-    return respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
+    try:
+        return respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
+    except UndampedResonanceError as error:  # resonances are refused before
+        raise BalcliError(
+            f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in rounding "
+            "errors, so far apart are stiffness and damping of the mounts: is damping in N s/mm?"
+        ) from None
 
 
 def _list_curves(mounted: MountedBody, found: BodyResponse) -> Complex:

@@ -71,7 +71,9 @@ def sheet(result: Balance, system: System) -> Sheet:
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
     else:
-        why = () if remedy.note or not known else ("Orders 1 and 2 are balanced.",)
+        steady = " at steady speed" if result.before.engine.ripple else ""
+        balanced = f"Orders 1 and 2 are balanced{steady}."
+        why = () if remedy.note or not known else (balanced,)
         parts.append(Text("Nothing is fitted", why))
     growing, engine = tell_growing_rolls(result, system), result.before.engine
     assumed = tell_assumed_speed(engine.model) if is_speed_assumed(engine) else ""

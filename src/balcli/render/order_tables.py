@@ -38,7 +38,7 @@ WHOLE_TURN = 360 - 1e-6  # deg
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
 _AS_BUILT = (
     "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
-    "without devices."
+    "without devices, at steady speed."
 )
 
 
