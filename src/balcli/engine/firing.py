@@ -98,15 +98,19 @@ def find_even_order(first: int, ready: Mapping[int, float], cycle: float) -> lis
         ready: dead centres of all, as `find_dead_centres` gives them.
         cycle: 360 or 720 deg.
     """
-    turn, left = [first], sorted(set(ready) - {first})
-    while left:
-        at = ready[first] + cycle * len(turn) / len(ready)
-        fitting = [i for i in left if abs(float(_centred(ready[i] - at))) <= TOLERANCE_DEG]
-        if not fitting:
+
+    def place(angle: float) -> float:
+        return round((angle + TOLERANCE_DEG) % 360, 6)
+
+    begin, interval = ready[first], cycle / len(ready)
+    others = sorted(set(ready) - {first}, key=lambda i: (place(ready[i] - begin), i))
+    slots = sorted(range(1, len(ready)), key=lambda k: (place(k * interval), k))
+    turn = {0: first}
+    for k, i in zip(slots, others, strict=True):
+        if abs(float(_centred(ready[i] - begin - k * interval))) > TOLERANCE_DEG:
             return None
-        turn.append(fitting[0])
-        left.remove(fitting[0])
-    return turn
+        turn[k] = i
+    return [turn[k] for k in range(len(turn))]
 
 
 def check_firing(
