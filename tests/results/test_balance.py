@@ -364,6 +364,16 @@ def test_a_hole_ends_at_the_axis():
     assert math.isnan(find_drill_depth(most * (1 + 1e-14), 0.05, 0.01))
 
 
+def test_a_slider_is_no_disc(file):
+    told = run(file, "--scheme", "slider", "--order", "2").out
+    (row,) = [line.split() for line in told.splitlines() if line.startswith("1 slider")]
+    assert row[-2:] == ["–", "–"]
+    assert "mass at an amplitude of 45 mm." in told
+    assert "centrifugal" not in told
+    assert "Of sliders: the phase at crank angle 0, along a path that counts from x." in told
+    assert "Of sliders" not in run(file).out
+
+
 def test_sliders_move_at_their_order():
     """n times the crank's speed, n^2 times the force."""
     remedy = Remedy("", sliders=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))

@@ -43,8 +43,8 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
     centred = abs(circle.centre) <= max(noise, circle.noise)
     nothing_gained = (
-        "no counterweight makes the largest force smaller than it is: it has no part of order 1 "
-        "turning with the crank"
+        "no counterweight makes the largest force smaller than it is: the smallest circle around "
+        "the force as seen from the crank has its centre at 0"
     )
     if centred and options.planes is None:
         raise NothingToBalanceError(nothing_gained)
