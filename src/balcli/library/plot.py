@@ -23,7 +23,7 @@ from ..render.sweep_plot import check_drawable, draw_sweep_figure
 from ..render.units import SI
 from ..results.analysis import Analysis
 from ..results.balance import Balance
-from ..studies.pictures import compute_study
+from ..studies.pictures import Study, compute_study
 from ..studies.swept import Swept
 from ..torque.analysis import TorqueAnalysis
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
@@ -88,7 +88,8 @@ def plot(
             return _plot_engine(shown.engine, what or "all", asked, scheme, speeds_rpm)
         case Balance():
             page = _choose(what or "all", ("all", "polar", "orders", "spectrum", "curves"))
-            return make_page(PageSubject(shown.after, shown.before, shown.remedy), page, "png")
+            study = Study(shown.after, shown.before, shown.remedy)
+            return make_page(PageSubject(study), page, "png")
         case TorqueAnalysis():
             page = _choose(what or "torque", ("torque", "pressure", "p-v", "pin", "main"))
             return _plot_engine(shown.engine, page, None, None, None)
@@ -130,7 +131,7 @@ def _plot_engine(
     if what not in _TORSION:
         asked = None if orders is None else check_orders(orders).tolist()
         study = compute_study(engine, what, asked, scheme)
-        return make_page(PageSubject(system=SI, **study._asdict()), what, "png")
+        return make_page(PageSubject(study), what, "png")
     exciting = check_torsion_orders(orders)
     source = make_source(take_model(engine), engine, engine.name, exciting)
     speeds = check_speeds("plot", speeds_rpm)

@@ -12,6 +12,7 @@ from .. import __version__
 from ..core.telling import Tell, tell_nobody
 from ..results.analysis import Analysis
 from ..results.balance import Balance
+from ..studies.pictures import Study
 from . import analysis, balance
 from .page_scene import scene
 from .plot.pages import PageSubject, draw_panel, has_picture
@@ -61,8 +62,8 @@ def page(
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
     compared = _COMPARED if fitted else ()
-    now = PageSubject(result, system=system)
-    after = PageSubject(balanced.after, balanced.before, balanced.remedy, system)
+    now = PageSubject(Study(result), system)
+    after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
     pictures = []
