@@ -15,7 +15,6 @@ from ..core.phasors import Array, Complex
 from ..engine.build import Engine, build
 from ..engine.load import parse
 from ..enginefile import examples
-from ..enginefile.model import EngineFile
 from ..forces.kinds import DEFAULT_QUANTITIES, KINDS
 from ..forces.quantity import parse_quantity_list
 from ..forces.spectrum import compute_spectra
@@ -197,13 +196,8 @@ def _engines(sweep: Sweep) -> Iterator[Engine]:
     angles, ratios = sweep.parameters
     for angle in angles.values:
         for ratio in ratios.values:
-            yield build(_set(sweep.file, float(angle), float(ratio)))
-
-
-def _set(file: EngineFile, angle: float, ratio: float) -> EngineFile:
-    layout = file.layout.model_copy(update={"bank_angle": angle})
-    rod = file.rod.model_copy(update={"ratio": ratio})
-    return file.model_copy(update={"layout": layout, "rod": rod})
+            file = sweep.file.with_table("layout", bank_angle=float(angle))
+            yield build(file.with_table("rod", ratio=float(ratio)))
 
 
 def _largest_error(found: Array, exact: Array) -> float:
