@@ -16,10 +16,10 @@ from ..engine.build import Engine, build
 from ..engine.load import parse
 from ..enginefile import examples
 from ..forces.kinds import DEFAULT_QUANTITIES, KINDS
-from ..forces.quantity import parse_quantity_list
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
+from ..studies.quantities import parse_quantities
 from ..studies.sweep import CHUNK, Sweep
 from . import methods
 from .cold_start import start_balcli, start_libraries, start_smallest
@@ -184,7 +184,7 @@ def _grid(banks: int, ratios: int) -> Sweep:
 
 
 def _sweep(*parameters: Parameter) -> Sweep:
-    return Sweep(parse(V8), parameters, parse_quantity_list(DEFAULT_QUANTITIES))
+    return Sweep(parse(V8), parameters, parse_quantities(DEFAULT_QUANTITIES))
 
 
 def _run_one_by_one(sweep: Sweep, way: methods.Vectors) -> None:
