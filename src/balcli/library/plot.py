@@ -19,7 +19,7 @@ from ..render.plot.field_balancing import make_field
 from ..render.plot.mounts import make_mounts
 from ..render.plot.pages import PAGES, PageSubject, make_page
 from ..render.plot.torsion import make_torsion
-from ..render.sweep_plot import check_drawable, draw_sweep_figure
+from ..render.sweep_plot import check_drawable, make_sweep
 from ..render.units import SI
 from ..results.analysis import Analysis
 from ..results.balance import Balance
@@ -99,7 +99,7 @@ def plot(
     match shown:
         case Swept():
             check_drawable(shown.sweep)
-            return draw_sweep_figure(shown.sweep, shown.values, "png")
+            return make_sweep(shown.sweep, shown.values, "png")
         case MountReport():
             return make_mounts(shown, "png", SI)
         case FieldBalance():

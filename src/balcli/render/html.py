@@ -16,7 +16,7 @@ from ..studies.pictures import Study
 from . import analysis, balance
 from .page_scene import scene
 from .plot.pages import PageSubject, draw_panel, has_picture
-from .plot.style import inline_svg
+from .plot.style import inline_svg, save_figure
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
 from .view import ON_A_PAGE
@@ -114,12 +114,13 @@ def _gather_chapters(
         }
     if twisted is not None:
         from . import torsion  # for files that have it
-        from .plot.torsion import draw_torsion
+        from .plot.torsion import make_torsion
 
-        drawn = (draw_torsion(twisted, what, "svg", system, titled=False) for what in _OF_TORSION)
-        named = zip(drawn, _OF_TORSION, strict=True)
-        chapters["torsion"] = torsion.sheet(twisted, system)
-        chapters["twists"] = [Markup(inline_svg(svg, f"torsion-{what}")) for svg, what in named]
+        chapters |= {"torsion": torsion.sheet(twisted, system), "twists": []}
+        for what in _OF_TORSION:
+            figure = make_torsion(twisted, what, "svg", system, titled=False)
+            svg = inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
+            chapters["twists"].append(Markup(svg))
     return chapters
 
 
