@@ -741,7 +741,7 @@ IMPORTED = {
     "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors "
     "speed_ripple speeds",
     "core.mechanisms": "closed_form distinct fourier harmonics",
-    "engine": "arrays assembly build devices figures firing layout load positions rods rules "
+    "engine": "arrays assembly build devices even_order figures firing layout load positions rods rules "
     "split_pins",
     "enginefile": "exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
     "units unknown_keys",

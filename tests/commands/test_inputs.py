@@ -1,4 +1,7 @@
-"""Several engines side by side are told apart."""
+"""Engines that commands read: told apart, and doubted where they are unlikely."""
+
+import pytest
+from support.commands import run_here
 
 from balcli.commands.inputs import name_engines
 
@@ -10,3 +13,37 @@ def test_engines_of_one_name_and_nameless_ones_go_by_their_files():
         "c.toml",
         "d.toml",
     ]
+
+
+HEAVY = """crank.stroke = 90
+rod.length = 160
+piston = { bore = 80, mass = 500 }
+gas = { cycle = "otto", compression_ratio = 9, imep = 8 }
+torsion = { throw_inertia = 20000, rear = [{ name = "wheel", inertia = 500000, stiffness = 1e6 }] }
+body = { mass = 100, cg = [0, 0, 0], inertia = [4e6, 4e6, 4e6, 0, 0, 0] }
+mount = [{ name = "all", at = [0, 0, 0], stiffness = [100, 100, 100] }]
+"""
+
+
+@pytest.mark.parametrize(
+    "args",
+    [
+        ("analyze", "-"),
+        ("torque", "-", "--misfire", "1"),
+        ("torsion", "-"),
+        ("torsion", "-", "--misfire", "1"),
+        ("scatter", "-", "-q", "force.1.major", "--samples", "2"),
+        ("search", "-", "--over", "rod.length=150:160", "--minimise", "force.2.major"),
+        ("sweep", "-", "--vary", "rod.length=150,160", "-q", "force.2.major"),
+    ],
+)
+def test_every_command_that_reads_an_engine_doubts_what_is_unlikely(args):
+    err = run_here(*args, stdin=HEAVY).err
+    assert err.startswith(
+        "warning: standard input: piston.mass is 500 kg in a bore of 80 mm, where "
+    )
+
+
+def test_a_sweep_does_not_doubt_what_it_varies():
+    args = ("sweep", "-", "--vary", "piston.mass=0.4,0.5", "-q", "force.2.major")
+    assert run_here(*args, stdin=HEAVY).err == ""

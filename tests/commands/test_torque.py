@@ -223,6 +223,24 @@ def test_the_load_takes_its_share(curve, tmp_path):
     assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in err
 
 
+@pytest.mark.parametrize(
+    ("load", "told"),  # 1000 N m over a sixth of a turn: 166.67 N m in the mean
+    [
+        ("0,1000\n60,1000\n60,0\n360,0", "166.67 N·m in the mean, and 33.333 N·m evenly"),
+        ("0,2000\n60,2000\n60,0\n360,0", "333.33 N·m in the mean, and -133.33 N·m evenly"),
+        ("0,400\n180,400\n180,0\n360,0", "200 N·m in the mean"),
+    ],
+)
+def test_what_the_mean_of_a_load_leaves_is_told(tmp_path, load, told):
+    motor, press = tmp_path / "motor.csv", tmp_path / "press.csv"
+    motor.write_text("angle_deg,torque_Nm\n0,200\n360,200\n")
+    press.write_text(f"angle_deg,torque_Nm\n{load}\n")
+    out = torque("--curve", str(motor), "--load", str(press))
+    assert [line for line in out.splitlines() if line.startswith("load")] == [
+        f"load         {told}"
+    ]
+
+
 def test_a_curve_may_begin_at_any_angle(tmp_path):
     """A triangle at 30 deg is there wherever its rows begin, and a load of it leaves nothing."""
     rows = {"a.csv": "0,50\n30,80\n60,50\n360,50", "b.csv": "-90,50\n0,50\n30,80\n60,50\n270,50"}

@@ -10,6 +10,8 @@ import re
 import pytest
 from support.engines import GOOD, changed
 
+from balcli import analyze, load
+
 UNKNOWN = (
     "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
     "that all throws stand in one plane"
@@ -165,6 +167,15 @@ def test_so_is_what_is_sized_by_moments(balcli, twin, command, args):
     assert err.endswith(f"{UNKNOWN}\n")
 
 
+def test_a_weight_in_one_plane_takes_the_whole_force(balcli, tmp_path):
+    """What moment it makes is not known, and lessens nothing."""
+    file = tmp_path / "skew.toml"
+    file.write_text(changed((FLAT_CRANK[0], "throws = [0, 90]"), NO_ORDER, NO_SPACING))
+    out = balcli("balance", file, "--scheme", "counterweights", "--planes=20", "-f", "json")[1]
+    first = json.loads(out)["after"]["orders"][0]
+    assert first["force_N"]["forward"] == [0, 0]
+
+
 def test_forces_are_swept_and_a_spacing_that_is_varied_is_known(balcli, twin):
     swept = balcli("sweep", twin, "--vary", "rod.length=150,160", "-q", "force.2.major")
     assert swept[::2] == (0, "")
@@ -265,3 +276,11 @@ def test_the_shops_factor_leaves_a_force_and_says_nothing_of_the_moment(balcli, 
     out = balcli("balance", twin, *factors)[1]
     swept = out.partition("Largest values by factor")[2].splitlines()
     assert [line.split()[-1] for line in swept if " %  " in line] == ["–"] * 3
+
+
+def test_rows_in_python_have_no_figure_of_a_moment(twin):
+    """Nor a direction: the axis of a vector that is not known was 90 deg."""
+    row, *_ = analyze(load(twin)).rows()
+    moments = {name: value for name, value in row.items() if name.startswith("moment.")}
+    assert len(moments) == 5
+    assert set(moments.values()) == {None}

@@ -190,6 +190,12 @@ REFUSED = {
         ("imep", 10e5),
         "compression_ratio: is 0.9: give more than 1",
     ),
+    "no intake": (
+        {"intake": 0.0},
+        Diesel(),
+        ("imep", 10e5),
+        "intake: is 0 bar: give more, for it is compressed",
+    ),
     "compression index": (
         {"compression_index": 0.5},
         Otto(),

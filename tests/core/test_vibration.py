@@ -128,7 +128,7 @@ def test_without_damping_modes_and_equations_agree():
     load = np.arange(5) * (1 - 2j)
     none = np.zeros((5, 5))
     by_modes = solve_response(k.real, none, m, w, load)
-    direct = np.linalg.solve(k.real - w[:, None, None] ** 2 * m, load[:, None])[..., 0]
+    direct = np.linalg.solve(k.real - w[:, None, None] ** 2 * m, load[None, :, None])[..., 0]
     assert by_modes == pytest.approx(direct, rel=1e-10)
     assert solve_response(k.real + 0j, none, m, w, load) == pytest.approx(direct, rel=1e-10)
 

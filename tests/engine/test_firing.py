@@ -7,7 +7,7 @@ import math
 import pytest
 from support.engines import engine, refused
 
-from balcli.engine.firing import check_firing, find_intervals
+from balcli.engine.firing import check_firing, find_dead_centres, find_intervals
 from balcli.errors import InputError
 
 TIGHT = 1e-9  # deg
@@ -285,7 +285,7 @@ def test_the_first_cylinder_that_cannot_fire_in_time_is_named():
         "deg, cylinder 2 is the"
     )
     with pytest.raises(InputError, match=message):
-        find_intervals([1, 2, 3, 4], pin, dict.fromkeys(pin, 0.0), 720.0)
+        find_intervals([1, 2, 3, 4], find_dead_centres(pin, dict.fromkeys(pin, 0.0)), 720.0)
 
 
 def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
@@ -293,3 +293,56 @@ def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
     assert list(check_firing(both, {1: 0.0, 2: 360 - 1e-12}, both)) == []
     (problem,) = check_firing(both, {1: 0.0, 2: 340.0}, both)
     assert problem.message.startswith("cylinder 2 is not at top dead centre")
+
+
+# ------------------------------------------------------------------ a slip that fits all the same
+ANOTHER = "would evenly, every {} deg; change it{}, or say layout.firing_intervals = {} if it is so"
+OR_THROWS = " (or crank.throws, which count in the sense of rotation)"
+
+
+@pytest.mark.parametrize(
+    ("parts", "told"),
+    [
+        (
+            {"crank": {"throws": [0, 240, 120]}, "layout": {"firing_order": [1, 2, 3]}},
+            "1-2-3 fires after 120, 120, 480 deg with these throws, and 1-3-2 "
+            + ANOTHER.format(240, OR_THROWS, "[120, 120, 480]"),
+        ),
+        (
+            {"crank": {"throws": [0, 120, 240]}, "layout": {"firing_order": [2, 1, 3]}},
+            "2-1-3 fires after 120, 120, 480 deg with these throws, and 2-3-1 "
+            + ANOTHER.format(240, OR_THROWS, "[120, 120, 480]"),
+        ),
+        (
+            {"crank": {"throws": [0]}, "layout": {"radial": 5, "firing_order": [1, 2, 3, 4, 5]}},
+            "1-2-3-4-5 fires after 72, 72, 72, 72, 432 deg with these throws, and 1-3-5-2-4 "
+            + ANOTHER.format(144, "", "[72, 72, 72, 72, 432]"),
+        ),
+    ],
+)
+def test_an_order_that_fires_unevenly_beside_an_even_one_is_doubted(parts, told):
+    """An odd number of cylinders has all its dead centres in one turn: an order of one turn and a
+    long wait takes no more than a cycle.
+    """
+    doubts = [doubt for doubt in engine(**parts).doubts if "firing" in doubt]
+    assert doubts == [f"layout.firing_order: {told}"]
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        {"crank": {"throws": [0, 240, 120]}, "layout": {"firing_order": [1, 3, 2]}},
+        {"crank": {"throws": [0, 239.5, 120.5]}, "layout": {"firing_order": [1, 3, 2]}},
+        {
+            "crank": {"throws": [0, 240, 120]},
+            "layout": {"firing_order": [1, 2, 3], "firing_intervals": [120, 120, 480]},
+        },
+        {"crank": {"throws": [0, 240, 120]}, "layout": {"firing_order": [1, 2, 3], "strokes": 2}},
+        {"crank": {"throws": [0, 90]}, "layout": {"firing_order": [1, 2]}},
+        {"crank": {"throws": [0, 90, 270, 180]}, "layout": {"firing_order": [1, 3, 2, 4]}},
+        {"crank": {"throws": [0]}, "layout": {"bank_angle": 45, "firing_order": [1, 2]}},
+        {"crank": {"throws": [0, 240, 120]}, "layout": {}},
+    ],
+)
+def test_an_order_is_not_doubted_where_it_is_even_or_none_is(parts):
+    assert not [doubt for doubt in engine(**parts).doubts if "firing" in doubt]

@@ -11,6 +11,12 @@ from balcli.engine.load import parse
 from balcli.enginefile import templates as new
 from balcli.enginefile.suspicious import find_suspicious
 
+FREE = ("firing_order = [1, 3, 4, 2]\n", "")  # no firing order, which throws would have to fit
+WITHIN = (
+    'of one another; bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 '
+    'rad", and numbers of cylinders stand in layout.firing_order'
+)
+
 
 @pytest.mark.parametrize("text", [GOOD, *map(new.template, new.KINDS)], ids=["good", *new.KINDS])
 def test_ordinary_engines_pass(text):
@@ -50,12 +56,37 @@ def test_ordinary_engines_pass(text):
             "and locks",
         ),
         (
+            # no bore: that of 0.2 to 3 strokes of 90 mm, by 100 and 5000 kg per m^3 of its cube
+            changed(
+                ("mass = 0.5", "mass = 500"), ("bore = 86\n", ""), ("mass = 0.6", "mass = 600")
+            ),
+            "piston.mass is 500 kg at a stroke of 90 mm, where 0.00058 to 98 kg is usual; are the "
+            "units right? Bare numbers are kg and mm",
+        ),
+        (
+            changed(("throws = [0, 180, 180, 0]", "throws = [1, 3, 4, 2]"), FREE),
+            f"crank.throws are all within 3 deg {WITHIN}",
+        ),
+        (
+            changed(("throws = [0, 180, 180, 0]", "throws = [0, 3.14159, 3.14159, 0]"), FREE),
+            f"crank.throws are all within 3.142 deg {WITHIN}",
+        ),
+        (
             changed(("length = 160", "length = 100")),
             (
                 "crank radius / rod length is 0.45, where 0.15 to 0.4 is usual; crank.stroke is "
                 "twice the "
                 "crank radius, "
                 "rod.length the distance of its two centres"
+            ),
+        ),
+        (
+            changed(
+                ("length = 160", "ratio = 0.99999"), ("cg = 45", "cg = 15")
+            ),  # not told as 1, which would lock
+            (
+                "crank radius / rod length is 0.99999, where 0.15 to 0.4 is usual; crank.stroke is "
+                "twice the crank radius, rod.length the distance of its two centres"
             ),
         ),
         (
@@ -93,6 +124,15 @@ def test_ordinary_engines_pass(text):
                 "centre "
                 "towards the small end"
             ),
+        ),
+        (
+            changed(("cg = 45", "cg = 115")),
+            "rod.cg is 115 mm, nearer to the small end than to the big end (160 mm apart); it is "
+            "measured from the big-end centre",
+        ),
+        (
+            changed(("mass = 0.6\ncg = 45", "small_end = 0.42\nbig_end = 0.18")),
+            "rod.small_end is 0.42 kg, more than rod.big_end with 0.18 kg; are they exchanged?",
         ),
         (
             changed(("cg = 45", "cg = 45\ninertia = 0.0023")),
@@ -179,6 +219,11 @@ def test_ordinary_engines_pass(text):
 )
 def test_warnings(text, warning):
     assert find_suspicious(parse(text)) == [warning]
+
+
+@pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])
+def test_throws_side_by_side_are_no_slip(throws):
+    assert find_suspicious(parse(changed(("[0, 180, 180, 0]", throws), FREE))) == []
 
 
 ENGINES = Path(__file__).parents[2] / "engines"
@@ -268,6 +313,18 @@ LIGHT = (
 )
 def test_inertias_in_kg_m2_are_asked_back(more, told):
     assert "\n".join(find_suspicious(parse(changed(more=more)))) == told
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "twist"),  # 1 MPa x pi/4 (86 mm)^2 x 90 mm = 523 N m
+    [("1e3", "0.52"), ("[1e6, 9e3, 1e16]", "0.058")],
+)
+def test_stiffness_of_throws_in_another_unit_is_asked_back(stiffness, twist):
+    text = changed(more=(TWIST % ("20000", "250000")).replace("= 1e6", f"= {stiffness}", 1))
+    assert find_suspicious(parse(text)) == [
+        f"torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by {twist} rad, "
+        'where at most 0.05 is usual; is it in N m/rad? Another unit is said as in "1.2 MN m/rad"'
+    ]
 
 
 def test_a_crank_in_kg_m2_is_asked_back():

@@ -282,6 +282,19 @@ def test_doubts():
     assert find_doubts(find_corrections(parse_runs(three_runs()))) == []
 
 
+def test_a_trial_weight_is_doubted_at_each_speed():
+    """What a heavy one does at the other speed hid that of 0.01 here."""
+    text = head(1)
+    for speed, weight, after in ((1500, 0.01, 10.011), (3000, 50, 14)):
+        own = f"speed = {speed}"
+        text += run([10], [], own) + run([after], [("p1", weight)], own)
+    (doubt,) = find_doubts(find_corrections(parse_runs(text)))
+    assert doubt == (
+        "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0% of the "
+        "largest; a heavier one tells more"
+    )
+
+
 def test_planes_that_are_nearly_alike_are_doubted():
     text = head(2, 'influence = [["1 @ 0", "1 @ 0"], ["1 @ 0", "1.1 @ 0"]]') + run([1, 2])
     (doubt,) = find_doubts(find_corrections(parse_runs(text)))

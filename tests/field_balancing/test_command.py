@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import re
 import tomllib
 from io import StringIO
@@ -59,6 +60,26 @@ def test_where_one_hole_is_not_enough_it_says_how_there_are_more(tmp_path):
     out = run_here("field", path).out
     assert hint not in out
     assert "All readings are cancelled." in out
+
+
+def test_a_hole_is_told_by_what_it_does_at_the_rim(tmp_path):
+    """It said that each hole removes its weight: here 38 g are drilled out to do what 30 g do."""
+    path = tmp_path / "runs.toml"
+    text = (
+        'planes = ["rim"]\nradius = [100]\ndrill = [12]\n'
+        '[[run]]\nreadings = ["30 @ 0"]\n'
+        '[[run]]\nreadings = ["20 @ 0"]\nweights = { rim = "10 @ 0" }\n'
+    )
+    path.write_text(text, encoding="utf-8")
+    (plane,) = json.loads(run_here("field", path, "-f", "json").out)["corrections"]
+    (hole,) = plane["pieces"]
+    grams = 7.85e-3 * math.pi / 4 * 12**2 * hole["depth_mm"]
+    assert grams * (100 - hole["depth_mm"] / 2) == pytest.approx(30 * 100)
+    assert round(grams) == 38
+    out = run_here("field", path).out
+    assert "Each does as much as this weight at the rim; its steel, further in, weighs more." in out
+    path.write_text('weight_unit = "g mm"\n' + text, encoding="utf-8")
+    assert "Each removes this unbalance." in run_here("field", path).out
 
 
 def test_holes_on_top_of_a_correction_are_new_ones(runs):

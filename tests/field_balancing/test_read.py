@@ -134,6 +134,10 @@ CASES = [
         "drill: is missing; deepest belongs to holes, which have a diameter",
     ),
     (
+        three_runs("radius = [20, 20]\ndrill = [5, 50]"),
+        "drill: hole 2 of 50 mm is wider than its rim of radius 20 mm",
+    ),
+    (
         three_runs("radius = [20, 20]\ndrill = [5, 5]\ndeepest = [10, 30]"),
         "deepest: hole 2 of 30 mm passes the axis, 20 mm below the rim",
     ),

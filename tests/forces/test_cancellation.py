@@ -7,10 +7,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from support.engines import build_text
 from support.paths import ENGINES
 
 from balcli import load
 from balcli.forces.cancellation import Term, are_in_phase, tell_cancellation
+from balcli.forces.spectrum import compute_each_cylinder, compute_spectra
 from balcli.forces.symmetry import explain_symmetry
 
 ORDERS = range(1, 13)
@@ -108,3 +110,32 @@ def test_phasors_and_pairs_are_those_of_the_engine(file):
         if reason.because == "all in phase" and reason.quantity != "moment":
             own = reason.order * (pins - pins[0]) / 360
             assert own == pytest.approx(np.round(own), abs=1e-9)
+
+
+def test_unequal_mechanisms_are_not_in_phase_because_equal_ones_are():
+    """Two master rods and two articulated ones: those of a kind are in phase, but both kinds have
+    phases of their own, and their forces add up to less than the sum of their sizes.
+    """
+    engine = build_text(
+        """
+[crank]
+stroke = 80
+throws = [0, 0]
+spacing = 100
+[rod]
+length = 180
+mass = 0.8
+cg = 50
+[piston]
+mass = 0.5
+[layout]
+bank_angle = 60
+[articulation]
+knuckle_radius = 30
+rod = { length = 150, mass = 0.5, cg = 40 }
+"""
+    )
+    found = compute_spectra(engine, [2], ("force",)).force.major[0]
+    each = compute_each_cylinder(engine, [2], ("force",))["force"].major[0]
+    assert found < 0.95 * each.sum()
+    assert all("phase" not in told for told in explain_symmetry(engine, [2]).sentences)

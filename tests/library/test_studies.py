@@ -229,6 +229,18 @@ def test_a_search_over_a_number_of_the_file():
     assert found.to_pandas().filter(like="rod.length").iloc[0, 0] == pytest.approx(200, abs=0.1)
 
 
+def test_rows_of_a_scatter_have_their_unit():
+    """No name tells it, and one column has figures of several units."""
+    pytest.importorskip("pandas")
+    found = balcli.scatter(FOUR, ["force.2.major", "moment.2.major"], samples=10, seed=1)
+    frame = found.to_pandas()
+    assert list(frame.columns)[-1] == "unit"
+    assert dict(zip(frame["quantity"], frame["unit"], strict=True)) == {
+        "force.2.major": "N",
+        "moment.2.major": "N·m",
+    }
+
+
 def test_stiffness_of_mounts_scatters():
     found = balcli.scatter(MOUNTS, "mode.1.Hz", stiffness="10%", samples=20, seed=1)
     assert found.varied == "sets of mounts"

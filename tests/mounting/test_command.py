@@ -83,6 +83,52 @@ def test_the_sheet_says_what_the_frame_feels(four):
     assert re.search(r"^lever +", out, re.M)
 
 
+def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
+    """The nearest mode was named: lengthways, in which nothing drives this body."""
+    places = [(y, z) for y in (300, -300) for z in (300, -300)]
+    mounts = "".join(
+        f'[[mount]]\nname = "{k}"\nat = [0, {y}, {z}]\nstiffness = [300, 300, 900]\nloss = 0.1\n'
+        for k, (y, z) in enumerate(places, 1)
+    )
+    body = "[body]\nmass = 185\ncg = [0, 0, 0]\ninertia = [17.8e6, 19.1e6, 6.4e6, 0, 0, 0]\n"
+    firing = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
+    path = tmp_path / "even.toml"
+    equal = ENGINE.replace("[cylinder.2]\npiston_mass = 0.55\n", "")
+    path.write_text(equal + firing + WIEBE + body + mounts, encoding="utf-8")
+    roll = np.sqrt(4 * 300e3 * 0.3**2 / 6.4) / (2 * np.pi)  # the others: 22.2 lengthways, ...
+    near = run_here("mounts", path, "--speeds", "660:3000:20", "--orders", "2").out
+    of_roll = f"(roll, {roll:.1f} Hz)"
+    told = f"the slowest speed of the range, nearest to mode 4 {of_roll}, which makes most of it."
+    assert " at 660 rpm, of which order 2 alone makes " in near
+    assert told in near
+    out = run_here("mounts", path, "--speeds", "500:3000:20", "--orders", "2").out
+    assert f"There it meets mode 4 {of_roll}: resonance." in out
+    stiff = equal + firing + WIEBE + body + mounts.replace("[300, 300, 900]\nloss = 0.1", "4000")
+    path.write_text(stiff.replace("= 4000", "= 4000\nloss = 1.2"), encoding="utf-8")
+    out = run_here("mounts", path, "--speeds", "400:3000:50", "--orders", "2").out
+    assert "yaw" not in out.split("\n\n")[1]
+
+
+def test_a_dashpot_beside_which_all_else_is_rounding_is_told(tmp_path):
+    """It was an internal error."""
+    path = tmp_path / "stiff.toml"
+    path.write_text(ENGINE + block("damping = [1e12, 1, 1]"), encoding="utf-8")
+    told = refusal("mounts", path)
+    assert re.search(r"at [\d.]+ Hz the motion of the body is lost in rounding errors", told)
+    assert told.endswith("is damping in N s/mm?")
+
+
+def test_orders_that_do_not_fit_are_counted(tmp_path):
+    """Half orders from 1/2 to 3 stood there, and nothing of those above."""
+    text = DAMPED + "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0.5\n" + WIEBE
+    path = tmp_path / "uneven.toml"
+    path.write_text(text, encoding="utf-8")
+    out = run_here("mounts", path, "--speeds", "200:3000:50", "--orders", "0.5-4").out
+    table = out.split("Where orders meet modes, rpm\n")[1].split("\n\n")[0]
+    assert table.splitlines()[0].split()[-2:] == ["order", "3"]
+    assert table.splitlines()[-1] == "JSON has 2 orders more."
+
+
 def test_a_scheme_is_shown_beside(four):
     out = run_here("mounts", four, "--scheme", "two-shaft").out
     assert "With two-shaft the largest force of any mount is " in out
@@ -120,7 +166,7 @@ def test_the_point_that_moves_most_is_told_with_a_scheme_and_without(four):
 )
 def test_what_hardly_anything_is_left_of_is_not_told_as_all(after, told):
     """It said "100% less" of what was there."""
-    before, worst = (LargestAmplitude(value, 3000.0, 2.0, value) for value in (100.0, after))
+    before, worst = (LargestAmplitude(value, 3000.0, 2.0, value, 0) for value in (100.0, after))
     assert _less(worst, before) == told
 
 
@@ -179,6 +225,29 @@ def test_cylinders_that_do_not_fire_are_named(tmp_path):
     assert "% more; no burning in 4. " in told
 
 
+def test_a_misfire_is_a_cylinder_whose_gas_does_nothing(tmp_path):
+    """As the file has it with `gas = 0`; of every engine that is shown."""
+    order = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
+    fired, weak = tmp_path / "fired.toml", tmp_path / "weak.toml"
+    for path, extra in ((fired, ""), (weak, "[cylinder.3]\ngas = 0\n")):
+        path.write_text(ENGINE + order + extra + WIEBE + block("loss = 0.1"), encoding="utf-8")
+    asked = ("--speeds", "700:900:50", "-f", "json")
+    of_option = run_here("mounts", fired, "--misfire", "3", *asked).out
+    assert json.loads(of_option) == json.loads(run_here("mounts", weak, *asked).out)
+    beside = json.loads(run_here("mounts", fired, weak, "--misfire", "1", *asked).out)
+    assert beside["response"]["no_gas_in"] == [1]
+    assert "no gas in 1, 3" in run_here("mounts", fired, weak, "--misfire", "1").out
+
+
+def test_what_cannot_misfire_is_told(four, tmp_path):
+    told = refusal("mounts", four, "--misfire", "1")
+    assert told.startswith(f"{four}: has no [gas]; give a diagram, a cycle or harmonics")
+    fired = tmp_path / "fired.toml"
+    order = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
+    fired.write_text(ENGINE + order + WIEBE + block("loss = 0.1"), encoding="utf-8")
+    assert "--misfire 9: " in refusal("mounts", fired, "--misfire", "9")
+
+
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):
     path = tmp_path / "block.toml"
     path.write_text(block(), encoding="utf-8")
@@ -220,15 +289,17 @@ def test_picture(four, tmp_path, form):
             assert words.encode() in content
 
 
-@pytest.mark.parametrize("asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto")])
+@pytest.mark.parametrize(
+    "asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto"), ("--misfire", "1")]
+)
 def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path, asked):
     bare = tmp_path / "bare.toml"
     bare.write_text(block("loss = 0.1"), encoding="utf-8")
     status, out, err = run_here("mounts", bare, *asked)
     assert (status, out) == (0, run_here("mounts", bare).out)
     assert err == (
-        f"warning: {bare}: nothing shakes this body, so speeds, orders and schemes say nothing of "
-        "it: add [crank], [rod] and [piston], or name an engine file after this one\n"
+        f"warning: {bare}: nothing shakes this body, so speeds, orders, misfires and schemes say "
+        "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one\n"
     )
 
 

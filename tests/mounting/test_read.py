@@ -127,6 +127,19 @@ def test_inertias_in_kg_m2_are_doubted(tmp_path):
     )
 
 
+@pytest.mark.parametrize(
+    ("stiffness", "sag"),  # 200 kg x g over four mounts' mean stiffness
+    [("[200e3, 150e3, 400e3]", "0.002"), ("[0.2, 0.15, 0.4]", "2e+03")],
+)
+def test_mounts_that_give_way_like_none_are_doubted(tmp_path, stiffness, sag):
+    path = tmp_path / "x.toml"
+    path.write_text(block().replace("[200, 150, 400]", stiffness), encoding="utf-8")
+    assert read_mounted(path).doubts == (
+        f"mount.stiffness: under its weight the body would sink by about {sag} mm, where 0.02 to 200 "
+        'mm is usual; is it in N/mm? Another unit is said as in "250 kN/m"',
+    )
+
+
 @pytest.mark.parametrize("one", ["300", '"300 N/mm"'])
 def test_one_stiffness_holds_along_all_three_axes(tmp_path, one):
     path = tmp_path / "body.toml"

@@ -58,6 +58,18 @@ def test_inner_as_json():
     )
 
 
+def test_without_bearings_bending_ends_with_the_free_moment_about_the_last_place():
+    """An engine of two throws in phase has a free force, and so another moment about its middle."""
+    about_middle = inline_engine([0, 0])
+    about_last = inline_engine([0, 0], more="[frame]\nreference = [0, 0, 50]\n")
+    told = shown(about_middle, only=["inner"])
+    assert "at the last place is the free moment of all these loads about it" in told
+    last = document(about_middle, only=["inner"])["inner"]["sections"][-1]
+    assert last["position_mm"] == pytest.approx(50)
+    assert last["bending_Nm"]["peak"] == pytest.approx(analyze(about_last).moment.value)
+    assert analyze(about_middle).moment.value == pytest.approx(0, abs=1e-6)
+
+
 def test_guide_as_json():
     found = document(inline_engine([0, 180]), only=["guide"], orders=[1, 2])["guide"]
     assert found["includes"] == "inertia, without gas"
@@ -176,6 +188,62 @@ def test_in_brief_the_verdict_comes_first_and_only_orders_that_matter():
     every = View(every_order=True)
     assert parts(inline_engine(WIDE), every, orders=[4, 6]) == (BRIEF, ["4", "6"])
     assert "10" in parts(inline_engine(WIDE), View(whole=True))[1]
+
+
+def test_at_uneven_speed_no_order_has_a_cure_of_its_own():
+    """Of a crank whose throw is all that shakes, order 2 is what order 1 of the speed makes of it:
+    its counterweight takes that as well, and no shaft at twice the speed is wanted.
+    """
+    throw_alone = """
+[crank]
+stroke = 80
+throw_mass = 1
+[rod]
+length = 140
+[piston]
+mass = 1e-9
+[operation]
+speed = 3000
+"""
+    ripple = "speed_ripple = [{ order = 1, amplitude = 0.1 }]\n"
+    weight = "[[counterweight]]\nunbalance = 40000\nangle = 180\n"
+    uneven, balanced = (build_text(throw_alone + ripple + more) for more in ("", weight))
+    second, left = (
+        analyze(engine, orders=[2]).spectra.force.major[0] for engine in (uneven, balanced)
+    )
+    assert left < 1e-6 * second
+    told, steady = (
+        " ".join(shown(engine, only=["force", "moment", "sizing"]).split())
+        for engine in (uneven, build_text(throw_alone))
+    )
+    assert "Second order: force of" in told
+    assert "nothing on the crankshaft" not in told
+    assert "what cancels an order at steady speed" in told
+    assert "no free force or moment of orders 1 and 2 at steady speed" in told
+    assert "counterweights cancel" in steady
+    assert "steady" not in steady
+    whole = analysis.sheet(analyze(uneven), SYSTEMS["si"], View(whole=True)).parts
+    book = next(part for part in whole if part.title == "Free force in textbook units")
+    assert [row[1] for row in book.rows][:3] == ["balanced", "1", "1"]
+    assert book.note.endswith("without devices, at steady speed.")
+
+
+@pytest.mark.parametrize("gas", ["", '[gas]\ncycle = "otto"\ncompression_ratio = 9\nimep = 8\n'])
+@pytest.mark.parametrize("view", [IN_BRIEF, View(whole=True)])
+def test_couple_and_roll_are_told_to_be_about_the_point_of_reference(gas, view):
+    """A force on the crank axis has a lever about a point beside it; about one along it none."""
+    told = [
+        analysis.sheet(
+            analyze(build_text(f"{GOOD}{gas}[frame]\nreference = {point}\n")), SYSTEMS["si"], view
+        )
+        for point in ([0, 0, 300], [0, 50, 300])
+    ]
+    on_axis, beside = ([p.title for p in s.parts if p.title.startswith("About")] for s in told)
+    assert bool(on_axis) == bool(gas or view is not IN_BRIEF)
+    assert [
+        title.replace("the crank axis", "the point of reference") for title in on_axis
+    ] == beside
+    assert all("the crank axis" in title for title in on_axis)
 
 
 def test_what_is_left_out_is_named_in_one_line():

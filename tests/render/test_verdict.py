@@ -147,3 +147,27 @@ def test_what_is_small_beside_one_cylinder_is_negligible(
 
     found = Spectra(orders, force=phasors(force), moment=phasors(moment))
     assert verdict(found, SI, {"force": 1000.0, "moment": 2000.0}) == told
+
+
+def test_of_many_higher_orders_the_lowest_are_told_and_the_largest_of_the_others() -> None:
+    """Near the lock hundreds of orders matter; each has a row in the table."""
+    orders = np.arange(1.0, 41)
+    half = 1000 / orders
+    force = Phasors.of(orders, half + 0j, half + 0j, np.zeros(40))
+    first, second, *told = verdict(Spectra(orders, force=force), SI)
+    assert first.startswith("First order: ")
+    assert second.startswith("Second order: ")
+    assert [line.split(" order")[0] for line in told[:-1]] == [
+        *("Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth", "9th", "10th"),
+    ]
+    assert told[-1] == "30 more, of orders 11 to 40: at most a force of 181.8 N in order 11."
+
+
+@pytest.mark.parametrize(
+    ("order", "name"), [(11, "11th"), (21, "21st"), (22, "22nd"), (13, "13th")]
+)
+def test_ordinals(order: int, name: str) -> None:
+    one = np.array([5 + 0j])
+    force = Phasors.of(np.array([float(order)]), one, one, np.zeros(1))
+    (told,) = verdict(Spectra(np.array([float(order)]), force=force), SI)
+    assert told.startswith(f"{name} order: force up to 10 N; ")

@@ -163,6 +163,19 @@ def test_uneven_speed_is_said(file):
     assert "steady mean speed" in run(file).out
 
 
+def test_what_is_balanced_is_so_at_steady_speed(tmp_path, file):
+    """Uneven speed makes order 2 of what orders 4 and 6 are."""
+    six = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120, 240, 240, 120, 0]"),
+        ("firing_order = [1, 3, 4, 2]", "strokes = 4"),
+    )
+    path = tmp_path / "six.toml"
+    path.write_text(six)
+    assert "Orders 1 and 2 are balanced.\n" in run(path).out
+    path.write_text(six + "speed_ripple = [{ order = 4, amplitude = 0.1 }]\n")
+    assert "Orders 1 and 2 are balanced at steady speed.\n" in run(path).out
+
+
 def test_written_file_reads_back(file, tmp_path):
     doc = document(file, "--scheme", "auto", "--write", tmp_path / "out.toml")
     result = run_here("analyze", tmp_path / "out.toml", "--format", "json")
@@ -235,6 +248,17 @@ def test_a_rotary_engine_has_no_factor(tmp_path):
     assert "the cylinders turn and the crank pins stand still" in refusal(
         "balance", file, "--scheme", "factor"
     )
+
+
+def test_weights_of_a_rotary_engine_stand_on_its_cylinders(tmp_path, file):
+    path = tmp_path / "rotary.toml"
+    path.write_text(
+        SINGLE.replace("strokes = 4", "radial = 5\nrotary = true")
+        + "[cylinder.2]\npiston_mass = 0.6\n"
+    )
+    told = "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis"
+    assert told in run(path).out
+    assert "Counterweights stand" not in run(file).out
 
 
 def test_the_engine_file_itself_is_never_written(file):
@@ -318,6 +342,19 @@ def test_lengths_of_tools_are_positive(name, length):
         find_practical(engine(), Remedy(""), Tools(**{name: length}))
 
 
+@pytest.mark.parametrize(
+    ("tools", "told"),
+    [
+        # the crank radius of 45 mm; mm where m are wanted
+        (Tools(drill=0.0901), "--drill: a hole of 90.1 mm is wider than its rim of radius 45 mm"),
+        (Tools(drill=12, radius=0.08), "--drill: a hole of 12000 mm is wider than its rim of "),
+    ],
+)
+def test_a_hole_is_narrower_than_its_rim(tools, told):
+    with pytest.raises(BalcliError, match=f"^{re.escape(told)}"):
+        find_practical(engine(), Remedy(""), tools)
+
+
 def test_a_hole_ends_at_the_axis():
     """Drilled from the rim to the axis, `rim^2/2` times area and density is removed: that much, and
     no more.
@@ -325,6 +362,16 @@ def test_a_hole_ends_at_the_axis():
     most = STEEL * math.pi / 4 * 0.01**2 * 0.05**2 / 2
     assert find_drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
     assert math.isnan(find_drill_depth(most * (1 + 1e-14), 0.05, 0.01))
+
+
+def test_a_slider_is_no_disc(file):
+    told = run(file, "--scheme", "slider", "--order", "2").out
+    (row,) = [line.split() for line in told.splitlines() if line.startswith("1 slider")]
+    assert row[-2:] == ["–", "–"]
+    assert "mass at an amplitude of 45 mm." in told
+    assert "centrifugal" not in told
+    assert "Of sliders: the phase at crank angle 0, along a path that counts from x." in told
+    assert "Of sliders" not in run(file).out
 
 
 def test_sliders_move_at_their_order():
@@ -468,3 +515,28 @@ def test_orders_that_are_negligible_before_and_after_are_told_in_one_line() -> N
     assert note.endswith(f", moment {moment:.4g} N·m, roll {roll:.4g} N·m).")
     asked = list_orders("--orders", "1,8,9")
     assert [row.split()[0] for row in asked] == ["1", "8", "9"]
+
+
+NEGLIGIBLE_ORDER = "Order {} is negligible beside one cylinder, hardly worth a device."
+
+
+def test_a_scheme_for_a_negligible_order_says_so():
+    """The only force of a three is that of order 6, a ten thousandth of one cylinder's; the only
+    one of a nine-cylinder star that turns against the crank that of order 8.
+    """
+    assert NEGLIGIBLE_ORDER.format(6) in run(ENGINES / "i3.toml", "--scheme", "single-shaft").out
+    assert (
+        NEGLIGIBLE_ORDER.format(8) in run(ENGINES / "radial9.toml", "--scheme", "single-shaft").out
+    )
+    for order in (2, 4, 6):
+        out = run(ENGINES / "i4.toml", "--scheme", "two-shaft", f"--order={order}").out
+        assert (NEGLIGIBLE_ORDER.format(order) in out) == (order == 6)
+    out = run(ENGINES / "i4.toml", "--scheme", "two-shaft", "--order=2", "--orders=1").out
+    assert "hardly worth" not in out
+
+
+def test_notes_are_sentences():
+    note = (
+        "There is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments."
+    )
+    assert note in run(ENGINES / "i3.toml", "--scheme", "four-shaft").out.splitlines()

@@ -376,6 +376,17 @@ def test_a_node_alone_swings_rigidly(tmp_path):
     )
 
 
+@pytest.mark.parametrize("fixed", ["a", "b"])
+def test_at_a_fixed_node_the_angle_is_left_over(fixed):
+    """The reaction stood there as left over, of a natural mode, too."""
+    text = f'fixed = ["{fixed}"]\n' + node("a", 2) + node("b", 2)
+    text += '[[shaft]]\nfrom = "a"\nto = "b"\nstiffness = 800\n'  # 20 rad/s
+    asked = ("--holzer", "1", "--holzer", "10 rad/s")
+    out = run_here("torsion", "-", *asked, stdin=text).out
+    told = f"Left over at the end: the angle of {fixed}, which is fixed"
+    assert re.findall(f"^{told}, (.*)\\.$", out, re.MULTILINE) == ["0", "0.75"]
+
+
 @pytest.mark.parametrize("first", ["a", "hub"])
 def test_a_mode_that_no_table_can_follow_has_none(first):
     """Two equal branches swing against each other, and the hub is at rest: torques of 1e16 or 14
@@ -496,19 +507,28 @@ PENDULUMS = 'damper = { kind = "pendulum", mass = 2, radius = 160, length = 10 }
 
 
 @pytest.mark.parametrize(
-    ("dampers", "told"),
+    ("dampers", "told", "shifted"),
     [
-        (("", ""), ""),
-        ((RING, ""), " Rings in oil are left out, as if they were not there."),
-        (("", PENDULUMS), " Pendulums are left out; they follow the order."),
+        (("", ""), "", ""),
+        (
+            (RING, ""),
+            " Rings in oil are left out, as if they were not there.",
+            " Without rings in oil, which shift them.",
+        ),
+        (
+            ("", PENDULUMS),
+            " Pendulums are left out; they follow the order.",
+            " Without pendulums, which shift them.",
+        ),
         (
             (RING, PENDULUMS),
             " Rings in oil are left out, as if they were not there. So are pendulums, which follow "
             "the order.",
+            " Without rings in oil and pendulums, which shift them.",
         ),
     ],
 )
-def test_what_modes_leave_out_is_said_and_tiny_orders_are_not_named(dampers, told):
+def test_what_modes_leave_out_is_said_and_tiny_orders_are_not_named(dampers, told, shifted):
     first, second = dampers
     chain = """
         node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 2e6 }]
@@ -521,6 +541,7 @@ def test_what_modes_leave_out_is_said_and_tiny_orders_are_not_named(dampers, tol
     chain = chain.replace("inertia = 2e6", f"inertia = 2e6, {second}".rstrip(", "))
     out = run_here("torsion", "-", "--speeds", "1000:2000:500", stdin=chain).out
     assert f"\nNode in: the shafts whose ends turn against each other.{told}\n" in out
+    assert f"share: of all work done on the mode. Of orders to 2.{shifted}\n" in out
     row = next(line for line in out.splitlines() if line.startswith("a-b  "))
     assert re.search(r" 1: [\d.]+$", row), "order 1 alone"
 

@@ -286,7 +286,7 @@ def test_a_rigid_part_adds_to_its_neighbour():
 BAD_PARTS = """
 [torsion]
 throw_inertia = [40000, 40000]
-throw_stiffness = [1, 2]
+throw_stiffness = [1e6, 2e6]
 [[torsion.front]]
 name = "a"
 stiffness = 1
@@ -370,7 +370,7 @@ def test_every_misfit_of_torsion_is_told_by_its_path():
             'in N m/rad, or "1.25e6 N m/rad" or "24.17e6 lbf in/rad", above 0',
         ),
         (
-            "[torsion]\nthrow_stiffness = 1",
+            "[torsion]\nthrow_stiffness = 1e6",
             "torsion.throw_inertia: is missing; give it, such as throw_inertia = 46700, or inertia of "
             "the whole [crank]",
         ),

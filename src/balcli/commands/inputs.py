@@ -15,7 +15,6 @@ from ..engine.build import NO_GAS, Engine
 from ..engine.load import build_named, parse
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.model import EngineFile
-from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import find_near_file, name_file, read_bytes
 from ..errors import BalcliError, Exit, is_verbose, legible, note, say, warn
 from .options import WORDS_OF_ONLY
@@ -64,9 +63,7 @@ def read_engine(
         _tell_unknown(name_file(path), asked)
     if "gas" in (asked or ()):
         require_gas(engine, path)
-    doubts = engine.gas.doubts if engine.gas is not None else ()
-    for warning in (*find_suspicious(model), *doubts):
-        warn(f"{name_file(path)}: {warning}")
+    warn_each(engine.unlikely, name_file(path))
     if speed_rpm is not None:
         engine = replace(engine, speed_rpm=speed_rpm, model=None)
     return LoadedEngine(text, model, engine)
@@ -95,6 +92,12 @@ def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
 def warn_of_unknown_moments(name: str) -> None:
     """Say on standard error that the moments of this file are not known, and why."""
     warn(f"{name}: {MOMENTS_UNKNOWN}")
+
+
+def warn_each(doubts: Iterable[str], name: str) -> None:
+    """Say on standard error what is doubted of this file."""
+    for doubt in doubts:
+        warn(f"{name}: {doubt}")
 
 
 def try_each(paths: Iterable[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:

@@ -16,6 +16,7 @@ from .file_names import picture_form, text_format
 from .options import (
     EnginePaths,
     FormatOption,
+    Misfire,
     Output,
     UnitsOption,
     parse_orders,
@@ -40,6 +41,7 @@ def mounts(
     paths: EnginePaths,
     speeds: Speeds = None,
     orders: Orders = None,
+    misfire: Misfire = None,
     scheme: scheme_options.Scheme = None,
     order: scheme_options.Order = None,
     at: scheme_options.At = None,
@@ -80,15 +82,16 @@ def mounts(
     from ..mounting.report import report_mounts
     from ..render import mounts as renderer
 
-    model, engine, beside = _read_files(paths)
+    model, engine, beside = _read_files(paths, misfire or ())
     with reporting("work") as tell:
         result = report_mounts(
             model, engine, rpm, asked, scheme, beside, name_file(paths[0]), tell, options
         )
-    if result.response is None and any((speeds, orders, scheme)):
+    if result.response is None and any((speeds, orders, scheme, misfire)):
         warn(
-            f"{name_file(paths[0])}: nothing shakes this body, so speeds, orders and schemes say "
-            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
+            f"{name_file(paths[0])}: nothing shakes this body, so speeds, orders, misfires and "
+            "schemes say nothing of it: add [crank], [rod] and [piston], or name an engine file "
+            "after this one"
         )
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import make_mounts  # brings matplotlib
@@ -98,15 +101,18 @@ def mounts(
 
 
 def _read_files(
-    paths: Sequence[str],
+    paths: Sequence[str], misfires: Sequence[int]
 ) -> tuple[EngineFile, Engine | None, list[tuple[str, Engine]]]:
-    """A body on its mounts with its engine, if there is one, and engines to show beside by name."""
+    """A body on its mounts with its engine, if there is one, and engines to show beside by name;
+    each with these cylinders without gas.
+    """
     from ..mounting.read import read_mounted
-    from .inputs import name_engines, read_engine
+    from .inputs import name_engines, read_engine, silence_cylinders, warn_each
 
     model, engine, doubts = read_mounted(paths[0])
-    for doubt in doubts:
-        warn(f"{name_file(paths[0])}: {doubt}")
-    others = [read_engine(path).engine for path in paths[1:]]
+    warn_each(doubts, name_file(paths[0]))
+    if engine is not None:
+        engine = silence_cylinders(engine, misfires, paths[0])
+    others = [silence_cylinders(read_engine(path).engine, misfires, path) for path in paths[1:]]
     names = name_engines([model.name, *(other.name for other in others)], paths)
     return model, engine, list(zip(names[1:], others, strict=True))

@@ -81,13 +81,14 @@ def search(
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
     from ..studies.search.write import write_design
+    from .inputs import warn_each
 
     if require not in ("", "even-firing"):
         message = f'"{require}": only even-firing can be required'
         raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
-    build_named(model, name)  # what is wrong with the file itself is told with its name
+    warn_each(build_named(model, name).unlikely, name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)

@@ -119,12 +119,10 @@ def sweep(
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out
-    from .inputs import warn_of_unknown_moments
     from .sweep_folder import write_parts
 
     job = read_sweep(path, vary, quantity)
-    if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
-        warn_of_unknown_moments(job.name)
+    _doubt(job, quantity)
     if drawn is not None:
         check_drawable(job)
     kept: list[Chunk] | None = [] if drawn else None
@@ -139,6 +137,20 @@ def sweep(
     exit_if_cut_short(watch, place)
     if plot is not None and drawn is not None:
         write_figure(make_sweep(job, join_chunks(job, kept or ()), drawn), drawn, plot)
+
+
+def _doubt(job: Sweep, quantity: str | None) -> None:
+    """Say that moments are not known, where the usual quantities would have some, and what is
+    unlikely of the file, unless it varies.
+    """
+    from ..enginefile.suspicious import find_suspicious
+    from .inputs import warn_each, warn_of_unknown_moments
+
+    if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
+        warn_of_unknown_moments(job.name)
+    varied = [parameter.path for parameter in job.parameters]
+    doubts = find_suspicious(job.file)
+    warn_each((doubt for doubt in doubts if not any(p in doubt for p in varied)), job.name)
 
 
 def _choose_target(

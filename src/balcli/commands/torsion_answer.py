@@ -15,6 +15,7 @@ from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..torsion.write_damper import insert_damper
+from .inputs import warn_each
 from .progress import reporting
 from .speed_range import parse_speeds
 from .torsion_options import parse_half_orders
@@ -61,8 +62,7 @@ def find_answer(
 ) -> tuple[Source, TorsionAnalysis]:
     """The file and what was asked about it."""
     source = load_source(path, asked.orders, misfires)
-    for doubt in source.doubts():
-        warn(f"{name_file(path)}: {doubt}")
+    warn_each(source.doubts, name_file(path))
     with reporting("work", at_once=progress) as tell:
         found = answer_question(source, asked, tell)
     for doubt in found.damper.doubts if found.damper is not None else ():

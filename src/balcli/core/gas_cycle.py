@@ -130,6 +130,8 @@ def find_cycle_mistakes(
         yield GasError(goal.name, f"does not make a {kind} cycle: give {', '.join(most)} or {last}")
     if not p.compression_ratio > 1:
         yield GasError("compression_ratio", f"is {p.compression_ratio:g}: give more than 1")
+    if not p.intake > 0:
+        yield GasError("intake", f"is {p.intake / 1e5:g} bar: give more, for it is compressed")
     if not p.compression_index >= 1:
         yield GasError("compression_index", f"is {p.compression_index:g}: give 1 or more")
     if not p.expansion_index > 1:

@@ -75,12 +75,12 @@ def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex
 
 
 def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
-    """The same direction in (-turn/2, turn/2], any shape; `turn` is 180 for lines, 360 for
-    vectors.
+    """The same direction in (-turn/2, turn/2], any shape, nan of nan; `turn` is 180 for lines, 360
+    for vectors.
     """
     found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
     # The remainder of what is barely negative rounds to a whole turn.
-    return np.where(found > -turn / 2, found, turn / 2)
+    return np.where(found <= -turn / 2, turn / 2, found)
 
 
 @dataclass(frozen=True, eq=False)

@@ -238,6 +238,13 @@ class Assembly:
         return {number: pin - self.pins_deg[1] for number, pin in self.pins_deg.items()}
 
     @cached_property
+    def dead_centres_deg(self) -> dict[int, float]:
+        """Where the crank stands at each top dead centre, in [0, 360) after cylinder 1's."""
+        pins = {number: float(lead) for number, lead in self.leads_deg.items()}
+        tops = {number: float(top) for number, top in self.tops_deg.items()}
+        return firing.find_dead_centres(pins, tops, self.sense)
+
+    @cached_property
     def fires_deg(self) -> dict[int, Figure]:
         """When each cylinder fires, after the first of the firing order; empty without one.
 
@@ -247,9 +254,7 @@ class Assembly:
         if self.order is None or self._given_fires_deg:
             return self._given_fires_deg
         cycle = cycle_deg(self.model.layout)
-        pins = {number: float(lead) for number, lead in self.leads_deg.items()}
-        tops = {number: float(top) for number, top in self.tops_deg.items()}
-        intervals = firing.find_intervals(self.order, pins, tops, cycle, self.sense)
+        intervals = firing.find_intervals(self.order, self.dead_centres_deg, cycle)
         return firing.find_instants(self.order, intervals, cycle)
 
     # ------------------------------------------------------------------ places along the crank

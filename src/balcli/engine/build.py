@@ -20,6 +20,7 @@ from ..enginefile.plain_tables import list_tables
 from ..errors import BalcliError, InputError, check_type, wrong_type
 from .assembly import Assembly
 from .devices import build_devices
+from .even_order import doubt_firing_order
 from .positions import MOMENTS_UNKNOWN, are_places_known
 from .rules import find_contradictions
 from .split_pins import find_fitting_splay
@@ -182,11 +183,18 @@ class Engine:
     @property
     def doubts(self) -> tuple[str, ...]:
         """What its file says that is allowed and yet unlikely, in words; what is not known."""
+        unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
+        return (*unknown, *self.unlikely)
+
+    @property
+    def unlikely(self) -> tuple[str, ...]:
+        """What its file says that is allowed and yet unlikely, in words."""
         from ..enginefile.suspicious import find_suspicious
 
-        said = () if self.model is None else find_suspicious(self.model)
-        unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
-        return (*unknown, *said, *(() if self.gas is None else self.gas.doubts))
+        of_gas = () if self.gas is None else self.gas.doubts
+        if self.model is None:
+            return of_gas
+        return (*find_suspicious(self.model), *doubt_firing_order(self.model), *of_gas)
 
     @property
     def summary(self) -> str:

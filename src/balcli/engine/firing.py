@@ -56,15 +56,9 @@ def find_splay(pins: Iterable[Sequence[Figure]]) -> float | None:
     return round(leads[0], 3) + 0.0
 
 
-def find_intervals(
-    order: Sequence[int],
-    pins: Mapping[int, float],
-    tops: Mapping[int, float],
-    cycle: float,
-    sense: int = 1,
-) -> list[float]:
+def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: float) -> list[float]:
     """Intervals of a firing order on a given crank: from each firing to the next, the shortest that
-    the pins (after cylinder 1's) allow.
+    the dead centres (`find_dead_centres`) allow.
 
     Turns that are left over (an even parallel twin fires after 360 and 360 degrees, its pins only
     say 0) go to the intervals that become the least uneven by them, of equal ones to the last.
@@ -72,9 +66,6 @@ def find_intervals(
     Raises:
         InputError: the order takes more than a cycle.
     """
-    ready = {  # when each is at top dead centre, modulo a turn
-        i: float(np.remainder(sense * ((tops[i] - tops[1]) - pins[i]), 360.0)) for i in order
-    }
     following = [*order[1:], order[0]]
     intervals = [_to_whole_turn(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
     total = round(sum(intervals) / 360) * 360
@@ -84,6 +75,42 @@ def find_intervals(
         shortest = min(reversed(range(len(intervals))), key=intervals.__getitem__)
         intervals[shortest] += 360.0
     return intervals
+
+
+def find_dead_centres(
+    pins: Mapping[int, float], tops: Mapping[int, float], sense: int = 1
+) -> dict[int, float]:
+    """Where the crank stands when each cylinder is at top dead centre, in [0, 360) after cylinder
+    1, whose pin the others are counted from.
+    """
+    return {
+        i: float(np.remainder(sense * ((tops[i] - tops[1]) - pin), 360.0))
+        for i, pin in pins.items()
+    }
+
+
+def find_even_order(first: int, ready: Mapping[int, float], cycle: float) -> list[int] | None:
+    """Cylinders in the turn in which they fire evenly, one at a time; None where their dead centres
+    allow none.
+
+    Args:
+        first: the cylinder to begin with.
+        ready: dead centres of all, as `find_dead_centres` gives them.
+        cycle: 360 or 720 deg.
+    """
+
+    def place(angle: float) -> float:
+        return round((angle + TOLERANCE_DEG) % 360, 6)
+
+    begin, interval = ready[first], cycle / len(ready)
+    others = sorted(set(ready) - {first}, key=lambda i: (place(ready[i] - begin), i))
+    slots = sorted(range(1, len(ready)), key=lambda k: (place(k * interval), k))
+    turn = {0: first}
+    for k, i in zip(slots, others, strict=True):
+        if abs(float(_centred(ready[i] - begin - k * interval))) > TOLERANCE_DEG:
+            return None
+        turn[k] = i
+    return [turn[k] for k in range(len(turn))]
 
 
 def check_firing(

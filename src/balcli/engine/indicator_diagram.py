@@ -107,5 +107,5 @@ def list_doubts(
         if abs(measured - stated) > SAME_IMEP * abs(stated):
             yield (
                 f"gas.imep is {stated:g} bar, and the diagram has {measured:.4g} bar; a phase of "
-                "one degree makes about 7 %: is gas.phase right?"
+                "one degree makes 3 to 7 %: is gas.phase right?"
             )

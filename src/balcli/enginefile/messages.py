@@ -100,7 +100,7 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTab
         example = _find_example(table, loc) if kind == "tuple_type" else ""
         message = WORDS.get(kind, OTHER).format(value=shorten(value), example=example)
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
-        return Problem(join_path(path, loc[:-1]), f"the {_ordinal(loc[-1] + 1)} value {message}")
+        return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
     return Problem(join_path(path, loc), message)
 
 
@@ -151,7 +151,7 @@ def _describe_length(value: list[object], context: Mapping[str, object]) -> str:
     return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted"
 
 
-def _ordinal(number: int) -> str:
+def ordinal(number: int) -> str:
     """1st, 2nd, 3rd, 4th ..."""
     if number % 100 in (11, 12, 13):
         return f"{number}th"

@@ -6,6 +6,7 @@ remedy.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -26,6 +27,7 @@ CROSSHEAD_LAMBDA = 0.6  # with a crosshead rods are short
 LAMBDA_LOW, LAMBDA_HIGH = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
 BORE_SHORT, BORE_LONG = 0.2, 3.0  # bore / stroke: crosshead from 0.25, racing engines to 2.5
 ROD_LIGHT, ROD_HEAVY = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
+SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the
 # ends 1/4, and no rod between its two centres can have more; bosses and bolts beyond them add a
 # little.
@@ -39,17 +41,32 @@ THROW_HEAVY = 20.0  # unbalanced mass of a throw / its rods and pistons: engines
 BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
 # Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
 NEIGHBOURS_CLOSE = 0.9
+# deg, of all throws: cranks have 60 or more, or none; [1, 3, 4, 2] and radians have this little.
+THROWS_NEAR = 1.0, 10.0
 UNBALANCE_SHARE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 # Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip
 # from kg m^2 to kg mm^2 is a factor of a million.
 TURNING_LIGHT = 0.01
+# rad, by the work that a cylinder does at 10 bar as a torque: engines have 2e-4 to 5e-3; much
+# less is said of shafts that are taken for rigid.
+TWIST_MOST = 0.05
 SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is rounded, or has bolts
 
 
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     parts = (
-        *(_piston, _proportions, _rod, _inertia, _motion, _neighbours, _layout),
+        *(
+            _piston,
+            _proportions,
+            _rod,
+            _rod_ends,
+            _inertia,
+            _motion,
+            _neighbours,
+            _throw_angles,
+            _layout,
+        ),
         *(_throw, _bobweight, _counterweights, _rotary, _turning, _gas, _torsion),
     )
     return [warning for part in parts for warning in part(model)]
@@ -63,15 +80,15 @@ def _piston(model: EngineFile) -> Iterator[str]:
             "and locks"
         )
         return
-    if bore is None:
-        return
+    stroke = model.crank.stroke
+    bores = (BORE_SHORT * stroke, BORE_LONG * stroke) if bore is None else (bore, bore)
     heavy = CROSSHEAD_HEAVY if _has_crosshead(model) else PISTON_HEAVY
-    low, high = (limit * (bore * 1e-3) ** 3 for limit in (PISTON_LIGHT, heavy))
+    low, high = (k * (b * 1e-3) ** 3 for k, b in zip((PISTON_LIGHT, heavy), bores, strict=True))
     if not low <= mass <= high:
+        beside = f"at a stroke of {stroke:g}" if bore is None else f"in a bore of {bore:g}"
         yield (
-            f"{_name_piston_mass(model)} {mass:.4g} kg in a bore of {bore:g} mm, where "
-            f"{_round(low)} to {_round(high)} kg is usual; are the units right? Bare numbers are "
-            "kg and mm"
+            f"{_name_piston_mass(model)} {mass:.4g} kg {beside} mm, where {_round(low)} to "
+            f"{_round(high)} kg is usual; are the units right? Bare numbers are kg and mm"
         )
 
 
@@ -79,8 +96,9 @@ def _proportions(model: EngineFile) -> Iterator[str]:
     ratio = _lambda(model)
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA_HIGH
     if ratio is not None and not LAMBDA_LOW <= ratio <= most:
+        shown = f"{ratio:.4g}" if ratio < 0.999 else f"{ratio:.7g}"  # at 1 the crank locks
         yield (
-            f"crank radius / rod length is {ratio:.4g}, where {LAMBDA_LOW:g} to {most:g} is usual; "
+            f"crank radius / rod length is {shown}, where {LAMBDA_LOW:g} to {most:g} is usual; "
             "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
         )
     if model.piston.bore is not None:
@@ -109,6 +127,22 @@ def _rod(model: EngineFile) -> Iterator[str]:
         yield (
             f"rod.cg is {cg:g} mm, outside the rod (0 to {length:g} mm); it is measured from the "
             "big-end centre towards the small end"
+        )
+
+
+def _rod_ends(model: EngineFile) -> Iterator[str]:
+    """A rod that is heavier at its small end: measured from there, most likely."""
+    rod, length = model.rod, _rod_length(model)
+    small, big = rod.small_end, rod.big_end
+    if small is not None and big is not None and small > SMALL_END_HEAVY * (small + big):
+        yield (
+            f"rod.small_end is {small:.4g} kg, more than rod.big_end with {big:.4g} kg; are they "
+            "exchanged?"
+        )
+    if rod.cg is not None and length and SMALL_END_HEAVY * length < rod.cg <= length:
+        yield (
+            f"rod.cg is {rod.cg:g} mm, nearer to the small end than to the big end ({length:g} mm "
+            "apart); it is measured from the big-end centre"
         )
 
 
@@ -150,6 +184,17 @@ def _neighbours(model: EngineFile) -> Iterator[str]:
             f"crank.{key} puts neighbouring cylinders of one bank {gap:g} mm apart, which is less "
             f"than their bore of {bore:g} mm; is it in mm? Another unit is said as in "
             '"4.4 in" or "1.02 m"'
+        )
+
+
+def _throw_angles(model: EngineFile) -> Iterator[str]:
+    throws = model.crank.throws or (0.0,)
+    span = max(throws) - min(throws)
+    if THROWS_NEAR[0] <= span < THROWS_NEAR[1]:
+        yield (
+            f"crank.throws are all within {span:.4g} deg of one another; bare numbers are degrees, "
+            'another unit is said as in "1/2 turn" or "3.1416 rad", and numbers of cylinders stand '
+            "in layout.firing_order"
         )
 
 
@@ -259,6 +304,7 @@ def _torsion(model: EngineFile) -> Iterator[str]:
     """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
     if model.torsion is None:
         return
+    yield from _throw_stiffness(model.torsion, model)
     throws, whole = _throw_inertia(model.torsion, model), model.crank.inertia
     if whole is not None and throws > (1 + SAME_INERTIA) * whole:
         yield (
@@ -278,6 +324,20 @@ def _torsion(model: EngineFile) -> Iterator[str]:
                 f"[flywheel] has {flywheel / 1e6:.4g} kg m^2, and the part '{name}' of [torsion] "
                 f"{inertia / 1e6:.4g}: `torque` takes the one, `torsion` the other"
             )
+
+
+def _throw_stiffness(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """A crankshaft that the torque of a cylinder would wind up."""
+    if model.piston.bore is None or not torsion.throw_stiffness:
+        return
+    work = 1e-3 * math.pi / 4 * model.piston.bore**2 * model.crank.stroke  # J at 10 bar, N m
+    twist = work / min(torsion.throw_stiffness)
+    if twist > TWIST_MOST:
+        yield (
+            "torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by "
+            f"{twist:.2g} rad, where at most {TWIST_MOST:g} is usual; is it in N m/rad? Another "
+            'unit is said as in "1.2 MN m/rad"'
+        )
 
 
 def _flywheel_inertia(model: EngineFile) -> float:

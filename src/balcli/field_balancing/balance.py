@@ -288,17 +288,17 @@ def _find_permitted(file: RunsFile, k: int, wanted: complex, left: complex) -> P
 def _doubt_trials(result: FieldBalance) -> list[str]:
     """Trial weights that told little, and corrections far beyond them."""
     doubts = []
-    influence, file = result.influence, result.file
-    largest = float(np.abs(influence.found).max())
+    file, speeds = result.file, list(dict.fromkeys(result.influence.speeds_rpm))
     for p in result.planes:
-        k = file.planes.index(p.plane)
+        for speed in speeds:
+            change, largest = _find_change(result, p.plane, speed)
+            if change < _SMALL_CHANGE * largest:
+                at = f" at {speed:g} rpm" if len(speeds) > 1 else ""
+                doubts.append(
+                    f"the trial weight in {p.plane}{at} changes no reading by more than "
+                    f"{change:.3g}, {change / largest:.0%} of the largest; a heavier one tells more"
+                )
         trial = max(abs(run.weights[p.plane]) for run in file.run if p.plane in run.weights)
-        change = float(np.abs(influence.coefficients[:, k]).max()) * trial
-        if change < _SMALL_CHANGE * largest:
-            doubts.append(
-                f"the trial weight in {p.plane} changes no reading by more than {change:.3g}, "
-                f"{change / largest:.0%} of the largest; a heavier one tells more"
-            )
         if abs(p.total) > _FAR_BEYOND * trial:
             doubts.append(
                 f"the correction of {abs(p.total):.3g} {file.weight_unit} in {p.plane} is "
@@ -306,6 +306,18 @@ def _doubt_trials(result: FieldBalance) -> list[str]:
                 "again, and add that run to the file"
             )
     return doubts
+
+
+def _find_change(result: FieldBalance, plane: str, speed: float | None) -> tuple[float, float]:
+    """By how much the heaviest weight that was in a plane at a speed changes a reading, and the
+    largest reading there as found.
+    """
+    influence, file = result.influence, result.file
+    runs = [run for run in file.run if run.speed == speed and plane in run.weights]
+    trial = max(abs(run.weights[plane]) for run in runs)
+    here = [k for k, own in enumerate(influence.speeds_rpm) if own == speed]
+    moved = influence.coefficients[here, file.planes.index(plane)]
+    return trial * float(np.abs(moved).max()), float(np.abs(influence.found[here]).max())
 
 
 def find_eccentricity(file: RunsFile) -> float | None:

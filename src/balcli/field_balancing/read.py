@@ -129,6 +129,12 @@ def _check_shop(file: RunsFile) -> Iterator[Problem]:
         yield Problem.of_missing("radius", "a drill needs the radius of the rim, in every plane")
     if file.deepest is not None and file.drill is None:
         yield Problem.of_missing("drill", "deepest belongs to holes, which have a diameter")
+    if file.drill and file.radius and len(file.drill) == len(file.radius):
+        for k, (drill, rim) in enumerate(zip(file.drill, file.radius, strict=True), 1):
+            if drill > 2 * rim:
+                yield Problem(
+                    "drill", f"hole {k} of {drill:g} mm is wider than its rim of radius {rim:g} mm"
+                )
     if file.deepest and file.radius and len(file.deepest) == len(file.radius):
         for k, (depth, rim) in enumerate(zip(file.deepest, file.radius, strict=True), 1):
             if depth > rim:

@@ -235,12 +235,13 @@ class _Layout:
         if not sizes:
             return Reason(order, group, "none", 0.0)
         there = np.any([one > 0 for one in single.values()], axis=0)
-        sums = [(s.side, self._commensurable(s)) for s in self._sums(order, group, there)]
+        families = self._families(there)
+        sums = [(s.side, self._commensurable(s)) for s in self._sums(order, group, families)]
         exact = all(map(_vanishes, (sets for _, sets in sums)))
         size = 0.0 if exact else float(max(sizes))
         verdict: Verdict = "exact" if exact else _judge(size)
         multiples = self._multiples(row, group)
-        because = "" if verdict == "rounding" else _tell_why(sums)
+        because = "" if verdict == "rounding" else _tell_why(sums, alike=len(families) == 1)
         return Reason(order, group, verdict, size, *multiples, because)
 
     def _multiples(self, row: int, group: KindGroup) -> tuple[float | None, float | None, str]:
@@ -255,8 +256,8 @@ class _Layout:
         name = self._book.units.name(KINDS[group], order)
         return float(alone.major[row] / unit), float(built.major[row] / unit), name
 
-    def _sums(self, order: float, group: KindGroup, there: NDArray[np.bool_]) -> Iterator[_Sum]:
-        """All that must vanish; `there`: which cylinders have this order at all."""
+    def _sums(self, order: float, group: KindGroup, families: list[list[int]]) -> Iterator[_Sum]:
+        """All that must vanish, of the cylinders that have this order at all."""
         turning = group == "turning"
         arms = self._arms if group == "moment" else np.ones(self._c.count)
         masses = [self._c.reciprocating]
@@ -265,7 +266,7 @@ class _Layout:
         if turning:
             masses.append(self._c.couple)
         sides = (0,) if turning else (1, -1)
-        for mass, rows, side in product(masses, self._families(there), sides):
+        for mass, rows, side in product(masses, families, sides):
             yield _Sum(rows, mass * arms, order, side)
         if order == 1 and not turning:
             yield _Sum(list(range(self._c.count)), self._c.rotating * arms, 1, 1)
@@ -324,11 +325,12 @@ def _vanishes(sets: list[list[Term]]) -> bool:
     return all(vanishes([t.weight for t in one], [t.angle for t in one]) for one in sets)
 
 
-def _tell_why(sums: list[tuple[int, list[list[Term]]]]) -> str:
+def _tell_why(sums: list[tuple[int, list[list[Term]]]], *, alike: bool) -> str:
     """What cancels: of all sums, or of those of one sense of rotation; or that all add up.
 
     Args:
         sums: the side of each, and its sets of commensurable terms.
+        alike: whether all are of one mechanism, and so have one phase at equal angles.
     """
     of_side = {side: [sets for s, sets in sums if s == side] for side, _ in sums}
     told = {
@@ -346,8 +348,8 @@ def _tell_why(sums: list[tuple[int, list[list[Term]]]]) -> str:
         sense = "with" if side == 1 else "against"
         return f"but nothing turns {sense} the crank: {cancelled}" if cancelled else ""
     every = [one for _, sets in sums for one in sets]
-    together = all(len(sets) <= 1 for _, sets in sums) and all(map(are_in_phase, every))
-    return "all in phase" if together else ""
+    together = alike and all(len(sets) <= 1 for _, sets in sums)
+    return "all in phase" if together and all(map(are_in_phase, every)) else ""
 
 
 def _as_number(order: float) -> float:

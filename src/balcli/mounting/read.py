@@ -13,10 +13,11 @@ from ..engine.load import build_named
 from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
 from ..enginefile.read import REQUIRED, Draft, read_tables
-from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, read_bytes
+from ..enginefile.units import STANDARD_GRAVITY
 from .build import find_mounting_faults
 
+SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber gives way by 1 to 20
 SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines have 0.2 to 1
 
 
@@ -50,10 +51,24 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
         contradictions = find_contradictions(whole) if has_engine and draft.has_mistakes else []
         raise draft.refusal([*contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
-    of_engine = find_suspicious(draft.model) if engine is not None else []
-    return MountedFile(
-        draft.model, engine, (*of_engine, *_doubt_tensor(draft.model), *_doubt_size(draft.model))
+    of_engine = () if engine is None else engine.unlikely
+    doubts = (
+        each for doubt in (_doubt_tensor, _doubt_size, _doubt_sag) for each in doubt(draft.model)
     )
+    return MountedFile(draft.model, engine, (*of_engine, *doubts))
+
+
+def _doubt_sag(model: EngineFile) -> Iterator[str]:
+    """Mounts that hold the body as no mounts do: a stiffness in N/m, most likely."""
+    if model.body is None:
+        return
+    sag = STANDARD_GRAVITY * model.body.mass / sum(sum(m.stiffness) / 3 for m in model.mount)
+    if not SAG_LEAST <= sag <= SAG_MOST:
+        yield (
+            f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
+            f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; is it in N/mm? Another unit is said as in "
+            '"250 kN/m"'
+        )
 
 
 def _doubt_size(model: EngineFile) -> Iterator[str]:

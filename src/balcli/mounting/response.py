@@ -17,14 +17,16 @@ from ..core.rigid_body import (
     BodyResponse,
     carry_points,
     load_at_centre,
+    mass_matrix,
     move_points,
+    press_mounts,
     respond_body,
 )
 from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_others
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
-from ..core.vibration import UNDAMPED, find_resonances, frequencies
+from ..core.vibration import UNDAMPED, UndampedResonanceError, find_resonances, frequencies
 from ..engine.build import NONE_SILENT, Engine, SilentCylinders
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
@@ -105,12 +107,14 @@ class LargestAmplitude(NamedTuple):
         omega: rad/s, where it is reached.
         order: which is the largest there by itself.
         alone: N or m, that order's own.
+        mode: whose motion makes most of that, from 0.
     """
 
     value: float
     omega: float
     order: float
     alone: float
+    mode: int
 
     @property
     def speed_rpm(self) -> float:
@@ -261,7 +265,13 @@ def _find_peaks(orders: Real, curves: Complex, tell: Tell) -> Real:
 
 def _move(mounted: MountedBody, loads: BodyLoads, omega: Real) -> BodyResponse:
     w = frequencies(loads.orders, omega)
-    return respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
+    try:
+        return respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
+    except UndampedResonanceError as error:  # resonances are refused before
+        raise BalcliError(
+            f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in rounding "
+            "errors, so far apart are stiffness and damping of the mounts: is damping in N s/mm?"
+        ) from None
 
 
 def _list_curves(mounted: MountedBody, found: BodyResponse) -> Complex:
@@ -339,27 +349,44 @@ def _find_worst(
     rising = np.argsort(np.concatenate([omega, about]))
     speeds, heights = np.concatenate([omega, about])[rising], heights[rising]
 
-    def list_own(speeds: Real, curve: NDArray[np.intp]) -> Complex:
-        each = np.arange(len(curve))
-        return _list_curves(mounted, _move(mounted, loads, speeds))[:, each, curve]
-
     def judge(at: Real, curve: NDArray[np.intp]) -> Real:
-        return np.array([find_longest(loads.orders, list_own(one, curve)).value for one in at])
+        each = np.arange(len(curve))
+        moved = (_list_curves(mounted, _move(mounted, loads, one))[:, each, curve] for one in at)
+        return np.array([find_longest(loads.orders, own).value for own in moved])
 
     best, _ = find_highest(judge, speeds, heights, heights.max(axis=0), _NEAR)
-    own = list_own(best, np.arange(len(best)))
+    found, each = _move(mounted, loads, best), np.arange(len(best))
+    own = _list_curves(mounted, found)[:, each, each]
     value = find_longest(loads.orders, own).value
     alone = largest_of_ellipse(own)
     leading = alone.argmax(axis=0)
+    orders = loads.orders[leading]
+    mode = _find_leading_modes(mounted, modes, orders * best, found.motion[leading, each])
     return tuple(
         LargestAmplitude(
             float(value[k]),
             float(best[k]),
-            float(loads.orders[leading[k]]),
+            float(orders[k]),
             float(alone[leading[k], k]),
+            int(mode[k]),
         )
         for k in range(len(best))
     )
+
+
+def _find_leading_modes(
+    mounted: MountedBody, modes: BodyModes, frequency: Real, motion: Complex
+) -> NDArray[np.intp]:
+    """Which mode (curves,) makes most of each curve, mounts first, then points, where the body
+    moves by (curves, 6) at a frequency (curves,) in rad/s.
+    """
+    shapes, body = modes.modes.shapes, mounted.body
+    parts = (shapes @ mass_matrix(body) @ motion.T)[..., None] * shapes[:, None]
+    every = np.broadcast_to(frequency, parts.shape[:2])
+    forces = press_mounts(body, mounted.dynamic, every, parts)
+    each = np.arange(len(motion))
+    curves = _list_curves(mounted, BodyResponse(parts, forces))[:, each, each]
+    return np.asarray(np.linalg.norm(curves, axis=-1).argmax(axis=0))
 
 
 def _press_some(mounted: MountedBody, loads: BodyLoads, omega: Real) -> Iterator[Real]:

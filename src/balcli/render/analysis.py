@@ -12,7 +12,7 @@ from ..forces.spectrum import Spectra
 from ..results.analysis import Analysis, Sizing
 from . import crankshaft, guide_moments, strokes, symmetry
 from .devices import device_grid
-from .engine_facts import engine_facts, speed_facts
+from .engine_facts import engine_facts, speed_facts, tell_pivot
 from .gas_torque import gas_grid, tell_rocking
 from .order_tables import (
     cylinder_table,
@@ -28,7 +28,7 @@ from .overview import (
     tell_others,
     vectors_grid,
 )
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, sentence
 from .terminal_plot import sketches
 from .units import System
 from .verdict import verdict
@@ -90,8 +90,8 @@ def _known_spectra(result: Analysis) -> Spectra:
 def _all_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """All tables of all orders."""
     spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
-    with_gas = result.engine.gas is not None
-    yield from order_tables(spectra, system, with_gas=with_gas, every=every)
+    pivot, with_gas = tell_pivot(result.engine), result.engine.gas is not None
+    yield from order_tables(spectra, system, pivot, with_gas=with_gas, every=every)
     yield from direction_tables(spectra, system, every=every)
     if spectra.vectors():
         yield from textbook_tables(result.textbook, system, every=every)
@@ -109,8 +109,8 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     tables: list[Grid] = []
     if view.parts.intersection(EVERY_KIND):
         named = spectra.only(view.parts | (GAS_KINDS.keys() if GAS.name in view.parts else set()))
-        with_gas = result.engine.gas is not None
-        tables += order_tables(named, system, with_gas=with_gas, every=every)
+        pivot, with_gas = tell_pivot(result.engine), result.engine.gas is not None
+        tables += order_tables(named, system, pivot, with_gas=with_gas, every=every)
     if "xy" in view.parts:
         tables += direction_tables(spectra, system, every=every)
     if "textbook" in view.parts:
@@ -133,7 +133,13 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         yield vectors_grid(vectors, shown, system, hints=view.hints)
     if (facts := roll_and_peaks(result, system)).pairs:
         yield facts
-    yield from gas_grid(result.spectra, system, every_order=view.every_order, hints=view.hints)
+    yield from gas_grid(
+        result.spectra,
+        system,
+        tell_pivot(result.engine),
+        every_order=view.every_order,
+        hints=view.hints,
+    )
 
 
 def _peaks(result: Analysis, system: System) -> Iterator[Facts]:
@@ -145,10 +151,11 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
     """The verdict; of forces alone where moments are not known, which it then says."""
     spectra, known = _known_spectra(result), result.moments_known
     if result.spectra.vectors():
-        told = verdict(spectra, system, result.of_one_cylinder)
-        if rocking := tell_rocking(spectra, system):
+        steady = not result.engine.ripple
+        told = verdict(spectra, system, result.of_one_cylinder, steady=steady)
+        if rocking := tell_rocking(spectra, system, tell_pivot(result.engine)):
             told = (*told, rocking)
-        yield Text("Verdict", told if known else (*told, capitalized(f"{MOMENTS_UNKNOWN}.")))
+        yield Text("Verdict", told if known else (*told, sentence(MOMENTS_UNKNOWN)))
 
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
@@ -164,10 +171,11 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
             ),
         )
         return
+    steady = ", at steady speed" if after.engine.ripple else ""
     yield Text(
-        "Sizing: what leaves no free force or moment of orders 1 and 2"
+        f"Sizing: what leaves no free force or moment of orders 1 and 2{steady}"
         if after.moments_known
-        else "Sizing: what leaves no free force of orders 1 and 2 (moments are not known)",
+        else f"Sizing: what leaves no free force of orders 1 and 2{steady} (moments are not known)",
         tuple(dict.fromkeys(remedy.reasons)),
     )
     yield device_grid(remedy, system)

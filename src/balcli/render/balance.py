@@ -39,10 +39,10 @@ from .sheet import (
     Grid,
     Sheet,
     Text,
-    capitalized,
     degrees,
     number,
     order_name,
+    sentence,
     size_cell,
 )
 from .units import SI, ShownUnit, System
@@ -50,6 +50,12 @@ from .units import SI, ShownUnit, System
 if TYPE_CHECKING:
     from ..forces.spectrum import Spectra
     from ..results.analysis import Analysis
+
+
+_TURNING_WEIGHTS = (
+    "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis; the "
+    "crank stands still."
+)
 
 
 def sheet(result: Balance, system: System) -> Sheet:
@@ -65,14 +71,18 @@ def sheet(result: Balance, system: System) -> Sheet:
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
     else:
-        why = () if remedy.note or not known else ("Orders 1 and 2 are balanced.",)
+        steady = " at steady speed" if result.before.engine.ripple else ""
+        balanced = f"Orders 1 and 2 are balanced{steady}."
+        why = () if remedy.note or not known else (balanced,)
         parts.append(Text("Nothing is fitted", why))
     growing, engine = tell_growing_rolls(result, system), result.before.engine
     assumed = tell_assumed_speed(engine.model) if is_speed_assumed(engine) else ""
-    if notes := tuple(filter(None, (remedy.note, *growing, assumed))):
+    turning = _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else ""
+    note = remedy.note and sentence(remedy.note)
+    if notes := tuple(filter(None, (note, _tell_negligible(result), turning, *growing, assumed))):
         parts.append(Text("Note", notes))
     if not known:
-        parts.append(Text("Forces alone", (capitalized(f"{MOMENTS_UNKNOWN}."),)))
+        parts.append(Text("Forces alone", (sentence(MOMENTS_UNKNOWN),)))
     parts += _permitted(result, system)
     parts += details_parts(result, system)
     parts += [_orders(result, system), _peaks(result, system)]
@@ -80,6 +90,22 @@ def sheet(result: Balance, system: System) -> Sheet:
         f"{result.before.engine.name or NAMELESS}: {remedy.scheme}{order}",
         tuple(parts),
     )
+
+
+def _tell_negligible(result: Balance) -> str:
+    """Where devices balance an order that is small beside one cylinder anyhow."""
+    remedy, before = result.remedy, result.before
+    if remedy.order is None or not (remedy.devices or remedy.beyond):
+        return ""
+    orders, one = before.orders.tolist(), before.of_one_cylinder
+    if remedy.order not in orders:
+        small = not result.every_order  # else it was not asked for
+    else:
+        sizes = {
+            kind.name: p.major[orders.index(remedy.order)] for kind, p in before.spectra.vectors()
+        }
+        small = all(size < NEGLIGIBLE * one[name] for name, size in sizes.items())
+    return f"Order {remedy.order} is negligible beside one cylinder, hardly worth a device." * small
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:

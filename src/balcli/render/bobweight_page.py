@@ -14,7 +14,7 @@ from ..sizing.bobweight_card import NO_THROW
 from ..sizing.device_tables import find_unbalance
 from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .devices import explain_holes, tell_rim
-from .sheet import NAMELESS, capitalized, degrees, number
+from .sheet import NAMELESS, capitalized, degrees, number, sentence
 from .units import IMPERIAL, INCH, POUND, SI
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def _correct(result: Balance) -> Iterator[str]:
     remedy = result.remedy
     weights = remedy.counterweights
     if not weights:
-        yield capitalized(f"{remedy.note}.")
+        yield sentence(remedy.note)
         return
     there = "STILL MISSING ON THE CRANKSHAFT" if remedy.needs else "COUNTERWEIGHTS"
     yield _line(there, "at, deg", "g·mm", "oz·in")
@@ -124,7 +124,7 @@ def _correct(result: Balance) -> Iterator[str]:
         told += explain_holes(result.practical, result.tools, SI.length)
         yield from wrap(" ".join(told), WIDTH)
     if remedy.note:
-        yield from wrap(capitalized(f"{remedy.note}."), WIDTH)
+        yield from wrap(sentence(remedy.note), WIDTH)
     yield from wrap(_WHERE, WIDTH)
     speed = f"{number(float(result.before.engine.speed_rpm))} rpm"
     if (permitted := result.permitted) is not None:

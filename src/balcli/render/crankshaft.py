@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from .units import ShownUnit, System
 
 _OPEN_END = (
-    "Without bearings: what stands at the last place is the free moment of the whole engine, which "
-    "the mounts bear."
+    "Without bearings: what stands at the last place is the free moment of all these loads about "
+    "it, which the mounts bear."
 )
 _TOGETHER = (
     "Of inertia: gas presses on throw and head alike, so that it shears and bends crankshaft and "

@@ -11,7 +11,7 @@ from ..limits import MOST_HOLES
 from ..sizing.device_tables import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .figures import clean
-from .sheet import Grid, capitalized, degrees, number
+from .sheet import UNKNOWN, Grid, capitalized, degrees, number
 
 if TYPE_CHECKING:
     from ..sizing.workshop import Holes, Practical, Tools
@@ -59,13 +59,15 @@ def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Ite
             "Shafts stand so at crank angle 0; angles of those that turn against the crank count "
             "in its sense, too."
         )
+    if any(isinstance(device, Slider) for device in devices):
+        yield "Of sliders: the phase at crank angle 0, along a path that counts from x."
     if any(free):
         yield "free: the shaft may stand anywhere, for it makes a moment alone."
     shafts = zip(devices, free, strict=True)
     if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
         yield (
-            "At 0, 0, the crank's centre line, a shaft adds no roll; elsewhere, where a real one "
-            "stands, it does."
+            "At 0, 0, the crank's centre line, a shaft adds no roll about it; elsewhere, where a "
+            "real one stands, it does."
         )
 
 
@@ -106,25 +108,25 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
         f"disc r, {system.length.name}",
         f"thick, {system.length.name}",
     ]
-    note = (
-        "Force: centrifugal; mass at a radius of "
-        f"{number(system.length.of(first.radius), 4)} {system.length.name}; disc: a semicircular "
-        "one of steel"
-    )
+    radius = f"{number(system.length.of(first.radius), 4)} {system.length.name}"
+    note = f"Force: centrifugal; mass at a radius of {radius}; disc: a semicircular one of steel."
+    if remedy.sliders:
+        note = f"Force: the largest of a stroke; mass at an amplitude of {radius}."
     rows = tuple(
-        (f"{k} {name_kind(device)}", *_practical_row(figures, system))
+        (f"{k} {name_kind(device)}", *_practical_row(figures, system, isinstance(device, Slider)))
         for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1)
     )
-    return Grid("Sizes of the weights", tuple(names), rows, note=f"{note}.")
+    return Grid("Sizes of the weights", tuple(names), rows, note)
 
 
-def _practical_row(p: Practical, system: System) -> list[str]:
+def _practical_row(p: Practical, system: System, slides: bool) -> list[str]:
+    """What slides is no disc."""
+    disc = (p.disc_radius, p.disc_thickness)
     return [
         number(p.speed_rpm, 6),
         number(system.force.of(p.force)),
         number(system.mass.of(p.mass), 4),
-        number(system.length.of(p.disc_radius), 3),
-        number(system.length.of(p.disc_thickness), 3),
+        *(UNKNOWN if slides else number(system.length.of(length), 3) for length in disc),
     ]
 
 

@@ -24,6 +24,11 @@ def speed_facts(engine: Engine) -> Facts:
     return Facts((("speed", tell_speed(engine)), *list_silent(engine.silent)))
 
 
+def tell_pivot(engine: Engine) -> str:
+    """About what couple and roll are told."""
+    return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
+
+
 _TURNING = '"with the crank" is with the cylinders here, and counterweights stand on them'
 
 
@@ -139,7 +144,7 @@ def _crank(engine: Engine, system: System) -> str:
     radius_shown, rod_shown = number(unit.of(radius)), number(unit.of(radius / lam))
     return (
         f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}, "
-        f"λ = {number(lam, 4)}{_unequal(engine)}"
+        f"λ = {number(lam, 4 if lam < 0.999 else 7)}{_unequal(engine)}"  # at 1 the crank locks
     )
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
+from ..field_balancing.read import is_mass
 from ..field_balancing.shop import Piece, find_angle_deg
 from .field_balancing_document import document, find_senses, name_sensor, rows
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
@@ -112,10 +113,9 @@ def _work(result: FieldBalance, length: ShownUnit) -> Grid:
 def _explain_work(result: FieldBalance) -> Iterator[str]:
     drilled = result.file.drill is not None
     if drilled:
-        yield (
-            "Radial holes in steel, from the rim inwards; each removes this weight, opposite to "
-            "where one would be added."
-        )
+        yield "Radial holes in steel, from the rim inwards, opposite to where weights would go."
+        as_much = "Each does as much as this weight at the rim; its steel, further in, weighs more."
+        yield as_much if is_mass(result.file) else "Each removes this unbalance."
     else:
         yield "Together they do what the corrections do."
     if drilled and result.influence.trimmed:

@@ -17,11 +17,14 @@ if TYPE_CHECKING:
 _SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds
 
 
-def gas_grid(spectra: Spectra, system: System, *, every_order: bool, hints: bool) -> Iterator[Grid]:
+def gas_grid(
+    spectra: Spectra, system: System, pivot: str, *, every_order: bool, hints: bool
+) -> Iterator[Grid]:
     """Inertia torque, gas torque, both together and the roll of the frame, by order, if all of them
     are known; negligible orders are left out unless every one was asked for.
 
     Args:
+        pivot: about what the roll is.
         hints: whether the command that shows more is named.
     """
     found = [phasors for kind, phasors in spectra.items() if kind.name in _SHOWN]
@@ -44,21 +47,23 @@ def gas_grid(spectra: Spectra, system: System, *, every_order: bool, hints: bool
         if order in (1, 2) or every_order or max(p.major[k] for p in found) > least
     ]
     yield Grid(
-        f"About the crank axis with gas, {unit.name}",
+        f"About {pivot} with gas, {unit.name}",
         ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
         tuple(tuple(row(k)) for k in shown),
         "Torque = inertia + gas." + (" Mean torque, flywheel and more: balcli torque." * hints),
     )
 
 
-def tell_rocking(spectra: Spectra, system: System) -> str:
-    """Which order rocks the engine most, in a sentence; empty where that is not known."""
+def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
+    """Which order rocks the engine most about a `pivot`, in a sentence; empty where that is not
+    known.
+    """
     roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.roll
     if roll is None or gas is None or inertia is None:
         return ""
     size = np.where(roll.orders > 0, roll.major, 0)
     if not size.any():
-        return "No order rocks the engine about the crank axis."
+        return f"No order rocks the engine about {pivot}."
     k = int(size.argmax())
     parts = {"gas": float(gas.major[k]), "inertia": float(inertia.major[k])}
     there = {name: value for name, value in parts.items() if value}

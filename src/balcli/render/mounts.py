@@ -125,24 +125,19 @@ def _find_hardest(result: MountReport, response: MountingResponse) -> tuple[str,
 def _explain(result: MountReport, response: MountingResponse, worst: LargestAmplitude) -> str:
     """Why it is worst at this speed."""
     hertz = worst.order * worst.omega / (2 * math.pi)
-    nearest = min(
-        range(len(result.modes.six)), key=lambda k: abs(result.modes.six[k].hertz / hertz - 1)
-    )
-    mode = result.modes.six[nearest]
+    mode = result.modes.six[worst.mode]
+    named = f"mode {worst.mode + 1} ({mode.motion}, {number(mode.hertz, 3)} Hz)"
     if abs(mode.hertz / hertz - 1) <= _NEAR:
-        return (
-            f"There it meets mode {nearest + 1} ({mode.motion}, {number(mode.hertz, 3)} Hz): "
-            "resonance."
-        )
-    highest = result.modes.six[-1].hertz
+        return f"There it meets {named}: resonance."
     if len(response.omega) == 1:
         return ""
     if worst.omega <= response.omega[0] * (1 + 1e-9):
-        return "That is the slowest speed of the range, nearest to the modes below it."
+        nearest = f", nearest to {named}, which makes most of it" if mode.hertz < hertz else ""
+        return f"That is the slowest speed of the range{nearest}."
     if worst.omega >= response.omega[-1] * (1 - 1e-9):
-        above = "far above all modes, it" if hertz > 1.5 * highest else "it"
+        above = "far above all modes, it" if hertz > 1.5 * result.modes.six[-1].hertz else "it"
         return f"That is the fastest speed of the range: {above} grows to the end."
-    return f"No mode is near its {number(hertz, 3)} Hz."
+    return f"Most of it is {named}, which is not near its {number(hertz, 3)} Hz."
 
 
 def _worst(result: MountReport, system: System) -> Iterator[Grid]:
@@ -260,7 +255,8 @@ def _wipe(values: Real) -> Real:
 
 def _meetings(result: MountReport) -> Grid:
     met = {(one.mode, one.order): one.speed_rpm for one in result.meetings}
-    orders = sorted({order for _, order in met})[:_COLUMNS]
+    every = sorted({order for _, order in met})
+    orders, left = every[:_COLUMNS], len(every[_COLUMNS:])
     heads = ("mode", "Hz", *(f"order {order_name(order)}" for order in orders))
     rows = [
         (
@@ -270,7 +266,8 @@ def _meetings(result: MountReport) -> Grid:
         )
         for k, mode in enumerate(result.modes.six)
     ]
-    return Grid("Where orders meet modes, rpm", heads, tuple(rows))
+    note = f"JSON has {left} order{'s' * (left > 1)} more." if left else ""
+    return Grid("Where orders meet modes, rpm", heads, tuple(rows), note)
 
 
 def _pick(count: int, most: int) -> list[int]:

@@ -38,16 +38,23 @@ WHOLE_TURN = 360 - 1e-6  # deg
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
 _AS_BUILT = (
     "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
-    "without devices."
+    "without devices, at steady speed."
 )
 
 
 def order_tables(
-    spectra: Spectra, system: System, roll: str = "", *, with_gas: bool = False, every: bool = False
+    spectra: Spectra,
+    system: System,
+    pivot: str,
+    roll: str = "",
+    *,
+    with_gas: bool = False,
+    every: bool = False,
 ) -> Iterator[Grid]:
-    """A table of each vector, and one of what acts about the crank's axis.
+    """A table of each vector, and one of what acts about z.
 
     Args:
+        pivot: about what couple and roll are.
         roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
         with_gas: whether the engine has gas, beside which that of inertia alone is told as such.
         every: also orders above 2 in which all is balanced.
@@ -56,10 +63,10 @@ def order_tables(
         yield _vector_table(kind, phasors, system.unit(kind), every)
     of_inertia, of_gas = spectra.only(KINDS), spectra.only(GAS_KINDS)
     if of_inertia.scalars():
-        what = " of inertia alone" if with_gas else ""
+        what = f"{pivot} of inertia alone" if with_gas else pivot
         yield _scalar_table(of_inertia, system.moment, roll, what, every)
     if of_gas.scalars():
-        yield _scalar_table(of_gas, system.moment, "", " with gas", every)
+        yield _scalar_table(of_gas, system.moment, "", f"{pivot} with gas", every)
 
 
 def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
@@ -168,7 +175,7 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
     labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
     heads = [head for label in labels for head in (label, "peak, deg")]
     return Grid(
-        f"About the crank axis{what}, {unit.name}",
+        f"About {what}, {unit.name}",
         ("order", *heads),
         _shown_rows(spectra.orders, [phasors for _, phasors in scalars], cells, every),
         note=roll,

@@ -11,6 +11,7 @@ import numpy as np
 from ..enginefile.model import Counterweight, Shaft
 from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..sizing.device_tables import DeviceTable, find_unbalance
+from .engine_facts import tell_pivot
 from .order_tables import peak_facts
 from .sheet import (
     NEGLIGIBLE,
@@ -110,7 +111,7 @@ def roll_and_peaks(result: Analysis, system: System) -> Facts:
     roll = result.spectra.roll
     name = ROLL.label if result.engine.gas is None else f"{ROLL.label}, inertia alone"
     pairs = [] if roll is None else [(name, _tell_roll(result, roll, system))]
-    title = "Largest over a revolution" if peaks else "About the crank axis"
+    title = "Largest over a revolution" if peaks else f"About {tell_pivot(result.engine)}"
     return Facts((*pairs, *peaks), title)
 
 
@@ -135,7 +136,8 @@ def sizing_in_brief(sizing: Sizing, system: System) -> Text:
     else:
         told = [f"{text} {place}" for text, place in zip(told, places, strict=True)]
     fitted = "; ".join(told)
-    result = f"They leave {left} of orders 1 and 2. Details: balcli balance."
+    steady = " at steady speed" if sizing.after.engine.ripple else ""
+    result = f"They leave {left} of orders 1 and 2{steady}. Details: balcli balance."
     return Text("Sizing", (f"{capitalized(fitted)}.", result))
 
 

@@ -58,6 +58,11 @@ def capitalized(text: str) -> str:
     return text[0].upper() + text[1:]
 
 
+def sentence(text: str) -> str:
+    """Text with its first letter large and a full stop at its end."""
+    return f"{capitalized(text).removesuffix('.')}."
+
+
 def order_number(order: float) -> int | float:
     """An order as it is written: whole ones without a point."""
     return int(order) if order == int(order) else float(order)

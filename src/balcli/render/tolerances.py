@@ -53,8 +53,11 @@ def _statistics(s: Spread) -> dict[str, float]:
 def rows(result: Scatter, _system: System) -> Rows:
     """CSV: a quantity a line, in SI units."""
     return Rows(
-        ("quantity", *_statistics(result.spreads[0])),
-        [(s.quantity.name, *_statistics(s).values()) for s in result.spreads],
+        ("quantity", *_statistics(result.spreads[0]), "unit"),
+        [
+            (s.quantity.name, *_statistics(s).values(), s.quantity.unit or None)
+            for s in result.spreads
+        ],
     )
 
 

@@ -22,6 +22,7 @@ from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
+SAME_MEAN = 1e-6  # of a load's mean: figures of files are rounded
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
 
 
@@ -140,7 +141,14 @@ def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
     if speed is not None:
         pairs.append(("speed", f"{number(speed / RPM, 6)} rpm"))
     power = None if speed is None else result.torque.mean * speed
-    return Facts((*pairs, *_mean_pairs(result.torque.mean, power, system, {"": 1.0})))
+    pairs += _mean_pairs(result.torque.mean, power, system, {"": 1.0})
+    if result.load is not None:
+        mean, rest = result.load.mean, result.torque.mean - result.load.mean
+        told = f"{_size(mean, system.moment)} in the mean"
+        if abs(rest) > SAME_MEAN * abs(mean):
+            told += f", and {_size(rest, system.moment)} evenly"
+        pairs.append(("load", told))
+    return Facts(tuple(pairs))
 
 
 def _course_facts(

@@ -151,6 +151,10 @@ def _criticals(result: TorsionAnalysis) -> Grid:
         note += f" Of orders to {order_name(float(excitation.orders.max()))}."
     if result.response is None and result.system.rated_rpm:
         note += f" To {number(BEYOND * result.system.rated_rpm)} rpm, {BEYOND:g} times the file's."
+    system = result.system
+    dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
+    if dampers:
+        note += f" Without {' and '.join(dampers)}, which shift them."
     if result.response is None:
         note += _tell_gas(result)
     left = len(result.criticals) - len(shown)
@@ -181,6 +185,9 @@ def _holzer(result: TorsionAnalysis, asked: HolzerTable, system: System) -> Grid
     title = f"Holzer's table, {what}: {number(asked.omega, 7)} rad/s; torques in {unit.name}"
     residual = _settle(table.residual, table.torque)
     left = f"Left over at the end: {size_text(residual, system.moment, 5)}."
+    if chain.clamped[asked.end]:
+        name, angle = result.system.nodes[asked.end], _settle(table.angle[asked.end], table.angle)
+        left = f"Left over at the end: the angle of {name}, which is fixed, {number(angle, 6)}."
     heads = (
         "node",
         f"J, {inertia.name}",

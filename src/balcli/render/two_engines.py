@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
-from .engine_facts import tell_speed
+from .engine_facts import tell_pivot, tell_speed
 from .figures import assumptions, clean, figure_rows, order_entries, peak_entries
 from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Sheet, number
@@ -73,7 +73,12 @@ def sheet(result: Combined, system: System) -> Sheet:
         " and ".join(engine.name for engine in result.engines),
         (
             Facts(tuple(_list_facts(result, system))),
-            *order_tables(spectra, system, _ROLL[how.load] if how.reverse else ""),
+            *order_tables(
+                spectra,
+                system,
+                tell_pivot(result.engines[0]),
+                _ROLL[how.load] if how.reverse else "",
+            ),
             peak_facts(result, system, "Largest over a revolution, all orders"),
         ),
     )

@@ -4,11 +4,12 @@ which part needs shafts.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
 from ..core.phasors import Phasors
+from ..enginefile.messages import ordinal
 from ..forces.spectrum import Spectra
 from .sheet import NEGLIGIBLE, capitalized, degrees, number, order_name
 from .units import ShownUnit, System
@@ -23,9 +24,15 @@ _NAMES: dict[float, str] = {
     7: "Seventh",
     8: "Eighth",
 }
+_MOST_HIGH_ORDERS = 8  # near the lock dozens matter: these one by one, the others together
 _AXES = {"0.0": "x", "90.0": "y"}
 _SWAYS = {"x": "yawing", "y": "pitching"}
+_Row = tuple[int, float]  # index of an order, and the order
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
+_UNEVEN = (
+    "At this uneven speed orders have parts of one another: what cancels an order at steady speed, "
+    "for which balance sizes devices, cancels its parts in all others, too."
+)
 
 
 class _Vector(NamedTuple):
@@ -48,12 +55,19 @@ class _Vector(NamedTuple):
 
 
 def verdict(
-    spectra: Spectra, system: System, single: Mapping[str, float] = _UNKNOWN
+    spectra: Spectra,
+    system: System,
+    single: Mapping[str, float] = _UNKNOWN,
+    *,
+    steady: bool = True,
 ) -> tuple[str, ...]:
     """A sentence for every order that matters; empty if neither forces nor moments were asked for.
 
-    `single`: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an order
-    may be negligible.
+    Args:
+        single: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an
+            order may be negligible.
+        steady: whether the speed is. If not, orders are told without what cancels them: most of an
+            order may be what the unevenness makes of another, and goes with that one.
     """
     vectors = [
         _Vector(kind.name, phasors, system.unit(kind), single.get(kind.name, 0.0))
@@ -63,9 +77,10 @@ def verdict(
         return ()
     rows = [(k, order) for k, order in enumerate(spectra.orders) if order > 0]
     higher = [(k, order) for k, order in rows if order not in (1, 2)]
-    told = [_tell_low_order(k, int(order), vectors) for k, order in rows if order in (1, 2)]
+    told = [_tell_low_order(k, int(order), vectors, steady) for k, order in rows if order in (1, 2)]
     if any(vector.matters(k) for k, _ in rows for vector in vectors):
-        told += [_tell_high_order(k, order, vectors) for k, order in higher]
+        told += _tell_high_orders(higher, vectors, steady)
+        told.append("" if steady else _UNEVEN)
     else:
         told.append(_tell_negligible(higher, vectors))
     return tuple(filter(None, told))
@@ -74,12 +89,17 @@ def verdict(
 def _order_name(order: float) -> str:
     if order % 1:
         return f"Order {order_name(order)}"
-    return f"{_NAMES.get(order) or f'{order:g}th'} order"
+    return f"{_NAMES.get(order) or ordinal(int(order))} order"
 
 
-def _tell_low_order(k: int, order: int, vectors: list[_Vector]) -> str:
-    """Orders 1 and 2: what is there, which way it turns, and what meets it."""
-    there = [_tell_vector(k, order, vector) for vector in vectors if not vector.phasors.balanced[k]]
+def _tell_low_order(k: int, order: int, vectors: list[_Vector], steady: bool) -> str:
+    """Orders 1 and 2: what is there, which way it turns, and at steady speed what meets it."""
+    there = [
+        f"{told}: {cure}." if cure and steady else f"{told}."
+        for told, cure in (
+            _tell_vector(k, order, vector) for vector in vectors if not vector.phasors.balanced[k]
+        )
+    ]
     free = [vector.what for vector in vectors if vector.phasors.balanced[k]]
     if not there:
         return f"{_order_name(order)}: free of {' and '.join(free)}."
@@ -87,42 +107,59 @@ def _tell_low_order(k: int, order: int, vectors: list[_Vector]) -> str:
     return f"{_order_name(order)}: " + " ".join([there[0], *map(capitalized, [*there[1:], *rest])])
 
 
-def _tell_high_order(k: int, order: float, vectors: list[_Vector]) -> str:
-    """A higher order: its size, if it is worth a word."""
-    sizes = [
-        f"{vector.what} up to {vector.size(k)}"
+def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) -> Iterator[str]:
+    """The higher orders that are worth a word: the lowest one by one, the others together."""
+    worth = [row for row in higher if _find_worth_a_word(row[0], vectors)]
+    for k, order in worth[:_MOST_HIGH_ORDERS]:
+        sizes = [f"{v.what} up to {v.size(k)}" for v in _find_worth_a_word(k, vectors)]
+        cure = f"; rarely balanced, it would take shafts at {order:g} times crank speed" * steady
+        yield f"{_order_name(order)}: {', '.join(sizes)}{cure}."
+    if others := worth[_MOST_HIGH_ORDERS:]:
+        first, last = others[0][1], others[-1][1]
+        largest = _tell_largest(others, vectors)
+        yield f"{len(others)} more, of orders {first:g} to {last:g}: at most {largest}."
+
+
+def _find_worth_a_word(k: int, vectors: list[_Vector]) -> list[_Vector]:
+    """Those of which this order is neither small beside one cylinder nor beside other orders."""
+    return [
+        vector
         for vector in vectors
         if vector.matters(k) and vector.phasors.major[k] > NEGLIGIBLE * vector.phasors.major.max()
     ]
-    if not sizes:
-        return ""
-    cure = f"rarely balanced, it would take shafts at {order:g} times crank speed"
-    return f"{_order_name(order)}: {', '.join(sizes)}; {cure}."
 
 
-def _tell_negligible(higher: list[tuple[int, float]], vectors: list[_Vector]) -> str:
+def _tell_negligible(higher: list[_Row], vectors: list[_Vector]) -> str:
     """The largest of the higher orders, where nothing is left that matters."""
+    largest = _tell_largest(higher, vectors)
+    return f"Higher orders: negligible, at most {largest}." if largest else ""
+
+
+def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
+    """The largest force and moment of some orders; empty if all are balanced."""
     told = []
-    for vector in vectors if higher else ():
-        k, order = max(higher, key=lambda row: vector.phasors.major[row[0]])
+    for vector in vectors if rows else ():
+        k, order = max(rows, key=lambda row: vector.phasors.major[row[0]])
         if vector.phasors.major[k]:
             told.append(f"a {vector.what} of {vector.size(k)} in order {order:g}")
-    return f"Higher orders: negligible, at most {' and '.join(told)}." if told else ""
+    return " and ".join(told)
 
 
-def _tell_vector(k: int, order: int, vector: _Vector) -> str:
-    """One vector of order 1 or 2: its size, how it turns, and what cancels it."""
+def _tell_vector(k: int, order: int, vector: _Vector) -> tuple[str, str]:
+    """One vector of order 1 or 2: its size and how it turns; and what cancels it, nothing where it
+    is negligible.
+    """
     what, phasors, unit, size = vector.what, vector.phasors, vector.unit_at(k), vector.size(k)
     if not vector.matters(k):
-        return f"{what} of up to {size}, negligible."
+        return f"{what} of up to {size}, negligible", ""
     forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
     if backward == 0:
         by_weights = "counterweights on the crankshaft cancel it"
         cure = by_weights if order == 1 else _cure_by_shafts(f"a balancer shaft at +{order}")
-        return f"{what} of {size}, turning with the crank: {cure}."
+        return f"{what} of {size}, turning with the crank", cure
     if forward == 0:
         cure = _cure_by_shafts(f"a balancer shaft at -{order}")
-        return f"{what} of {size}, turning against the crank: {cure}."
+        return f"{what} of {size}, turning against the crank", cure
     by_both = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
     cure = (
         by_both if order == 1 else _cure_by_shafts(f"two balancer shafts, at +{order} and -{order}")
@@ -130,7 +167,7 @@ def _tell_vector(k: int, order: int, vector: _Vector) -> str:
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
     parts = f"{ahead} turns with the crank, {against} against it"
     direction = _tell_direction(what, float(phasors.axis_deg[k]))
-    return f"{what} of up to {size} {direction} ({parts}): {cure}."
+    return f"{what} of up to {size} {direction} ({parts})", cure
 
 
 def _tell_direction(what: str, axis_deg: float) -> str:

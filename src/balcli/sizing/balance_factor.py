@@ -31,6 +31,7 @@ from .planes import SAME_PLACE, read_planes
 from .remedy import Remedy, fit_devices
 from .scheme_figures import FactorPeaks, PlaneNeed
 
+_NEARLY = 0.05  # of one cylinder's: pistons of one engine, weighed, differ by less
 COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
 OF_ITSELF = "nothing is missing: what the pins carry balances itself in these planes"
 OWN_PLACES = (
@@ -60,8 +61,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     for, to which pins and weights are carried by the lever; by default where the file's own stand,
     or opposite each pin if they stand in fewer than two places.
 
-    Of several factors all peaks are told, and the one that leaves the smallest peak force (among
-    equals, moment) is fitted.
+    Of several factors all peaks are told, and the one that leaves the smallest peak force is
+    fitted, or moment, where the pins balance each other (`FactorPeaks.by_moment`).
 
     Raises BalcliError for a factor that is no share, planes where moments are not known, or if the
     crankshaft stands still.
@@ -148,7 +149,17 @@ def find_factor_peaks(
         bobweight_g=fill_card(engine, factor)[0].bobweight_g,
         counterweight=max((w.unbalance or 0.0 for w in fitting.remedy.counterweights), default=0.0)
         / 1e6,
+        by_moment=engine.places_known and _do_pins_balance(engine),
     )
+
+
+def _do_pins_balance(engine: Engine) -> bool:
+    """Whether what goes to and fro adds up to nearly nothing, taken at the crank pins: the share of
+    it that a factor adds to the counterweights is then a moment.
+    """
+    masses = np.array([float(weighed.reciprocating) for weighed in engine.weighed])
+    pins = unit(np.array([float(pin) for pin in engine.cylinders.pin_deg]))
+    return bool(abs(masses @ pins) < _NEARLY * masses.max())
 
 
 def find_curve(engine: Engine, quantity: str) -> Phasors:

@@ -8,7 +8,7 @@ from .details import Detail
 from .effects import Slot, size_unbalances
 from .fitting import Fitting
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_counterweight_planes, read_planes
+from .planes import SAME_PLACE, find_counterweight_planes, find_length, read_planes
 from .reasons import explain_counterweights
 from .remedy import Remedy
 from .residual import FORWARD, FORWARD_FORCE, FORWARD_MOMENT, NothingToBalanceError, Residual
@@ -20,7 +20,8 @@ NOT_NEEDED = (
 
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     """Counterweights for the force and the moment of order 1 that turn with the crank, in the
-    planes asked for; in a single plane as well as it can be done.
+    planes asked for; in a single plane as well as it can be done, or, where moments are not known,
+    for the force alone.
 
     Raises:
         BalcliError: another order is asked for, or the planes cannot take the moment.
@@ -40,8 +41,9 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     else:
         planes = read_planes(engine, options)
     slots = [Slot("counterweight", 1, 1, z) for z in planes]
-    if len(slots) > 1:
-        remedy = fitting.cancel(slots, FORWARD, explain_counterweights(residual)).remedy
+    if len(slots) > 1 or not engine.places_known:
+        parts = FORWARD if len(slots) > 1 else [FORWARD_FORCE]
+        remedy = fitting.cancel(slots, parts, explain_counterweights(residual)).remedy
     else:
         remedy = _compromise(fitting, slots, residual)
     if not remedy.devices and not remedy.note:  # dust was left
@@ -50,13 +52,18 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
-    """A weight in one plane, which cannot take a moment that acts elsewhere."""
-    fit = size_unbalances(slots, residual, FORWARD)
+    """A weight in one plane, which cannot take a moment that acts elsewhere.
+
+    A plane near the point of reference has hardly an arm there: a weight for the moment would leave
+    a far larger force, so that the moment counts by the engine's arms, too.
+    """
+    fit = size_unbalances(slots, residual, FORWARD, _find_engine_arm(fitting.engine, residual))
     fitting = fitting.add(
         slots,
         fit.unbalances,
         "One plane takes the force and moment of order 1 turning with the crank as well as "
-        "one can (least squares of force, and of moment over its arm)",
+        "one can (least squares of force, and of moment over the longest arm of weight, rods and "
+        "crank radius)",
     )
     left = fitting.find_residual(1)
     fitting = fitting.add_details(
@@ -64,3 +71,11 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
         Detail("moment with crank left", "moment", left.size(FORWARD_MOMENT)),
     )
     return fitting.remedy._replace(note=SAME_PLACE if left.moment(1) else "")
+
+
+def _find_engine_arm(engine: Engine, residual: Residual) -> float:
+    """How far the engine goes from the point of reference along the crank, m; the crank radius at
+    the least.
+    """
+    ends = (abs(z - residual.reference.z) for z in find_length(engine))
+    return max(float(engine.cylinders.radius), *ends)

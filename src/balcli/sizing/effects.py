@@ -93,14 +93,20 @@ def find_effect(
 
 
 def size_unbalances(
-    slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart]
+    slots: Sequence[Slot],
+    residual: Residual,
+    parts: Sequence[ResidualPart],
+    least_arm: float = 0.0,
 ) -> Fit:
     """The smallest unbalances that cancel these parts as well as the slots can.
 
     Least squares of force, and of moment and roll over the longest arm of a slot, so that what is
     left of parts that can be cancelled is a few ulp of them.
+
+    Args:
+        least_arm: moments and roll are divided by this (m) where no slot has a longer arm.
     """
-    arm = _find_longest_arm(slots, residual.reference)
+    arm = max(least_arm, _find_longest_arm(slots, residual.reference))
     weights = np.repeat([1.0 if part.kind == "force" else 1 / arm for part in parts], 2)
     columns = [
         find_effect(slot.make_device(u), parts, residual.reference)

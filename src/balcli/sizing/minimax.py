@@ -43,25 +43,23 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
     centred = abs(circle.centre) <= max(noise, circle.noise)
     nothing_gained = (
-        "no counterweight makes the largest force smaller than it is: it has no part of order 1 "
-        "turning with the crank"
+        "no counterweight makes the largest force smaller than it is: the smallest circle around "
+        "the force as seen from the crank has its centre at 0"
     )
     if centred and options.planes is None:
         raise NothingToBalanceError(nothing_gained)
     unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
     slots, unbalances = _split(engine, options, fitting, unbalance)
     reason = (
-        "The largest force over a revolution, all orders, becomes as small as a weight on the "
-        "crankshaft can make it (smallest circle around the force as seen from the crank)"
+        "The largest force over a revolution, all orders, becomes as small as a counterweight can "
+        "make it (smallest circle around the force as seen from the crank)"
     )
     fitting = fitting.add(slots, unbalances, reason)
-    half = _find_peak_of_half(fitting.engine)
     remedy = fitting.remedy.add_details(
         Detail("peak force", "force", circle.radius),
         Detail("reached", "angle", _as_degrees(circle.theta)),
         Detail("relative error bound", "", circle.excess / circle.radius if circle.radius else 0.0),
-        Detail("factor half peak", "force", half),
-        Detail("improvement", "", _find_gain(circle, half)),
+        *_compare_with_half(fitting.engine, circle),
     )
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
 
@@ -84,10 +82,18 @@ def _split(
     return slots, fit.unbalances
 
 
-def _find_peak_of_half(engine: Engine) -> float:
-    """Largest force with the weights of factor 0.5 instead of the engine's own, N."""
+def _compare_with_half(engine: Engine, circle: enclosing_circle.Circle) -> list[Detail]:
+    """Largest force with the weights of factor 0.5 instead of the engine's own, and what is gained
+    over that; nothing of a rotary engine, which has no factor.
+    """
+    if engine.rotary:
+        return []
     off_crank = tuple(d for d in engine.devices if d.kind is not DeviceKind.COUNTERWEIGHT)
-    return find_factor_peaks(replace(engine, devices=off_crank), 0.5).force
+    half = find_factor_peaks(replace(engine, devices=off_crank), 0.5).force
+    return [
+        Detail("factor half peak", "force", half),
+        Detail("improvement", "", _find_gain(circle, half)),
+    ]
 
 
 def _as_degrees(theta: ArrayLike) -> tuple[float, ...]:

@@ -90,6 +90,8 @@ class FactorPeaks(NamedTuple):
         moment: N m.
         bobweight_g: of the first pin.
         counterweight: the largest weight that is missing, kg m.
+        by_moment: whether the moment says which factor is best: the pins balance each other, so
+            that no factor changes much of the force.
     """
 
     factor: float
@@ -99,11 +101,13 @@ class FactorPeaks(NamedTuple):
     moment: float
     bobweight_g: float
     counterweight: float
+    by_moment: bool
 
     @property
     def cost(self) -> tuple[float, float]:
-        """What is least where the factor is best: the force; among equals the moment."""
-        return round(self.force, 6), self.moment
+        """What is least where the factor is best: the force, or else the moment; then the other."""
+        force, moment = round(self.force, 6), round(self.moment, 6)
+        return (moment, force) if self.by_moment else (force, moment)
 
 
 class Optimum(NamedTuple):

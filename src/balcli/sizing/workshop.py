@@ -87,6 +87,12 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     """
     tools = Tools(*map(_check_figure, Tools._fields, tools))
     _refuse_impossible(tools)
+    rim = tools.radius or float(engine.cylinders.radius)
+    if tools.drill is not None and tools.drill > 2 * rim:
+        raise BalcliError(
+            f"--drill: a hole of {1e3 * tools.drill:g} mm is wider than its rim of radius "
+            f"{1e3 * rim:g} mm (--radius, else the crank radius)"
+        )
     return tuple(_find_figures(engine, device, tools) for device in remedy.devices)
 
 

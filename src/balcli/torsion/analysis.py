@@ -30,11 +30,14 @@ class HolzerAsked(NamedTuple):
 
 
 class HolzerTable(NamedTuple):
-    """Holzer's table at a frequency (rad/s), of a mode by its number or a trial frequency."""
+    """Holzer's table at a frequency (rad/s), of a mode by its number or a trial frequency; `end` is
+    the node at which it ends.
+    """
 
     mode: int | None
     omega: float
     table: Holzer
+    end: int
 
 
 class TorsionQuestion(NamedTuple):
@@ -146,4 +149,4 @@ def _tabulate(
                 f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
                 "hardly moves in it, or a branch swings by itself"
             )
-    return HolzerTable(asked.mode, omega, table)
+    return HolzerTable(asked.mode, omega, table, ends[1])

@@ -12,7 +12,6 @@ from ..engine.load import build_named, parse
 from ..enginefile.file_kinds import CHAIN, ENGINE, refuse_other_kind
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import Damper
-from ..enginefile.suspicious import find_suspicious
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..errors import BalcliError
 from ..torque.course import silence
@@ -25,19 +24,16 @@ from .system import Excitation, TorsionalSystem
 
 @dataclass(frozen=True)
 class ChainSource:
-    """A chain file that has been read: its name, its text, what it says."""
+    """A chain file that has been read: its name, its text, what it says; nothing is doubted."""
 
     file: str
     text: bytes
     model: ChainFile
+    doubts: tuple[str, ...] = ()
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what hangs together wrongly."""
         return build_chain(self.model, self.file)
-
-    def doubts(self) -> tuple[str, ...]:
-        """What is suspicious of the file, in words."""
-        return ()
 
     @property
     def crank_radius(self) -> float | None:
@@ -60,8 +56,8 @@ class ChainSource:
 
 @dataclass(frozen=True)
 class EngineSource:
-    """An engine file that has been read: its name, its text, what it says, the engine, and what
-    excites it.
+    """An engine file that has been read: its name, its text, what it says, the engine, what
+    excites it; what its file says that is allowed and yet unlikely, in words.
     """
 
     file: str
@@ -69,15 +65,11 @@ class EngineSource:
     model: EngineFile
     engine: Engine
     excitation: Excitation
+    doubts: tuple[str, ...]
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what does not fit together in [torsion]."""
         return build_engine_system(self.model, self.engine, self.excitation, self.file)
-
-    def doubts(self) -> tuple[str, ...]:
-        """What is suspicious of the file, in words, each by its path."""
-        gas = () if self.engine.gas is None else self.engine.gas.doubts
-        return (*find_suspicious(self.model), *gas)
 
     @property
     def crank_radius(self) -> float | None:
@@ -149,6 +141,7 @@ def make_source(
             f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
             "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
         )
+    doubts = engine.unlikely
     for number in misfires:
         engine = silence(engine, number)
-    return EngineSource(name, b"", model, engine, excite_engine(model, engine, orders))
+    return EngineSource(name, b"", model, engine, excite_engine(model, engine, orders), doubts)

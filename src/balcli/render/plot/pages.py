@@ -86,7 +86,9 @@ class PageSubject:
     def title(self, quantity: str) -> str:
         """Of a picture."""
         of_inertia = quantity == ABOUT and self.now.engine.gas is not None
-        return _TITLES[quantity] + (", of inertia alone" if of_inertia else "")
+        title = _TITLES[quantity] + (", of inertia alone" if of_inertia else "")
+        off_crank = any(self.now.engine.reference_m[:2])
+        return title.replace("the crank", "the point of reference") if off_crank else title
 
     def list_scalars(self, quantity: str) -> dict[str, Phasors]:
         """What is drawn about the crank, by label, the roll last."""
