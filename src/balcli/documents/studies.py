@@ -13,8 +13,8 @@ Cell = float | int | str | None
 
 
 class Sweep(Document):
-    """Variants of an engine, a row each: the figures that vary, then the quantities; null: what has
-    no value, such as the axis of a circle.
+    """Variants of an engine, a row each: the figures that vary, in the units of the file, then the
+    quantities, in those of `balcli numbers`; null: what has no value, such as the axis of a circle.
     """
 
     format: Literal["balcli.sweep/1"]
