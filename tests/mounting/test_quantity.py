@@ -8,7 +8,7 @@ from io import StringIO
 
 import numpy as np
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.mounts import ENGINE, block
 
 POINT = '[[point]]\nname = "shift lever"\nat = [100, 0, 300]\n'
@@ -119,19 +119,22 @@ def test_variants_that_cannot_be_are_told_with_their_figures(four):
 
 
 # ------------------------------------------------------------------ tolerances of mounts
-def scatter(path, *args):
-    done = run_here("scatter", path, *args, "-f", "json")
-    assert (done.status, done.err) == (0, "")
-    return json.loads(done.out)
-
-
 @pytest.mark.stress
 def test_stiffness_scatters(tmp_path):
     """Up and down of the block is sqrt(sum k / m): by hand, with the same random numbers."""
     path = tmp_path / "four.toml"
     path.write_text(NAMED, encoding="utf-8")
-    said = scatter(
-        path, "-q", "mode.z.Hz", "--samples", "400", "--seed", "7", "--stiffness-scatter", "10%"
+    said = ask_json(
+        "scatter",
+        path,
+        "-q",
+        "mode.z.Hz",
+        "--samples",
+        "400",
+        "--seed",
+        "7",
+        "--stiffness-scatter",
+        "10%",
     )
     found = said["quantities"]["mode.z.Hz"]
     factors = 1 + 0.1 * (2 * np.random.default_rng(7).random((400, 4)) - 1)
