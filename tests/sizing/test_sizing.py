@@ -624,7 +624,7 @@ def test_what_is_no_option_is_told_in_words(scheme, options, told):
     [
         (SchemeOptions(at=(0.05 + 0.06j, 60 + 80j)), "--at: 100000 mm"),
         (SchemeOptions(position=-90.0), "--position: 90000 mm"),
-        (SchemeOptions(planes=(-215.9, 228.6)), "--planes: 215900 mm"),
+        (SchemeOptions(planes=(-215.9, 228.6)), "--planes: 228600 mm"),
     ],
 )
 def test_places_beyond_every_engine_are_refused(options, told):
