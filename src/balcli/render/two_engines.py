@@ -68,7 +68,7 @@ def rows(result: Combined, system: System) -> Rows:
 
 def sheet(result: Combined, system: System) -> Sheet:
     """The engines, how they stand, and what they do together."""
-    spectra = result.spectra if result.moments_known else result.spectra.without_moment()
+    spectra = result.spectra.with_moment_if(result.moments_known)
     how = result.arrangement
     return Sheet(
         " and ".join(engine.name for engine in result.engines),
