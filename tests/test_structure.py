@@ -194,7 +194,7 @@ ON_REQUEST = {
         "balcli.render.page_torque",
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed", "balcli.torque.course"),
-    "balcli.commands.output": ("balcli.files",),
+    "balcli.commands.output": ("balcli.files", "balcli.render.plot.style"),
     "balcli.commands.torque_options": ("balcli.enginefile.edit",),
     "balcli.torque.analysis": ("balcli.torque.find_loads",),
     "balcli.commands.scatter": (

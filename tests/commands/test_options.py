@@ -6,6 +6,7 @@ import pytest
 from support.paths import ENGINES
 
 from balcli.commands.options import parse_orders
+from balcli.commands.torsion_options import parse_half_orders
 from balcli.render.sheet import order_name
 
 
@@ -19,10 +20,11 @@ from balcli.render.sheet import order_name
         ("1-2.5", [1, 1.5, 2, 2.5]),
         ("1.5", [1.5]),
         ("1.0-3.0", [1, 2, 3]),
+        (" 1 - 3, 4.50", [1, 2, 3, 4.5]),
     ],
 )
 def test_a_range_that_begins_or_ends_with_a_half_goes_in_halves(text, orders):
-    assert parse_orders(text) == orders
+    assert parse_orders(text) == parse_half_orders(text).tolist() == orders
 
 
 @pytest.mark.parametrize(

@@ -158,6 +158,7 @@ def test_a_moment_by_name_is_an_error(balcli, twin, command, args, message):
     [
         ("balance", ["--scheme", "couple-shaft"]),
         ("balance", ["--scheme", "couple-shaft", "--order", "1"]),
+        ("balance", ["--scheme", "minimax", "--planes=-100,20"]),
     ],
 )
 def test_so_is_what_is_sized_by_moments(balcli, twin, command, args):
@@ -174,6 +175,14 @@ def test_a_weight_in_one_plane_takes_the_whole_force(balcli, tmp_path):
     out = balcli("balance", file, "--scheme", "counterweights", "--planes=20", "-f", "json")[1]
     first = json.loads(out)["after"]["orders"][0]
     assert first["force_N"]["forward"] == [0, 0]
+    shared = balcli("balance", file, "--scheme", "counterweights", "--planes=-100,20")
+    assert shared[:2] == (2, "")
+    assert shared[2].endswith(f"--planes: {UNKNOWN}\n")
+
+
+def test_nothing_is_said_of_a_moment_where_no_weight_is_needed(balcli, twin):
+    told = balcli("balance", twin, "--scheme", "counterweights")[1]
+    assert "There is no free force of order 1 turning with the crank: no counter" in told
 
 
 def test_forces_are_swept_and_a_spacing_that_is_varied_is_known(balcli, twin):

@@ -349,6 +349,20 @@ def test_a_diagram_may_have_so_many_rows(beside):
             ],
         ),
         (
+            TWO_STROKE + WIEBE + "exhaust = 1.5\n",
+            [
+                "gas.exhaust: has no meaning in a two-stroke cycle: while its ports are open the "
+                "pressure is that of intake; leave it out"
+            ],
+        ),
+        (
+            FOUR + "[gas]\nharmonics = 'h.csv'\ncrankcase = 1.1\n",
+            [
+                "gas.crankcase: changes nothing beside harmonics, which are of the torque; leave "
+                "it out"
+            ],
+        ),
+        (
             FOUR + WIEBE + "exhaust_opens = 30\n",
             [
                 "gas.burn_duration: a burn over 50° from -15° ends at 35°, past 30°, where the "

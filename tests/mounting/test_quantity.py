@@ -8,7 +8,7 @@ from io import StringIO
 
 import numpy as np
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.mounts import ENGINE, block
 
 POINT = '[[point]]\nname = "shift lever"\nat = [100, 0, 300]\n'
@@ -119,19 +119,22 @@ def test_variants_that_cannot_be_are_told_with_their_figures(four):
 
 
 # ------------------------------------------------------------------ tolerances of mounts
-def scatter(path, *args):
-    done = run_here("scatter", path, *args, "-f", "json")
-    assert (done.status, done.err) == (0, "")
-    return json.loads(done.out)
-
-
 @pytest.mark.stress
 def test_stiffness_scatters(tmp_path):
     """Up and down of the block is sqrt(sum k / m): by hand, with the same random numbers."""
     path = tmp_path / "four.toml"
     path.write_text(NAMED, encoding="utf-8")
-    said = scatter(
-        path, "-q", "mode.z.Hz", "--samples", "400", "--seed", "7", "--stiffness-scatter", "10%"
+    said = ask_json(
+        "scatter",
+        path,
+        "-q",
+        "mode.z.Hz",
+        "--samples",
+        "400",
+        "--seed",
+        "7",
+        "--stiffness-scatter",
+        "10%",
     )
     found = said["quantities"]["mode.z.Hz"]
     factors = 1 + 0.1 * (2 * np.random.default_rng(7).random((400, 4)) - 1)
@@ -205,3 +208,13 @@ def test_the_mean_torque_leans_on_the_mounts_whatever_else_is_asked(tmp_path):
         assert row["mount.left.static"] == pytest.approx(np.linalg.norm(rest), rel=1e-12)
     weight = said_by(file, NAMED)["static"]["mounts"][0]["force_N"]
     assert np.linalg.norm(rest) > 1.005 * np.linalg.norm(weight)
+
+
+def test_search_and_scatter_say_over_which_speeds_a_mount_is_loaded(four):
+    """A mount so soft that it resonates below an eighth of the speed is no better for it."""
+    told = "Of mounts and points: the largest from an eighth of the engine's speed up to it;"
+    over = ("--over", "mount.left.stiffness.2=100:200", "--minimise", "mount.left.force")
+    assert told in run_here("search", four, *over).out
+    options = ("--samples", "3", "--quantity")
+    assert told in run_here("scatter", four, *options, "point.shift_lever.motion").out
+    assert told not in run_here("scatter", four, *options, "mount.left.static,mode.1.Hz").out

@@ -29,8 +29,9 @@ from balcli.render.plot.locus import draw_locus, find_period_deg
 from balcli.render.plot.pages import PAGES, PageSubject, draw_panel, make_page
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import QUANTITIES, analyze
+from balcli.studies.pictures import Study
 from balcli.torque.pictures import PAGES as PAGES_OF_GAS
-from balcli.torque.pictures import compute_pictures
+from balcli.torque.pictures import compute_picture
 
 HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
 ANALYSES = [what for what in PAGES if what not in ("factor", "bank", "inner", *PAGES_OF_GAS)]
@@ -49,7 +50,7 @@ def four():
 @pytest.fixture(scope="module")
 def drawn(four):
     """The pages of the four, each drawn once: a function of the page and the form."""
-    return cache(lambda what, form: draw_page(PageSubject(four), what, form))
+    return cache(lambda what, form: draw_page(PageSubject(Study(four)), what, form))
 
 
 @pytest.mark.parametrize("what", ANALYSES)
@@ -60,7 +61,7 @@ def test_every_page_is_drawn(what, drawn):
 @pytest.mark.stress
 @pytest.mark.parametrize("what", ANALYSES)
 def test_before_and_after(what, four):
-    compared = ET.fromstring(draw_page(PageSubject(four.sizing.after, four), what, "svg"))
+    compared = ET.fromstring(draw_page(PageSubject(Study(four.sizing.after, four)), what, "svg"))
     assert ("before" in " ".join(compared.itertext())) == (what != "orders")
 
 
@@ -72,12 +73,12 @@ def test_every_form_says_what_it_is(form, drawn):
 @pytest.mark.stress
 @pytest.mark.parametrize("form", get_args(style.Form))
 def test_the_same_picture_is_the_same_bytes(form, drawn, four):
-    assert drawn("all", form) == draw_page(PageSubject(four), "all", form)
+    assert drawn("all", form) == draw_page(PageSubject(Study(four)), "all", form)
 
 
 @pytest.mark.parametrize("form", get_args(style.Form))
 def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
-    subject = PageSubject(replace(four, engine=replace(four.engine, name=HOSTILE)))
+    subject = PageSubject(Study(replace(four, engine=replace(four.engine, name=HOSTILE))))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         data = draw_page(subject, "polar", form)
@@ -91,7 +92,7 @@ def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
 def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
     """A five has a free force of 1e-6 of one cylinder's, and a moment."""
     five = analyze(inline_engine([0, 144, 216, 288, 72]))
-    root = ET.fromstring(draw_page(PageSubject(five), "polar", "svg"))
+    root = ET.fromstring(draw_page(PageSubject(Study(five)), "polar", "svg"))
     texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
     assert len([text for text in texts if text.startswith("negligible (")]) == 1
     assert "moment along x, N·m" in texts
@@ -105,7 +106,9 @@ def texts_of(svg: bytes) -> list[str]:
 def test_orders_that_are_negligible_have_no_picture():
     """Orders 10 of the force and 4 of the moment of a five; 1 and 2 of its moment are drawn."""
     five = analyze(inline_engine([0, 144, 216, 288, 72]))
-    titles = [text for text in texts_of(draw_page(PageSubject(five), "orders", "svg")) if text]
+    titles = [
+        text for text in texts_of(draw_page(PageSubject(Study(five)), "orders", "svg")) if text
+    ]
     assert [text for text in titles if ", order" in text] == [
         "moment, order 1, at crank angle 36°",
         "moment, order 2, at crank angle 18°",
@@ -117,7 +120,7 @@ def test_what_is_nothing_is_said_and_not_drawn():
     """A six is balanced in force and moment; about the crank it is not."""
     six = analyze(inline_engine([0, 240, 120, 120, 240, 0]), only=QUANTITIES)
     for what, panels in (("all", 6), ("polar", 2), ("curves", 2), ("spectrum", 2), ("orders", 2)):
-        found = texts_of(draw_page(PageSubject(six), what, "svg"))
+        found = texts_of(draw_page(PageSubject(Study(six)), what, "svg"))
         told = [text for text in found if text == "balanced" or text.startswith("negligible (")]
         assert len(told) == panels
         assert "force, N" not in found
@@ -134,7 +137,7 @@ def test_legends_end_with_their_axes(form, four, monkeypatch):
                 beyond.append(legend.get_window_extent().x1 - ax.get_window_extent().x1)
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", measure)
-    draw_page(PageSubject(four.sizing.after, four), "all", form)
+    draw_page(PageSubject(Study(four.sizing.after, four)), "all", form)
     assert len(beyond) == 5
     assert max(beyond) <= 0.5
 
@@ -153,7 +156,7 @@ def test_a_picture_is_laid_out_and_drawn_once(four, monkeypatch):
             return own(self, *args)
 
         monkeypatch.setattr(owner, name, count)
-    draw_page(PageSubject(four), "all", "svg")
+    draw_page(PageSubject(Study(four)), "all", "svg")
     assert calls == ["execute", "draw"]
 
 
@@ -162,10 +165,14 @@ def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
     orders would be no torque.
     """
     fired = analyze(build_text(GAS_FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"))
-    bars = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(fired), "spectrum", "about"))
+    bars = re.findall(
+        r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "spectrum", "about")
+    )
     assert {"inertia torque T", "gas torque", "total roll", "½"} <= set(bars)
     assert "About the crank, with gas" in bars
-    curves = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(fired), "curves", "about"))
+    curves = re.findall(
+        r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "curves", "about")
+    )
     assert {"About the crank, of inertia alone", "couple C", "roll C − T", "360"} <= set(curves)
     assert "720" not in curves
 
@@ -194,7 +201,7 @@ def test_one_order_does_not_leave_half_a_page_empty():
     """Of a twin with a long rod: a moment of one order, and no force."""
     text = changed(("throws = [0, 180, 180, 0]", "throws = [0, 180]"), ("firing_order", "# "))
     twin = analyze(engine(text.replace("length = 160", "length = 100000")))
-    page = make_page(PageSubject(twin), "orders", "svg")
+    page = make_page(PageSubject(Study(twin)), "orders", "svg")
     assert page.get_figwidth() < 5
 
 
@@ -334,8 +341,8 @@ def test_in_a_page_colours_follow_it_and_ids_are_its_own(drawn):
 def test_of_a_share_of_gas_its_pressure_is_drawn(share):
     """Over that in the crankcase, 1 bar."""
     weak = build_text(f"{GAS_FOUR}{WIEBE}[cylinder.1]\ngas = {share}\n")
-    drawn = compute_pictures(weak, "p-v").pressures
-    whole = compute_pictures(build_text(GAS_FOUR + WIEBE), "p-v").pressures
+    drawn = compute_picture(weak, "p-v")
+    whole = compute_picture(build_text(GAS_FOUR + WIEBE), "p-v")
     assert drawn.pressure == pytest.approx(1e5 + share * (whole.pressure - 1e5))
 
 
@@ -344,7 +351,8 @@ def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     fired = build_text(GAS_FOUR + WIEBE)
-    page = make_page(PageSubject(analyze(fired), gas=compute_pictures(fired, what)), what, "png")
+    study = Study(analyze(fired), gas=compute_picture(fired, what))
+    page = make_page(PageSubject(study), what, "png")
     style.save_figure(page, "png")
     canvas = FigureCanvasAgg(page)
     canvas.draw()

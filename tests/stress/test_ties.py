@@ -12,8 +12,8 @@ from docs_examples import ROOT
 
 from balcli.engine.load import load, read
 from balcli.forces.crankshaft import compute_inner_loads
-from balcli.forces.quantity import parse_quantity_list
 from balcli.studies.deviations import Tolerances
+from balcli.studies.quantities import parse_quantities
 from balcli.studies.search.objective import Objective, parse_objective
 from balcli.studies.search.search import search_arrangements
 from balcli.studies.tolerances import Drawing, scatter_engine
@@ -26,7 +26,7 @@ ENGINES = ROOT / "engines"
 @pytest.mark.parametrize("name", ["car/tsinghua_6120q", "car/tsinghua_eq6100", "v10_split", "vr6"])
 def test_equal_shares_of_a_scatter(name: str) -> None:
     """Parts of one kind stand by their numbers."""
-    quantities = parse_quantity_list("force.1.major,force.2.major,moment.1.major,moment.2.major")
+    quantities = parse_quantities("force.1.major,force.2.major,moment.1.major,moment.2.major")
     for spread in scatter_engine(
         read(ENGINES / f"{name}.toml"), Tolerances(mass=0.01), quantities, Drawing(10, 1)
     ).spreads:

@@ -14,9 +14,10 @@ from support.gas_engines import PETROL_FOUR
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.spectrum import compute_spectra
 from balcli.studies.deviations import DeviatingEngine, Tolerances
+from balcli.studies.quantities import parse_quantities
 
 FOUR = (
     PETROL_FOUR.replace("[rod]", "throw_mass = 0.8\n[rod]")
@@ -206,7 +207,7 @@ def test_deviating_engines_have_the_gas_of_their_own_rods_and_throws(text):
     random = np.random.default_rng(3)
     tolerances = np.array([source.tolerance for source in engines.sources])
     deviations = tolerances[:, None] * (2 * random.random((len(tolerances), 4)) - 1)
-    wanted = parse_quantity_list(NAMES, with_gas=True)
+    wanted = parse_quantities(NAMES, with_gas=True)
     found = np.array(evaluate_quantities(engines.deviate(deviations), wanted))
     lengths = {1: 150, 2: 151, 3: 150, 4: 150}
     for sample in range(4):

@@ -54,12 +54,12 @@ def test_flat_plane_vee_eight_over_its_bank_angle():
 
 def test_bars_about_the_crank_are_with_the_gas_where_there_is_some():
     fired = compute_study(engine(FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"), "spectrum")
-    page = draw_page(PageSubject(**fired._asdict()), "spectrum", "svg")
+    page = draw_page(PageSubject(fired), "spectrum", "svg")
     texts = set(re.findall(r">([^<>]*)</text>", page.decode()))
     assert {"About the crank, with gas", "gas torque", "total roll", "½"} <= texts
     assert compute_study(engine(GOOD), "spectrum").now.spectra.gas is None
     shafts = compute_study(engine(FOUR + WIEBE), "spectrum", scheme="two-shaft")
-    page = draw_page(PageSubject(**shafts._asdict()), "spectrum", "svg")
+    page = draw_page(PageSubject(shafts), "spectrum", "svg")
     assert b"About the crank, with gas" in page
 
 
@@ -126,12 +126,12 @@ def test_only_a_vee_has_a_bank_angle(text, reason):
     ],
 )
 def test_pictures_of_studies_are_the_same_each_time(what, text):
-    subject = PageSubject(**compute_study(engine(text), what)._asdict())
+    subject = PageSubject(compute_study(engine(text), what))
     assert draw_page(subject, what, "svg") == draw_page(subject, what, "svg")
 
 
 def test_the_page_of_factors_tells_the_best():
-    subject = PageSubject(**compute_study(engine(CROSS), "factor")._asdict())
+    subject = PageSubject(compute_study(engine(CROSS), "factor"))
     assert "best at 0.5 (" in draw_page(subject, "factor", "svg").decode()
 
 
@@ -186,7 +186,7 @@ def test_a_force_that_is_negligible_at_every_bank_angle_is_said():
         ("firing_order = [1, 3, 4, 2]", "bank_angle = 60"),
         ("length = 160", "length = 240"),
     )
-    drawn = draw_page(PageSubject(**compute_study(engine(text), "bank")._asdict()), "bank", "svg")
+    drawn = draw_page(PageSubject(compute_study(engine(text), "bank")), "bank", "svg")
     assert re.search(r"negligible \(\S+ N\), whatever the bank angle", drawn.decode())
 
 

@@ -13,11 +13,12 @@ from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
-from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.forces.quantity import evaluate_quantities
 from balcli.render.sweep import sweep_csv, sweep_json
 from balcli.render.sweep_plot import check_drawable
 from balcli.studies.boxes import Box, BoxSize, divide_grid, group_boxes
 from balcli.studies.parameters import Parameter, parse_parameter
+from balcli.studies.quantities import parse_quantities
 from balcli.studies.sweep import (
     Array,
     Chunk,
@@ -37,7 +38,7 @@ VEE = changed(
     ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
     ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
 )
-EVERYTHING = parse_quantity_list(
+EVERYTHING = parse_quantities(
     "force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
     "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force"
 )
@@ -64,7 +65,7 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
     return Sweep(
         file,
         tuple(parse_parameter(v, file) for v in vary),
-        parse_quantity_list(of) if of else EVERYTHING,
+        parse_quantities(of) if of else EVERYTHING,
     )
 
 
@@ -216,7 +217,7 @@ def test_boxes_that_would_be_narrow_are_computed_in_tiles(
     picked = [*zip(paths, bounds, strict=True)][-len(shape) :]
     axes = zip(picked, shape, strict=True)
     parameters = tuple(Parameter(path, np.linspace(*ends, n)) for (path, ends), n in axes)
-    sweep = Sweep(load(VEE), parameters, parse_quantity_list("force.2.major,moment.1.x"))
+    sweep = Sweep(load(VEE), parameters, parse_quantities("force.2.major,moment.1.x"))
     size = BoxSize(most, most)
     boxes = list(divide_sweep(sweep, size))
     assert shape[-1] < 100 or len(boxes) < math.prod(shape) / most

@@ -11,12 +11,13 @@ from support.engines import GOOD, RADIAL, changed
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
-from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.forces.quantity import evaluate_quantities
 from balcli.studies.deviations import Tolerances
+from balcli.studies.quantities import parse_quantities
 from balcli.studies.stated_tolerances import parse_tolerances
 from balcli.studies.tolerances import Drawing, scatter_engine
 
-FORCES = parse_quantity_list("force.1.major,force.2.major,moment.1.major")
+FORCES = parse_quantities("force.1.major,force.2.major,moment.1.major")
 TWIN = changed(
     ("[0, 180, 180, 0]", "[0, 180]"),
     ("throw_mass = 0.8", ""),
@@ -35,7 +36,7 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
     """
     t, samples = 0.01, 200_000
     (spread,) = scatter_engine(
-        load(TWIN), Tolerances(mass=t), parse_quantity_list("force.1.major"), Drawing(samples, 1)
+        load(TWIN), Tolerances(mass=t), parse_quantities("force.1.major"), Drawing(samples, 1)
     ).spreads
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
     deviation = t * math.sqrt(2 / 9) / math.sqrt(samples)  # of the mean of |d1 - d2|
@@ -47,12 +48,12 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
 
 def test_shares_are_what_a_changed_file_gives() -> None:
     (spread,) = scatter_engine(
-        load(GOOD), Tolerances(mass=0.01), parse_quantity_list("force.2.major"), Drawing(10, 1)
+        load(GOOD), Tolerances(mass=0.01), parse_quantities("force.2.major"), Drawing(10, 1)
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     heavier = build(load(GOOD + "[cylinder.2]\npiston_mass = 0.505\n"))
     nominal, other = (
-        float(evaluate_quantities(e, parse_quantity_list("force.2.major"))[0])
+        float(evaluate_quantities(e, parse_quantities("force.2.major"))[0])
         for e in (build(load(GOOD)), heavier)
     )
     assert share["piston mass 2"] == pytest.approx(other - nominal, rel=1e-9)
@@ -62,7 +63,7 @@ def test_shares_are_what_a_changed_file_gives() -> None:
 def test_a_rod_deviates_without_its_shells() -> None:
     """What a rod's tolerance does is the same with shells and oil on the pins as without."""
     shells = "[bobweight]\nrod_bearing = 0.05\noil = 0.01\n"
-    quantity = parse_quantity_list("force.1.forward")
+    quantity = parse_quantities("force.1.forward")
     without, with_shells = (
         scatter_engine(load(text), Tolerances(mass=0.01), quantity, Drawing(10, 1)).spreads[0]
         for text in (GOOD, GOOD + shells)
@@ -75,13 +76,13 @@ def test_shares_of_angles_and_lengths_are_derivatives() -> None:
     (spread,) = scatter_engine(
         load(weighed),
         Tolerances(length=1e-6, angle_deg=1e-5),
-        parse_quantity_list("force.2.major"),
+        parse_quantities("force.2.major"),
         Drawing(10, 1),
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     longer = build(load(weighed + "[cylinder.3]\nrod_length = 160.00016\n"))
     nominal, other = (
-        float(evaluate_quantities(e, parse_quantity_list("force.2.major"))[0])
+        float(evaluate_quantities(e, parse_quantities("force.2.major"))[0])
         for e in (build(load(weighed)), longer)
     )
     assert share["rod length 3"] == pytest.approx(other - nominal, rel=1e-4)
@@ -102,7 +103,7 @@ def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
     against, couple = scatter_engine(
         load(text),
         Tolerances(length=1e-4),
-        parse_quantity_list("force.1.backward,couple.1.amplitude"),
+        parse_quantities("force.1.backward,couple.1.amplitude"),
         Drawing(10, 1),
     ).spreads
     w2 = (3000 * math.pi / 30) ** 2
@@ -124,7 +125,7 @@ def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
     ids=["inertia", "pendulum", "ratio", "master", "articulated"],
 )
 def test_shares_of_lengths_are_what_a_changed_file_gives(text: str, number: int) -> None:
-    quantities = parse_quantity_list("force.1.forward,force.2.backward,couple.1.amplitude")
+    quantities = parse_quantities("force.1.forward,force.2.backward,couple.1.amplitude")
     step, key = 1e-5, f"cylinder.{number}.rod_length"
     model = load(text)
     spreads = scatter_engine(model, Tolerances(length=step), quantities, Drawing(10, 1)).spreads
@@ -146,7 +147,7 @@ def test_shares_of_lengths_are_what_a_changed_file_gives(text: str, number: int)
 @pytest.mark.parametrize("text", [GOOD, RADIAL], ids=["plain", "articulated"])
 def test_rods_that_might_lock_are_refused(text: str) -> None:
     """They were no figures, or 64 GB."""
-    quantities = parse_quantity_list("force.2.major")
+    quantities = parse_quantities("force.2.major")
     with pytest.raises(BalcliError) as caught:
         scatter_engine(load(text), Tolerances(length=0.8), quantities, Drawing(10))
     said = "--length-scatter 80%: rods shorter by twice as much cannot be ("
@@ -204,13 +205,13 @@ def test_what_cannot_be_scattered_is_told(
     tolerance: Tolerances, quantity: str, samples: int, message: str
 ) -> None:
     with pytest.raises(BalcliError) as caught:
-        scatter_engine(load(GOOD), tolerance, parse_quantity_list(quantity), Drawing(samples))
+        scatter_engine(load(GOOD), tolerance, parse_quantities(quantity), Drawing(samples))
     assert str(caught.value).startswith(message)
 
 
 def test_percentiles_are_those_of_the_samples() -> None:
     result = scatter_engine(
-        load(TWIN), Tolerances(mass=0.01), parse_quantity_list("force.1.major"), Drawing(50_000, 1)
+        load(TWIN), Tolerances(mass=0.01), parse_quantities("force.1.major"), Drawing(50_000, 1)
     )
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
     median = (
@@ -225,9 +226,7 @@ ARTICULATED = RADIAL.replace("radial = 7", "radial = 5").replace("cg = 90", "cg 
 
 def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
     def force(text: str) -> float:
-        return float(
-            evaluate_quantities(build(load(text)), parse_quantity_list("force.1.major"))[0]
-        )
+        return float(evaluate_quantities(build(load(text)), parse_quantities("force.1.major"))[0])
 
     heavier = force(ARTICULATED + "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n") - force(
         ARTICULATED
@@ -235,7 +234,7 @@ def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
     (found,) = scatter_engine(
         load(ARTICULATED),
         Tolerances(mass=0.005),
-        parse_quantity_list("force.1.major"),
+        parse_quantities("force.1.major"),
         Drawing(10, 1),
     ).spreads
     assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(
@@ -251,6 +250,6 @@ def test_rotary_engines_have_no_scatter() -> None:
         scatter_engine(
             load(rotary),
             Tolerances(mass=0.005),
-            parse_quantity_list("force.1.major"),
+            parse_quantities("force.1.major"),
             Drawing(10, 1),
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import os
 import subprocess
 import sys
@@ -62,6 +63,18 @@ def refusal(*args: object, stdin: str = "") -> str:
     assert (status, out) == (2, "")
     assert err.startswith("balcli: ")
     return err.removeprefix("balcli: ").removesuffix("\n")
+
+
+def ask_json(*args: object, stdin: str = "") -> Any:
+    """What a command answers as JSON, with status 0 and nothing on standard error."""
+    status, out, err = run_here(*args, "--format", "json", stdin=stdin)
+    assert (status, err) == (0, "")
+    return json.loads(out)
+
+
+def ask_torsion(text: str, *options: object) -> Any:
+    """What `balcli torsion` answers about a file of this text."""
+    return ask_json("torsion", "-", *options, stdin=text)
 
 
 def run_command(*args: object, **options: Any) -> subprocess.CompletedProcess:

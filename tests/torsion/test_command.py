@@ -10,7 +10,7 @@ from io import StringIO
 import numpy as np
 import pytest
 from support import chains
-from support.commands import refusal, run_here, run_in_terminal
+from support.commands import ask_torsion, refusal, run_here, run_in_terminal
 from support.paths import ENGINES
 
 from balcli.torsion.starting_file import read_starting_file
@@ -45,12 +45,6 @@ def text_of(chain, damping, more=""):
     return "".join(lines).replace("np.float64", "").replace("(", "").replace(")", "")
 
 
-def ask(text, *options):
-    status, out, err = run_here("torsion", "-", *options, "--format", "json", stdin=text)
-    assert (status, err) == (0, "")
-    return json.loads(out)
-
-
 @pytest.mark.parametrize("kind", chains.KINDS)
 @pytest.mark.parametrize("seed", range(2))
 def test_random_chains_against_50_digits(kind, seed):
@@ -58,7 +52,7 @@ def test_random_chains_against_50_digits(kind, seed):
     chain = chains.random_chain(kind, seed, 5)
     exact = chains.exact_frequencies(chain)
     rigid = 0 if "clamped" in kind else 1
-    said = ask(text_of(chain, chains.no_damping(chain)))
+    said = ask_torsion(text_of(chain, chains.no_damping(chain)))
     found = [mode["frequency_Hz"] for mode in said["modes"]]
     assert found == pytest.approx(exact[rigid:] / (2 * np.pi), rel=1e-12, abs=0)
 
@@ -70,7 +64,7 @@ def test_forced_vibration_against_50_digits(kind):
     damping = chains.random_damping(chain, 5)
     driven = int(np.flatnonzero(~chain.clamped & (chain.inertia > 0))[0])
     torque = f'[[excitation]]\nnode = "n{driven}"\norder = 1.5\ncos = 30\nsin = -40\n'
-    said = ask(text_of(chain, damping) + torque, "--speeds", "700,1900")["response"]
+    said = ask_torsion(text_of(chain, damping) + torque, "--speeds", "700,1900")["response"]
     load = np.zeros(len(chain.inertia), complex)
     load[driven] = 30 + 40j
     shafts = [shaft for shaft in said["shafts"] if shaft["sum_of_amplitudes_Nm"]]
@@ -112,7 +106,7 @@ def test_a_terminal_of_80_columns_shows_all(tmp_path):
 
 def test_csv_lists_the_figures_of_json():
     options = ("--speeds", "1000:1100:50", "--holzer", "2")
-    said = ask(read_starting_file(), *options)
+    said = ask_torsion(read_starting_file(), *options)
     table = run_here("torsion", "-", *options, "-f", "csv", stdin=read_starting_file()).out
     lines = list(csv.DictReader(StringIO(table)))
     found = [float(x["value"]) for x in lines if x["part"] == "mode" and x["figure"] == "frequency"]
@@ -136,34 +130,36 @@ def test_csv_lists_the_figures_of_json():
 def test_limits_bar_speeds_between_the_steps():
     """The ends of a barred range do not depend on the step; at both the limit is just met."""
     text = read_starting_file().replace("limit = 40", "limit = 12", 1)
-    coarse, fine = (ask(text, "--speeds", f"2000:2600:{step}") for step in (600, 10))
+    coarse, fine = (ask_torsion(text, "--speeds", f"2000:2600:{step}") for step in (600, 10))
     assert len(fine["barred_rpm"]) == 1
     assert coarse["barred_rpm"][0] == pytest.approx(fine["barred_rpm"][0], abs=0.01)
     low, high = fine["barred_rpm"][0]
-    at_ends = ask(text, "--speeds", f"{low},{high}")["response"]
+    at_ends = ask_torsion(text, "--speeds", f"{low},{high}")["response"]
     worst = np.max([s["stress_Pa"] for s in at_ends["shafts"] if "stress_Pa" in s], axis=0)
     assert worst == pytest.approx([12e6, 12e6], rel=1e-5)
 
 
 def test_a_swing_can_be_the_limit():
     text = read_starting_file().replace("limit = 40", "angle_limit = 0.1", 1)
-    said = ask(text, "--speeds", "800:1600:20")
+    said = ask_torsion(text, "--speeds", "800:1600:20")
     (span,) = said["barred_rpm"]
     assert span[0] == 800
-    assert ask(text, "--speeds", repr(span[1]))["response"]["free_end_deg"] == pytest.approx([0.1])
+    assert ask_torsion(text, "--speeds", repr(span[1]))["response"][
+        "free_end_deg"
+    ] == pytest.approx([0.1])
 
 
 def test_a_limit_of_stress_without_any_diameter_is_not_judged():
     """It said that no speed is barred."""
     text = re.sub(r"diameter = .*\nlength = .*", "stiffness = 9e4", read_starting_file())
     text = re.sub(r"(?m)^diameter = .*\n", "", text)
-    assert "barred_rpm" not in ask(text, "--speeds", "800:1600:20")
+    assert "barred_rpm" not in ask_torsion(text, "--speeds", "800:1600:20")
     said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
     assert said.rstrip().endswith(
         "Limits\nnot judged  40 N/mm²: no shaft has a diameter, so that no stress is known"
     )
     text = text.replace("limit = 40", "limit = 40\nangle_limit = 0.1")
-    assert ask(text, "--speeds", "800:1600:20")["barred_rpm"]
+    assert ask_torsion(text, "--speeds", "800:1600:20")["barred_rpm"]
     said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
     assert "limit          ±0.1 deg at engine\n" in said
     assert "not judged     40 N/mm²: no shaft has a diameter" in said
@@ -202,7 +198,7 @@ def test_what_pendulums_leave_undamped_is_told(tmp_path):
         f"standard input: the natural frequency of {hertz:.6g} Hz is excited and nothing damps it: its vibration "
         "has no bound; give a loss factor (loss = 0.02), or damping"
     )
-    assert "response" in ask(text, "--speeds", "950:1150:50"), "beside the range"
+    assert "response" in ask_torsion(text, "--speeds", "950:1150:50"), "beside the range"
 
 
 def test_a_viscous_ring_takes_heat_as_power_is_fed():
@@ -224,7 +220,7 @@ def test_a_viscous_ring_takes_heat_as_power_is_fed():
         order = 3
         cos = 20
         """
-    said = ask(text, "--speeds", "1500")["response"]
+    said = ask_torsion(text, "--speeds", "1500")["response"]
     w = 3 * 1500 * np.pi / 30
     ring = 0.05 / (1 + 1j * w * 0.05 / 3)
     k, hub, end = 40000, -(w**2) * (0.2 + ring), -(w**2) * 0.7
@@ -246,7 +242,7 @@ def test_a_rubber_ring_takes_heat_as_power_is_fed():
         order = 1
         cos = 20
         """
-    said = ask(text, "--speeds", "1500")["response"]
+    said = ask_torsion(text, "--speeds", "1500")["response"]
     w = 1500 * np.pi / 30
     stiffness = 3000 * (1 + 0.2j)
     ring = 0.05 / (1 - w**2 * 0.05 / stiffness)
@@ -275,9 +271,9 @@ def test_a_tuned_pendulum_holds_its_node_still():
         order = 2
         cos = 20
         """
-    assert ask(text, "--speeds", "1500")["response"]["free_end_deg"][0] < 1e-9
+    assert ask_torsion(text, "--speeds", "1500")["response"]["free_end_deg"][0] < 1e-9
     detuned = text.replace("order = 2", "order = 2.5")
-    assert ask(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
+    assert ask_torsion(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
 
 
 @pytest.mark.parametrize(
@@ -323,7 +319,7 @@ def test_options_that_cannot_be(options, message):
 
 
 def test_trial_frequencies_have_units():
-    tables = ask(
+    tables = ask_torsion(
         read_starting_file(),
         *(
             "--holzer",
@@ -338,7 +334,7 @@ def test_trial_frequencies_have_units():
 
 
 def test_orders_are_those_asked_for():
-    said = ask(read_starting_file(), "--speeds", "2315", "--orders", "3-8")
+    said = ask_torsion(read_starting_file(), "--speeds", "2315", "--orders", "3-8")
     assert said["criticals"] == []  # order 4 meets no mode at this speed
     assert [x["order"] for x in said["response"]["shafts"][0]["worst"]["orders"]] == [4]
 
@@ -358,7 +354,7 @@ def test_a_chain_without_excitation_is_told_to_take_one():
 
 def test_a_node_alone_swings_rigidly(tmp_path):
     """No shaft, no mode: what is left is `T/(J w^2)`."""
-    said = ask(LONE, "--speeds", "100,200")
+    said = ask_torsion(LONE, "--speeds", "100,200")
     assert (said["modes"], said["shafts"], said["criticals"]) == ([], [], [])
     swing = [np.degrees(3 / (rpm * np.pi / 30) ** 2) for rpm in (100, 200)]
     assert said["response"]["free_end_deg"] == pytest.approx(swing)
@@ -403,7 +399,7 @@ def test_a_mode_that_no_table_can_follow_has_none(first):
         text += f'[[shaft]]\nfrom = "hub"\nto = "{end}"\nstiffness = {stiffness!r}\n'
     told = "cannot be followed from"
     assert told in refusal("torsion", "-", "--holzer", "1", stdin=text)
-    assert abs(ask(text, "--holzer", "2")["holzer"][0]["residual_Nm"]) < 1e-6
+    assert abs(ask_torsion(text, "--holzer", "2")["holzer"][0]["residual_Nm"]) < 1e-6
 
 
 def test_a_node_that_stands_still_is_told():
@@ -411,14 +407,14 @@ def test_a_node_that_stands_still_is_told():
     text = "".join(node(name, 1) for name in "abc")
     for start, end in ("ab", "bc"):
         text += f'[[shaft]]\nfrom = "{start}"\nto = "{end}"\nstiffness = 1e5\n'
-    first, second = ask(text)["modes"]
+    first, second = ask_torsion(text)["modes"]
     assert (first["nodes"], first["node_in"], first["node_at"]) == (1, [], ["b"])
     assert (second["nodes"], second["node_in"], second["node_at"]) == (2, ["a-b", "b-c"], [])
     lines = run_here("torsion", "-", stdin=text).out.splitlines()
     assert [line.split()[3:] for line in lines if line.startswith("1 ")] == [["1", "at", "b"]]
     table = run_here("torsion", "-", "--holzer", "1", stdin=text).out.partition("Holzer's")[2]
     assert re.search(r"(?m)^b +1 +0 +0 ", table), "rounding errors stood there"
-    held = ask('fixed = ["b"]\n' + text)["modes"]
+    held = ask_torsion('fixed = ["b"]\n' + text)["modes"]
     assert [(mode["nodes"], mode["node_at"]) for mode in held] == [(0, []), (0, [])]
 
 
@@ -431,7 +427,7 @@ def test_loops_have_no_holzer_table():
             { from = "a", to = "c", stiffness = 3 },
         ]
         """
-    assert len(ask(loop)["modes"]) == 2
+    assert len(ask_torsion(loop)["modes"]) == 2
     assert refusal("torsion", "-", "--holzer", "1", stdin=loop) == (
         "standard input: --holzer: Holzer's table needs a chain in one piece, without loops"
     )

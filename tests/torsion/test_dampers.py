@@ -9,7 +9,7 @@ import tomllib
 
 import numpy as np
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_torsion, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
@@ -37,12 +37,6 @@ cos = 100
 """
 
 
-def ask(text, *options):
-    status, out, err = run_here("torsion", "-", *options, "--format", "json", stdin=text)
-    assert (status, err) == (0, "")
-    return json.loads(out)
-
-
 def largest(said, what="half_peak_to_peak_Nm"):
     shafts = [shaft["worst"] for shaft in said["response"]["shafts"]]
     return max(worst[what] for worst in shafts if what in worst)
@@ -54,7 +48,7 @@ def test_houdaille_optimum(ratio):
     and the damping is that of Den Hartog's formula.
     """
     options = ("--damper", "viscous", "--damper-inertia", f"{ratio} kg m^2", *RANGE)
-    damper = ask(SINGLE, *options)["damper"]
+    damper = ask_torsion(SINGLE, *options)["damper"]
     assert damper["node"] == "disc"
     assert damper["before_Nm"] is None, "nothing else damps it: no bound"
     assert damper["after_Nm"] == pytest.approx(100 * (1 + 2 / ratio), rel=2e-4)
@@ -66,7 +60,7 @@ def test_houdaille_optimum(ratio):
 def test_no_other_figure_is_better(kind):
     """Of the Diesel with its inertia torque, over the range in which order 3 is critical."""
     options = ("--speeds", "3000:4600:20")
-    sized = ask(write_diesel(), *options, "--damper", kind, "--damper-at", "pulley")
+    sized = ask_torsion(write_diesel(), *options, "--damper", kind, "--damper-at", "pulley")
     damper = sized["damper"]
     assert damper["after_Pa"] == pytest.approx(largest(sized, "stress_Pa"))
     assert damper["after_Pa"] < 0.4 * damper["before_Pa"]
@@ -81,7 +75,7 @@ def test_no_other_figure_is_better(kind):
         other = write_diesel().replace(
             'name = "pulley"\n', f'name = "pulley"\ndamper = {{ {table} }}\n'
         )
-        assert largest(ask(other, *options), "stress_Pa") > damper["after_Pa"]
+        assert largest(ask_torsion(other, *options), "stress_Pa") > damper["after_Pa"]
 
 
 @pytest.mark.parametrize("kind", ["viscous", "rubber"])
@@ -91,7 +85,8 @@ def test_no_resonance_hides_between_the_speeds(kind):
     """
     text = write_diesel().replace("damping = 2\n", "").replace("loss = 0.035", "loss = 0.004")
     coarse, fine = (
-        ask(text, "--speeds", f"3000:4600:{step}", "--damper", kind)["damper"] for step in (400, 10)
+        ask_torsion(text, "--speeds", f"3000:4600:{step}", "--damper", kind)["damper"]
+        for step in (400, 10)
     )
     for key in ("before_Pa", "after_Pa"):
         assert coarse[key] == pytest.approx(fine[key], rel=1e-3)
@@ -99,7 +94,7 @@ def test_no_resonance_hides_between_the_speeds(kind):
 
 def test_a_pendulum_is_tuned_to_the_order_that_does_most():
     options = ("--speeds", "3800:4400:20", "--orders", "3")
-    damper = ask(write_diesel(), *options, "--damper", "pendulum")["damper"]
+    damper = ask_torsion(write_diesel(), *options, "--damper", "pendulum")["damper"]
     assert damper["radius_m"] / damper["length_m"] == pytest.approx(9, rel=0.25)
     assert damper["after_Pa"] < 0.1 * damper["before_Pa"]
     assert damper["heat_W"] == 0
@@ -160,7 +155,7 @@ def test_a_damper_is_tuned_to_the_mode_of_the_largest_stress(kind, share):
     crankshaft. In the crankshaft's mode the flywheel swings a tenth as far as the crank, the other
     way, so that 1.1 kg m2 vibrate.
     """
-    damper = ask(GENSET, "--speeds", "500:3000:10", "--damper", kind)["damper"]
+    damper = ask_torsion(GENSET, "--speeds", "500:3000:10", "--damper", kind)["damper"]
     assert damper["mode"] == 2
     assert damper["inertia_kg_m2"] == pytest.approx(share * 1.1, rel=0.01)
     assert damper["after_Pa"] < 0.3 * damper["before_Pa"]
@@ -206,7 +201,7 @@ def test_a_damper_is_for_a_mode_in_which_its_carrier_moves(inertia, carrier):
 def test_a_damper_of_the_file_is_the_one_that_is_sized():
     own = 'damper = { kind = "rubber", inertia = 12345, stiffness = 1, loss = 0.2 }\n'
     text = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}')
-    damper = ask(text, "--speeds", "3000:4600:40", "--damper", "rubber")["damper"]
+    damper = ask_torsion(text, "--speeds", "3000:4600:40", "--damper", "rubber")["damper"]
     assert (damper["inertia_kg_m2"], damper["loss"]) == (0.012345, 0.2)
     assert damper["stiffness_Nm_per_rad"] > 1000
 
@@ -215,7 +210,7 @@ def test_what_it_costs_is_the_power_lost_in_it():
     """The heat of the sized damper is that of the same damper in a file: the largest of the range,
     between the speeds, too.
     """
-    sized = ask(write_diesel(), "--speeds", "3000:4600:100", "--damper", "viscous")
+    sized = ask_torsion(write_diesel(), "--speeds", "3000:4600:100", "--damper", "viscous")
     (told,) = sized["response"]["dampers"]
     assert told["node"] == "pulley"
     damper, worst = sized["damper"], told["worst"]
@@ -227,7 +222,9 @@ def test_what_it_costs_is_the_power_lost_in_it():
     ring = f'damper = {{ kind = "viscous", {figures} }}'
     text = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{ring}\n')
     middle = worst["speed_rpm"]
-    fine = ask(text, "--speeds", f"{middle - 100}:{middle + 100}:0.5")["response"]["dampers"][0]
+    fine = ask_torsion(text, "--speeds", f"{middle - 100}:{middle + 100}:0.5")["response"][
+        "dampers"
+    ][0]
     assert damper["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
 
 
@@ -248,8 +245,8 @@ def test_heat_of_a_narrow_resonance_is_the_highest_of_it():
     ring = 'damper = { kind = "viscous", inertia = 18800, damping = 0.0541 }\n'
     text = "".join(["loss = 0.0172\n", *nodes, *shafts, *orders])
     text = text.replace('name = "a"\n', f'name = "a"\n{ring}')
-    (coarse,) = ask(text, "--speeds", "600:3000:100")["response"]["dampers"]
-    (fine,) = ask(text, "--speeds", "1180:1190:0.01")["response"]["dampers"]
+    (coarse,) = ask_torsion(text, "--speeds", "600:3000:100")["response"]["dampers"]
+    (fine,) = ask_torsion(text, "--speeds", "1180:1190:0.01")["response"]["dampers"]
     assert coarse["worst"]["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
 
 

@@ -4,20 +4,12 @@ integration, and every mistake by its path.
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_torsion, refusal
 from support.diesel import INERTIAS, NATURAL_HZ, RUNNING_GEAR, write_diesel
 
 ODE = 1e-6  # of the largest: what a time integration agrees to
-
-
-def ask(text, *options):
-    status, out, err = run_here("torsion", "-", *options, "--format", "json", stdin=text)
-    assert (status, err) == (0, "")
-    return json.loads(out)
 
 
 def slider_crank(theta, radius, length, offset=0.0):
@@ -29,7 +21,7 @@ def slider_crank(theta, radius, length, offset=0.0):
 
 # ------------------------------------------------------------------ inertias
 def test_nodes_and_shafts_stand_from_front_to_rear():
-    said = ask(write_diesel())
+    said = ask_torsion(write_diesel())
     throws = [f"throw {k}" for k in range(1, 7)]
     assert [node["name"] for node in said["nodes"]] == ["pulley", "gear", *throws, "flywheel"]
     between = [f"throw {k}-{k + 1}" for k in range(1, 6)]
@@ -69,7 +61,7 @@ def test_mean_inertia_of_a_cylinder_against_quadrature():
     lacking = small * big / mass * length**2 - about
     moving = np.mean((0.5 + small) * speed**2 - lacking * rate**2)
     expected = 0.02 + big * radius**2 + moving
-    assert ask(text)["nodes"][0]["inertia_kg_m2"] == pytest.approx(expected, rel=1e-13)
+    assert ask_torsion(text)["nodes"][0]["inertia_kg_m2"] == pytest.approx(expected, rel=1e-13)
 
 
 def test_throws_of_a_vee_carry_two_rods():
@@ -97,7 +89,7 @@ def test_throws_of_a_vee_carry_two_rods():
         """
     speed, _ = slider_crank(np.arange(4096) * 2 * np.pi / 4096, 0.04, 0.14)
     one = 0.4 * 0.04**2 + 0.7 * np.mean(speed**2)
-    said = ask(vee)
+    said = ask_torsion(vee)
     found = [node["inertia_kg_m2"] for node in said["nodes"][:2]]
     assert found == pytest.approx([0.015 + 2 * one, 0.016 + 2 * one], rel=1e-12)
     first = said["modes"][0]
@@ -116,7 +108,7 @@ def test_the_running_gear_of_the_diesel():
 
 # ------------------------------------------------------------------ excitation
 def test_phase_sums_are_those_of_the_firing_order():
-    said = ask(write_diesel(), "--orders", "1-12")
+    said = ask_torsion(write_diesel(), "--orders", "1-12")
     shape = np.array(said["modes"][0]["shape"][2:8])
     pins = np.radians([0, 240, 120, 120, 240, 0])  # of 1-5-3-6-2-4
     for critical in said["criticals"]:
@@ -232,7 +224,7 @@ def test_time_integration_agrees_with_the_synthesis():
     exact = integrate(
         inertia, stiffness, [60, 0, 0, 0, 50], [0, 4, 4, 4, 4, 1], torque, omega, 3000
     )
-    said = ask(text, "--speeds", "5200", "--orders", "1-24")["response"]
+    said = ask_torsion(text, "--speeds", "5200", "--orders", "1-24")["response"]
     found = [shaft["half_peak_to_peak_Nm"][0] for shaft in said["shafts"]]
     assert found == pytest.approx(exact, abs=ODE * max(exact))
 
@@ -244,7 +236,9 @@ def test_rigid_shafts_leave_the_fluctuation_of_one_inertia():
     )
     for stiffness in ("1631000.0", "1106000.0", "1976000.0"):
         stiff = stiff.replace(f"stiffness = {stiffness}", 'stiffness = "rigid"')
-    said = ask(stiff.replace("damping = 2", "damping = 0"), "--speeds", "2000", "--orders", "6")
+    said = ask_torsion(
+        stiff.replace("damping = 2", "damping = 0"), "--speeds", "2000", "--orders", "6"
+    )
     whole = sum(INERTIAS)
     theta = np.arange(4096) * 2 * np.pi / 4096
     speed, _ = slider_crank(theta, 0.0685, 0.207)
@@ -269,7 +263,7 @@ def test_branches_and_gears():
         inertia = 3000
         stiffness = 9000
         """
-    said = ask(write_diesel() + more)
+    said = ask_torsion(write_diesel() + more)
     gears = {node["name"]: node["gear"] for node in said["nodes"]}
     assert (gears["flywheel"], gears["camshaft"], gears["pump"]) == (1, 0.5, 0.5)
     assert len(said["modes"]) == 10
@@ -285,7 +279,7 @@ def test_a_rigid_part_adds_to_its_neighbour():
         inertia = 75000
         stiffness = "rigid"
         """
-    found = [mode["frequency_Hz"] for mode in ask(apart + rest)["modes"]]
+    found = [mode["frequency_Hz"] for mode in ask_torsion(apart + rest)["modes"]]
     assert found == pytest.approx(NATURAL_HZ, rel=1e-7)
 
 
@@ -451,7 +445,7 @@ def test_speeds_and_pendulums_count_from_the_crankshaft_with_a_geared_part_forem
     found = {}
     for key in ("front", "rear"):
         text = PUMP_AND_PENDULUM.format(pump=f"[[torsion.{key}]]{PUMP}")
-        said = ask(text, "--speeds", "900,2100,4000")
+        said = ask_torsion(text, "--speeds", "900,2100,4000")
         assert {node["name"]: node["gear"] for node in said["nodes"]} == {
             "throw 1": 1,
             "pump": -2.5,

@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.diesel import INERTIAS, STIFFNESSES, write_diesel
 from support.paths import ENGINES
 
@@ -26,12 +26,6 @@ def diesel(tmp_path):
     gas = '[gas]\nindicator = "p.csv"\ncrankcase = 1\n'
     path.write_text(write_diesel(extra=gas), encoding="utf-8")
     return path
-
-
-def ask(*args):
-    status, out, err = run_here("torsion", *args, "--format", "json")
-    assert (status, err) == (0, "")
-    return json.loads(out)
 
 
 def torque(rpm, angle):
@@ -67,7 +61,7 @@ def respond(rpm, weights=(1,) * 6):
 
 @pytest.mark.parametrize("rpm", [1000, 2170])
 def test_vibratory_torque_against_plain_equations(diesel, rpm):
-    said = ask(diesel, "--speeds", rpm)["response"]
+    said = ask_json("torsion", diesel, "--speeds", rpm)["response"]
     found = [shaft["half_peak_to_peak_Nm"][0] for shaft in said["shafts"]]
     assert found == pytest.approx(respond(rpm), rel=5e-6)
     orders = [each["order"] for each in said["shafts"][0]["worst"]["orders"]]
@@ -77,13 +71,15 @@ def test_vibratory_torque_against_plain_equations(diesel, rpm):
 def test_a_misfire_takes_away_the_gas_of_one_cylinder(diesel):
     """Its inertia stays; orders that cancelled before shake now."""
     whole, missing = (
-        ask(diesel, "--speeds", "1000", *options)["response"]
+        ask_json("torsion", diesel, "--speeds", "1000", *options)["response"]
         for options in ((), ("--misfire", "4"))
     )
     assert missing["free_end_deg"][0] > 3 * whole["free_end_deg"][0]
-    said = ask(diesel, "--speeds", "1000", *(f"--misfire={n}" for n in range(1, 7)))["response"]
+    said = ask_json(
+        "torsion", diesel, "--speeds", "1000", *(f"--misfire={n}" for n in range(1, 7))
+    )["response"]
     (tmp := diesel.parent / "none.toml").write_text(write_diesel(), encoding="utf-8")
-    without = ask(tmp, "--speeds", "1000")["response"]
+    without = ask_json("torsion", tmp, "--speeds", "1000")["response"]
     found, exact = ([s["half_peak_to_peak_Nm"][0] for s in r["shafts"]] for r in (said, without))
     assert found == pytest.approx(exact, rel=1e-9)
 
@@ -96,7 +92,7 @@ def test_cylinders_without_gas_are_named(diesel, said_in):
         options = []
         text = diesel.read_text(encoding="utf-8")
         diesel.write_text(f"{text}[cylinder.2]\ngas = 0\n[cylinder.5]\ngas = 0\n", "utf-8")
-    assert ask(diesel, *options)["no_gas_in"] == [2, 5]
+    assert ask_json("torsion", diesel, *options)["no_gas_in"] == [2, 5]
     assert "\nno gas in  2, 5\n" in run_here("torsion", diesel, *options).out
     assert "engine,,,,,no_gas_in,2 5," in run_here("torsion", diesel, *options, "-f", "csv").out
 
@@ -105,7 +101,7 @@ def test_cylinders_that_burn_nothing_are_named(tmp_path):
     text = (ENGINES / "i6_diesel.toml").read_text(encoding="utf-8")
     diesel = tmp_path / "weak.toml"
     diesel.write_text(f"{text}[cylinder.5]\nheat = 0\n", "utf-8")
-    assert ask(diesel)["no_burning_in"] == [5]
+    assert ask_json("torsion", diesel)["no_burning_in"] == [5]
     assert "\nno burning in  5\n" in run_here("torsion", diesel).out
     assert "engine,,,,,no_burning_in,5," in run_here("torsion", diesel, "-f", "csv").out
     for command in ("torque", "analyze"):
@@ -115,17 +111,21 @@ def test_cylinders_that_burn_nothing_are_named(tmp_path):
 
 
 def test_nothing_is_said_of_gas_where_all_cylinders_have_some(diesel):
-    assert not {"no_gas_in", "no_burning_in"} & set(ask(diesel))
+    assert not {"no_gas_in", "no_burning_in"} & set(ask_json("torsion", diesel))
     assert "no gas in" not in run_here("torsion", diesel).out
 
 
 def test_the_phase_sum_counts_what_a_misfire_leaves(diesel):
     """Order 6 in line: without cylinder 6 the sum of the angles lacks its own."""
     whole, missing = (
-        next(c for c in ask(diesel, *options)["criticals"] if (c["mode"], c["order"]) == (1, 6))
+        next(
+            c
+            for c in ask_json("torsion", diesel, *options)["criticals"]
+            if (c["mode"], c["order"]) == (1, 6)
+        )
         for options in ((), ("--misfire", "1"))
     )
-    shape = ask(diesel)["modes"][0]["shape"]
+    shape = ask_json("torsion", diesel)["modes"][0]["shape"]
     assert whole["phase_sum"] == pytest.approx(sum(shape[2:8]))
     assert sum(shape[3:8]) < missing["phase_sum"] < whole["phase_sum"]
 

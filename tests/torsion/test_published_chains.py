@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import math
 
 import pytest
-from support.commands import run_here
-
-
-def ask(text, *options):
-    status, out, err = run_here("torsion", "-", *options, "--format", "json", stdin=text)
-    assert (status, err) == (0, "")
-    return json.loads(out)
+from support.commands import ask_torsion
 
 
 def hertz(text):
-    return [mode["frequency_Hz"] for mode in ask(text)["modes"]]
+    return [mode["frequency_Hz"] for mode in ask_torsion(text)["modes"]]
 
 
 def row(inertias, stiffness):
@@ -31,7 +24,7 @@ def row(inertias, stiffness):
 def test_thomson_12_4_1():
     """Thomson, Theory of Vibration with Applications, table 12.4-1: trials of 20 and 40 rad/s."""
     text = row([5, 11, 22], [1e5, 2e5])
-    tables = ask(text, "--holzer", "20 rad/s", "--holzer", "40 rad/s")["holzer"]
+    tables = ask_torsion(text, "--holzer", "20 rad/s", "--holzer", "40 rad/s")["holzer"]
     angles = [[x["angle"] for x in table["rows"]] for table in tables]
     sums = [[x["sum_Nm"] for x in table["rows"]] for table in tables]
     assert angles[0] == pytest.approx([1, 0.98, 0.94844], abs=1e-12)
@@ -125,7 +118,7 @@ def test_uniform_chain_with_one_end_fixed():
         for i in range(1, count + 1)
     ]
     assert [2 * math.pi * f for f in hertz(text)] == pytest.approx(exact, rel=1e-13)
-    (table,) = ask(text, "--holzer", "2")["holzer"]
+    (table,) = ask_torsion(text, "--holzer", "2")["holzer"]
     assert table["rows"][-1]["angle"] == 1
     assert table["rows"][0]["angle"] == pytest.approx(0, abs=1e-12)
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 
 TWO = """
 name = "one throw and a wheel"
@@ -60,12 +58,6 @@ length = 200
 """
 
 
-def scatter(path, *args):
-    done = run_here("scatter", path, *args, "-f", "json")
-    assert (done.status, done.err) == (0, "")
-    return json.loads(done.out)
-
-
 def test_two_inertias_by_hand(tmp_path):
     """`f = sqrt(k (1/J1 + 1/J2))/2 pi`, with the same random numbers."""
     path = tmp_path / "two.toml"
@@ -80,7 +72,7 @@ def test_two_inertias_by_hand(tmp_path):
         "--mass-scatter",
         "2%",
     )
-    found = scatter(path, "-q", "torsion.1.Hz", *options)["quantities"]["torsion.1.Hz"]
+    found = ask_json("scatter", path, "-q", "torsion.1.Hz", *options)["quantities"]["torsion.1.Hz"]
     names = ["inertia throw 1", "stiffness wheel", "inertia wheel", "piston mass 1"]
     assert {*found["sensitivity"]} == {*names}
     theta = np.linspace(0, 2 * np.pi, 4096, endpoint=False)
@@ -103,7 +95,7 @@ def test_two_inertias_by_hand(tmp_path):
 def test_every_throw_deviates_by_itself_and_with_gas(tmp_path):
     path = tmp_path / "three.toml"
     path.write_text(THREE + GAS, encoding="utf-8")
-    said = scatter(path, "-q", "shaft.wheel.stress", "--samples", "3", "--seed", "1")
+    said = ask_json("scatter", path, "-q", "shaft.wheel.stress", "--samples", "3", "--seed", "1")
     found = said["quantities"]["shaft.wheel.stress"]
     assert {*found["sensitivity"]} == {
         *("stiffness throw 1-2", "stiffness throw 2-3", "stiffness wheel", "inertia wheel"),

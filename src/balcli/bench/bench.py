@@ -15,12 +15,11 @@ from ..core.phasors import Array, Complex
 from ..engine.build import Engine, build
 from ..engine.load import parse
 from ..enginefile import examples
-from ..enginefile.model import EngineFile
 from ..forces.kinds import DEFAULT_QUANTITIES, KINDS
-from ..forces.quantity import parse_quantity_list
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import analyze
 from ..studies.parameters import Parameter, ladder
+from ..studies.quantities import parse_quantities
 from ..studies.sweep import CHUNK, Sweep
 from . import methods
 from .cold_start import start_balcli, start_libraries, start_smallest
@@ -185,7 +184,7 @@ def _grid(banks: int, ratios: int) -> Sweep:
 
 
 def _sweep(*parameters: Parameter) -> Sweep:
-    return Sweep(parse(V8), parameters, parse_quantity_list(DEFAULT_QUANTITIES))
+    return Sweep(parse(V8), parameters, parse_quantities(DEFAULT_QUANTITIES))
 
 
 def _run_one_by_one(sweep: Sweep, way: methods.Vectors) -> None:
@@ -197,13 +196,8 @@ def _engines(sweep: Sweep) -> Iterator[Engine]:
     angles, ratios = sweep.parameters
     for angle in angles.values:
         for ratio in ratios.values:
-            yield build(_set(sweep.file, float(angle), float(ratio)))
-
-
-def _set(file: EngineFile, angle: float, ratio: float) -> EngineFile:
-    layout = file.layout.model_copy(update={"bank_angle": angle})
-    rod = file.rod.model_copy(update={"ratio": ratio})
-    return file.model_copy(update={"layout": layout, "rod": rod})
+            file = sweep.file.with_table("layout", bank_angle=float(angle))
+            yield build(file.with_table("rod", ratio=float(ratio)))
 
 
 def _largest_error(found: Array, exact: Array) -> float:

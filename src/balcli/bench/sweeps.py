@@ -12,8 +12,8 @@ from ..core.phasors import Array
 from ..engine.load import parse
 from ..enginefile.model import EngineFile
 from ..forces.kinds import DEFAULT_QUANTITIES
-from ..forces.quantity import parse_quantity_list
 from ..studies.parameters import Parameter
+from ..studies.quantities import parse_quantities
 from ..studies.sweep import Sweep, evaluate_chunks
 
 RADIAL = """
@@ -74,7 +74,7 @@ def _vary(
 def build_timed_sweep(file: EngineFile, values: dict[str, Array], quantities: str) -> Sweep:
     """A sweep over these values of some numbers."""
     parameters = tuple(Parameter(path, array) for path, array in values.items())
-    return Sweep(file, parameters, parse_quantity_list(quantities))
+    return Sweep(file, parameters, parse_quantities(quantities))
 
 
 def run_sweep(sweep: Sweep) -> None:

@@ -14,7 +14,7 @@ from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
-from .output import show, write_file
+from .output import show, write_figure
 from .overwrite_guard import refuse_overwriting
 
 
@@ -89,9 +89,9 @@ def field(
     for doubt in find_doubts(result):
         warn(f"{name}: {doubt}")
     if plot is not None and drawn is not None:
-        from ..render.plot.field_balancing import draw_field  # brings matplotlib
+        from ..render.plot.field_balancing import make_field  # brings matplotlib
 
-        write_file(draw_field(result, drawn), plot)
+        write_figure(make_field(result, drawn), drawn, plot)
     show([result], renderer, form, output, units)
     if check and not result.reached:
         raise typer.Exit(Exit.DIFFERENCE)

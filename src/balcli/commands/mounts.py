@@ -21,7 +21,7 @@ from .options import (
     UnitsOption,
     parse_orders,
 )
-from .output import show, write_file
+from .output import show, write_figure
 from .overwrite_guard import refuse_overwriting
 from .progress import reporting
 from .scheme_options import choose_beside, parse_scheme_options
@@ -94,9 +94,9 @@ def mounts(
             "after this one"
         )
     if plot is not None and drawn is not None:
-        from ..render.plot.mounts import draw_mounts  # brings matplotlib
+        from ..render.plot.mounts import make_mounts  # brings matplotlib
 
-        write_file(draw_mounts(result, drawn, SYSTEMS[units]), plot)
+        write_figure(make_mounts(result, drawn, SYSTEMS[units]), drawn, plot)
     show([result], renderer, form, output, units)
 
 

@@ -10,7 +10,7 @@ import typer
 
 from ..errors import BalcliError
 from ..forces.kinds import KINDS, VECTORS
-from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER
+from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER, LONGEST_SHOWN
 from ..render.formats import Format, Units
 from .amounts import read_length, read_speed
 from .declare import optional
@@ -141,17 +141,31 @@ def parse_orders(text: str | None) -> list[float] | None:
     """
     if text is None:
         return None
+    bounds = f"must rise and end at {HIGHEST_ORDER} at most"
+    return read_orders(text, "give orders such as 1-8, 1,2,4 or 0.5-8", bounds, 0, HIGHEST_ORDER)
+
+
+def read_orders(text: str, right: str, bounds: str, least: float, most: float) -> list[float]:
+    """Orders and ranges of them with commas between: of a range that begins or ends with a half
+    halves, too.
+
+    Args:
+        right: what to give, for messages.
+        bounds: that ranges rise from the least to the most, for messages.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    start = f'--orders "{text[:LONGEST_SHOWN]}": '
     orders: list[float] = []
     for part in text.split(","):
-        first, dash, last = part.strip().partition("-")
+        first, dash, last = part.partition("-")
         low = _count_halves(first)
         high = _count_halves(last) if dash else low
         if low is None or high is None:
-            raise BalcliError(f'--orders "{text}": give orders such as 1-8, 1,2,4 or 0.5-8')
-        if low > high or high > 2 * HIGHEST_ORDER:
-            raise BalcliError(
-                f'--orders "{text}": {part.strip()} must rise and end at {HIGHEST_ORDER} at most'
-            )
+            raise BalcliError(start + right)
+        if not 2 * least <= low <= high <= 2 * most:
+            raise BalcliError(f"{start}{part.strip()} {bounds}")
         in_halves = low % 2 or high % 2
         orders += (
             [half / 2 for half in range(low, high + 1)]
@@ -163,7 +177,7 @@ def parse_orders(text: str | None) -> list[float] | None:
 
 def _count_halves(text: str) -> int | None:
     """Twice an order that is written with digits, such as `8` or `0.5`; None for anything else."""
-    if not re.fullmatch(r"[0-9]{1,12}(\.[05])?", text, re.ASCII):
+    if not re.fullmatch(r"\s*[0-9]{1,12}(\.[05]0*)?\s*", text, re.ASCII):
         return None
     return round(2 * float(text))
 

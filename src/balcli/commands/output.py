@@ -7,12 +7,17 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TextIO, TypeVar
+from typing import TYPE_CHECKING, TextIO, TypeVar
 
 from ..errors import BalcliError, warn
 from ..process import has_no_reader
 from ..render.formats import Format, Renderer, Units, render
 from ..render.units import SYSTEMS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ..render.plot.style import Form
 
 R = TypeVar("R")
 
@@ -121,3 +126,10 @@ def write_file(content: str | bytes, target: Path) -> None:
     data = content.encode() if isinstance(content, str) else content
     with replacing(target) as place:
         place.write_bytes(data)
+
+
+def write_figure(figure: Figure, form: Form, target: Path) -> None:
+    """Replace the file of a picture in one step; errors as of `write_file`."""
+    from ..render.plot.style import save_figure  # few draw
+
+    write_file(save_figure(figure, form), target)

@@ -62,7 +62,7 @@ def _make_pages(path: str, pages: Sequence[What], asked: Asked, form: Form) -> l
     figures = []
     for page, scheme in zip(pages, schemes, strict=True):
         study = compute_study(engine, page, orders, scheme, asked.options)
-        subject = PageSubject(system=SYSTEMS[asked.units], **study._asdict())
+        subject = PageSubject(study, SYSTEMS[asked.units])
         figures.append(make_page(subject, page, form))
     return figures
 

@@ -14,7 +14,7 @@ from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..process import count_cores, keep_freed_memory
-from ..render.sweep_plot import check_drawable, draw_sweep
+from ..render.sweep_plot import check_drawable, make_sweep
 from ..studies.quantity_names import describe_names
 from ..studies.threads import share_work
 from .completion import complete_numbers, complete_quantities
@@ -22,7 +22,7 @@ from .declare import optional
 from .file_names import VARIANTS, Place, VariantsFormat, format_of, picture_form, read_place
 from .format_names import format_option
 from .options import EnginePath, ProgressAtOnce
-from .output import is_seen, write_file
+from .output import is_seen, write_figure
 from .overwrite_guard import refuse_overwriting
 from .progress import exit_if_cut_short, reporting_until_stopped
 
@@ -136,7 +136,7 @@ def sweep(
                 place = out.write_sweep(job, counted, kind, file, watch)
     exit_if_cut_short(watch, place)
     if plot is not None and drawn is not None:
-        write_file(draw_sweep(job, join_chunks(job, kept or ()), drawn), plot)
+        write_figure(make_sweep(job, join_chunks(job, kept or ()), drawn), drawn, plot)
 
 
 def _doubt(job: Sweep, quantity: str | None) -> None:

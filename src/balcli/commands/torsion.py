@@ -13,7 +13,7 @@ from .declare import optional
 from .file_names import picture_form, require_ending, text_format
 from .named_files import refuse_leaving_files
 from .options import FormatOption, Misfire, Output, ProgressAtOnce, UnitsOption
-from .output import show, write_file
+from .output import show, write_figure, write_file
 from .overwrite_guard import refuse_overwriting
 
 
@@ -129,5 +129,5 @@ def torsion(
         refuse_leaving_files(source.text, path, write)
         write_file(answers.write_damper(source, result), write)
     if plot is not None and drawn is not None:
-        write_file(answers.draw(result, what, drawn, units), plot)
+        write_figure(answers.draw(result, what, drawn, units), drawn, plot)
     show([result], renderer, form, output, units)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
 from ..render.formats import Units
-from ..render.plot.torsion import draw_torsion, make_torsion
+from ..render.plot.torsion import make_torsion
 from ..render.units import SYSTEMS
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import ChainSource, Source, load_source
@@ -98,21 +98,15 @@ def make_figures_of_torsion(
             raise _range_missing(without[0])
         asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
     found = answer_question(source, asked)
-    for page in pages:
-        _refuse_without_shafts(found, page)
-    return [make_torsion(found, page, form, SYSTEMS[units]) for page in pages]
+    return [draw(found, page, form, units) for page in pages]
 
 
-def draw(result: TorsionAnalysis, what: str, form: Form, units: Units) -> bytes:
-    """The content of a file with pictures.
+def draw(result: TorsionAnalysis, what: str, form: Form, units: Units) -> Figure:
+    """A page of pictures.
 
     Raises:
         BalcliError: there is no shaft whose torque could be drawn.
     """
-    _refuse_without_shafts(result, what)
-    return draw_torsion(result, what, form, SYSTEMS[units])
-
-
-def _refuse_without_shafts(result: TorsionAnalysis, what: str) -> None:
     if what == "waterfall" and not result.system.shafts:
         raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
+    return make_torsion(result, what, form, SYSTEMS[units])

@@ -14,6 +14,7 @@ from ..render.formats import Units
 from ..torsion.analysis import HolzerAsked, TorsionQuestion
 from ..torsion.damper_proposal import DamperAsked
 from .amounts import read_inertia
+from .options import read_orders
 from .speed_range import parse_speeds
 
 _FREQUENCY = Dimension("rad/s", "a frequency", Powers(time=-1, angle=1), ("20 rad/s",))
@@ -28,25 +29,10 @@ def parse_half_orders(text: str | None) -> Real | None:
     """
     if text is None:
         return None
-    found: list[float] = []
-    for part in text.split(","):
-        match = re.fullmatch(
-            r"\s*(\d{1,4}(?:\.[05]0*)?)(?:\s*-\s*(\d{1,4}(?:\.[05]0*)?))?\s*", part
-        )
-        if match is None:
-            raise BalcliError(
-                f'--orders "{text[:60]}": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 '
-                "(whole ones) or 1,2.5,4"
-            )
-        low, high = float(match[1]), float(match[2] or match[1])
-        if not 0 < low <= high <= HIGHEST_TORSION_ORDER:
-            raise BalcliError(
-                f'--orders "{text[:60]}": {part.strip()} must rise, from above 0 to '
-                f"{HIGHEST_TORSION_ORDER} at most"
-            )
-        step = 0.5 if low % 1 or high % 1 else 1.0
-        found += np.arange(low, high + step / 2, step).tolist()
-    return np.array(sorted(set(found)))
+    right = "give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or 1,2.5,4"
+    bounds = f"must rise, from above 0 to {HIGHEST_TORSION_ORDER} at most"
+    found = read_orders(text, right, bounds, 0.5, HIGHEST_TORSION_ORDER)
+    return np.array(sorted(set(found)), float)
 
 
 def parse_holzer(texts: list[str] | None) -> tuple[HolzerAsked, ...]:

@@ -22,6 +22,7 @@ import numpy as np
 from .cached_property import cached_property
 from .cylinders import Cylinders
 from .factored_phasors import FactoredPhasors, Product
+from .mechanisms.distinct import narrow
 from .mechanisms.fourier import Series
 from .phasors import EPS, Array, Complex, Phasors, unit
 
@@ -72,7 +73,7 @@ class Phases:
         """Phases of pins that vary apart from those that do not: a sweep of one throw leaves the
         others where they are. Those on one throw are computed once.
         """
-        rows = [_narrow(row) for row in pin]
+        rows = [narrow(row) for row in pin]
         stays = np.array([row.size == 1 for row in rows]).reshape(-1, *(1,) * (pin.ndim - 1))
         first = pin[(_ALL, *(slice(1),) * (pin.ndim - 1))]
         self._still = unit(self.n * first) * stays
@@ -225,11 +226,3 @@ def _are_equal(sides: Array | Complex) -> bool:
 def _as_factors(arms: Array | None) -> Array | None:
     """Factors of equal vectors, shape (1, cylinders, *trailing)."""
     return None if arms is None else arms[None]
-
-
-def _narrow(values: Array) -> Array:
-    """The same without repetition: axes along which nothing changes get length 1."""
-    for axis, length in enumerate(values.shape):
-        if length > 1 and (values == (first := values.take([0], axis))).all():
-            values = first
-    return values

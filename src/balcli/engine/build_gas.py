@@ -107,11 +107,6 @@ class _Builder:
                 "a four-stroke cylinder fires in every second revolution, and only "
                 "the firing order says in which, such as firing_order = [1, 3, 4, 2]",
             )
-        own = [n for n, table in model.cylinder.items() if table.indicator is not None]
-        if gas.indicator is None and not own:
-            for key in DIAGRAM_KEYS:
-                if key in gas.model_fields_set:
-                    yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
         if gas.cycle is None:
             for number, table in model.cylinder.items():
                 if table.heat is not None:
@@ -120,6 +115,22 @@ class _Builder:
                         "belongs to a computed cycle, and [gas] has none; give the cylinder a "
                         "diagram of its own (indicator)",
                     )
+        yield from self._find_misplaced()
+
+    def _find_misplaced(self) -> Iterator[Problem]:
+        """Keys of [gas] that change nothing of this engine."""
+        gas, cylinders = self.gas, self.parts.model.cylinder.values()
+        given = gas.model_fields_set
+        measured = gas.indicator or any(table.indicator is not None for table in cylinders)
+        for key in () if measured else DIAGRAM_KEYS:
+            if key in given:
+                yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
+        if gas.harmonics and not measured and "crankcase" in given:
+            hint = "changes nothing beside harmonics, which are of the torque; leave it out"
+            yield Problem("gas.crankcase", hint)
+        if self.strokes == 2 and "exhaust" in given:
+            hint = "has no meaning in a two-stroke cycle: while its ports are open the pressure is"
+            yield Problem("gas.exhaust", f"{hint} that of intake; leave it out")
         if self.strokes == 2 and gas.zero == "gas-exchange":
             yield Problem(
                 "gas.zero", 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'

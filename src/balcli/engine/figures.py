@@ -174,11 +174,15 @@ def over(figure: Figure | None, divisor: float) -> Figure | None:
     return None if figure is None else figure / divisor
 
 
-def rod_figures(figures: FileFigures, rod: Rod, path: str = "rod") -> RodFigures:
-    """What the file says of rods, in the table of this name: [rod], or that of articulated rods."""
+def rod_figures(
+    figures: FileFigures, table: Rod | Override, path: str = "rod", prefix: str = ""
+) -> RodFigures:
+    """What a table of this name says of rods: [rod], that of articulated rods, or that of one
+    cylinder, where keys have a prefix.
+    """
 
     def take(key: str) -> Figure | None:
-        return figures.take_optional(f"{path}.{key}", getattr(rod, key))
+        return figures.take_optional(f"{path}.{prefix}{key}", getattr(table, prefix + key))
 
     return RodFigures(
         length=over(take("length"), 1e3),
@@ -188,27 +192,17 @@ def rod_figures(figures: FileFigures, rod: Rod, path: str = "rod") -> RodFigures
         small_end=take("small_end"),
         big_end=take("big_end"),
         inertia=over(take("inertia"), 1e6),
-        pendulum=_swing(figures, f"{path}.pendulum", rod.pendulum),
+        pendulum=_swing(figures, f"{path}.{prefix}pendulum", getattr(table, f"{prefix}pendulum")),
     )
 
 
 def own_figures(figures: FileFigures, number: int, own: Override) -> OwnFigures:
     """What the table of one cylinder says."""
     path, take = f"cylinder.{number}", figures.take_optional
-    rod = RodFigures(
-        length=over(take(f"{path}.rod_length", own.rod_length), 1e3),
-        ratio=take(f"{path}.rod_ratio", own.rod_ratio),
-        mass=take(f"{path}.rod_mass", own.rod_mass),
-        cg=over(take(f"{path}.rod_cg", own.rod_cg), 1e3),
-        small_end=take(f"{path}.rod_small_end", own.rod_small_end),
-        big_end=take(f"{path}.rod_big_end", own.rod_big_end),
-        inertia=over(take(f"{path}.rod_inertia", own.rod_inertia), 1e6),
-        pendulum=_swing(figures, f"{path}.rod_pendulum", own.rod_pendulum),
-    )
     return OwnFigures(
         piston_mass=take(f"{path}.piston_mass", own.piston_mass),
         piston_offset=over(take(f"{path}.piston_offset", own.piston_offset), 1e3),
-        rod=rod,
+        rod=rod_figures(figures, own, path, "rod_"),
         bank_deg=take(f"{path}.bank", own.bank),
         throw_deg=take(f"{path}.throw", own.throw),
         position_mm=take(f"{path}.position", own.position),

@@ -213,9 +213,8 @@ def _suggest_swapped_banks(parts: Assembly) -> str:
     if parts.plan.banks != 2 or parts.model.crank.throws is None or parts.rank:
         return ""
     first, second = (tuple(c.number for c in cells if c.bank == bank) for bank in (0, 1))
-    swapped = layout.model_copy(update={"numbering": (second, first)})
-    other = Assembly(parts.model.model_copy(update={"layout": swapped}))
-    if len(first) != len(second) or _find_dead_centres_missed(other):
+    swapped = parts.model.with_table("layout", numbering=(second, first))
+    if len(first) != len(second) or _find_dead_centres_missed(Assembly(swapped)):
         return ""
     hint = f". They fit with the banks exchanged: layout.numbering = {[list(second), list(first)]}"
     if layout.bank_angle is None:
@@ -230,12 +229,11 @@ def _suggest_mirrored_throws(parts: Assembly) -> str:
     """The throws counted against the sense of rotation, if all would fire at top dead centre by
     them; else empty.
     """
-    crank = parts.model.crank
-    if crank.throws is None:
+    if parts.model.crank.throws is None:
         return ""
-    mirrored = [-throw % 360 for throw in crank.throws]
-    turned = crank.model_copy(update={"throws": tuple(mirrored)})
-    if _find_dead_centres_missed(Assembly(parts.model.model_copy(update={"crank": turned}))):
+    mirrored = tuple(-throw % 360 for throw in parts.model.crank.throws)
+    turned = parts.model.with_table("crank", throws=mirrored)
+    if _find_dead_centres_missed(Assembly(turned)):
         return ""
     throws = ", ".join(f"{throw:g}" for throw in mirrored)
     return f". They fit with throws that count in the sense of rotation: crank.throws = [{throws}]"

@@ -25,9 +25,7 @@ def find_fitting_splay(model: EngineFile) -> float | None:
     splay = find_splay(_list_by_throw(wanted, parts.plan))
     if splay is None:
         return None
-    split = Assembly(
-        model.model_copy(update={"crank": model.crank.model_copy(update={"splay": splay})})
-    )
+    split = Assembly(model.with_table("crank", splay=splay))
     missed = any(check_firing(fires, split.leads_deg, split.tops_deg, split.sense))
     return None if missed else splay
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from typing import Generic, TypeVar
 
 from ..enginefile.model import EngineFile
 from .build import Engine, build
@@ -11,6 +11,7 @@ from .gas_figures import concerns_gas
 
 Key = TypeVar("Key")
 Value = TypeVar("Value")
+Asked = TypeVar("Asked")
 Values = tuple[tuple[str, float], ...]  # figures by dotted name
 _KEPT = 64  # variants that are remembered: as many as are computed at a time
 
@@ -43,6 +44,32 @@ class EngineVariants:
         alike = self._by_gas.get(of_gas)
         engine = build(self._model, values, gas=None if alike is None else alike.gas)
         return remember(self._by_gas, of_gas, lambda: engine) if alike is None else engine
+
+
+class FiguresOfVariants(Generic[Asked]):
+    """Evaluates quantities of variants of a file one by one.
+
+    Args:
+        evaluate: the value of each quantity of one engine.
+        model: whose engine has what they are of.
+    """
+
+    def __init__(
+        self,
+        evaluate: Callable[[Engine, Sequence[Asked]], list[float]],
+        model: EngineFile,
+        quantities: Sequence[Asked],
+    ) -> None:
+        self._evaluate, self._quantities = evaluate, quantities
+        self._engines = EngineVariants(model)
+
+    def evaluate(self, values: Mapping[str, float]) -> list[float]:
+        """The value of each quantity for one variant, by the figures that vary.
+
+        Raises:
+            InputError, BalcliError: it cannot be, or what is asked of it is not known.
+        """
+        return self._evaluate(self._engines.build(values), self._quantities)
 
 
 def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:

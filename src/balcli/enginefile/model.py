@@ -575,6 +575,11 @@ class EngineFile(FileTable):
         """Where the file stands, and the files that it names."""
         return self._folder
 
+    def with_table(self, key: str, **values: object) -> "EngineFile":
+        """The same with other values in one of its tables, which are not checked."""
+        table: FileTable = getattr(self, key)
+        return self.model_copy(update={key: table.model_copy(update=values)})
+
     def tables(self) -> Iterator[tuple[str, FileTable]]:
         """Every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the file
         has it or it has defaults; not the tables within tables.

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..core.least_squares import solve
 from ..core.phasors import Complex
+from ..enginefile.exclusive import join_words
 from ..errors import InputError, Problem
 from .model import Run, RunsFile
 
@@ -158,7 +159,7 @@ def _count_trials(
     if bare:
         problem = Problem(
             "run",
-            f"there is no trial weight in {_join_words(bare)}{at}; add a run with one, such as "
+            f"there is no trial weight in {join_words(bare)}{at}; add a run with one, such as "
             f'weights = {{ {bare[0]} = "10 @ 0" }}, give influence, or leave the plane out with '
             f"--without {bare[0]}",
         )
@@ -166,16 +167,11 @@ def _count_trials(
         names = [file.planes[k] for k in range(len(file.planes)) if runs.on[:, k].any()]
         problem = Problem(
             "run",
-            f"the trial weights in {_join_words(names)} are never apart{at}, so what each does "
+            f"the trial weights in {join_words(names)} are never apart{at}, so what each does "
             f"cannot be told; of {len(runs.numbers)} runs here, {wanted} that differ are needed: "
             "one as found, and one for each plane",
         )
     raise InputError([problem], name)
-
-
-def _join_words(names: list[str]) -> str:
-    *front, last = names
-    return f"{', '.join(front)} and {last}" if front else last
 
 
 def _design(runs: _Series, used: list[int]) -> Complex:

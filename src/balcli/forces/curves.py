@@ -211,11 +211,11 @@ class EngineMotion:
         self.radius = float(np.ravel(c.radius)[0])
         self.crank_deg = crank_deg
         self.omega, self.xi = find_crank_speed(engine, crank_deg)
-        self.lam = np.broadcast_to(_column(c.lam), (c.count, 1))
-        self.eps = np.broadcast_to(_column(c.eps), (c.count, 1))
-        axes = _column(c.axis_of_each_deg)
+        self.lam = np.broadcast_to(as_rows(c.lam), (c.count, 1))
+        self.eps = np.broadcast_to(as_rows(c.eps), (c.count, 1))
+        axes = as_rows(c.axis_of_each_deg)
         self.axis = unit(axes)
-        self.pin_deg = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + _column(c.pin_deg)
+        self.pin_deg = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + as_rows(c.pin_deg)
         self.psi = np.radians(np.remainder(self.pin_deg - axes + 180, 360) - 180)
         if c.linkage is None:
             mechanism = self.psi, self.lam, self.eps
@@ -224,7 +224,7 @@ class EngineMotion:
             self.spin, self.spin_rate = -sc.rod_rate(*mechanism), -sc.rod_acceleration(*mechanism)
         else:
             self.linked = m = c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
-            self.mass = _column(c.linkage.mass)
+            self.mass = as_rows(c.linkage.mass)
             self.v, self.a = -m.velocity, -m.acceleration
             self.spin, self.spin_rate = m.spin, m.spin_rate
 
@@ -256,11 +256,11 @@ def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
 def _force_of_cylinders(motion: EngineMotion) -> Complex:
     """N, shape (cylinders, angles)."""
     c, r, w2, xi = motion.cylinders, motion.radius, motion.omega**2, motion.xi
-    piston: Complex = _column(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
+    piston: Complex = as_rows(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
     if (m := motion.linked) is not None:
         away = w2 * m.acceleration_of_mass + xi * m.velocity_of_mass
         piston = piston - motion.mass * r * away * motion.axis
-    pins = _column(c.rotating) * r * (w2 - 1j * xi) * unit(motion.pin_deg)
+    pins = as_rows(c.rotating) * r * (w2 - 1j * xi) * unit(motion.pin_deg)
     return piston + pins
 
 
@@ -281,9 +281,9 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
     -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
     """
     c, r = motion.cylinders, motion.radius
-    pull = _column(c.reciprocating) * (motion.eps * r / motion.lam) * r
-    h = pull * motion.v + _column(c.rotating) * r**2 - _column(c.couple) * motion.spin
-    slope = pull * motion.a - _column(c.couple) * motion.spin_rate
+    pull = as_rows(c.reciprocating) * (motion.eps * r / motion.lam) * r
+    h = pull * motion.v + as_rows(c.rotating) * r**2 - as_rows(c.couple) * motion.spin
+    slope = pull * motion.a - as_rows(c.couple) * motion.spin_rate
     if (m := motion.linked) is not None:
         h = h + motion.mass * r**2 * m.swirl
         slope = slope + motion.mass * r**2 * m.swirl_rate
@@ -295,7 +295,7 @@ def _torque_of_cylinders(motion: EngineMotion) -> Array:
     + m_rot r^2 - H spin^2 (+ the masses on curves).
     """
     c, r = motion.cylinders, motion.radius
-    mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)
+    mass, couple = as_rows(c.reciprocating) * r**2, as_rows(c.couple)
     half_slope = mass * motion.v * motion.a - couple * motion.spin * motion.spin_rate
     if (m := motion.linked) is not None:
         half_slope = half_slope + motion.mass * r**2 * m.power
@@ -306,13 +306,13 @@ def _torque_of_cylinders(motion: EngineMotion) -> Array:
 def _inertia_of_cylinders(motion: EngineMotion) -> Array:
     """I of each cylinder, kg m2, shape (cylinders, angles)."""
     c, r = motion.cylinders, motion.radius
-    mass, couple = _column(c.reciprocating) * r**2, _column(c.couple)
-    inertia = mass * motion.v**2 + _column(c.rotating) * r**2 - couple * motion.spin**2
+    mass, couple = as_rows(c.reciprocating) * r**2, as_rows(c.couple)
+    inertia = mass * motion.v**2 + as_rows(c.rotating) * r**2 - couple * motion.spin**2
     if (m := motion.linked) is not None:
         inertia = inertia + motion.mass * r**2 * m.energy
     return np.asarray(inertia)
 
 
-def _column(values: Array) -> Array:
+def as_rows(values: Array) -> Array:
     """One row a cylinder (or one for all), before the axis of angles."""
     return np.asarray(values, float).reshape(-1, 1)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
 from ..engine.build import Engine, build
 from ..engine.positions import MOMENTS_UNKNOWN
-from ..engine.variants import EngineVariants
+from ..engine.variants import FiguresOfVariants
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER
@@ -58,25 +59,6 @@ def _find(model: EngineFile) -> GuideMoments:
     return compute_guide_moments(build(model), np.array([1.0]))
 
 
-class Variants:
-    """Evaluates quantities of variants of a file one by one.
-
-    Args:
-        model: whose engine has what they are of (`refuse_unknown`).
-    """
-
-    def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-        self._engines, self._quantities = EngineVariants(model), quantities
-
-    def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """The amplitude of each quantity for one variant, by the figures that vary.
-
-        Raises:
-            InputError, BalcliError: it cannot be.
-        """
-        return evaluate_engine(self._engines.build(values), self._quantities)
-
-
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """The amplitude of each quantity of one engine, which has what they are of."""
     orders = np.array(sorted({float(q.target) for q in quantities}))
@@ -84,3 +66,6 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
     found = {"H": guide.h, "X": guide.x or guide.h}
     rows = [int(np.searchsorted(orders, float(q.target))) for q in quantities]
     return [float(found[q.part].major[row]) for q, row in zip(quantities, rows, strict=True)]
+
+
+Variants = partial(FiguresOfVariants, evaluate_engine)

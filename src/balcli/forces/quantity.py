@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
@@ -15,10 +15,9 @@ from ..core.many_peaks import find_largest
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
-from ..enginefile.fields import nearest
 from ..errors import BalcliError
 from ..limits import HIGHEST_ORDER
-from .kinds import EVERY_KIND, GAS_KINDS, KINDS, TORQUE_TOTAL, VECTORS
+from .kinds import EVERY_KIND, GAS_KINDS, TORQUE_TOTAL, VECTORS
 from .orders import find_relevant_orders, split_order
 from .spectrum import compute_spectra
 
@@ -78,8 +77,9 @@ class Quantity:
         return value
 
 
-def parse_quantity_list(text: str, *, with_gas: bool = False) -> tuple[Quantity, ...]:
-    """`force.2.major,moment.1.backward,couple.4.amplitude,peak.force`, each once.
+def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
+    """`force.2.major`, `moment.1.backward`, `couple.4.amplitude`, `peak.force` and their like; it
+    begins with a kind, or peak.
 
     Args:
         with_gas: whether the engine has gas: its `torque` is then that of gas and inertia.
@@ -87,30 +87,11 @@ def parse_quantity_list(text: str, *, with_gas: bool = False) -> tuple[Quantity,
     Raises:
         BalcliError: anything else, with what there is.
     """
-    words = [word.strip() for word in text.split(",") if word.strip()]
-    if not words:
-        raise BalcliError(
-            "no quantity is given; name some, such as force.2.major,moment.1.backward"
-        )
-    found = dict.fromkeys(map(_parse_quantity, words))
-    return tuple(map(_count_gas, found) if with_gas else found)
-
-
-def _count_gas(q: Quantity) -> Quantity:
-    """The torque as that of gas and inertia, all else as it is."""
-    return replace(q, kind=TORQUE_TOTAL.name, called=q.kind) if q.kind == "torque" else q
-
-
-def _parse_quantity(text: str) -> Quantity:
     kind, _, rest = text.partition(".")
     if kind == "peak" and rest in [vector.name for vector in VECTORS]:
         return Quantity(rest, 0, "peak")
     if kind == "peak":
         raise BalcliError(f"{text} is no quantity: after peak comes force or moment")
-    if kind not in EVERY_KIND:
-        near = nearest(kind, (*EVERY_KIND, "peak"))
-        hint = f"did you mean {near}?" if near else f"one begins with {', '.join(KINDS)} or peak"
-        raise BalcliError(f"{text} is no quantity: {hint}")
     order, part = split_order(rest)
     part = _SENSES.get(part, part)
     allowed = VECTOR_PARTS if EVERY_KIND[kind].vector else SCALAR_PARTS
@@ -123,6 +104,8 @@ def _parse_quantity(text: str) -> Quantity:
         raise BalcliError(
             f"{text} is no quantity: after the order comes one of {', '.join(allowed)}"
         )
+    if kind == "torque" and with_gas:
+        return Quantity(TORQUE_TOTAL.name, order, part, called=kind)
     return Quantity(kind, order, part)
 
 

@@ -27,7 +27,7 @@ from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array, Complex, unit
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .curves import EngineMotion
+from .curves import EngineMotion, as_rows
 from .gas import take_gas
 
 if TYPE_CHECKING:
@@ -81,16 +81,16 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     pressure, gas = _find_gas_forces(engine, crank_deg)
     motion = EngineMotion(engine, crank_deg)
     masses = engine.weighed
-    heads = _column(np.array([w.piston for w in masses]))
-    small = _column(np.array([w.small_end for w in masses]))
-    big = _column(np.array([w.rotating for w in masses]))
+    heads = as_rows(np.array([w.piston for w in masses]))
+    small = as_rows(np.array([w.small_end for w in masses]))
+    big = as_rows(np.array([w.rotating for w in masses]))
     axis, throw = _find_directions(engine, motion)
     piston, foot = _follow_ends(engine, motion, throw)
     d = piston.at - foot.at
     up, aside = piston.acceleration.real, piston.acceleration.imag
     along = heads * up + gas
     spin_rate = motion.spin_rate * motion.omega**2 + motion.spin * motion.xi
-    moment = d.imag * (along + small * up) + _column(engine.cylinders.couple) * spin_rate
+    moment = d.imag * (along + small * up) + as_rows(engine.cylinders.couple) * spin_rate
     across = moment / d.real - small * aside
     pin = -(small * piston.acceleration + big * foot.acceleration + along + 1j * across)
     for master, hung in list_hung_rows(engine).items():
@@ -161,16 +161,11 @@ def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[
 def _find_gas_forces(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     """Pressure (Pa) and gas force (N) of each cylinder, shape (cylinders, angles)."""
     gas = take_gas(engine)
-    angles = np.radians(crank_deg) - _column(gas.fires)
+    angles = np.radians(crank_deg) - as_rows(gas.fires)
     pressures, forces = np.empty_like(angles), np.empty_like(angles)
     for torque, rows in gas.group_equal():
         if not isinstance(torque, PressureOnPiston):
             raise BalcliError("loads of pins need pressures; harmonics of the torque have none")
         pressures[rows] = torque.pressure.at(angles[rows])
         forces[rows] = torque.force_under(pressures[rows])
-    return pressures, _column(gas.shares) * forces
-
-
-def _column(values: Array) -> Array:
-    """Before the axis of angles."""
-    return np.asarray(values, float).reshape(-1, 1)
+    return pressures, as_rows(gas.shares) * forces

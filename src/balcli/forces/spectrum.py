@@ -70,9 +70,9 @@ class Spectra:
         """The same without all other kinds."""
         return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
 
-    def without_moment(self) -> Spectra:
-        """The same with a moment that is not known: nan, if it was asked for at all."""
-        if self.moment is None:
+    def with_moment_if(self, known: bool) -> Spectra:
+        """The same, the moment as nan unless it is known, if it was asked for at all."""
+        if known or self.moment is None:
             return self
         p = self.moment
         unknown = Phasors(p.orders, np.full_like(p.vectors, np.nan), p.noise)

@@ -19,11 +19,11 @@ from ..render.plot.field_balancing import make_field
 from ..render.plot.mounts import make_mounts
 from ..render.plot.pages import PAGES, PageSubject, make_page
 from ..render.plot.torsion import make_torsion
-from ..render.sweep_plot import check_drawable, draw_sweep_figure
+from ..render.sweep_plot import check_drawable, make_sweep
 from ..render.units import SI
 from ..results.analysis import Analysis
 from ..results.balance import Balance
-from ..studies.pictures import compute_study
+from ..studies.pictures import Study, compute_study
 from ..studies.swept import Swept
 from ..torque.analysis import TorqueAnalysis
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
@@ -88,7 +88,8 @@ def plot(
             return _plot_engine(shown.engine, what or "all", asked, scheme, speeds_rpm)
         case Balance():
             page = _choose(what or "all", ("all", "polar", "orders", "spectrum", "curves"))
-            return make_page(PageSubject(shown.after, shown.before, shown.remedy), page, "png")
+            study = Study(shown.after, shown.before, shown.remedy)
+            return make_page(PageSubject(study), page, "png")
         case TorqueAnalysis():
             page = _choose(what or "torque", ("torque", "pressure", "p-v", "pin", "main"))
             return _plot_engine(shown.engine, page, None, None, None)
@@ -98,7 +99,7 @@ def plot(
     match shown:
         case Swept():
             check_drawable(shown.sweep)
-            return draw_sweep_figure(shown.sweep, shown.values, "png")
+            return make_sweep(shown.sweep, shown.values, "png")
         case MountReport():
             return make_mounts(shown, "png", SI)
         case FieldBalance():
@@ -130,7 +131,7 @@ def _plot_engine(
     if what not in _TORSION:
         asked = None if orders is None else check_orders(orders).tolist()
         study = compute_study(engine, what, asked, scheme)
-        return make_page(PageSubject(system=SI, **study._asdict()), what, "png")
+        return make_page(PageSubject(study), what, "png")
     exciting = check_torsion_orders(orders)
     source = make_source(take_model(engine), engine, engine.name, exciting)
     speeds = check_speeds("plot", speeds_rpm)

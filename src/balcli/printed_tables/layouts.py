@@ -66,7 +66,7 @@ def _read(name: str) -> EngineFile:
 def _build(file: EngineFile) -> Engine:
     from ..engine.build import build
 
-    return build(_without_offset(file))
+    return build(file.with_table("piston", offset=0.0))
 
 
 def _row(name: str) -> Row:
@@ -84,8 +84,3 @@ def _row(name: str) -> Row:
         for axis in (phasors.major, phasors.minor)
     ]
     return (name, file.name, len(engine.numbers), *map(float, axes))
-
-
-def _without_offset(file: EngineFile) -> EngineFile:
-    piston = file.piston.model_copy(update={"offset": 0.0})
-    return file.model_copy(update={"piston": piston})

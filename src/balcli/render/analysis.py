@@ -58,9 +58,8 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield from _all_order_parts(result, system, view)
     else:
         yield from _order_parts_in_brief(result, system, view)
-    known = result.moments_known
     for n, share in result.cylinders:
-        yield cylinder_table(n, share if known else share.without_moment(), system)
+        yield cylinder_table(n, share.with_moment_if(result.moments_known), system)
     yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
     if result.sizing is not None:
         if view.whole or view.parts:
@@ -90,7 +89,7 @@ def _known_spectra(result: Analysis) -> Spectra:
 
 def _all_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """All tables of all orders."""
-    spectra, every = _shown_spectra(result), view.every_order
+    spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
     pivot, with_gas = tell_pivot(result.engine), result.engine.gas is not None
     yield from order_tables(spectra, system, pivot, with_gas=with_gas, every=every)
     yield from direction_tables(spectra, system, every=every)
@@ -101,7 +100,7 @@ def _all_order_parts(result: Analysis, system: System, view: View) -> Iterator[P
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """The tables that `--only` names, of orders that matter unless all or some were asked for."""
-    spectra, every = _shown_spectra(result), view.every_order
+    spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
     others = ""
     if not (view.whole or every):
         shown = find_orders_that_matter(spectra, result.of_one_cylinder)
@@ -125,7 +124,8 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
 
 def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """One table of force and moment, roll and peaks in a line each."""
-    vectors = _shown_spectra(result).only([kind.name for kind in VECTORS])
+    spectra = result.spectra.with_moment_if(result.moments_known)
+    vectors = spectra.only([kind.name for kind in VECTORS])
     shown = list(map(float, vectors.orders))
     if not view.every_order:
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
@@ -145,11 +145,6 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
 def _peaks(result: Analysis, system: System) -> Iterator[Facts]:
     if result.peaks:
         yield peak_facts(result, system, "Largest over a revolution, all orders")
-
-
-def _shown_spectra(result: Analysis) -> Spectra:
-    """Moments that are not known are dashes."""
-    return result.spectra if result.moments_known else result.spectra.without_moment()
 
 
 def _judge(result: Analysis, system: System) -> Iterator[Text]:

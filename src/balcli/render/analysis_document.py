@@ -78,8 +78,7 @@ def columns(result: Analysis) -> Columns:
     """An order a row: sizes and directions of each kind, named as the quantities of sweeps without
     their order.
     """
-    known = result.moments_known
-    spectra = result.spectra if known else result.spectra.without_moment()
+    spectra = result.spectra.with_moment_if(result.moments_known)
     orders = result.orders.tolist()
     values: dict[str, Any] = {"order": orders}
     units: dict[str, str] = {}

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
 from ..field_balancing.read import is_mass
 from ..field_balancing.shop import Piece, find_angle_deg
-from .field_balancing_document import document, find_senses, rows
+from .field_balancing_document import document, find_senses, name_sensor, rows
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import ShownUnit, System
 
@@ -171,11 +171,8 @@ def _permitted(result: FieldBalance, system: System) -> Grid:
 
 def find_label(result: FieldBalance, k: int) -> str:
     """Name of a reading: its sensor, and its speed where there are several."""
-    influence = result.influence
-    sensor = influence.sensors[k]
-    name = result.file.sensors[sensor] if result.file.sensors else f"sensor {sensor + 1}"
-    several = len(set(influence.speeds_rpm)) > 1
-    return f"{name}, {influence.speeds_rpm[k]:g} rpm" if several else name
+    speeds, name = result.influence.speeds_rpm, name_sensor(result, k)
+    return f"{name}, {speeds[k]:g} rpm" if len(set(speeds)) > 1 else name
 
 
 def _readings(result: FieldBalance) -> Grid:

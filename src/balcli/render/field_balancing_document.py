@@ -74,9 +74,14 @@ def _finite(value: float) -> float | None:
 
 
 def _reading(result: FieldBalance, k: int) -> dict[str, Any]:
-    sensor, speed = result.influence.sensors[k], result.influence.speeds_rpm[k]
-    name = result.file.sensors[sensor] if result.file.sensors else f"sensor {sensor + 1}"
-    return {"sensor": name, "speed_rpm": None if speed is None else clean(speed)}
+    speed = result.influence.speeds_rpm[k]
+    return {"sensor": name_sensor(result, k), "speed_rpm": None if speed is None else clean(speed)}
+
+
+def name_sensor(result: FieldBalance, k: int) -> str:
+    """The sensor of a reading, as the file calls it or by its number."""
+    sensor = result.influence.sensors[k]
+    return result.file.sensors[sensor] if result.file.sensors else f"sensor {sensor + 1}"
 
 
 def _figures(value: complex) -> dict[str, float | None]:

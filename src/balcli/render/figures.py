@@ -105,16 +105,18 @@ def scalar_entries(phasors: Phasors) -> list[Entry]:
     """Couples, torques or rolls as JSON has them, an entry an order."""
     columns = phasors.x, phasors.orders, phasors.balanced
     rows = zip(*(column.tolist() for column in columns), strict=True)
-    return [
-        {
-            "cos": clean(c.real),
-            "sin": clean(-c.imag),
-            "amplitude": clean(abs(c)),
-            "peak_deg": peak_deg(c, order),
-            "balanced": balanced,
-        }
-        for c, order, balanced in rows
-    ]
+    return [scalar_entry(c, order, balanced) for c, order, balanced in rows]
+
+
+def scalar_entry(c: complex, order: float, balanced: bool) -> Entry:
+    """One order of a torque and its like as JSON has it, of value `Re(c e^{i n theta})`."""
+    return {
+        "cos": clean(c.real),
+        "sin": clean(-c.imag),
+        "amplitude": clean(abs(c)),
+        "peak_deg": peak_deg(c, order),
+        "balanced": balanced,
+    }
 
 
 def peak_deg(c: complex, order: float) -> float | None:

@@ -12,10 +12,11 @@ from .. import __version__
 from ..core.telling import Tell, tell_nobody
 from ..results.analysis import Analysis
 from ..results.balance import Balance
+from ..studies.pictures import Study
 from . import analysis, balance
 from .page_scene import scene
 from .plot.pages import PageSubject, draw_panel, has_picture
-from .plot.style import inline_svg
+from .plot.style import inline_svg, save_figure
 from .sheet import Facts, Grid, Sheet, Text
 from .units import System
 from .view import ON_A_PAGE
@@ -61,8 +62,8 @@ def page(
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
     compared = _COMPARED if fitted else ()
-    now = PageSubject(result, system=system)
-    after = PageSubject(balanced.after, balanced.before, balanced.remedy, system)
+    now = PageSubject(Study(result), system)
+    after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
     pictures = []
@@ -113,12 +114,13 @@ def _gather_chapters(
         }
     if twisted is not None:
         from . import torsion  # for files that have it
-        from .plot.torsion import draw_torsion
+        from .plot.torsion import make_torsion
 
-        drawn = (draw_torsion(twisted, what, "svg", system, titled=False) for what in _OF_TORSION)
-        named = zip(drawn, _OF_TORSION, strict=True)
-        chapters["torsion"] = torsion.sheet(twisted, system)
-        chapters["twists"] = [Markup(inline_svg(svg, f"torsion-{what}")) for svg, what in named]
+        chapters |= {"torsion": torsion.sheet(twisted, system), "twists": []}
+        for what in _OF_TORSION:
+            figure = make_torsion(twisted, what, "svg", system, titled=False)
+            svg = inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
+            chapters["twists"].append(Markup(svg))
     return chapters
 
 

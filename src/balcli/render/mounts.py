@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from ..core.singular_values import Real
 from ..mounting.motions import AXES
@@ -30,9 +30,7 @@ def sheet(result: MountReport, system: System) -> Sheet:
     parts: list[Grid | Facts | Text] = []
     if result.response is not None:
         parts += [Text("What the frame feels", tuple(_answer(result, result.response, system)))]
-        parts += [_worst_forces(result, system)]
-        if result.mounted.point_names:
-            parts += [_worst_motions(result, system)]
+        parts += _worst(result, system)
     parts += [_modes(result), _body(result, system), _rest(result, system)]
     if result.response is not None:
         if result.meetings:
@@ -142,26 +140,14 @@ def _explain(result: MountReport, response: MountingResponse, worst: LargestAmpl
     return f"Most of it is {named}, which is not near its {number(hertz, 3)} Hz."
 
 
-def _worst_forces(result: MountReport, system: System) -> Grid:
-    return _worst(
-        result,
-        f"Largest force of each mount, {system.force.name}",
-        "mount",
-        result.mounted.names,
-        [each.worst_force for each in _responses(result)],
-        system.force.of,
-    )
-
-
-def _worst_motions(result: MountReport, system: System) -> Grid:
-    return _worst(
-        result,
-        f"Largest motion of each point, {system.length.name}",
-        "point",
-        result.mounted.point_names,
-        [each.worst_motion for each in _responses(result)],
-        system.length.of,
-    )
+def _worst(result: MountReport, system: System) -> Iterator[Grid]:
+    """The largest force of each mount, and the largest motion of each point that is asked for."""
+    several, mounted = _responses(result), result.mounted
+    forces = [each.worst_force for each in several]
+    yield _worst_grid(result, "force", "mount", mounted.names, forces, system.force)
+    if mounted.point_names:
+        motions = [each.worst_motion for each in several]
+        yield _worst_grid(result, "motion", "point", mounted.point_names, motions, system.length)
 
 
 def _responses(result: MountReport) -> list[MountingResponse]:
@@ -170,28 +156,30 @@ def _responses(result: MountReport) -> list[MountingResponse]:
     return [*own, *(other.response for other in result.beside)]
 
 
-def _worst(
+def _worst_grid(
     result: MountReport,
-    title: str,
-    head: str,
+    figure: str,
+    part: str,
     names: Sequence[str],
     several: Sequence[Sequence[LargestAmplitude]],
-    convert: Callable[[float], float],
+    unit: ShownUnit,
 ) -> Grid:
-    heads = [head, "all orders", "at, rpm", "largest order", "alone"]
+    """A row for each part of this name: of the engine itself, then of all beside it."""
+    heads = [part, "all orders", "at, rpm", "largest order", "alone"]
     for other in result.beside:
         heads += [f"with {other.name}", "at, rpm"]
     rows = []
     for k, name in enumerate(names):
         first = several[0][k]
-        cells = [name, number(convert(first.value), 4), number(first.speed_rpm, 4)]
-        cells += [order_name(first.order), number(convert(first.alone), 4)]
+        cells = [name, number(unit.of(first.value), 4), number(first.speed_rpm, 4)]
+        cells += [order_name(first.order), number(unit.of(first.alone), 4)]
         for beside in several[1:]:
-            cells += [number(convert(beside[k].value), 4), number(beside[k].speed_rpm, 4)]
+            cells += [number(unit.of(beside[k].value), 4), number(beside[k].speed_rpm, 4)]
         rows.append(tuple(cells))
     note = (
         "The largest value over the cycle, orders added up in time; over all speeds of the range."
     )
+    title = f"Largest {figure} of each {part}, {unit.name}"
     return Grid(title, tuple(heads), tuple(rows), note)
 
 

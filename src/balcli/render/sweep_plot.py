@@ -43,17 +43,12 @@ def _varied_parameters(sweep: Sweep) -> list[Parameter]:
     return [p for p in sweep.parameters if len(p) > 1]
 
 
-def draw_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> bytes:
-    """A picture of a sweep that can be drawn, in this form.
+def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figure:
+    """A picture of a sweep that can be drawn, to be saved in this form.
 
     Args:
         values: each quantity on the whole grid.
     """
-    return style.save_figure(draw_sweep_figure(sweep, values, form), form)
-
-
-def draw_sweep_figure(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figure:
-    """What `draw_sweep` writes, as a figure of matplotlib."""
     several = _varied_parameters(sweep)
     if len(several) == 1:
         names = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))

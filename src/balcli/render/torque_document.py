@@ -26,7 +26,7 @@ from .figures import (
     kind_entries,
     order_entries,
     order_rows,
-    peak_deg,
+    scalar_entry,
     silent_entries,
 )
 from .sheet import order_number
@@ -177,16 +177,7 @@ def _list_orders(result: Result) -> Iterator[Entry]:
 def _curve_orders(result: CurveAnalysis) -> Iterator[tuple[float, Entry]]:
     """Each order of a given curve, and its figures as JSON has them."""
     for n, c in zip(result.orders, result.harmonics, strict=True):
-        yield (
-            order_number(round(n, 9)),
-            {
-                "cos": clean(c.real),
-                "sin": clean(-c.imag),
-                "amplitude": clean(abs(c)),
-                "peak_deg": peak_deg(c, n),
-                "balanced": bool(c == 0),
-            },
-        )
+        yield order_number(round(n, 9)), scalar_entry(c, n, bool(c == 0))
 
 
 def _list_loads(result: TorqueAnalysis) -> Iterator[tuple[str, str, tuple[CycleLoad, ...]]]:

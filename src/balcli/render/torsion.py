@@ -15,7 +15,7 @@ from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import TorsionResponse
 from .engine_facts import list_silent
 from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
-from .torsion_document import document, rows
+from .torsion_document import DAMPER_UNITS, choose_units, convert_to_si, document, rows
 from .units import SI, ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
@@ -43,29 +43,16 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     return Sheet(f"{result.system.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
-# Of a damper's figures: how they are called, and how many SI units one of the file's is.
-_DAMPER_KEYS = {
-    "inertia": ("ring", 1e-6),
-    "damping": ("damping", 1.0),
-    "stiffness": ("stiffness", 1.0),
-    "loss": ("loss factor", 1.0),
-    "mass": ("pendulums, in all", 1.0),
-    "radius": ("hung up at a radius of", 1e-3),
-    "length": ("length to the centre of mass", 1e-3),
+_DAMPER_LABELS = {
+    "inertia": "ring",
+    "damping": "damping",
+    "stiffness": "stiffness",
+    "loss": "loss factor",
+    "mass": "pendulums, in all",
+    "radius": "hung up at a radius of",
+    "length": "length to the centre of mass",
 }
 _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
-
-
-def _choose_damper_units(system: System) -> dict[str, ShownUnit]:
-    return {
-        "inertia": _RING if system == SI else system.inertia,
-        "damping": system.torsional_damping,
-        "stiffness": system.torsional_stiffness,
-        "loss": ShownUnit("", 1),
-        "mass": system.mass,
-        "radius": system.length,
-        "length": system.length,
-    }
 
 
 def _damper(sized: SizedDamper, system: System) -> Facts:
@@ -74,15 +61,16 @@ def _damper(sized: SizedDamper, system: System) -> Facts:
     kind = system.stress if sized.measure == "stress" else system.moment
     unit = kind.fit(max(finite))
     before = "without bound" if math.isinf(sized.before) else _tell_swings(sized.before, unit)
-    pairs, units = [("on", sized.node)], _choose_damper_units(system)
+    pairs, units = [("on", sized.node)], choose_units(system) | {"": ShownUnit("", 1)}
+    units["kg m2"] = _RING if system == SI else system.inertia
     for key, value in sized.damper.model_dump(exclude={"kind"}, exclude_none=True).items():
-        name, size = _DAMPER_KEYS[key]
-        shown = units[key].fit(float(value) * size)
-        told = size_text(float(value) * size, shown, 6).rstrip()
+        own = convert_to_si(key, value)
+        shown = units[DAMPER_UNITS[key]].fit(own)
+        told = size_text(own, shown, 6).rstrip()
         if key == sized.figure:
-            alone = number(shown.of(sized.start * size))
+            alone = number(shown.of(convert_to_si(key, sized.start)))
             told += f" (best for mode {sized.mode} alone: {alone})"
-        pairs.append((name, told))
+        pairs.append((_DAMPER_LABELS[key], told))
     pairs.append((f"largest {sized.measure} before", before))
     pairs.append((f"largest {sized.measure} with it", _tell_swings(sized.after, unit)))
     if sized.heat:

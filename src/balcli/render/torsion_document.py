@@ -16,7 +16,7 @@ from ..torsion.system import TorsionalSystem
 from .csv import Rows, name_cell
 from .figures import clean, clean_each, silent_entries
 from .sheet import order_number
-from .units import SI, System
+from .units import SI, ShownUnit, System
 
 # Endings of keys in JSON, by the units of CSV.
 _ENDINGS = {
@@ -31,6 +31,17 @@ _ENDINGS = {
     "W": "_W",
     "rpm": "_rpm",
 }
+# SI units of a damper's figures, and how many of a file's units they are.
+DAMPER_UNITS = {
+    "inertia": "kg m2",
+    "damping": "N m s/rad",
+    "stiffness": "N m/rad",
+    "loss": "",
+    "mass": "kg",
+    "radius": "m",
+    "length": "m",
+}
+_IN_FILE = {"kg m2": 1e6, "m": 1e3}
 _HEADER = ("part", "number", "speed_rpm", "order", "name", "figure", "value", "unit")
 
 
@@ -169,19 +180,9 @@ def _damper_document(sized: SizedDamper) -> dict[str, Any]:
 
 def _list_damper(sized: SizedDamper) -> Iterator[tuple[str, str, float | None]]:
     """Figures of a damper, and what it does: name, unit, value."""
-    damper = sized.damper
-    its_own = (
-        ("inertia", "kg m2", damper.inertia, 1e6),
-        ("damping", "N m s/rad", damper.damping, 1),
-        ("stiffness", "N m/rad", damper.stiffness, 1),
-        ("loss", "", damper.loss, 1),
-        ("mass", "kg", damper.mass, 1),
-        ("radius", "m", damper.radius, 1e3),
-        ("length", "m", damper.length, 1e3),
-    )
-    for name, unit, value, per_unit in its_own:
-        if value is not None:
-            yield name, unit, clean(value / per_unit)
+    for name, unit in DAMPER_UNITS.items():
+        if (value := getattr(sized.damper, name)) is not None:
+            yield name, unit, clean(convert_to_si(name, value))
     measured = "Pa" if sized.measure == "stress" else "N m"
     yield "mode", "", sized.mode
     yield "before", measured, _finite(sized.before)
@@ -190,22 +191,27 @@ def _list_damper(sized: SizedDamper) -> Iterator[tuple[str, str, float | None]]:
     yield "heat", "rpm", clean(sized.heat_rpm)
 
 
+def convert_to_si(name: str, value: float) -> float:
+    """A figure of a damper, which a file has in units of its own."""
+    return value / _IN_FILE.get(DAMPER_UNITS[name], 1.0)
+
+
 def _finite(value: float) -> float | None:
     return clean(value) if np.isfinite(value) else None
 
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
     """Every figure of the document a row."""
-    lines = _lines(result)
-    return Rows(_HEADER, lines if system == SI else (_convert(line, system) for line in lines))
+    lines, units = _lines(result), choose_units(system)
+    return Rows(_HEADER, lines if system == SI else (_convert(line, units) for line in lines))
 
 
 Line = tuple[Any, ...]
 
 
-def _convert(line: Line, system: System) -> Line:
-    """A row in the units of people who do not read SI."""
-    units = {
+def choose_units(system: System) -> dict[str, ShownUnit]:
+    """What people read in place of SI units of CSV."""
+    return {
         "kg m2": system.inertia,
         "N m s/rad": system.torsional_damping,
         "N m/rad": system.torsional_stiffness,
@@ -215,6 +221,10 @@ def _convert(line: Line, system: System) -> Line:
         "N m": system.moment,
         "W": system.heat,
     }
+
+
+def _convert(line: Line, units: dict[str, ShownUnit]) -> Line:
+    """A row in the units of people who do not read SI."""
     *where, value, name = line
     if name not in units or value is None:
         return line

@@ -14,7 +14,6 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from ..forces.kinds import GAS, MOMENT, VECTORS, Kind
 from ..forces.orders import merge_orders
-from ..forces.spectrum import Spectra
 from ..result import Result
 from .analysis import QUANTITIES, Analysis, analyze
 
@@ -158,9 +157,10 @@ def _list_orders(one: Analysis) -> Iterator[Array]:
 
 
 def _compare_orders(analyses: Sequence[Analysis]) -> Iterator[Line]:
-    for kind, _ in analyses[0].spectra.items():
+    known = [one.spectra.with_moment_if(one.moments_known) for one in analyses]
+    for kind, _ in known[0].items():
         single = _of_one_cylinder(kind, analyses)
-        sizes = [_known(one)[kind.name].major for one in analyses]
+        sizes = [spectra[kind.name].major for spectra in known]
         for order, *values in zip(analyses[0].orders, *sizes, strict=True):
             if order <= 2 or any(values):
                 yield Line(kind, float(order), tuple(map(float, values)), single)
@@ -175,10 +175,6 @@ def _compare_peaks(analyses: Sequence[Analysis]) -> Iterator[Line]:
 
 def _of_one_cylinder(kind: Kind, analyses: Sequence[Analysis]) -> tuple[float, ...]:
     return tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses)
-
-
-def _known(one: Analysis) -> Spectra:
-    return one.spectra if one.moments_known else one.spectra.without_moment()
 
 
 def _known_values(

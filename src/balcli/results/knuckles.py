@@ -86,8 +86,7 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     old_deg = np.degrees(np.angle(linkage.knuckle[rows]))
     new_deg = (old_deg + np.where(done, turn_deg, 0.0)[rows]) % 360
     angles_deg = tuple(map(float, np.where(hung[rows], new_deg, 0.0)))
-    table = model.articulation.model_copy(update={"knuckle_angles": angles_deg})
-    better = model.model_copy(update={"articulation": table})
+    better = model.with_table("articulation", knuckle_angles=angles_deg)
     return Knuckles(
         goal,
         better,

@@ -104,7 +104,7 @@ def find_marine_sheet(
 
 def _stack(found: Sequence[Analysis], kind: str, size: Callable[[Phasors], Array]) -> Array:
     """Shape (speeds, orders); nan of moments that are not known."""
-    spectra = [one.spectra if one.moments_known else one.spectra.without_moment() for one in found]
+    spectra = (one.spectra.with_moment_if(one.moments_known) for one in found)
     return np.stack([size(one[kind]) for one in spectra])
 
 

@@ -13,10 +13,6 @@ from .reasons import explain_counterweights
 from .remedy import Remedy
 from .residual import FORWARD, FORWARD_FORCE, FORWARD_MOMENT, NothingToBalanceError, Residual
 
-NOT_NEEDED = (
-    "there is no free force or moment of order 1 turning with the crank: no counterweight is needed"
-)
-
 
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     """Counterweights for the force and the moment of order 1 that turn with the crank, in the
@@ -35,7 +31,7 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "counterweights", 1)
     residual = fitting.find_residual(1)
     if not any(residual.parts[part] for part in FORWARD):
-        raise NothingToBalanceError(NOT_NEEDED)
+        raise NothingToBalanceError(_tell_not_needed(engine))
     if options.planes is None:
         planes = find_counterweight_planes(engine, residual)
     else:
@@ -47,8 +43,13 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     else:
         remedy = _compromise(fitting, slots, residual)
     if not remedy.devices and not remedy.note:  # dust was left
-        raise NothingToBalanceError(NOT_NEEDED)
+        raise NothingToBalanceError(_tell_not_needed(engine))
     return remedy
+
+
+def _tell_not_needed(engine: Engine) -> str:
+    what = "force or moment" if engine.places_known else "force"
+    return f"there is no free {what} of order 1 turning with the crank: no counterweight is needed"
 
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:

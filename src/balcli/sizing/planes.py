@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..engine.build import Engine
+from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
 from .options import SchemeOptions
 from .residual import Residual, ResidualPart
@@ -98,12 +99,16 @@ def find_counterweight_planes(engine: Engine, residual: Residual) -> tuple[float
 
 
 def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
-    """Planes (z, m) as asked for by `--planes`; BalcliError if that says nothing."""
+    """Planes (z, m) as asked for by `--planes`; BalcliError if that says nothing, and for several
+    where nobody knows how to share between them, because moments are not known.
+    """
     if options.planes == "ends":
         return tuple(dict.fromkeys(find_ends(engine)))
     if options.planes == "throws":
         return tuple(dict.fromkeys(float(z) for z in engine.throws_m))
     if isinstance(options.planes, tuple):
+        if len(set(options.planes)) > 1 and not engine.places_known:
+            raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")
         return options.planes
     raise BalcliError(f'--planes "{options.planes}": give ends, throws, or places along z')
 

@@ -4,26 +4,30 @@ and throw angles vary within tolerances.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import cast
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
 from ..core.phasors import Array
-from ..engine.build import build
+from ..engine.build import Engine, build
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces import guide_quantity
-from ..forces.target_quantity import TargetQuantity
 from ..limits import MOST_CYCLE_SAMPLES
 from ..torque import quantity as cycle_quantity
 from ..torque.course import find_constant_inertia
-from ..torque.quantity import NO_INERTIA, CycleQuantity
+from ..torque.quantity import NO_INERTIA
 from .deviations import DeviatingEngine, Tolerances
 from .quantities import ChapterQuantity, group_by_chapter, refuse_unknown_of_chapters
-from .quantity_names import CYCLE, GUIDE
+from .quantity_names import CYCLE, GUIDE, Chapter
 from .spread_one_by_one import spread_one_by_one
 from .tolerances import Drawing, Scatter
+
+_EVALUATE: dict[Chapter, Callable[[Engine, Sequence[Any]], list[float]]] = {
+    CYCLE: cycle_quantity.evaluate_engine,
+    GUIDE: guide_quantity.evaluate_engine,
+}
 
 
 def scatter_cycles(
@@ -51,18 +55,12 @@ def scatter_cycles(
     if of_speed and find_constant_inertia(build(model)) is None:
         raise BalcliError(NO_INERTIA)
     groups = group_by_chapter(quantities)
-    of_cycle = cast("Sequence[CycleQuantity]", groups.get(CYCLE, ()))
-    of_guides = cast("Sequence[TargetQuantity]", groups.get(GUIDE, ()))
 
     def evaluate(deviations: Array) -> Array:
         engine = engines.deviate_one(deviations)
         found: dict[ChapterQuantity, float] = {}
-        if of_cycle:
-            values = cycle_quantity.evaluate_engine(engine, of_cycle)
-            found |= dict(zip(of_cycle, values, strict=True))
-        if of_guides:
-            values = guide_quantity.evaluate_engine(engine, of_guides)
-            found |= dict(zip(of_guides, values, strict=True))
+        for chapter, members in groups.items():
+            found |= dict(zip(members, _EVALUATE[chapter](engine, members), strict=True))
         return np.array([found[q] for q in quantities])
 
     count, spreads = spread_one_by_one(engines.sources, quantities, evaluate, drawing)

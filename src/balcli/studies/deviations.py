@@ -283,11 +283,10 @@ def _without_pistons(model: EngineFile) -> EngineFile:
         for number, own in model.cylinder.items()
     }
     parts = dict.fromkeys(PISTON_PARTS)
-    piston = model.piston.model_copy(update=parts | {"mass": 0.0})
-    return model.model_copy(update={"piston": piston, "cylinder": overrides})
+    bare = model.with_table("piston", **parts | {"mass": 0.0})
+    return bare.model_copy(update={"cylinder": overrides})
 
 
 def _without_throws(model: EngineFile) -> EngineFile:
     """The file with all throws weightless."""
-    crank = model.crank.model_copy(update={"throw_mass": 0.0})
-    return model.model_copy(update={"crank": crank})
+    return model.with_table("crank", throw_mass=0.0)

@@ -114,13 +114,13 @@ def _spell_out(model: EngineFile) -> EngineFile:
         return model
     throws = len(build(model).throws_m)
     stiffness, inertia = torsion.throw_stiffness or (), torsion.throw_inertia
-    update = {
-        "throw_stiffness": stiffness * (throws - 1) if len(stiffness) == 1 else stiffness,
-        "throw_inertia": inertia * throws if inertia and len(inertia) == 1 else inertia,
-        "front": tuple(map(_stiffen, torsion.front)),
-        "rear": tuple(map(_stiffen, torsion.rear)),
-    }
-    return model.model_copy(update={"torsion": torsion.model_copy(update=update)})
+    return model.with_table(
+        "torsion",
+        throw_stiffness=stiffness * (throws - 1) if len(stiffness) == 1 else stiffness,
+        throw_inertia=inertia * throws if inertia and len(inertia) == 1 else inertia,
+        front=tuple(map(_stiffen, torsion.front)),
+        rear=tuple(map(_stiffen, torsion.rear)),
+    )
 
 
 def _stiffen(part: Part) -> Part:

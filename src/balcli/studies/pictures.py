@@ -22,7 +22,7 @@ from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy
 from ..sizing.scheme_figures import FactorPeaks
 from ..sizing.sizing import size
-from ..torque.pictures import PAGES, GasPictures, compute_pictures
+from ..torque.pictures import PAGES, GasPicture, compute_picture
 
 FACTORS = tuple(k / 50 for k in range(51))
 _ALONE = ("bank", *PAGES)  # studies of the engine as it is
@@ -61,7 +61,7 @@ class Study(NamedTuple):
     factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
-    gas: GasPictures | None = None
+    gas: GasPicture | None = None
 
 
 def compute_study(
@@ -95,7 +95,7 @@ def compute_study(
         )
     now = analyze(engine, orders)
     if what in PAGES:
-        return Study(now, gas=compute_pictures(engine, what))
+        return Study(now, gas=compute_picture(engine, what))
     if what == "inner":
         return Study(now, bent=(find_inner_loads(engine),))
     if what == "bank":

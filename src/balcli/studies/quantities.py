@@ -12,7 +12,7 @@ from typing import NamedTuple, Protocol, cast
 from ..enginefile.fields import nearest
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
-from ..forces.quantity import Quantity, parse_quantity_list
+from ..forces.quantity import Quantity, parse_quantity
 from ..forces.target_quantity import TargetQuantity
 from .quantity_names import (
     BEGINNINGS,
@@ -81,7 +81,9 @@ def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity,
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
     if not words:
-        return parse_quantity_list(text)  # says that there are none
+        raise BalcliError(
+            "no quantity is given; name some, such as force.2.major,moment.1.backward"
+        )
     return tuple(dict.fromkeys(_parse_quantity(word, with_gas) for word in words))
 
 
@@ -92,7 +94,7 @@ def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
         there = f"one begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
         raise BalcliError(f"{word} is no quantity: {f'did you mean {near}?' if near else there}")
     if chapter is ENGINE:
-        return parse_quantity_list(word, with_gas=with_gas)[0]
+        return parse_quantity(word, with_gas=with_gas)
     return load_chapter(chapter).parse_quantity(word)
 
 

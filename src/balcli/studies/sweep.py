@@ -149,13 +149,9 @@ class Sweep:
 
     def _build(self, box: Box) -> Engine:
         rank = len(self.parameters)
-        axes = {
-            p.path: p.values[cut].reshape(-1, *(1,) * (rank - 1 - k))
-            for k, (p, cut) in enumerate(zip(self.parameters, box, strict=True))
-        }
         arrays = {
-            path: values.reshape((1,) * (rank - values.ndim) + values.shape)
-            for path, values in axes.items()
+            p.path: p.values[cut].reshape((1,) * k + (-1,) + (1,) * (rank - 1 - k))
+            for k, (p, cut) in enumerate(zip(self.parameters, box, strict=True))
         }
         with naming_file(self.name):
             return attach_gas_torque(build(self.file, arrays, rank=rank), self.file, arrays)

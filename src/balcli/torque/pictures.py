@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -86,13 +86,7 @@ class MainLoads(NamedTuple):
     in_shaft: Complex
 
 
-class GasPictures(NamedTuple):
-    """What one of PAGES shows; the others are None."""
-
-    pressures: Pressures | None = None
-    torques: Torques | None = None
-    pin: PinLoads | None = None
-    main: MainLoads | None = None
+GasPicture: TypeAlias = Pressures | Torques | PinLoads | MainLoads  # what one of PAGES shows
 
 
 class Running(NamedTuple):
@@ -122,7 +116,7 @@ def compute_running(engine: Engine) -> Running:
     return Running(_find_torques(steady), pressures, float(np.degrees(cylinder.fires)))
 
 
-def compute_pictures(engine: Engine, what: str) -> GasPictures:
+def compute_picture(engine: Engine, what: str) -> GasPicture:
     """What one of PAGES shows, at the mean speed.
 
     Raises:
@@ -131,13 +125,13 @@ def compute_pictures(engine: Engine, what: str) -> GasPictures:
     steady = replace(engine, ripple=())
     match what:
         case "pressure" | "p-v":
-            return GasPictures(pressures=_find_pressures(steady))
+            return _find_pressures(steady)
         case "torque":
-            return GasPictures(torques=_find_torques(steady))
+            return _find_torques(steady)
         case "pin":
-            return GasPictures(pin=_find_pin(steady))
+            return _find_pin(steady)
         case _:
-            return GasPictures(main=_find_main(steady))
+            return _find_main(steady)
 
 
 def _find_pressures(engine: Engine) -> Pressures:

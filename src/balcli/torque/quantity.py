@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from ..engine.build import Engine, build
-from ..engine.variants import EngineVariants
+from ..engine.variants import FiguresOfVariants
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from .analysis import analyze_torque
@@ -57,25 +58,6 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[CycleQuantity]) -> No
         raise BalcliError(f"{quantities[0].name}: the engine file has no [gas]")
 
 
-class Variants:
-    """Evaluates quantities of variants of a file one by one.
-
-    Args:
-        model: with gas.
-    """
-
-    def __init__(self, model: EngineFile, quantities: Sequence[CycleQuantity]) -> None:
-        self._engines, self._quantities = EngineVariants(model), quantities
-
-    def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """The value of each quantity for one variant, by the figures that vary.
-
-        Raises:
-            InputError, BalcliError: it cannot be; a fluctuation without inertia.
-        """
-        return evaluate_engine(self._engines.build(values), self._quantities)
-
-
 def evaluate_engine(engine: Engine, quantities: Sequence[CycleQuantity]) -> list[float]:
     """The value of each quantity of one engine with gas.
 
@@ -91,6 +73,9 @@ def evaluate_engine(engine: Engine, quantities: Sequence[CycleQuantity]) -> list
     if any(q.name == "fluctuation" for q in quantities):
         found["fluctuation"] = _find_fluctuation(engine)
     return [found[q.name] for q in quantities]
+
+
+Variants = partial(FiguresOfVariants, evaluate_engine)
 
 
 def _find_fluctuation(engine: Engine) -> float:

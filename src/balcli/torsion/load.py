@@ -94,8 +94,7 @@ class EngineSource:
             )
             for key, parts in (("front", torsion.front), ("rear", torsion.rear))
         }
-        fitted = torsion.model_copy(update=lists)
-        return replace(self, model=self.model.model_copy(update={"torsion": fitted}))
+        return replace(self, model=self.model.with_table("torsion", **lists))
 
 
 Source = ChainSource | EngineSource

@@ -10,7 +10,7 @@ from io import StringIO
 from itertools import permutations
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
@@ -26,9 +26,7 @@ ORDER = "firing_order = [1, 5, 3, 6, 2, 4]"
 
 
 def search(path, *args):
-    done = run_here("search", path, *args, "-f", "json")
-    assert (done.status, done.err) == (0, "")
-    return json.loads(done.out)["results"]
+    return ask_json("search", path, *args)["results"]
 
 
 def find_torque(text: str) -> float:

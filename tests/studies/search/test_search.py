@@ -13,9 +13,10 @@ from balcli.engine.layout import plan_cylinders
 from balcli.engine.load import parse as load
 from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError, InputError
-from balcli.forces.quantity import evaluate_quantities, parse_quantity_list
+from balcli.forces.quantity import evaluate_quantities
 from balcli.render.search import sheet
 from balcli.render.units import SYSTEMS
+from balcli.studies.quantities import parse_quantities
 from balcli.studies.search.designs import Design
 from balcli.studies.search.even_firing import fires_evenly
 from balcli.studies.search.objective import parse_objective
@@ -128,7 +129,7 @@ def test_who_has_seen_enough_gets_the_best_so_far() -> None:
 def evaluate_alone(file: EngineFile, throws: np.ndarray) -> float:
     crank = file.crank.model_copy(update={"throws": tuple(map(float, throws))})
     (value,) = evaluate_quantities(
-        build(file.model_copy(update={"crank": crank})), parse_quantity_list("moment.1.major")
+        build(file.model_copy(update={"crank": crank})), parse_quantities("moment.1.major")
     )
     return float(value)
 
@@ -164,7 +165,7 @@ def test_firing_orders_bring_their_cranks() -> None:
     assert found[0].objective == 0
     for r in found:
         new = load(write_design(changed(("throws = [0, 180, 180, 0]\n", "")).encode(), r.design))
-        value = evaluate_quantities(build(new), parse_quantity_list("moment.1.major"))[0]
+        value = evaluate_quantities(build(new), parse_quantities("moment.1.major"))[0]
         assert float(value) == pytest.approx(r.objective, abs=1e-9)
         assert new.layout.firing_order == r.design.firing_order
 
@@ -408,7 +409,7 @@ ARTICULATED = engine_text(
 
 def test_articulated_rods_count_once_for_their_throw() -> None:
     """The shares of all throws add up to the whole."""
-    file, quantities = load(ARTICULATED), parse_quantity_list("force.1.major,moment.2.major")
+    file, quantities = load(ARTICULATED), parse_quantities("force.1.major,moment.2.major")
     angles = np.array([0.0, 100, 190, 250])
     found = tabulate_contributions(file, angles, 0, quantities)
     for q, whole in zip(quantities, evaluate_quantities(build(file), quantities), strict=True):

@@ -23,7 +23,6 @@ from .style import (
     fit_name,
     open_figure,
     put_title,
-    save_figure,
 )
 
 if TYPE_CHECKING:
@@ -36,13 +35,8 @@ _MOST_LABELLED = 8  # readings; more names would lie on one another
 _SIZE = (11.0, 6.2)
 
 
-def draw_field(result: FieldBalance, form: Form) -> bytes:
-    """The picture in this form."""
-    return save_figure(make_field(result, form), form)
-
-
 def make_field(result: FieldBalance, form: Form) -> Figure:
-    """What `draw_field` writes, as a figure of matplotlib."""
+    """The picture, to be saved in this form."""
     phases, weights = find_senses(result)
     with open_figure(*_SIZE, form) as fig:
         fig.set_layout_engine("none")

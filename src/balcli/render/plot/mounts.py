@@ -30,7 +30,6 @@ from .style import (
     fit_name,
     open_figure,
     put_title,
-    save_figure,
 )
 
 if TYPE_CHECKING:
@@ -45,13 +44,8 @@ _SWING = 0.22  # of the body's size, by which its farthest corner moves in a pic
 _SIZE, _SHAPES_ALONE = (11.0, 8.6), (11.0, 3.2)
 
 
-def draw_mounts(result: MountReport, form: Form, system: System) -> bytes:
-    """The picture in this form."""
-    return save_figure(make_mounts(result, form, system), form)
-
-
 def make_mounts(result: MountReport, form: Form, system: System) -> Figure:
-    """What `draw_mounts` writes, as a figure of matplotlib."""
+    """The picture, to be saved in this form."""
     title = f"{fit_name(result.name or NAMELESS)}: on its mounts"
     with open_figure(*(_SHAPES_ALONE if result.response is None else _SIZE), form) as fig:
         put_title(fig, title)
@@ -61,37 +55,27 @@ def make_mounts(result: MountReport, form: Form, system: System) -> Figure:
             halves: Any = fig.subfigures(2, 1, height_ratios=(2.1, 1))
             upper, lower = halves
             several = upper.subplots(1, 3 if result.mounted.point_names else 2)
-            _draw_forces(several[0], result, result.response, system.force)
+            rpm, beside = result.response.speeds_rpm, list(_name_responses(result, result.response))
+            forces = [(each.force_peak, more) for each, more in beside]
+            _draw_curves(several[0], rpm, result.mounted.names, forces, system.force)
+            several[0].set_title("Force of each mount")
             _draw_meetings(several[1], result, result.response)
             if result.mounted.point_names:
-                _draw_motions(several[2], result, result.response, system.length)
+                motions = [(each.motion_peak, more) for each, more in beside]
+                _draw_curves(several[2], rpm, result.mounted.point_names, motions, system.length)
+                several[2].set_title("Motion of points")
             shapes = lower.subplots(1, 6)
         for k, (ax, mode) in enumerate(zip(shapes, result.modes.six, strict=True), 1):
             _draw_mode(ax, k, mode, result)
         return fig
 
 
-def _draw_forces(
-    ax: Axes, result: MountReport, response: MountingResponse, unit: ShownUnit
-) -> None:
-    curves = [(response.force_peak, ""), *((r.force_peak, more) for r, more in _beside(result))]
-    _draw_curves(ax, response.speeds_rpm, result.mounted.names, curves, unit)
-    ax.set_title("Force of each mount")
-    ax.set_ylabel(f"{unit.name}, all orders")
-
-
-def _draw_motions(
-    ax: Axes, result: MountReport, response: MountingResponse, unit: ShownUnit
-) -> None:
-    curves = [(response.motion_peak, ""), *((r.motion_peak, more) for r, more in _beside(result))]
-    _draw_curves(ax, response.speeds_rpm, result.mounted.point_names, curves, unit)
-    ax.set_title("Motion of points")
-    ax.set_ylabel(f"{unit.name}, all orders")
-
-
-def _beside(result: MountReport) -> Iterator[tuple[MountingResponse, str]]:
-    """What is shown beside, with what to add to a name."""
-    return ((other.response, f", {fit_name(other.name, 20)}") for other in result.beside)
+def _name_responses(
+    result: MountReport, own: MountingResponse
+) -> Iterator[tuple[MountingResponse, str]]:
+    """The engine's own and what is shown beside, with what to add to a name."""
+    yield own, ""
+    yield from ((other.response, f", {fit_name(other.name, 20)}") for other in result.beside)
 
 
 def _draw_curves(
@@ -114,7 +98,7 @@ def _draw_curves(
                 label=f"{fit_name(name, 20)}{more}",
             )
     ax.set_ylim(bottom=0)
-    ax.set_xlabel("rpm")
+    ax.set(xlabel="rpm", ylabel=f"{unit.name}, all orders")
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
 
 

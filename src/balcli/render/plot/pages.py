@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...core.phasors import Phasors
-from ...forces.crankshaft import InnerLoads
 from ...forces.kinds import EVERY_KIND, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
 from ...results.analysis import Analysis
 from ...sizing.remedy import Remedy
-from ...sizing.scheme_figures import FactorPeaks
-from ...studies.pictures import Banks
-from ...torque.pictures import GasPictures
+from ...studies.pictures import Study
+from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
 from ..bobweights import percent
 from ..sheet import NAMELESS, NEGLIGIBLE, NOTHING, size_text
 from ..units import SI, ShownUnit, System
@@ -50,22 +48,20 @@ _TITLES[ABOUT_WITH_GAS] = "About the crank, with gas"
 
 @dataclass(frozen=True)
 class PageSubject:
-    """What a page shows: an analysis of all spectra, one of the engine before devices were fitted,
-    to compare with, these devices, and studies.
-    """
+    """What a page shows, and in which units."""
 
-    now: Analysis
-    before: Analysis | None = None
-    remedy: Remedy | None = None
+    study: Study
     system: System = SI
-    factors: Sequence[FactorPeaks] = ()
-    banks: Banks | None = None
-    bent: tuple[InnerLoads, ...] = ()
-    gas: GasPictures | None = None
+
+    @property
+    def now(self) -> Analysis:
+        """With the devices that were fitted, if any were."""
+        return self.study.now
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
-        old = None if self.before is None else self.before.spectra[quantity]
-        return self.now.spectra[quantity], old
+        """Now, and before devices were fitted, if any were."""
+        before = self.study.before
+        return self.now.spectra[quantity], None if before is None else before.spectra[quantity]
 
     def find_largest(self, quantity: str) -> float:
         """The largest value over a revolution, with devices and without, SI; quantity is one of
@@ -107,7 +103,7 @@ def make_page(subject: PageSubject, what: str, form: Form) -> Figure:
         layout(fig, subject)
         engine = subject.now.engine
         name = fit_name(engine.name) or NAMELESS
-        put_title(fig, f"{name}, {engine.speed_rpm:g} rpm{_tell_fitted(subject.remedy)}")
+        put_title(fig, f"{name}, {engine.speed_rpm:g} rpm{_tell_fitted(subject.study.remedy)}")
         return fig
 
 
@@ -130,7 +126,7 @@ def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
         fig.set_facecolor("none")
         _PANELS[what](fig, subject, quantity)
         return inline_svg(
-            save_figure(fig, "svg"), f"{what}-{quantity}{'-after' if subject.before else ''}"
+            save_figure(fig, "svg"), f"{what}-{quantity}{'-after' if subject.study.before else ''}"
         )
 
 
@@ -197,30 +193,29 @@ def _find_orders(subject: PageSubject, quantity: str) -> list[int]:
 
 def _lay_out_factor(fig: Figure, subject: PageSubject) -> None:
     moment = None if subject.is_unknown("moment") else subject.system.moment
-    draw_factors(fig.subplots(), subject.factors, subject.system.force, moment)
+    draw_factors(fig.subplots(), subject.study.factors, subject.system.force, moment)
 
 
 def _lay_out_bank(fig: Figure, subject: PageSubject) -> None:
-    if subject.banks is None:
+    banks, unit = subject.study.banks, subject.system.force
+    if banks is None:
         raise ValueError("a page of bank angles needs a study of them")
-    largest = float(subject.banks.force.major.max(initial=0))
+    largest = float(banks.force.major.max(initial=0))
     if largest < NEGLIGIBLE * subject.now.of_one_cylinder["force"]:
-        told = (
-            f"negligible ({size_text(largest, subject.system.force, 2)}), whatever the bank angle"
-        )
+        told = f"negligible ({size_text(largest, unit, 2)}), whatever the bank angle"
         fig.set_size_inches(6.4, 1.1)
-        _write_words(fig.subplots(), f"Force of order {subject.banks.order:g}", told)
+        _write_words(fig.subplots(), f"Force of order {banks.order:g}", told)
         return
     grid = fig.add_gridspec(1, 2)
-    draw_end_curves(fig.add_subplot(grid[0]), subject.banks, subject.system.force)
-    draw_roses(fig.add_subplot(grid[1], projection="polar"), subject.banks, subject.system.force)
+    draw_end_curves(fig.add_subplot(grid[0]), banks, unit)
+    draw_roses(fig.add_subplot(grid[1], projection="polar"), banks, unit)
 
 
 def _lay_out_inner(fig: Figure, subject: PageSubject) -> None:
     """Along the crankshaft: shear, bending and bearings; with gas bending of shaft and block, and
     bearings.
     """
-    bent, system = subject.bent, subject.system
+    bent, system = subject.study.bent, subject.system
     if gas := [inner.with_gas for inner in bent if inner.with_gas is not None]:
         over = "the cycle"
         pictures = (
@@ -245,29 +240,22 @@ def _lay_out_inner(fig: Figure, subject: PageSubject) -> None:
     axes[-1].set_xlabel(f"z, {system.length.name} (free end on the left)")
 
 
-def _lay_out_pressure(fig: Figure, subject: PageSubject) -> None:
-    if subject.gas is not None and subject.gas.pressures is not None:
-        draw_pressure(fig.subplots(), subject.gas.pressures, subject.system.pressure)
+def _lay_out_gas(fig: Figure, subject: PageSubject) -> None:
+    system = subject.system
+    match subject.study.gas:
+        case Pressures() as found:
+            draw_pressure(fig.subplots(), found, system.pressure)
+        case Torques() as found:
+            draw_torque(fig.subplots(), found, system.moment)
+        case PinLoads() as found:
+            draw_pin(fig, found, system.force)
+        case MainLoads() as found:
+            draw_main(fig, found, system.force)
 
 
 def _lay_out_p_v(fig: Figure, subject: PageSubject) -> None:
-    if subject.gas is not None and subject.gas.pressures is not None:
-        draw_p_v(fig.subplots(), subject.gas.pressures, subject.system)
-
-
-def _lay_out_torque(fig: Figure, subject: PageSubject) -> None:
-    if subject.gas is not None and subject.gas.torques is not None:
-        draw_torque(fig.subplots(), subject.gas.torques, subject.system.moment)
-
-
-def _lay_out_pin(fig: Figure, subject: PageSubject) -> None:
-    if subject.gas is not None and subject.gas.pin is not None:
-        draw_pin(fig, subject.gas.pin, subject.system.force)
-
-
-def _lay_out_main(fig: Figure, subject: PageSubject) -> None:
-    if subject.gas is not None and subject.gas.main is not None:
-        draw_main(fig, subject.gas.main, subject.system.force)
+    if isinstance(subject.study.gas, Pressures):
+        draw_p_v(fig.subplots(), subject.study.gas, subject.system)
 
 
 # ------------------------------------------------------------------ panels
@@ -348,11 +336,11 @@ PAGES: dict[str, tuple[float, float, Layout]] = {
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
-    "pressure": (7.2, 4.4, _lay_out_pressure),
+    "pressure": (7.2, 4.4, _lay_out_gas),
     "p-v": (6.4, 4.8, _lay_out_p_v),
-    "torque": (8.4, 4.8, _lay_out_torque),
-    "pin": (9.6, 5.9, _lay_out_pin),
-    "main": (9.6, 6.4, _lay_out_main),
+    "torque": (8.4, 4.8, _lay_out_gas),
+    "pin": (9.6, 5.9, _lay_out_gas),
+    "main": (9.6, 6.4, _lay_out_gas),
 }
 _PANELS: dict[str, Callable[[Figure, PageSubject, str], None]] = {
     "polar": lambda fig, subject, quantity: _locus_panel(fig.subplots(), subject, quantity),

@@ -25,7 +25,6 @@ from .style import (
     fit_name,
     open_figure,
     put_title,
-    save_figure,
 )
 
 if TYPE_CHECKING:
@@ -41,19 +40,12 @@ _MOST_ORDERS = 12  # that are named in a Campbell diagram
 _WORTH = 1e-3  # share of work from which a critical is drawn
 
 
-def draw_torsion(
-    result: TorsionAnalysis, what: str, form: Form, system: System = SI, *, titled: bool = True
-) -> bytes:
-    """The content of a file with a page of pictures, as far as they were asked for; `what` is one
-    of PAGES. With the system's name above them, unless they are not to be titled.
-    """
-    return save_figure(make_torsion(result, what, form, system, titled=titled), form)
-
-
 def make_torsion(
     result: TorsionAnalysis, what: str, form: Form, system: System = SI, *, titled: bool = True
 ) -> Figure:
-    """What `draw_torsion` writes, as a figure of matplotlib."""
+    """A page of pictures, as far as they were asked for; `what` is one of PAGES. With the system's
+    name above them, unless they are not to be titled.
+    """
     parts = list(_choose_parts(result, what, system))
     rows, columns = (2, 2) if len(parts) > 2 else (1, 2)
     if what != "all":

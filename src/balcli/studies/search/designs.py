@@ -100,9 +100,8 @@ def find_buildable(model: EngineFile, key: str, angles: Array) -> NDArray[np.boo
 def drop_firing_order(model: EngineFile) -> EngineFile:
     """With throws of some kind and no firing order, so that any throws can be tried."""
     throws = model.crank.throws or (0.0,) * plan_cylinders(model.crank, model.layout).throws
-    crank = model.crank.model_copy(update={"throws": throws})
-    layout = model.layout.model_copy(update={"firing_order": None, "firing_intervals": None})
-    return model.model_copy(update={"crank": crank, "layout": layout})
+    model = model.with_table("crank", throws=throws)
+    return model.with_table("layout", firing_order=None, firing_intervals=None)
 
 
 def evaluate_candidates(

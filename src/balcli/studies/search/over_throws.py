@@ -46,8 +46,7 @@ def give_throws(model: EngineFile) -> EngineFile:
     if model.crank.throws is None and model.layout.firing_order:
         found = assemble(model).throws_deg
         throws = [float(found[throw]) for throw in range(len(found))]
-        crank = model.crank.model_copy(update={"throws": throws})
-        model = model.model_copy(update={"crank": crank})
+        model = model.with_table("crank", throws=throws)
     if len(model.crank.throws or ()) < 2:
         raise BalcliError(
             "there is nothing to permute: the crank has one throw; give crank.throws, or a "
