@@ -218,3 +218,13 @@ def test_search_and_scatter_say_over_which_speeds_a_mount_is_loaded(four):
     options = ("--samples", "3", "--quantity")
     assert told in run_here("scatter", four, *options, "point.shift_lever.motion").out
     assert told not in run_here("scatter", four, *options, "mount.left.static,mode.1.Hz").out
+
+
+def test_an_undamped_resonance_names_no_option_that_a_sweep_lacks(four):
+    four.write_text(NAMED.replace("loss = 0.1", "loss = 0"), encoding="utf-8")
+    asked = ("--vary", "body.mass=150,210", "-q", "mount.left.force")
+    told = refusal("sweep", four, *asked)
+    assert told.startswith(f"{four}: body.mass = 150: mode ")
+    assert told.endswith(
+        "give the mounts a loss, such as loss = 0.1, or a range without that speed"
+    )

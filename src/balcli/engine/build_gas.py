@@ -71,6 +71,7 @@ class _Builder:
         numbers = self.parts.numbers
         torques = {row: self._torque(numbers[row], found[row]) for row in dict.fromkeys(like)}
         self._refuse()
+        self.doubts += self._find_idle()
         nominal = self._find_nominal([piston.top for piston in found])
         return EngineGas(
             tuple(
@@ -118,23 +119,32 @@ class _Builder:
         yield from self._find_misplaced()
 
     def _find_misplaced(self) -> Iterator[Problem]:
-        """Keys of [gas] that change nothing of this engine."""
-        gas, cylinders = self.gas, self.parts.model.cylinder.values()
-        given = gas.model_fields_set
-        measured = gas.indicator or any(table.indicator is not None for table in cylinders)
-        for key in () if measured else DIAGRAM_KEYS:
-            if key in given:
+        """Keys of [gas] that this engine cannot have."""
+        gas = self.gas
+        for key in () if self._is_measured else DIAGRAM_KEYS:
+            if key in gas.model_fields_set:
                 yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
-        if gas.harmonics and not measured and "crankcase" in given:
-            hint = "changes nothing beside harmonics, which are of the torque; leave it out"
-            yield Problem("gas.crankcase", hint)
-        if self.strokes == 2 and "exhaust" in given:
-            hint = "has no meaning in a two-stroke cycle: while its ports are open the pressure is"
-            yield Problem("gas.exhaust", f"{hint} that of intake; leave it out")
         if self.strokes == 2 and gas.zero == "gas-exchange":
             yield Problem(
                 "gas.zero", 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
             )
+
+    def _find_idle(self) -> Iterator[str]:
+        """Keys of [gas] that change nothing of this engine, each with the reason."""
+        given = self.gas.model_fields_set
+        if self.gas.harmonics and not self._is_measured and "crankcase" in given:
+            yield "gas.crankcase changes nothing beside harmonics, which are of the torque"
+        if self.strokes == 2 and "exhaust" in given:
+            yield (
+                "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the "
+                "pressure is that of intake"
+            )
+
+    @property
+    def _is_measured(self) -> bool:
+        """Whether any cylinder has an indicator diagram."""
+        tables = self.parts.model.cylinder.values()
+        return bool(self.gas.indicator) or any(table.indicator is not None for table in tables)
 
     @property
     def _bore(self) -> float | None:
