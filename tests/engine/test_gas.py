@@ -307,6 +307,21 @@ def test_a_diagram_that_goes_down_to_nothing_is_suspicious(beside):
     assert load(path).gas.doubts == ()
 
 
+def test_keys_that_change_nothing_are_doubted(tmp_path):
+    """The file is read all the same, as the other kind of cycle would be."""
+    path = tmp_path / "engine.toml"
+    path.write_text(TWO_STROKE + WIEBE + "exhaust = 1.5\n", encoding="utf-8")
+    (doubt,) = load(path).gas.doubts
+    assert doubt == (
+        "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the pressure "
+        "is that of intake"
+    )
+    (tmp_path / "h.csv").write_text("order,cos,sin\n1,1,2\n", encoding="utf-8")
+    path.write_text(FOUR + "[gas]\nharmonics = 'h.csv'\ncrankcase = 1.1\n", encoding="utf-8")
+    (doubt,) = load(path).gas.doubts
+    assert doubt == "gas.crankcase changes nothing beside harmonics, which are of the torque"
+
+
 def test_a_diagram_may_have_so_many_rows(beside):
     rows = "\n".join(f"{k * 0.03:.2f},0.1" for k in range(20001))
     path = beside('indicator = "p.csv"\n', content=f"angle_deg,pressure_MPa\n{rows}\n")

@@ -32,6 +32,10 @@ def told(tmp_path, *changes, args=()):
         ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma; a list stands in brackets, such as [68,6]"),
         ("length = 160", "ratio = 2/7", ": ratio = 2/7: TOML knows no fractions; write ratio = 0.285714"),
         ("throws = [0, 180, 180, 0]", "throws = 0, 90", ": throws = 0, 90: a list stands in brackets: throws = [0, 90]"),
+        ("throws = [0, 180, 180, 0]", "throws = [0 180 180 0]", ": throws = [0 180 180 0]: commas stand between the values of a list: throws = [0, 180, 180, 0]"),
+        ("throws = [0, 180, 180, 0]", "throws = [0; 180; 180;0] # deg", ": throws = [0; 180; 180;0]: commas stand between the values of a list: throws = [0, 180, 180, 0]"),
+        ("stroke = 90", "stroke = “90 mm”", ': stroke = “90 mm”: quotes are straight: stroke = "90 mm"'),
+        ("stroke = 90", "stroke = ‘3.5 in’  # inch", ': stroke = ‘3.5 in’: quotes are straight: stroke = "3.5 in"'),
         ("throws = [0, 180, 180, 0]", "throws = 0,180,180,0", ": throws = 0,180,180,0: a list stands in brackets: throws = [0,180,180,0]"),
     ],
 )  # fmt: skip

@@ -17,7 +17,13 @@ from support.engines import engine
 from balcli.core.mechanisms import closed_form
 from balcli.enginefile.examples import folder
 from balcli.forces.kinds import FORCE, MOMENT
-from balcli.forces.textbook import TextbookUnits, find_textbook, find_textbook_units
+from balcli.forces.spectrum import compute_each_cylinder
+from balcli.forces.textbook import (
+    TextbookUnits,
+    find_textbook,
+    find_textbook_units,
+    with_reciprocating_only,
+)
 
 # Bosch, Automotive Handbook, "Free forces and moments of the 1st and 2nd order, and ignition
 # intervals of the most common engine designs": sizes in F1 and F2, F1 a and F2 a. Engines not in
@@ -118,7 +124,9 @@ def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
 
 def test_moments_are_multiples_of_a_force_times_the_distance_of_throws():
     orders = np.array([1.0, 2.0, 3.0])
-    units = TextbookUnits(orders, 200.0, 0.1, ratios=np.array([1.0, 0.25, 0.0]), equal=True)
+    units = TextbookUnits(
+        orders, 200.0, 0.1, ratios=np.array([1.0, 0.25, 0.0]), cylinder=1, equal=True
+    )
     assert (units.size(FORCE, 1), units.name(FORCE, 1)) == (200.0, "F1")
     assert (units.size(MOMENT, 2), units.name(MOMENT, 2)) == (5.0, "F2·a")
     assert np.isnan(units.size(FORCE, 3))
@@ -144,3 +152,25 @@ def test_json_says_the_same_beside_what_it_said():
     assert first["size"] == pytest.approx(0.449 / 2, abs=5e-4)
     assert (first["reciprocating"], first["unit"]) == (pytest.approx(0.449, abs=5e-4), "F1·a")
     assert first["built"] == pytest.approx(1.333, abs=5e-4)
+
+
+def test_units_of_an_engine_whose_first_cylinder_is_articulated_are_its_masters():
+    """Orders of an articulated piston are no multiples A_n of its first: the unit of order 2 is
+    what cylinder 2, on the master rod, makes of it.
+    """
+    vee = engine(
+        layout={"bank_angle": 60},
+        articulation={
+            "master": 2,
+            "knuckle_radius": 30,
+            "rod": {"length": 130, "mass": 0.4, "cg": 40},
+        },
+        cylinder={"2": {"piston_mass": 0.7}},
+    )
+    orders = np.array([1.0, 2.0, 4.0])
+    units = find_textbook_units(vee, orders)
+    alone = with_reciprocating_only(vee)
+    each = compute_each_cylinder(alone, orders, ["force"])["force"]
+    of_master = each.major[:, vee.numbers.index(2)]
+    assert units.cylinder == 2
+    assert [units.size(FORCE, n) for n in orders] == pytest.approx(list(of_master), rel=1e-12)

@@ -208,3 +208,23 @@ def test_the_mean_torque_leans_on_the_mounts_whatever_else_is_asked(tmp_path):
         assert row["mount.left.static"] == pytest.approx(np.linalg.norm(rest), rel=1e-12)
     weight = said_by(file, NAMED)["static"]["mounts"][0]["force_N"]
     assert np.linalg.norm(rest) > 1.005 * np.linalg.norm(weight)
+
+
+def test_search_and_scatter_say_over_which_speeds_a_mount_is_loaded(four):
+    """A mount so soft that it resonates below an eighth of the speed is no better for it."""
+    told = "Of mounts and points: the largest from an eighth of the engine's speed up to it;"
+    over = ("--over", "mount.left.stiffness.2=100:200", "--minimise", "mount.left.force")
+    assert told in run_here("search", four, *over).out
+    options = ("--samples", "3", "--quantity")
+    assert told in run_here("scatter", four, *options, "point.shift_lever.motion").out
+    assert told not in run_here("scatter", four, *options, "mount.left.static,mode.1.Hz").out
+
+
+def test_an_undamped_resonance_names_no_option_that_a_sweep_lacks(four):
+    four.write_text(NAMED.replace("loss = 0.1", "loss = 0"), encoding="utf-8")
+    asked = ("--vary", "body.mass=150,210", "-q", "mount.left.force")
+    told = refusal("sweep", four, *asked)
+    assert told.startswith(f"{four}: body.mass = 150: mode ")
+    assert told.endswith(
+        "give the mounts a loss, such as loss = 0.1, or a range without that speed"
+    )

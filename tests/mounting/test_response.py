@@ -407,8 +407,8 @@ def test_an_undamped_resonance_in_the_range_is_named(report):
     message = refused(report, ENGINE + block(), speeds=np.array([300.0, 2000.0]), orders=[2])
     assert message == (
         "engine.toml: mode 4 (roll, 17.43 Hz) is not damped, and order 2 drives it at 523.037 rpm, "
-        "where its motion has no bound; give the mounts a loss, such as loss = 0.1, or other "
-        "--speeds"
+        "where its motion has no bound; give the mounts a loss, such as loss = 0.1, or a range "
+        "without that speed"
     )
     assert report(ENGINE + block(), speeds=np.array([3000.0]), orders=[2]).response is not None
 

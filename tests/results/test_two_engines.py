@@ -341,7 +341,18 @@ def test_a_speed_that_no_file_gives_is_told_as_assumed(file, tmp_path):
     slow = tmp_path / "slow.toml"
     slow.write_text(Path(file).read_text().replace("speed = 3000", ""))
     assert "speed      both at 3000 rpm\n" in run(file, str(slow)).out
-    assert "speed      both at 1000 rpm, assumed: the file gives none\n" in run(slow, file).out
+    told = "speed      both at 1000 rpm, assumed: the file gives none; what the second's file says"
+    assert told in run(slow, file).out
+
+
+@pytest.mark.parametrize("own", ["speed = 3001", f"speed = 3000\n{RIPPLE}"])
+def test_a_speed_of_the_second_that_does_not_count_is_told(file, tmp_path, own):
+    other = tmp_path / "other.toml"
+    other.write_text(Path(file).read_text().replace("speed = 3000", own))
+    told = "both at 3000 rpm; what the second's file says of its speed does not count\n"
+    assert told in run(file, str(other)).out
+    assert "does not count" not in run(file, file).out
+    assert "does not count" not in run(file, str(other), "--speed", "900").out or RIPPLE in own
 
 
 def test_engines_without_a_name_go_by_their_files(file, tmp_path):

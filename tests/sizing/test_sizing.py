@@ -617,3 +617,17 @@ def test_what_is_no_option_is_told_in_words(scheme, options, told):
     with pytest.raises(TypeError) as error:
         size(build(parse(SMALL["four"])), scheme, SchemeOptions(**options))
     assert str(error.value).startswith(f"SchemeOptions: {told}")
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (SchemeOptions(at=(0.05 + 0.06j, 60 + 80j)), "--at: 100000 mm"),
+        (SchemeOptions(position=-90.0), "--position: 90000 mm"),
+        (SchemeOptions(planes=(-215.9, 228.6)), "--planes: 228600 mm"),
+    ],
+)
+def test_places_beyond_every_engine_are_refused(options, told):
+    """Most likely mm where m are wanted."""
+    with pytest.raises(BalcliError, match=f"^{told} from the origin is farther than any engine "):
+        options.check("two-shaft" if options.planes is None else "factor")

@@ -56,6 +56,20 @@ def test_houdaille_optimum(ratio):
     assert damper["damping_Nms_per_rad"] == pytest.approx(exact, rel=0.02)
 
 
+def test_the_file_s_own_damper_is_off_where_it_is_told_what_there_is_without_one():
+    """It stood there as "before", and a file that has one was another before."""
+    own = 'damper = { kind = "viscous", inertia = 20000, damping = 30 }\n'
+    bare = write_diesel()
+    fitted = bare.replace('name = "pulley"\n', f'name = "pulley"\n{own}')
+    assert fitted != bare
+    speeds = ("--speeds", "3000:4600:20")
+    stress = largest(ask_torsion(bare, *speeds), "stress_Pa") / 1e6
+    assert largest(ask_torsion(fitted, *speeds), "stress_Pa") / 1e6 < 0.9 * stress
+    out = run_here("torsion", "-", *speeds, "--damper", "viscous", stdin=fitted).out
+    told = re.search(r"^largest stress with none there +±([\d.]+) N/mm²$", out, re.MULTILINE)
+    assert float(told[1]) == pytest.approx(stress, rel=1e-4)
+
+
 @pytest.mark.parametrize("kind", ["viscous", "rubber"])
 def test_no_other_figure_is_better(kind):
     """Of the Diesel with its inertia torque, over the range in which order 3 is critical."""

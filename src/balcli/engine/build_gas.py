@@ -71,6 +71,7 @@ class _Builder:
         numbers = self.parts.numbers
         torques = {row: self._torque(numbers[row], found[row]) for row in dict.fromkeys(like)}
         self._refuse()
+        self.doubts += self._find_idle()
         nominal = self._find_nominal([piston.top for piston in found])
         return EngineGas(
             tuple(
@@ -107,11 +108,6 @@ class _Builder:
                 "a four-stroke cylinder fires in every second revolution, and only "
                 "the firing order says in which, such as firing_order = [1, 3, 4, 2]",
             )
-        own = [n for n, table in model.cylinder.items() if table.indicator is not None]
-        if gas.indicator is None and not own:
-            for key in DIAGRAM_KEYS:
-                if key in gas.model_fields_set:
-                    yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
         if gas.cycle is None:
             for number, table in model.cylinder.items():
                 if table.heat is not None:
@@ -120,10 +116,35 @@ class _Builder:
                         "belongs to a computed cycle, and [gas] has none; give the cylinder a "
                         "diagram of its own (indicator)",
                     )
+        yield from self._find_misplaced()
+
+    def _find_misplaced(self) -> Iterator[Problem]:
+        """Keys of [gas] that this engine cannot have."""
+        gas = self.gas
+        for key in () if self._is_measured else DIAGRAM_KEYS:
+            if key in gas.model_fields_set:
+                yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
         if self.strokes == 2 and gas.zero == "gas-exchange":
             yield Problem(
                 "gas.zero", 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
             )
+
+    def _find_idle(self) -> Iterator[str]:
+        """Keys of [gas] that change nothing of this engine, each with the reason."""
+        given = self.gas.model_fields_set
+        if self.gas.harmonics and not self._is_measured and "crankcase" in given:
+            yield "gas.crankcase changes nothing beside harmonics, which are of the torque"
+        if self.strokes == 2 and "exhaust" in given:
+            yield (
+                "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the "
+                "pressure is that of intake"
+            )
+
+    @property
+    def _is_measured(self) -> bool:
+        """Whether any cylinder has an indicator diagram."""
+        tables = self.parts.model.cylinder.values()
+        return bool(self.gas.indicator) or any(table.indicator is not None for table in tables)
 
     @property
     def _bore(self) -> float | None:

@@ -72,7 +72,9 @@ class Gas(FileTable):
         1.28, description="n of p V^n = const, and while it burns", examples=[1.27]
     )
     intake: Pressure = Field(1.0, description="absolute, while it is filled", examples=[1.8])
-    exhaust: Pressure = Field(1.05, description="absolute, while it empties", examples=[1.3])
+    exhaust: Pressure = Field(
+        1.05, description="absolute, while it empties; four-stroke", examples=[1.3]
+    )
     imep: MeanPressure | None = Field(
         None,
         description="indicated mean effective pressure that the cycle is to have; beside a "

@@ -97,7 +97,8 @@ def _explain(text: str | bytes, error: str) -> str:
     twice = re.match(r"\s*([\w.-]{1,60})\s*=", line)
     if twice and error.startswith("Cannot overwrite"):
         return f": {twice[1]} is given twice; write it once"
-    assigned = re.fullmatch(r"\s*([\w.-]{1,40})\s*=\s*([^#\"'\[\]{}]{1,60}?)\s*(?:#.*)?", line)
+    given = r"([^#\"'\[\]{}]{1,60}?|\[[\d.+\s;-]{1,60}\])"
+    assigned = re.fullmatch(rf"\s*([\w.-]{{1,40}})\s*=\s*{given}\s*(?:#.*)?", line)
     if assigned is None or not assigned[2].isprintable():
         return ""
     key, value = assigned[1], assigned[2]
@@ -116,6 +117,11 @@ def _guess(value: str) -> Iterator[str]:
         yield f"TOML knows no fractions; write {{key}} = {int(part[1]) / int(part[2]):.6g}"
     elif re.fullmatch(r"[+-]?[\d./]+\s*[A-Za-z°%].*", value):
         yield 'a value with a unit stands in quotes: {key} = "{value}"'
+    elif value.startswith("["):
+        listed = ", ".join(value.strip("[]").replace(";", " ").split())
+        yield f"commas stand between the values of a list: {{key}} = [{listed}]"
+    elif bare := re.fullmatch("[“”„«»‘’](.+)[“”«»‘’]", value):
+        yield f'quotes are straight: {{key}} = "{bare[1]}"'
     elif re.fullmatch(r"[A-Za-z].*", value):
         yield 'words stand in quotes: {key} = "{value}"'
 

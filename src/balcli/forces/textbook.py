@@ -1,17 +1,18 @@
 """Forces and moments as textbooks have them: multiples of those of one cylinder.
 
 `F1 = m_rec r omega^2` is the first-order force of cylinder 1's reciprocating mass, `F_n = A_n F1`
-its n-th; moments are multiples of `F_n a`, a the (smallest) distance of neighbouring throws.
-Textbooks count the reciprocating masses alone, each in the plane of its throw: what rotates is the
-counterweights' business, and does not hide the layout. Source: Bosch, Automotive Handbook, "Free
-forces and moments of the 1st and 2nd order".
+its n-th; moments are multiples of `F_n a`, a the (smallest) distance of neighbouring throws. Where
+the rod of cylinder 1 is articulated, its orders are no A_n, and its master's cylinder stands for
+it. Textbooks count the reciprocating masses alone, each in the plane of its throw: what rotates is
+the counterweights' business, and does not hide the layout. Source: Bosch, Automotive Handbook,
+"Free forces and moments of the 1st and 2nd order".
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -21,6 +22,9 @@ from ..core.sorted_sets import sort_distinct
 from ..engine.build import Engine
 from .kinds import Kind
 from .spectrum import Spectra, compute_spectra
+
+if TYPE_CHECKING:
+    from ..core.mechanisms.articulated import Articulated
 
 _NO_FORCE = 1e-12  # A_n of an order that the piston does not have
 
@@ -33,13 +37,15 @@ class TextbookUnits(NamedTuple):
         force: F1, N.
         arm: a, the smallest distance of neighbouring throws, m; nan where all stand in one plane.
         ratios: |A_n| of each order, shape (orders,).
-        equal: whether all cylinders are like cylinder 1.
+        cylinder: number of the cylinder of which they are.
+        equal: whether all cylinders are like it.
     """
 
     orders: Array
     force: float
     arm: float
     ratios: Array
+    cylinder: int
     equal: bool
 
     def size(self, kind: Kind, order: float) -> float:
@@ -94,18 +100,21 @@ def with_reciprocating_only(engine: Engine) -> Engine:
 def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
     """The units of an engine without trailing axes, for these orders."""
     c, row = engine.cylinders, engine.numbers.index(1)
+    if c.linkage is not None and not engine.rotary:
+        row = int(cast("Articulated", c.linkage).master[row])
 
-    def of_cylinder_1(values: Array) -> Array:
+    def of_this_one(values: Array) -> Array:
         return values[row : row + 1] if len(values) > 1 else values
 
-    lam, eps = of_cylinder_1(c.lam), of_cylinder_1(c.eps)
+    lam, eps = of_this_one(c.lam), of_this_one(c.eps)
     series = harmonics.find_harmonics(orders, lam, eps, {"piston"}).piston
-    mass = float(of_cylinder_1(c.reciprocating)[0])
+    mass = float(of_this_one(c.reciprocating)[0])
     gaps = np.diff(sort_distinct(np.round(engine.throws_m, 9)))
     return TextbookUnits(
         orders=orders,
         force=float(mass * c.radius * engine.omega**2),
         arm=float(gaps.min()) if gaps.size else float("nan"),
         ratios=np.abs(series.c[:, 0]),
+        cylinder=engine.numbers[row],
         equal=engine.equal,
     )

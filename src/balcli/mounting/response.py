@@ -304,7 +304,7 @@ def refuse_mount_resonance(modes: BodyModes, loads: BodyLoads, omega: Real) -> N
     raise BalcliError(
         f"mode {first.mode + 1} ({mode.motion}, {mode.hertz:.4g} Hz) is not damped, and order "
         f"{first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its motion has no "
-        "bound; give the mounts a loss, such as loss = 0.1, or other --speeds"
+        "bound; give the mounts a loss, such as loss = 0.1, or a range without that speed"
     )
 
 

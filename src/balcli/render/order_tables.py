@@ -83,7 +83,7 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
     if not units.force:
         return
     if book.built.force is not None:
-        cylinder = "one cylinder" if units.equal else "cylinder 1"
+        cylinder = "one cylinder" if units.equal else f"cylinder {units.cylinder}"
         note = (
             f"F1 = m r ω² = {size_text(units.force, system.force, 5)} "
             f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order. {_AS_BUILT}"

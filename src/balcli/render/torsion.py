@@ -71,7 +71,7 @@ def _damper(sized: SizedDamper, system: System) -> Facts:
             alone = number(shown.of(convert_to_si(key, sized.start)))
             told += f" (best for mode {sized.mode} alone: {alone})"
         pairs.append((_DAMPER_LABELS[key], told))
-    pairs.append((f"largest {sized.measure} before", before))
+    pairs.append((f"largest {sized.measure} with none there", before))
     pairs.append((f"largest {sized.measure} with it", _tell_swings(sized.after, unit)))
     if sized.heat:
         heat = size_text(sized.heat, system.heat)

@@ -6,12 +6,13 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
-from .engine_facts import tell_pivot, tell_speed
+from .engine_facts import is_speed_assumed, tell_pivot, tell_speed
 from .figures import assumptions, clean, figure_rows, order_entries, peak_entries
 from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Sheet, number
 
 if TYPE_CHECKING:
+    from ..engine.build import Engine
     from ..results.two_engines import Combined, Load
     from .units import ShownUnit, System
 
@@ -94,13 +95,22 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     yield "place", f"the second at {place}, turned by {how.turn_deg:g} deg"
     against = ", and turns against the first" if how.reverse else ""
     yield "crank", f"the second leads by {how.phase_deg:g} deg{against}"
-    yield "speed", f"both at {tell_speed(first)}"
+    yield "speed", f"both at {tell_speed(first)}{_tell_other_speed(*result.engines)}"
     if gas := _GAS[result.has_gas]:
         yield "gas", gas
     if result.moments_known:
         yield "reference", f"moments about {_tell_place(first.reference_m, system.length)}"
     else:
         yield "reference", "moments are not known: crank.spacing is missing"
+
+
+def _tell_other_speed(first: Engine, second: Engine) -> str:
+    """That the second engine's own speed, or its unevenness, does not count, where it is another
+    one.
+    """
+    slower = second.speed_rpm != first.speed_rpm and not is_speed_assumed(second)
+    other = slower or second.ripple not in ((), first.ripple)
+    return "; what the second's file says of its speed does not count" if other else ""
 
 
 def _tell_place(point: Iterable[Any], unit: ShownUnit) -> str:

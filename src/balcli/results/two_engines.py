@@ -138,7 +138,8 @@ def combine_engines(
     Raises:
         BalcliError: orders that are negative or too high.
     """
-    asked = None if orders is None else check_orders(orders, [first, second])
+    given = (first, second)
+    asked = None if orders is None else check_orders(orders, given)
     second = gear_to(second, first, arrangement.phase_deg)
     computed = merge_orders(
         find_relevant_orders(first),
@@ -153,7 +154,7 @@ def combine_engines(
         whole = _compute_sum(one, other, arrangement, computed)
     shown = choose_orders(visible, first, second) if asked is None else asked
     return Combined(
-        (first, second),
+        given,
         arrangement,
         visible.select_orders(shown),
         find_peak(whole["force"]),

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from ..enginefile.fields import nearest
 from ..errors import BalcliError, wrong_type
-from ..limits import HIGHEST_SHAFT_ORDER
+from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER
 from .schemes import KNUCKLES, NAMES, SCHEMES
 
 _EXAMPLES = {
@@ -72,6 +72,7 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
             )
+        self._refuse_far_places()
         if self.roll not in (None, "zero"):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
@@ -88,6 +89,17 @@ class SchemeOptions(NamedTuple):
             value = getattr(self, name)
             if value is not None and not right:
                 raise wrong_type(f"SchemeOptions: {name}", value, f"give {_EXAMPLES[name]}")
+
+    def _refuse_far_places(self) -> None:
+        planes = self.planes if isinstance(self.planes, tuple) else ()
+        position = () if self.position is None else (self.position,)
+        for name, places in (("at", self.at or ()), ("position", position), ("planes", planes)):
+            farthest = max(map(abs, places), default=0.0)
+            if farthest > FARTHEST_DEVICE_M:
+                raise BalcliError(
+                    f"--{name}: {1e3 * farthest:g} mm from the origin is farther than any engine "
+                    f"reaches; at most {FARTHEST_DEVICE_M:g} m"
+                )
 
     def read_place(self) -> complex:
         """The one place asked for, or else 0, the crank axis; BalcliError if there are more."""

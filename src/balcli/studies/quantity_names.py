@@ -103,9 +103,19 @@ MOUNTS = Chapter(
             "the same of a motion; share, damping too",
             "mount",
         ),
-        Form("mount.NAME.force", "N", "largest force of a mount, over all speeds", "mount"),
+        Form(
+            "mount.NAME.force",
+            "N",
+            "largest force of a mount, from an eighth of the speed up to it",
+            "mount",
+        ),
         Form("mount.NAME.static", "N", "its load at rest and under the mean torque", "mount"),
-        Form("point.NAME.motion", "m", "largest motion of a point, over all speeds", "mount"),
+        Form(
+            "point.NAME.motion",
+            "m",
+            "largest motion of a point, from an eighth of the speed up to it",
+            "mount",
+        ),
     ),
 )
 TORSION = Chapter(
@@ -125,6 +135,10 @@ CHAPTERS = (ENGINE, GUIDE, CYCLE, MOUNTS, TORSION)
 _OF_SHAFTS = (
     "Of shafts: the largest from half to 1.5 times the engine's speed; what resonates at other "
     "speeds, which are passed, is not in it."
+)
+_OF_MOUNTS = (
+    "Of mounts and points: the largest from an eighth of the engine's speed up to it; what "
+    "resonates at other speeds is not in it."
 )
 BEGINNINGS = tuple(dict.fromkeys(each for chapter in CHAPTERS for each in chapter.beginnings))
 _OF_CYCLE = tuple(form.pattern for form in CYCLE.forms)
@@ -156,7 +170,10 @@ def _shorten(chapter: Chapter) -> Iterator[str]:
 
 def tell_speeds(names: Iterable[str]) -> str:
     """Over which speeds quantities of these names are the largest, where one could be misled."""
-    return _OF_SHAFTS if any(name.startswith("shaft.") for name in names) else ""
+    asked = [name for name in names if not name.endswith(".static")]
+    told = [_OF_MOUNTS] * any(name.startswith(("mount.", "point.")) for name in asked)
+    told += [_OF_SHAFTS] * any(name.startswith("shaft.") for name in asked)
+    return " ".join(told)
 
 
 def tell_assumed_speed(model: EngineFile | None) -> str:
