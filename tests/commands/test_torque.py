@@ -205,6 +205,29 @@ def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
     assert [entry["order"] for entry in orders[:3]] == pytest.approx([1 / 3, 2 / 3, 1])
 
 
+@pytest.mark.parametrize(
+    ("last", "doubted"),
+    [
+        (359, True),
+        (719, True),
+        (6.2832, True),
+        (360, False),
+        (240, False),
+        (1080, False),
+        (102.86, False),
+    ],
+)
+def test_a_period_that_nothing_has_is_doubted(tmp_path, last, doubted):
+    """A curve sampled from 0 to 359 deg lacks the row that closes it."""
+    path = tmp_path / "t.csv"
+    path.write_text(f"angle_deg,torque_Nm\n0,1\n5,5\n{last},1\n")
+    told = (
+        f"warning: {path}: its period is {last} deg, neither whole turns nor an even share of two; "
+        "the last row closes the period: is it there?\n"
+    )
+    assert run_here("torque", "--curve", path).err == (told if doubted else "")
+
+
 def test_a_short_period_has_two_orders_at_least(tmp_path):
     (tmp_path / "t.csv").write_text("angle_deg,torque_Nm\n0,1\n5,5\n20,1\n")
     orders = json.loads(torque("--curve", str(tmp_path / "t.csv"), "-f", "json"))["orders"]

@@ -246,6 +246,20 @@ def test_couple_and_roll_are_told_to_be_about_the_point_of_reference(gas, view):
     assert all("the crank axis" in title for title in on_axis)
 
 
+def test_a_mean_turns_neither_way():
+    """Under uneven speed a throw pulls longest where it is fastest; that force stands still."""
+    ripple = "speed_ripple = [{ order = 1, amplitude = 0.1 }]\n"
+    text = GOOD.replace("throws = [0, 180, 180, 0]", "throws = [0]").replace("[1, 3, 4, 2]", "[1]")
+    found = analyze(build_text(text + ripple))
+    assert found.spectra.force.forward[0] != 0
+    brief = next(p for p in analysis.sheet(found, SYSTEMS["si"]).parts if isinstance(p, Grid))
+    assert brief.rows[0][0] == "0"
+    assert brief.rows[0][2:4] == ("–", "–")
+    whole = analysis.sheet(found, SYSTEMS["si"], View(whole=True)).parts
+    table = next(p for p in whole if p.title.startswith("Free force by order"))
+    assert table.rows[0][2:] == ("–",) * 4
+
+
 def test_what_is_left_out_is_named_in_one_line():
     """A straight six has nothing below order 6, where ellipses are as small as the series."""
     found = analysis.sheet(analyze(inline_engine(SIX)), SYSTEMS["si"])

@@ -158,16 +158,19 @@ def analyze_given(
     units: Units,
 ) -> CurveAnalysis:
     """A torque from a file."""
-    from ..torque.given_curve import DrivenShaft, analyze_curve, read_curve
+    from ..torque.given_curve import DrivenShaft, analyze_curve, doubt_period, read_curve
+    from .inputs import warn_each
 
     rpm = parse_speed(speed)
     shaft = DrivenShaft(
         None if rpm is None else rpm * RPM,
         None if inertia is None else read_inertia("--inertia", inertia, units),
     )
+    torque = read_curve(curve)
+    warn_each(doubt_period(torque), str(curve))
     return analyze_curve(
         curve.stem,
-        read_curve(curve),
+        torque,
         None if load is None else read_curve(load),
         shaft,
         fluctuation=parse_fluctuation(fluctuation),

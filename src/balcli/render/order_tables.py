@@ -155,6 +155,8 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) ->
             return name, *[UNKNOWN] * 5
         values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
         largest, smallest, ahead, against = (number(unit.of(float(v[k]))) for v in values)
+        if not phasors.orders[k]:  # a mean does not turn
+            return name, largest, *[UNKNOWN] * 4
         return name, largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
 
     return Grid(

@@ -190,4 +190,4 @@ def _vector_cells(phasors: Phasors, k: int, unit: ShownUnit) -> tuple[str, str, 
         number(unit.of(float(v)), 4)
         for v in (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
     )
-    return largest, ahead, against
+    return (largest, ahead, against) if phasors.orders[k] else (largest, UNKNOWN, UNKNOWN)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -20,6 +21,7 @@ from .flywheel import Flywheel, FlywheelQuestion, find_flywheel
 
 _NOISE = 1e-14  # of the largest torque: rounding errors of a harmonic
 _SAME = 1e-9  # of a turn, by which periods may differ
+_WHOLE = 1e-4  # of itself, by which a period in a file may be rounded: 102.86 deg of 720/7
 
 
 class DrivenShaft(NamedTuple):
@@ -76,6 +78,18 @@ def read_curve(path: Path) -> PiecewiseCurve:
             f"{angle[row - 1]:g} deg before it"
         )
     return polyline(np.radians(angle), torque)
+
+
+def doubt_period(curve: PiecewiseCurve) -> Iterator[str]:
+    """A warning where a period is neither whole turns nor an even share of two, as of a curve
+    sampled from 0 to 359 degrees.
+    """
+    turns = curve.period / (2 * np.pi)
+    if min(abs(x - round(x)) / x for x in (turns, 2 / turns)) > _WHOLE:
+        yield (
+            f"its period is {360 * turns:g} deg, neither whole turns nor an even share of two; the "
+            "last row closes the period: is it there?"
+        )
 
 
 def analyze_curve(
