@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.engines import changed
+from support.engines import VEE
 
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
@@ -13,11 +13,6 @@ from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
 from balcli.studies.quantities import parse_quantities
-
-UNEVEN = changed(
-    ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
-    ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
-)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +59,7 @@ def test_mistakes_in_words(text: str, message: str) -> None:
 
 
 def test_they_are_what_analyze_gives() -> None:
-    engine = build(load(UNEVEN))
+    engine = build(load(VEE))
     found = analyze(engine, [1, 2])
     force, moment, roll = found.spectra.force, found.spectra.moment, found.spectra.roll
     assert force is not None
@@ -98,7 +93,7 @@ def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
     """Value = cos cos n theta + sin sin n theta; order 0, the mean under uneven speed, is its
     cos.
     """
-    engine = build(load(UNEVEN + "speed_ripple = [{ order = 2, amplitude = 0.02, angle = 25 }]\n"))
+    engine = build(load(VEE + "speed_ripple = [{ order = 2, amplitude = 0.02, angle = 25 }]\n"))
     theta = np.radians(np.arange(0.0, 360.0, 0.5))
     curves = {
         "force.{}.x_": 1,
@@ -125,7 +120,7 @@ def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
 
 
 def test_quantities_keep_the_order_asked_for() -> None:
-    engine = build(load(UNEVEN))
+    engine = build(load(VEE))
     names = "moment.1.major,force.2.major,force.4.major"
     one_by_one = [
         evaluate_quantities(engine, parse_quantities(name))[0] for name in names.split(",")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import refusal, run_here
-from support.engines import GOOD, changed
+from support.engines import GOOD, SINGLE, changed
 from support.paths import ENGINES
 
 from balcli.core.drilled_hole import STEEL, find_drill_depth
@@ -24,10 +24,6 @@ from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
 from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.workshop import Holes, Tools, find_practical
-
-SINGLE = changed(
-    ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
-)
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from support.engines import GOOD, changed
+from support.engines import GOOD, SINGLE
 from support.paths import ENGINE_FILES
 
 from balcli.engine.build import build
@@ -15,10 +15,6 @@ from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.sizing import size
 from balcli.sizing.write import insert_remedy
-
-SINGLE = changed(
-    ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
-)
 
 
 def figures(engine):

@@ -7,7 +7,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from support.engines import GOOD, changed
+from support.engines import GOOD, VEE, changed
 
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
@@ -34,10 +34,6 @@ from balcli.studies.sweep import (
 
 SAME = 1e-12  # of the largest value of a column
 LARGE = BoxSize(1 << 20, 1 << 20)  # more than any sweep here has
-VEE = changed(
-    ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
-    ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
-)
 EVERYTHING = parse_quantities(
     "force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
     "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force"

@@ -95,6 +95,15 @@ def changed(*replacements: tuple[str, str], more: str = "") -> str:
     return text + more
 
 
+SINGLE = changed(
+    ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
+)
+VEE = changed(
+    ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
+    ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
+)
+
+
 def tables(**parts: dict[str, Any] | list[dict[str, Any]]) -> dict[str, Any]:
     """A plain engine of one cylinder (lambda 1/4, 1 kg piston, rod without mass, 60 rpm) with some
     tables changed.

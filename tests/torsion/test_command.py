@@ -165,6 +165,19 @@ def test_a_limit_of_stress_without_any_diameter_is_not_judged():
     assert "not judged     40 N/mm²: no shaft has a diameter" in said
 
 
+def test_shafts_without_a_diameter_are_told_as_not_judged():
+    """None in this range, it said, of the stress of all shafts that twist: one was judged."""
+    text = re.sub(r"(?m)^diameter = 60 .*\n", "", read_starting_file(), count=1)
+    ring = 'damper = { kind = "rubber", inertia = 3e4, stiffness = 4e4, loss = 0.1 }\n'
+    text = text.replace("inertia = 950000\n", f"inertia = 950000\n{ring}")
+    said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=text).out
+    assert said.rstrip().endswith(
+        "\nnot judged     engine-flywheel: no diameter, so that no stress is known"
+    )
+    said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=read_starting_file()).out
+    assert "not judged" not in said
+
+
 def test_what_nothing_damps_is_told_with_its_speed():
     text = read_starting_file().replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
     text = text.replace("damping = 1.5", "")

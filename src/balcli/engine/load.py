@@ -76,8 +76,8 @@ def parse(text: str | bytes, name: str = "") -> EngineFile:
     return _refuse_mistakes(read_tables(text, name), name)
 
 
-def parse_dict(tables: Mapping[str, Any], folder: Path | None = None, name: str = "") -> EngineFile:
-    """The model of an engine that the tables of a dict describe, `name` in messages.
+def parse_dict(tables: Mapping[str, Any], folder: Path | None = None) -> EngineFile:
+    """The model of an engine that the tables of a dict describe.
 
     Args:
         tables: as a file has them.
@@ -86,11 +86,10 @@ def parse_dict(tables: Mapping[str, Any], folder: Path | None = None, name: str 
     Raises:
         InputError: as of `parse`.
     """
-    draft = check_tables(normalize_tables(tables, name), folder or Path(), name)
-    return _refuse_mistakes(draft, name)
+    return _refuse_mistakes(check_tables(normalize_tables(tables), folder or Path()))
 
 
-def _refuse_mistakes(draft: Draft, name: str) -> EngineFile:
+def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
     if not draft.has_mistakes:
         return draft.model
     raise draft.refusal(find_contradictions(Assembly(draft.model, legible=draft.legible)), name)

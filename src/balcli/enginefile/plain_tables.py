@@ -13,13 +13,9 @@ from .fields import RIGID
 from .model import EngineFile, FileTable, label_table
 
 
-def normalize_tables(tables: Mapping[Any, Any], name: str = "") -> dict[str, Any]:
-    """Tables as TOML would have them: keys are text, arrays and tuples are lists, numpy's numbers
-    are Python's; what is None is left out.
-
-    Args:
-        tables: as a user of Python gives them.
-        name: of what they describe, for messages.
+def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
+    """What a user of Python gives as TOML would have it: keys are text, arrays and tuples are
+    lists, numpy's numbers are Python's; what is None is left out.
 
     Raises:
         InputError: a key that is no text or number; tables that hold themselves.
@@ -27,10 +23,10 @@ def normalize_tables(tables: Mapping[Any, Any], name: str = "") -> dict[str, Any
     try:
         return {_key(key): _plain(value) for key, value in tables.items() if value is not None}
     except TypeError as error:
-        raise InputError([Problem("", str(error))], name) from None
+        raise InputError([Problem("", str(error))]) from None
     except RecursionError:
         message = "tables are nested too deeply; an engine file needs no more than four levels"
-        raise InputError([Problem("", message)], name) from None
+        raise InputError([Problem("", message)]) from None
 
 
 def _key(key: object) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +12,7 @@ from ..engine.build import Engine
 from ..engine.load import build_named
 from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
+from ..enginefile.mounting_tables import Body, Mount
 from ..enginefile.read import REQUIRED, Draft, read_tables
 from ..enginefile.toml_text import name_file, read_bytes
 from ..enginefile.units import STANDARD_GRAVITY
@@ -52,17 +53,15 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
         raise draft.refusal([*contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
     of_engine = () if engine is None else engine.unlikely
-    doubts = (
-        each for doubt in (_doubt_tensor, _doubt_size, _doubt_sag) for each in doubt(draft.model)
-    )
-    return MountedFile(draft.model, engine, (*of_engine, *doubts))
+    body, mounts = draft.model.body, draft.model.mount
+    of_body = () if body is None else (*_doubt_tensor(body), *_doubt_size(body, mounts))
+    of_mounts = () if body is None else _doubt_sag(body, mounts)
+    return MountedFile(draft.model, engine, (*of_engine, *of_body, *of_mounts))
 
 
-def _doubt_sag(model: EngineFile) -> Iterator[str]:
+def _doubt_sag(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
     """Mounts that hold the body as no mounts do: a stiffness in N/m, most likely."""
-    if model.body is None:
-        return
-    sag = STANDARD_GRAVITY * model.body.mass / sum(sum(m.stiffness) / 3 for m in model.mount)
+    sag = STANDARD_GRAVITY * body.mass / sum(sum(m.stiffness) / 3 for m in mounts)
     if not SAG_LEAST <= sag <= SAG_MOST:
         yield (
             f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
@@ -71,12 +70,10 @@ def _doubt_sag(model: EngineFile) -> Iterator[str]:
         )
 
 
-def _doubt_size(model: EngineFile) -> Iterator[str]:
+def _doubt_size(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
     """A body far smaller than the distance of its mounts: an inertia in kg m2, most likely."""
-    if model.body is None:
-        return
-    mass, centre, largest = model.body.mass, model.body.cg, max(model.body.inertia[:3])
-    across, farthest = math.sqrt(largest / mass), max(math.dist(m.at, centre) for m in model.mount)
+    mass, centre, largest = body.mass, body.cg, max(body.inertia[:3])
+    across, farthest = math.sqrt(largest / mass), max(math.dist(m.at, centre) for m in mounts)
     if across < SMALL_BODY * farthest:
         yield (
             f"body.inertia: {largest:g} kg mm^2 is that of {mass:g} kg within {across:.2g} mm, and "
@@ -85,11 +82,9 @@ def _doubt_size(model: EngineFile) -> Iterator[str]:
         )
 
 
-def _doubt_tensor(model: EngineFile) -> Iterator[str]:
+def _doubt_tensor(body: Body) -> Iterator[str]:
     """Moments of inertia of which one is more than the other two together: no body has such."""
-    if model.body is None:
-        return
-    moments = dict(zip(("xx", "yy", "zz"), model.body.inertia, strict=False))
+    moments = dict(zip(("xx", "yy", "zz"), body.inertia, strict=False))
     for name, value in moments.items():
         first, second = (other for other in moments if other != name)
         together = moments[first] + moments[second]

@@ -13,6 +13,7 @@ from ..core.singular_values import Real
 from ..torsion.analysis import BEYOND, HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import TorsionResponse
+from ..torsion.system import TorsionalSystem
 from .engine_facts import list_silent
 from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
 from .torsion_document import DAMPER_UNITS, choose_units, convert_to_si, document, rows
@@ -22,6 +23,7 @@ __all__ = ["document", "rows", "sheet"]
 
 _MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
 _MOST_CRITICALS = 12  # shown: those that do most work
+_MOST_BARE = 8  # shafts without a diameter that are named
 _MOST_ORDERS = 3  # of a shaft's torque, named beside it
 
 
@@ -305,6 +307,18 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         yield "barred speeds", _list_barred(result)
     if stress and stress not in limits:
         yield "not judged", f"{stress}: no shaft has a diameter, so that no stress is known"
+    elif stress and (bare := list(_list_unjudged(system))):
+        named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
+        yield "not judged", f"{named}: no diameter, so that no stress is known"
+
+
+def _list_unjudged(system: TorsionalSystem) -> Iterator[str]:
+    """Shafts that twist and have no diameter; rubber is none."""
+    rings = set(system.nodes[system.last + 1 :])
+    each = zip(system.shafts, system.sections, system.chain.stiffness, strict=True)
+    for name, section, stiffness in each:
+        if section is None and math.isfinite(stiffness) and name not in rings:
+            yield name
 
 
 def _list_barred(result: TorsionAnalysis) -> str:

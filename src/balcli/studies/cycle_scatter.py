@@ -44,11 +44,8 @@ def scatter_cycles(
     Raises:
         BalcliError: quantities of what the file does not have; too many samples, no tolerance.
     """
-    if not 1 <= drawing.samples <= MOST_CYCLE_SAMPLES:
-        raise BalcliError(
-            f"{drawing.samples} samples: of {quantities[0].name}, where each engine is computed by "
-            f"itself, from 1 to {MOST_CYCLE_SAMPLES} are allowed"
-        )
+    why = f"of {quantities[0].name}, where each engine is computed by itself, "
+    drawing.refuse_beyond(MOST_CYCLE_SAMPLES, why)
     engines = DeviatingEngine(model, tolerances)
     refuse_unknown_of_chapters(model, quantities)
     of_speed = any(q.name == "fluctuation" for q in quantities)

@@ -63,12 +63,8 @@ def scatter_parts(
     """
     (chapter,) = group_by_chapter(quantities)
     of_mounts = chapter is MOUNTS
-    if not 1 <= drawing.samples <= MOST_MOUNT_SAMPLES:
-        where = "on mounts" if of_mounts else "of torsion"
-        raise BalcliError(
-            f"{drawing.samples} samples: {where}, where each is computed by itself, from 1 to "
-            f"{MOST_MOUNT_SAMPLES} are allowed"
-        )
+    where = "on mounts" if of_mounts else "of torsion"
+    drawing.refuse_beyond(MOST_MOUNT_SAMPLES, f"{where}, where each is computed by itself, ")
     load_chapter(chapter).refuse_unknown(model, quantities)
     if stiffness is None:
         stiffness = OF_MOUNTS if of_mounts else OF_SHAFTS

@@ -49,6 +49,15 @@ class Drawing(NamedTuple):
     shape: Shape = "uniform"
     tell: Tell = tell_nobody
 
+    def refuse_beyond(self, most: int, why: str = "") -> None:
+        """Nothing, unless there are too many samples, or none; `why` there are no more, in words.
+
+        Raises:
+            BalcliError: there are.
+        """
+        if not 1 <= self.samples <= most:
+            raise BalcliError(f"{self.samples} samples: {why}from 1 to {most} are allowed")
+
 
 @dataclass(frozen=True)
 class Spread:
@@ -112,10 +121,7 @@ def scatter_engine(
             f"{strange[0]} has no scatter of its own; choose one of {', '.join(SPREADS)} of an "
             "order, such as force.1.major"
         )
-    if not 1 <= drawing.samples <= MOST_TOLERANCE_SAMPLES:
-        raise BalcliError(
-            f"{drawing.samples} samples: from 1 to {MOST_TOLERANCE_SAMPLES} are allowed"
-        )
+    drawing.refuse_beyond(MOST_TOLERANCE_SAMPLES)
     engines = DeviatingEngine(model, tolerances)
     refuse_unknown(build(model), quantities)
     drawn, count = [Sample() for _ in quantities], 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 from ..core.singular_values import Real
 from ..engine.build import Engine
@@ -13,6 +13,7 @@ from ..enginefile.file_kinds import CHAIN, ENGINE, refuse_other_kind
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import Damper
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
+from ..enginefile.torsion_tables import Part
 from ..errors import BalcliError
 from ..torque.course import silence
 from .build_chain import build_chain
@@ -46,12 +47,8 @@ class ChainSource:
 
     def with_damper(self, name: str, damper: Damper | None) -> ChainSource:
         """The same with this damper on a node."""
-
-        def fit(node: Node) -> Node:
-            return node.model_copy(update={"damper": damper}) if node.name == name else node
-
-        model = self.model.model_copy(update={"node": tuple(map(fit, self.model.node))})
-        return replace(self, model=model)
+        nodes = _put_damper(self.model.node, name, damper)
+        return replace(self, model=self.model.model_copy(update={"node": nodes}))
 
 
 @dataclass(frozen=True)
@@ -87,17 +84,20 @@ class EngineSource:
         torsion = self.model.torsion
         if torsion is None:
             return self
-        lists = {
-            key: tuple(
-                part.model_copy(update={"damper": damper}) if part.name == name else part
-                for part in parts
-            )
-            for key, parts in (("front", torsion.front), ("rear", torsion.rear))
-        }
-        return replace(self, model=self.model.with_table("torsion", **lists))
+        front, rear = (_put_damper(each, name, damper) for each in (torsion.front, torsion.rear))
+        return replace(self, model=self.model.with_table("torsion", front=front, rear=rear))
 
 
 Source = ChainSource | EngineSource
+Carrier = TypeVar("Carrier", Node, Part)
+
+
+def _put_damper(
+    carriers: Sequence[Carrier], name: str, damper: Damper | None
+) -> tuple[Carrier, ...]:
+    """The same with this damper on the one of this name."""
+    fitted = {"damper": damper}
+    return tuple(c.model_copy(update=fitted) if c.name == name else c for c in carriers)
 
 
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
