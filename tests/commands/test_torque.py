@@ -252,6 +252,15 @@ def test_the_load_takes_its_share(curve, tmp_path):
         ("0,1000\n60,1000\n60,0\n360,0", "166.67 N·m in the mean, and 33.333 N·m evenly"),
         ("0,2000\n60,2000\n60,0\n360,0", "333.33 N·m in the mean, and -133.33 N·m evenly"),
         ("0,400\n180,400\n180,0\n360,0", "200 N·m in the mean"),
+        (
+            "0,0.1\n70,0.8\n140,0.1\n290,-0.6\n360,0.1",
+            "0.022222 N·m in the mean, and 199.98 N·m evenly",
+        ),
+        (
+            "0,0\n70,0.7\n140,0\n250,-0.7\n320,0\n360,0",
+            "-0.038889 N·m in the mean, and 200.04 N·m evenly",
+        ),
+        ("0,0\n70,0.7\n140,0\n210,-0.7\n280,0\n360,0", "0 N·m in the mean, and 200 N·m evenly"),
     ],
 )
 def test_what_the_mean_of_a_load_leaves_is_told(tmp_path, load, told):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from support.engines import GOOD
+from support.mounts import block
 from support.rotors import three_runs
 
 from balcli.engine.load import parse
@@ -24,6 +25,15 @@ CHAIN = read_starting_file()
         ("field", CHAIN, "is a chain file, which balcli torsion reads; give a file of runs"),
         ("analyze", CHAIN, "is a chain file, which balcli torsion reads; give an engine file"),
         ("mounts", CHAIN, "is a chain file, which balcli torsion reads; give an engine file"),
+        *(
+            (
+                command,
+                block(),
+                "has a body on mounts and no engine, which balcli mounts reads; an engine has [crank], "
+                "[rod] and [piston]",
+            )
+            for command in ("analyze", "balance", "numbers")
+        ),
         *(
             (
                 command,

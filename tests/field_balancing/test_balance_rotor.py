@@ -299,9 +299,22 @@ def test_planes_that_are_nearly_alike_are_doubted():
     text = head(2, 'influence = [["1 @ 0", "1 @ 0"], ["1 @ 0", "1.1 @ 0"]]') + run([1, 2])
     (doubt,) = find_doubts(find_corrections(parse_runs(text)))
     assert doubt.startswith(
-        "planes p1 and p2 act nearly alike: only 4.8% of what one does is its own"
+        "what planes p1 and p2 do, other planes do nearly as well: only 4.8% of what one does is its"
     )
     assert doubt.endswith("try --without p1")
+
+
+def test_planes_that_are_alike_together_are_not_said_to_be_alike_each():
+    """What p3 does, p1 and p2 do together: p1 and p2 have nothing in common."""
+    text = head(
+        3,
+        'influence = [["1 @ 0", "0 @ 0", "1 @ 0"], ["0 @ 0", "1 @ 0", "1 @ 0"], '
+        '["0 @ 0", "0 @ 0", "0.1 @ 0"]]',
+    ) + run([1, 2, 3])
+    (doubt,) = find_doubts(find_corrections(parse_runs(text)))
+    assert doubt.startswith(
+        "what planes p1, p2 and p3 do, other planes do nearly as well: only 7.1%"
+    )
 
 
 def test_what_is_permitted_is_not_judged_in_a_plane_left_out():

@@ -461,6 +461,8 @@ def test_where_throws_stand_must_be_known(report):
         ((1, 0, 0), "up and down, sideways, lengthways, yaw, pitch, roll"),
         ((0.3, -0.9, 0), "sideways, up and down, lengthways, pitch, yaw, roll"),
         ((0, 0, -1), "along x, along y, up and down, turn about x, turn about y, roll"),
+        ((0.6, 0.8, 0), "sideways, up and down, lengthways, pitch, yaw, roll"),
+        ((0.71, -0.7, 0), "along x, along y, along z, turn about x, turn about y, roll"),
     ],
 )
 def test_motions_are_called_by_where_up_is(up, names):

@@ -121,11 +121,14 @@ def check_tables(
         InputError: they are of another kind of file.
     """
     refuse_other_kind(data, name, ENGINE)
+    body_alone = "body" in data and not any(key in data for key in REQUIRED)
+    if body_alone and not bare:
+        message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
+        raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
     reader = _Reader()
     reader.unknown += find_unknown_keys(data)
-    bodiless = not bare or "body" not in data or any(key in data for key in REQUIRED)
     for key, example in REQUIRED.items():
-        if key not in data and bodiless:
+        if key not in data and not body_alone:
             hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
             reader.problems.append(Problem.of_missing(key, hint))
     parts: dict[str, Any] = {key: reader.read_text(key, data[key]) for key in TEXTS if key in data}

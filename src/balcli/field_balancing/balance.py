@@ -186,11 +186,12 @@ def find_doubts(result: FieldBalance) -> list[str]:
     doubts = []
     alike = [p for p in result.planes if p.own < _NEARLY_ALIKE]
     if len(alike) > 1:
-        names = " and ".join(p.plane for p in alike)
+        *front, last = (p.plane for p in alike)
         doubts.append(
-            f"planes {names} act nearly alike: only {min(p.own for p in alike):.1%} of what one "
-            f"does is its own (condition {result.condition:.3g}), so errors of reading grow as "
-            f"much; if their weights are large, try --without {alike[0].plane}"
+            f"what planes {', '.join(front)} and {last} do, other planes do nearly as well: only "
+            f"{min(p.own for p in alike):.1%} of what one does is its own (condition "
+            f"{result.condition:.3g}), so errors of reading grow as much; if their weights are "
+            f"large, try --without {alike[0].plane}"
         )
     left_out = [name for name in result.file.planes if name not in {p.plane for p in result.planes}]
     unit = result.file.unit or ""

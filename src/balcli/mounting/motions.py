@@ -12,17 +12,21 @@ ROLL = AXES.index("rz")  # the turn about the crankshaft's axis
 _ALONG = ("x", "y", "z")
 _ALONE = 0.8  # share of the energy with which a motion counts as one alone
 _PART = 0.15  # share with which it is named beside another
+_STEEP = 0.8  # cosine: an axis farther from the vertical is not up and down
 _EXACT = 1e-9  # of a direction: what is less is rounding
 
 
 def name_motions(up: Real) -> tuple[str, ...]:
     """What x, y, z and the turns about them are called where the body stands with `up` upwards.
 
-    Turns about z, the crankshaft's axis, are always its roll.
+    Turns about z, the crankshaft's axis, are always its roll. Where no axis is near the vertical,
+    none is up and down.
     """
     upright = int(np.argmax(np.abs(up)))
-    if upright == 2:
-        return "along x", "along y", "up and down", "turn about x", "turn about y", "roll"
+    steep = abs(float(up[upright])) >= _STEEP
+    if upright == 2 or not steep:
+        along = "up and down" if steep else "along z"
+        return "along x", "along y", along, "turn about x", "turn about y", "roll"
     names = ["sideways", "sideways", "lengthways", "pitch", "pitch", "roll"]
     names[upright], names[3 + upright] = "up and down", "yaw"
     return tuple(names)

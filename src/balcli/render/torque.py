@@ -22,7 +22,7 @@ from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
-SAME_MEAN = 1e-6  # of a load's mean: figures of files are rounded
+SAME_MEAN = 1e-6  # of the largest torque: figures of files are rounded
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
 
 
@@ -143,9 +143,11 @@ def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
     power = None if speed is None else result.torque.mean * speed
     pairs += _mean_pairs(result.torque.mean, power, system, {"": 1.0})
     if result.load is not None:
+        curves = (result.torque, result.load)
+        rounded = SAME_MEAN * max(abs(e.value) for curve in curves for e in curve.extremes())
         mean, rest = result.load.mean, result.torque.mean - result.load.mean
-        told = f"{_size(mean, system.moment)} in the mean"
-        if abs(rest) > SAME_MEAN * abs(mean):
+        told = f"{_size(mean if abs(mean) > rounded else 0.0, system.moment)} in the mean"
+        if abs(rest) > rounded:
             told += f", and {_size(rest, system.moment)} evenly"
         pairs.append(("load", told))
     return Facts(tuple(pairs))
