@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from support import chains
 from support.commands import ask_torsion, refusal, run_here, run_in_terminal
+from support.diesel import write_diesel
 from support.paths import ENGINES
 
 from balcli.torsion.starting_file import read_starting_file
@@ -557,6 +558,22 @@ def test_what_modes_leave_out_is_said_and_tiny_orders_are_not_named(dampers, tol
     assert f"share: of all work done on the mode. Of orders to 2.{shifted}\n" in out
     row = next(line for line in out.splitlines() if line.startswith("a-b  "))
     assert re.search(r" 1: [\d.]+$", row), "order 1 alone"
+
+
+def test_criticals_say_of_which_orders_and_speeds_they_are():
+    """Of an engine without a speed they went to 71905 rpm without a word; of order 6 alone it said
+    orders to 6.
+    """
+    text = write_diesel()
+    alone = run_here("torsion", "-", "--orders", "6", stdin=text).out
+    assert re.search(
+        r"share: of all work done on the mode\. Of order 6\. To [\d.]+ rpm, 1\.5", alone
+    )
+    assert "At any speed" not in alone
+    text = re.sub(r"(?m)^speed = .*\n", "", text)
+    assert " At any speed: the file gives none." in run_here("torsion", "-", stdin=text).out
+    over = run_here("torsion", "-", "--speeds", "1000:2000:500", stdin=text).out
+    assert "At any speed" not in over
 
 
 def test_what_a_table_of_an_engine_leaves_to_json_and_what_gas_does():

@@ -150,9 +150,13 @@ def _criticals(result: TorsionAnalysis) -> Grid:
     )
     note = "Those that do most work first; share: of all work done on the mode."
     if excitation := result.system.excitation:
-        note += f" Of orders to {order_name(float(excitation.orders.max()))}."
-    if result.response is None and result.system.rated_rpm:
-        note += f" To {number(BEYOND * result.system.rated_rpm)} rpm, {BEYOND:g} times the file's."
+        several = "s to" * (len(excitation.orders) > 1)
+        note += f" Of order{several} {order_name(float(excitation.orders.max()))}."
+    rated = result.system.rated_rpm
+    if result.response is None and rated:
+        note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's."
+    elif result.response is None:
+        note += " At any speed: the file gives none."
     system = result.system
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
     if dampers:
