@@ -44,6 +44,37 @@ def test_every_command_that_reads_an_engine_doubts_what_is_unlikely(args):
     )
 
 
-def test_a_sweep_does_not_doubt_what_it_varies():
-    args = ("sweep", "-", "--vary", "piston.mass=0.4,0.5", "-q", "force.2.major")
+@pytest.mark.parametrize(
+    "args",
+    [
+        ("sweep", "-", "--vary", "piston.mass=0.4,0.5", "-q", "force.2.major"),
+        ("search", "-", "--over", "piston.mass=0.4:0.5", "--minimise", "force.2.major"),
+    ],
+)
+def test_what_varies_is_not_doubted(args):
     assert run_here(*args, stdin=HEAVY).err == ""
+
+
+ALONG = """crank = { stroke = 90, throws = [0, 240, 120], spacing = 100 }
+rod = { length = 160, mass = 0.5, cg = 45 }
+piston = { bore = 80, mass = 0.5 }
+layout.firing_order = [1, 2, 3]
+gas = { cycle = "otto", compression_ratio = 9, imep = 8 }
+"""
+
+
+@pytest.mark.parametrize(
+    ("args", "doubted"),
+    [
+        (("sweep", "-", "--vary", "rod.length=150,160", "-q", "torque.max"), True),
+        (("sweep", "-", "--vary", "crank.throws.2=230,240", "-q", "force.1.major"), False),
+        (("search", "-", "--over", "rod.length=150:160", "--minimise", "torque.max"), True),
+        (("search", "-", "--over", "throws", "--minimise", "moment.1.major"), False),
+        (("search", "-", "--over", "firing_order", "--minimise", "moment.1.major"), False),
+    ],
+)
+def test_a_firing_order_is_doubted_unless_it_is_searched_for(args, doubted):
+    status, _, err = run_here(*args, stdin=ALONG)
+    told = "warning: standard input: layout.firing_order: 1-2-3 fires after 120, 120, 480 deg"
+    assert (status, err.startswith(told)) == (0, doubted)
+    assert bool(err) == doubted

@@ -45,6 +45,13 @@ def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(tmp_path, old, n
     assert err.endswith(f"{answer}\n")
 
 
+@pytest.mark.parametrize("given", ["[0-180]", "[012]", "[0..180]"])
+def test_a_list_whose_values_nothing_parts_is_not_told_to_lack_commas(tmp_path, given):
+    err = told(tmp_path, ("throws = [0, 180, 180, 0]", f"throws = {given}")).err
+    assert NOT_TOML in err
+    assert "commas" not in err
+
+
 @pytest.mark.parametrize(
     ("old", "new"),
     [

@@ -260,6 +260,23 @@ def test_without_an_engine_modes_and_rest_are_told(tmp_path):
     assert "response" not in said
 
 
+def test_rounding_is_no_share_of_a_mode_and_turns_no_shape(tmp_path):
+    """Mounts at the height of the centre of gravity, stiff along the diagonals of x and y: two modes
+    move along these, half and half; which half is larger is rounding.
+    """
+    path = tmp_path / "block.toml"
+    found = []
+    for stiff in range(150, 250, 5):
+        text = block("angles = [0, 0, 45]").replace("-200]", "0]")
+        path.write_text(text.replace("[200, 150", f"[200.7, {stiff}.3"), encoding="utf-8")
+        found += json.loads(run_here("mounts", path, "-f", "json").out)["modes"]
+    diagonal = [mode for mode in found if mode["energy_percent"]["x"] > 49]
+    assert len(diagonal) == 40
+    assert all(mode["shape"][0] > 0 for mode in diagonal)
+    shares = [share for mode in found for share in mode["energy_percent"].values()]
+    assert all(share == 0 or abs(share) > 1e-6 for share in shares)
+
+
 def test_it_is_readable_in_a_terminal(four):
     """No figure is broken, no line longer than 80."""
     out = run_in_terminal("mounts", four, columns=80).out

@@ -206,6 +206,25 @@ def test_of_several_peaks_the_highest_is_found(report, seed, loss):
         assert found == pytest.approx(curves.max(axis=0), rel=1e-3)
 
 
+def test_of_modes_that_make_as_much_the_first_is_named(report):
+    """A vee at 90 degrees pulls alike in all directions, and mounts that are alike along x and y
+    give way alike: rounding errors chose between up and down and sideways.
+    """
+    vee = ENGINE.replace("[piston]", "[layout]\nbank_angle = 90\n[piston]")
+    vee = vee.replace("throws = [0, 180, 180, 0]", "throws = [0]").replace("spacing = 100\n", "")
+    vee = vee.replace("[cylinder.2]\npiston_mass = 0.55\n", "")
+    body = "[body]\nmass = 100\ncg = [0, 0, 0]\ninertia = [4e6, 5e6, 3e6, 0, 0, 0]\n"
+    at = [(200, 200), (200, -200), (-200, 200), (-200, -200)]
+    mounts = "".join(
+        f'[[mount]]\nname = "{k}"\nat = [0, {y}, {z}]\nstiffness = [99, 99, 150]\nloss = 0.1\n'
+        for k, (y, z) in enumerate(at)
+    )
+    found = report(f"{vee}{body}{mounts}", orders=[1])
+    equal = [k for k, mode in enumerate(found.modes.six) if max(mode.shares[:2]) > 0.99]
+    assert len(equal) == 2
+    assert {worst.mode for worst in found.response.worst_force} == {equal[0]}
+
+
 def test_a_scheme_takes_away_what_it_is_for(report):
     """Shafts cancel the second-order force; the roll stays, and the mounts feel that."""
     text = ENGINE.replace("[cylinder.2]\npiston_mass = 0.55\n", "") + RandomBody(9, 4).text

@@ -529,6 +529,8 @@ def test_a_scheme_for_a_negligible_order_says_so():
         assert (NEGLIGIBLE_ORDER.format(order) in out) == (order == 6)
     out = run(ENGINES / "i4.toml", "--scheme", "two-shaft", "--order=2", "--orders=1").out
     assert "hardly worth" not in out
+    # Weights opposite the pins are for what each pin carries: the free force is none before.
+    assert "hardly worth" not in run(ENGINES / "i4.toml", "--scheme", "factor").out
 
 
 def test_notes_are_sentences():

@@ -88,7 +88,7 @@ def search(
         raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
-    warn_each(build_named(model, name).unlikely, name)
+    warn_each(build_named(model, name).unlikely, name, varied=[over.partition("=")[0]])
     if write is not None:
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep
     from .sweep_folder import Share
 
+_MOVES_DEAD_CENTRES = ("crank.throws", "crank.splay", "layout", "cylinder", "piston.offset")
+
 
 def sweep(
     path: EnginePath,
@@ -143,14 +145,16 @@ def _doubt(job: Sweep, quantity: str | None) -> None:
     """Say that moments are not known, where the usual quantities would have some, and what is
     unlikely of the file, unless it varies.
     """
+    from ..engine.even_order import doubt_firing_order
     from ..enginefile.suspicious import find_suspicious
     from .inputs import warn_each, warn_of_unknown_moments
 
     if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
         warn_of_unknown_moments(job.name)
     varied = [parameter.path for parameter in job.parameters]
-    doubts = find_suspicious(job.file)
-    warn_each((doubt for doubt in doubts if not any(p in doubt for p in varied)), job.name)
+    warn_each(find_suspicious(job.file), job.name, varied)
+    if not any(path.startswith(_MOVES_DEAD_CENTRES) for path in varied):
+        warn_each(doubt_firing_order(job.file), job.name)
 
 
 def _choose_target(

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from .singular_values import Complex, Real
 from .vibration import Modes, find_modes, solve_response
 
+_NO_SHARE = 1e-14  # of a mode's energy, which is 1
 _FREE = 1e-9  # singular values below this share of the largest mean a motion that nothing holds
 
 
@@ -225,9 +226,10 @@ def find_body_modes(body: Body, mounts: Mounts) -> Modes:
 
 def share_energy(modes: Modes, body: Body) -> Real:
     """(modes, 6): share of each mode's kinetic energy in each motion, `x_i (M x)_i`; sums are 1.
-    Products of inertia may make some of them negative.
+    Products of inertia may make some of them negative; what is rounding alone is 0.
     """
-    return modes.shapes * (modes.shapes @ mass_matrix(body))
+    shares = modes.shapes * (modes.shapes @ mass_matrix(body))
+    return np.where(np.abs(shares) < _NO_SHARE, 0.0, shares)
 
 
 def roll_axis(body: Body, crank: ArrayLike = (0.0, 0.0, 1.0)) -> Real:

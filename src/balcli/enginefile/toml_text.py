@@ -117,7 +117,7 @@ def _guess(value: str) -> Iterator[str]:
         yield f"TOML knows no fractions; write {{key}} = {int(part[1]) / int(part[2]):.6g}"
     elif re.fullmatch(r"[+-]?[\d./]+\s*[A-Za-z°%].*", value):
         yield 'a value with a unit stands in quotes: {key} = "{value}"'
-    elif value.startswith("["):
+    elif re.match(r"\[.*\d[\s;]+[\d.+-]", value):
         listed = ", ".join(value.strip("[]").replace(";", " ").split())
         yield f"commas stand between the values of a list: {{key}} = [{listed}]"
     elif bare := re.fullmatch("[“”„«»‘’](.+)[“”«»‘’]", value):

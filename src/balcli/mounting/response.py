@@ -46,6 +46,7 @@ from .motions import ROLL
 _KINDS = ("force", "moment", "roll")
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
+_EQUAL = 1e-9  # share by which rounding may set equal parts apart
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
 
 
@@ -378,7 +379,7 @@ def _find_leading_modes(
     mounted: MountedBody, modes: BodyModes, frequency: Real, motion: Complex
 ) -> NDArray[np.intp]:
     """Which mode (curves,) makes most of each curve, mounts first, then points, where the body
-    moves by (curves, 6) at a frequency (curves,) in rad/s.
+    moves by (curves, 6) at a frequency (curves,) in rad/s; of equal ones the first.
     """
     shapes, body = modes.modes.shapes, mounted.body
     parts = (shapes @ mass_matrix(body) @ motion.T)[..., None] * shapes[:, None]
@@ -386,7 +387,8 @@ def _find_leading_modes(
     forces = press_mounts(body, mounted.dynamic, every, parts)
     each = np.arange(len(motion))
     curves = _list_curves(mounted, BodyResponse(parts, forces))[:, each, each]
-    return np.asarray(np.linalg.norm(curves, axis=-1).argmax(axis=0))
+    sizes = np.linalg.norm(curves, axis=-1)
+    return np.asarray((sizes >= sizes.max(axis=0) * (1 - _EQUAL)).argmax(axis=0))
 
 
 def _press_some(mounted: MountedBody, loads: BodyLoads, omega: Real) -> Iterator[Real]:

@@ -93,9 +93,13 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 
 def _tell_negligible(result: Balance) -> str:
-    """Where devices balance an order that is small beside one cylinder anyhow."""
+    """Where devices balance an order that is small beside one cylinder anyhow; a balance factor is
+    of the masses at the pins, whatever they leave free together.
+    """
     remedy, before = result.remedy, result.before
-    if remedy.order is None or not (remedy.devices or remedy.beyond):
+    if remedy.order is None or remedy.scheme == "factor":
+        return ""
+    if not (remedy.devices or remedy.beyond):
         return ""
     orders, one = before.orders.tolist(), before.of_one_cylinder
     if remedy.order not in orders:

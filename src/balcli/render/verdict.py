@@ -110,11 +110,12 @@ def _tell_low_order(k: int, order: int, vectors: list[_Vector], steady: bool) ->
 def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) -> Iterator[str]:
     """The higher orders that are worth a word: the lowest one by one, the others together."""
     worth = [row for row in higher if _find_worth_a_word(row[0], vectors)]
-    for k, order in worth[:_MOST_HIGH_ORDERS]:
+    alone = len(worth) if len(worth) == _MOST_HIGH_ORDERS + 1 else _MOST_HIGH_ORDERS
+    for k, order in worth[:alone]:
         sizes = [f"{v.what} up to {v.size(k)}" for v in _find_worth_a_word(k, vectors)]
         cure = f"; rarely balanced, it would take shafts at {order:g} times crank speed" * steady
         yield f"{_order_name(order)}: {', '.join(sizes)}{cure}."
-    if others := worth[_MOST_HIGH_ORDERS:]:
+    if others := worth[alone:]:
         first, last = others[0][1], others[-1][1]
         largest = _tell_largest(others, vectors)
         yield f"{len(others)} more, of orders {first:g} to {last:g}: at most {largest}."
