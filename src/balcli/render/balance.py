@@ -53,8 +53,8 @@ if TYPE_CHECKING:
 
 
 _TURNING_WEIGHTS = (
-    "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis; the "
-    "crank stands still."
+    "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis, which is "
+    "over pin 1 at crank angle 0; the pin stands still."
 )
 
 

@@ -137,7 +137,7 @@ def _explain(result: MountReport, response: MountingResponse, worst: LargestAmpl
     if worst.omega >= response.omega[-1] * (1 - 1e-9):
         above = "far above all modes, it" if hertz > 1.5 * result.modes.six[-1].hertz else "it"
         return f"That is the fastest speed of the range: {above} grows to the end."
-    return f"Most of it is {named}, which is not near its {number(hertz, 3)} Hz."
+    return f"Most of it is {named}, which is not near the {number(hertz, 3)} Hz of that order."
 
 
 def _worst(result: MountReport, system: System) -> Iterator[Grid]:
