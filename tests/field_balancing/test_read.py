@@ -130,6 +130,10 @@ CASES = [
         "radius: is missing; a drill needs the radius of the rim, in every plane",
     ),
     (
+        three_runs("mass = 120\nshares = [1, 3]"),
+        "grade: is missing; shares are of what it permits, such as grade = 6.3",
+    ),
+    (
         three_runs("deepest = [10, 10]"),
         "drill: is missing; deepest belongs to holes, which have a diameter",
     ),

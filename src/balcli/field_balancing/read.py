@@ -110,6 +110,8 @@ def _check_lists(file: RunsFile) -> Iterator[Problem]:
 
 
 def _check_permitted(file: RunsFile) -> Iterator[Problem]:
+    if file.shares is not None and file.grade is None:
+        yield Problem.of_missing("grade", "shares are of what it permits, such as grade = 6.3")
     if file.grade is not None:
         for key, example in (("mass", "120"), ("speed", "3000")):
             if getattr(file, key) is None:
