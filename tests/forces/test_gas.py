@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from support.commands import run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
@@ -244,3 +245,10 @@ def test_people_read_which_order_rocks_the_engine():
     assert "balcli torque" in text
     inner = plain_text([sheet(analyze(build_text(FOUR + WIEBE), only=["inner"]), SI)])
     assert "Loads of main bearings with gas" in inner
+
+
+@pytest.mark.parametrize("only", ["verdict", "verdict,xy"])
+def test_the_verdict_alone_says_so_too(only):
+    whole = run_here("analyze", "-", stdin=FOUR + WIEBE).out.splitlines()
+    (told,) = [line for line in whole if " rocks the engine most" in line]
+    assert told in run_here("analyze", "-", "--only", only, stdin=FOUR + WIEBE).out.splitlines()

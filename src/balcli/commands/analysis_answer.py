@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy  # noqa: F401
 
 from ..engine.build import Engine
+from ..forces.kinds import GAS, ROLL
 from ..render import analyses
 from ..render.formats import Format, Units
 from ..render.view import View
@@ -100,13 +101,17 @@ def _ask(
     asked: Request, engine: Engine, target: Target
 ) -> Callable[[Engine, Iterable[float] | None], Analysis]:
     """What is asked of an engine like this one, at whatever speed and by whatever orders."""
-    wanted = asked.quantities
-    if wanted is None:
+    for_people = target.form in (Format.TABLE, Format.MARKDOWN)
+    if asked.quantities is None:
         wanted = list(list_usual_quantities(engine))
         if not asked.over_speed:  # it is the same at all speeds
             wanted.append("sizing")
-        if asked.whole and target.form in (Format.TABLE, Format.MARKDOWN):
+        if asked.whole and for_people:
             wanted.append("guide")
+    else:
+        wanted = list(asked.quantities)
+        if "verdict" in asked.parts and engine.gas is not None and for_people:
+            wanted += [ROLL.name, GAS.name]  # which order rocks the engine
     return partial(
         analyze,
         only=wanted,

@@ -8,6 +8,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,8 @@ from .fields import nearest
 
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
+# As people write one: .5, 5., 007, 1 000.
+_NUMBER = r"[+-]?(?:\d{1,3}(?: \d{3})+\.?\d*|\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _MOST_DIGITS = 4300  # of a whole number that Python reads
 _TOO_MANY_DIGITS = re.compile(rf"[0-9][0-9_]{{{_MOST_DIGITS},}}")
 
@@ -97,19 +100,24 @@ def _explain(text: str | bytes, error: str) -> str:
     twice = re.match(r"\s*([\w.-]{1,60})\s*=", line)
     if twice and error.startswith("Cannot overwrite"):
         return f": {twice[1]} is given twice; write it once"
-    given = r"([^#\"'\[\]{}]{1,60}?|\[[\d.+\s;-]{1,60}\])"
+    given = r"([^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,-]{1,60}\])"
     assigned = re.fullmatch(rf"\s*([\w.-]{{1,40}})\s*=\s*{given}\s*(?:#.*)?", line)
     if assigned is None or not assigned[2].isprintable():
         return ""
     key, value = assigned[1], assigned[2]
+    with suppress(tomllib.TOMLDecodeError):
+        tomllib.loads(f"value = {value}")
+        return ""  # it is something before it that is wrong
     return next(
         (f": {key} = {value}: {hint.format(key=key, value=value)}" for hint in _guess(value)), ""
     )
 
 
 def _guess(value: str) -> Iterator[str]:
-    """What is meant by a value without quotes and brackets that TOML does not take."""
-    if re.fullmatch(r"[+-]?\d+,\d+", value):
+    """What is meant by a value without quotes, or a list of such, that TOML does not take."""
+    if re.fullmatch(_NUMBER, value):
+        yield f"TOML writes this number {{key}} = {_write_number(value)}"
+    elif re.fullmatch(r"[+-]?\d+,\d+", value):
         yield "write a decimal point, not a comma; a list stands in brackets, such as [{value}]"
     elif re.fullmatch(r"[+-]?[\d.]+(\s*,\s*[+-]?[\d.]+)+,?", value):
         yield "a list stands in brackets: {key} = [{value}]"
@@ -118,12 +126,19 @@ def _guess(value: str) -> Iterator[str]:
     elif re.fullmatch(r"[+-]?[\d./]+\s*[A-Za-z°%].*", value):
         yield 'a value with a unit stands in quotes: {key} = "{value}"'
     elif re.match(r"\[.*\d[\s;]+[\d.+-]", value):
-        listed = ", ".join(value.strip("[]").replace(";", " ").split())
+        listed = ", ".join(re.findall(r"[^\s;,]+", value.strip("[]")))
         yield f"commas stand between the values of a list: {{key}} = [{listed}]"
+    elif re.fullmatch(rf"\[\s*{_NUMBER}(\s*,\s*{_NUMBER})*,?\s*\]", value):
+        listed = ", ".join(map(_write_number, re.findall(_NUMBER, value)))
+        yield f"TOML writes these numbers {{key}} = [{listed}]"
     elif bare := re.fullmatch("[“”„«»‘’](.+)[“”«»‘’]", value):
         yield f'quotes are straight: {{key}} = "{bare[1]}"'
     elif re.fullmatch(r"[A-Za-z].*", value):
         yield 'words stand in quotes: {key} = "{value}"'
+
+
+def _write_number(text: str) -> str:
+    return f"{float(text.replace(' ', '')):.15g}"
 
 
 def _load_toml(text: str) -> dict[str, Any]:
