@@ -361,6 +361,18 @@ def test_equal_peaks_are_told_by_the_first_and_how_far_they_are_apart(balcli):
     assert re.search(r"moment +[0-9.]+ N·m at crank angle [0-9.]+ deg\n", three)
 
 
+def test_orders_without_a_part_of_roll_do_not_make_it_balanced(balcli):
+    """The roll of an in-line four has the orders 2, 4, 6 and on."""
+    four = ENGINES / "i4.toml"
+    odd = balcli("analyze", four, "--orders", "3,7").out
+    assert re.search(r"roll C − T +balanced in the orders shown\n", odd)
+    assert "Verdict\nThe orders shown: free of force and moment.\n" in odd
+    high = balcli("analyze", four, "--orders", "10").out
+    assert re.search(r"roll C − T +negligible \(0\.0026 N·m\) in the orders shown\n", high)
+    assert "order 2: 1355, 4: 65.75" in balcli("analyze", four, "--orders", "2-4").out
+    assert "in the orders shown" not in balcli("analyze", ENGINES / "i4.toml").out
+
+
 def test_a_force_that_only_turns_is_as_large_at_every_crank_angle():
     star = analyze(rotary_engine("radial = 9"), only=["force", "peak"])
     turning = replace(star, force=Peak(7.0, 0.0, 0.0))

@@ -14,6 +14,7 @@ from oracle import momentum
 from support.commands import refusal, run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE
+from support.paths import ENGINES
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
@@ -396,3 +397,12 @@ def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
     at = np.searchsorted(found.spectra.orders, [4, 8])
     assert few.spectra.gas.major == pytest.approx(found.spectra.gas.major[at], rel=1e-9)
     assert few.spectra.gas.major[0] > 100  # N m
+
+
+def test_orders_that_are_asked_for_have_a_row_balanced_or_not():
+    """Two in-line fours have no odd order of force, moment or torque of inertia."""
+    four = str(ENGINES / "i4.toml")
+    _, table, _ = run_here("sum", four, four, "--orders", "3,4,7")
+    for order in ("3", "7"):
+        rows = [line.split() for line in table.splitlines() if line.startswith(f"{order} ")]
+        assert [set(row[1:]) for row in rows] == [{"balanced"}] * 3

@@ -131,7 +131,8 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
         yield vectors_grid(vectors, shown, system, hints=view.hints)
-    if (facts := roll_and_peaks(result, system)).pairs:
+    facts = roll_and_peaks(result, system, every_order=view.every_order)
+    if facts.pairs:
         yield facts
     yield from gas_grid(
         result.spectra,

@@ -105,12 +105,18 @@ def tell_others(
     return f"{told} All: --all." if hints else told
 
 
-def roll_and_peaks(result: Analysis, system: System) -> Facts:
-    """What acts about the crank's axis, and the largest values over a revolution, a line each."""
+def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Facts:
+    """What acts about the crank's axis, and the largest values over a revolution, a line each.
+
+    Args:
+        every_order: whether orders were asked for, which need not be those that roll has.
+    """
     peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
     roll = result.spectra.roll
     name = ROLL.label if result.engine.gas is None else f"{ROLL.label}, inertia alone"
-    pairs = [] if roll is None else [(name, _tell_roll(result, roll, system))]
+    pairs = []
+    if roll is not None:
+        pairs = [(name, _tell_roll(result, roll, system, every_order=every_order))]
     title = "Largest over a revolution" if peaks else f"About {tell_pivot(result.engine)}"
     return Facts((*pairs, *peaks), title)
 
@@ -166,15 +172,21 @@ def _tell_place(device: DeviceTable) -> str:
             return "sliders:"
 
 
-def _tell_roll(result: Analysis, roll: Phasors, system: System) -> str:
-    """Every order that matters: `order 2: 458, 4: 26.3 N m`."""
+def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
+    """Every order that matters: `order 2: 458, 4: 26.3 N m`; `every_order` as of
+    `roll_and_peaks`.
+    """
     least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
     rows = [k for k, size in enumerate(roll.major) if size > least]
-    unit = system.moment.fit(float(roll.major.max(initial=0)))
+    largest = float(roll.major.max(initial=0))
+    if not rows:
+        nothing = f"negligible ({size_text(largest, system.moment, 2)})" if largest else NOTHING
+        return f"{nothing} in the orders shown" if every_order else nothing
+    unit = system.moment.fit(largest)
     sizes = (
         f"{order_name(roll.orders[k])}: {number(unit.of(float(roll.major[k])), 4)}" for k in rows
     )
-    return f"order {', '.join(sizes)} {unit.name}" if rows else NOTHING
+    return f"order {', '.join(sizes)} {unit.name}"
 
 
 def _unit_of(kind: Kind, phasors: Phasors, system: System) -> ShownUnit:

@@ -79,6 +79,7 @@ def sheet(result: Combined, system: System) -> Sheet:
                 system,
                 tell_pivot(result.engines[0]),
                 _ROLL[how.load] if how.reverse else "",
+                every=result.every_order,
             ),
             peak_facts(result, system, "Largest over a revolution, all orders"),
         ),

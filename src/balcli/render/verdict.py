@@ -83,7 +83,10 @@ def verdict(
         told.append("" if steady else _UNEVEN)
     else:
         told.append(_tell_negligible(higher, vectors))
-    return tuple(filter(None, told))
+    told = list(filter(None, told))
+    if higher and not told:
+        told.append(f"The orders shown: free of {' and '.join(v.what for v in vectors)}.")
+    return tuple(told)
 
 
 def _order_name(order: float) -> str:

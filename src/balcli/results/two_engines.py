@@ -94,6 +94,7 @@ class Combined(Result):
         force, moment: largest `value` over a revolution (N, N m), of all orders, and its crank
             angle `theta` (rad).
         cylinders: none; each engine's own analysis has them.
+        every_order: whether orders were asked for, so that none of them is left out.
     """
 
     engines: tuple[Engine, Engine]
@@ -102,6 +103,7 @@ class Combined(Result):
     force: Peak
     moment: Peak
     cylinders: tuple[tuple[int, Spectra], ...] = ()
+    every_order: bool = False
 
     @property
     def summary(self) -> str:
@@ -159,6 +161,7 @@ def combine_engines(
         visible.select_orders(shown),
         find_peak(whole["force"]),
         find_peak(whole["moment"]),
+        every_order=asked is not None,
     )
 
 
