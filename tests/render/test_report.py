@@ -233,7 +233,14 @@ def test_the_keyboard_moves_the_vector(show):
 
 
 @live
-@pytest.mark.parametrize("text", [GOOD, RADIAL, ROTARY])
+@pytest.mark.parametrize(
+    "text",
+    [
+        GOOD,
+        pytest.param(RADIAL, marks=pytest.mark.stress),
+        pytest.param(ROTARY, marks=pytest.mark.stress),
+    ],
+)
 def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(show, text):
     page, c = show(text), build(parse(text)).cylinders
     for theta in (0, 77, 250):

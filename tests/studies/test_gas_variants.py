@@ -103,7 +103,7 @@ FIGURES = {  # of [gas], at which each may stand
 }
 
 
-@pytest.mark.parametrize("strokes", [2, 4])
+@pytest.mark.parametrize("strokes", [pytest.param(2, marks=pytest.mark.stress), 4])
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
     """The rest is no number of this file: the same figures in every row told nothing of that."""

@@ -92,7 +92,7 @@ def test_no_other_figure_is_better(kind):
         assert largest(ask_torsion(other, *options), "stress_Pa") > damper["after_Pa"]
 
 
-@pytest.mark.parametrize("kind", ["viscous", "rubber"])
+@pytest.mark.parametrize("kind", [pytest.param("viscous", marks=pytest.mark.stress), "rubber"])
 def test_no_resonance_hides_between_the_speeds(kind):
     """The largest stress with and without a damper is that of the range, however far apart the
     speeds are.
@@ -114,7 +114,7 @@ def test_a_pendulum_is_tuned_to_the_order_that_does_most():
     assert damper["heat_W"] == 0
 
 
-@pytest.mark.parametrize("stroke", [137, 2000])
+@pytest.mark.parametrize("stroke", [137, pytest.param(2000, marks=pytest.mark.stress)])
 def test_pendulums_hang_as_far_out_as_the_crank_pins(stroke):
     """Whatever the size of the engine; the file's own stay where they are."""
     text = write_diesel().replace("stroke = 137", f"stroke = {stroke}")
