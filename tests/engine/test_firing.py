@@ -288,6 +288,17 @@ def test_the_first_cylinder_that_cannot_fire_in_time_is_named():
         find_intervals([1, 2, 3, 4], find_dead_centres(pin, dict.fromkeys(pin, 0.0)), 720.0)
 
 
+@pytest.mark.parametrize("count", [3, 5, 7, 9, 11])
+def test_a_turn_that_is_left_over_goes_to_the_last_of_equal_intervals(count):
+    """Of a seven-cylinder star it went to the last but one, whose interval is less by rounding."""
+    order = list(range(1, count + 1))
+    pin = {k: -360 * (k - 1) / count for k in order}
+    ready = find_dead_centres(pin, dict.fromkeys(order, 0.0))
+    step = 360 / count
+    expected = [step] * (count - 1) + [step + 360]
+    assert find_intervals(order, ready, 720.0) == pytest.approx(expected, abs=TIGHT)
+
+
 def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
     both = {1: 0.0, 2: 0.0}
     assert list(check_firing(both, {1: 0.0, 2: 360 - 1e-12}, both)) == []

@@ -130,9 +130,12 @@ def test_pictures_of_studies_are_the_same_each_time(what, text):
     assert draw_page(subject, what, "svg") == draw_page(subject, what, "svg")
 
 
-def test_the_page_of_factors_tells_the_best():
-    subject = PageSubject(compute_study(engine(CROSS), "factor"))
-    assert "best at 0.5 (" in draw_page(subject, "factor", "svg").decode()
+def test_the_page_of_factors_tells_the_best_and_by_what():
+    """Pins of a cross-plane crank balance each other: a factor changes the moment alone."""
+    single = changed(("[0, 180, 180, 0]", "[0]"), ("firing_order = [1, 3, 4, 2]", ""))
+    for text, by in ((CROSS, r"moment [\d.]+ N·m"), (single, r"[\d.]+ k?N")):
+        page = draw_page(PageSubject(compute_study(engine(text), "factor")), "factor", "svg")
+        assert re.search(rf"best at 0\.\d+ \({by}\)", page.decode())
 
 
 def test_counterweights_unload_the_crankshaft_of_an_in_line_four():

@@ -72,7 +72,7 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
     if total > cycle:
         raise InputError([_impossible(order, ready, total, cycle)])
     for _ in range(int(cycle - total) // 360):
-        shortest = min(reversed(range(len(intervals))), key=intervals.__getitem__)
+        shortest = min(reversed(range(len(intervals))), key=lambda k: round(intervals[k], 6))
         intervals[shortest] += 360.0
     return intervals
 

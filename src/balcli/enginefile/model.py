@@ -390,7 +390,7 @@ class Ripple(FileTable):
 
     order: RippleOrder = Field(description="times for each turn of the crank", examples=[4])
     amplitude: Share = Field(description="of the mean speed", examples=[0.01])
-    angle: Angle = Field(0.0, description="of its first largest value", examples=[0])
+    angle: Angle = Field(0.0, description="phase: it is largest at angle / order", examples=[0])
 
 
 class Operation(FileTable):

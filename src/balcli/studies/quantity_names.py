@@ -35,9 +35,11 @@ class Form(NamedTuple):
         """Whether a quantity of this name is one of these."""
         kind, _, rest = self.pattern.partition(".")
         own, _, other = name.partition(".")
-        last, part = rest.rpartition(".")[2], other.rpartition(".")[2]
+        middle, _, last = rest.rpartition(".")
+        whose, _, part = other.rpartition(".")
         alike = last in (part, "PART") or not rest
-        return kind == own and alike and rest.count(".") <= other.count(".")
+        numbered = middle != "N" or whose == "N" or whose.isdecimal()
+        return kind == own and alike and numbered and rest.count(".") <= other.count(".")
 
 
 class Chapter(NamedTuple):
@@ -91,18 +93,21 @@ CYCLE = Chapter(
         Form("fluctuation", "", "highest less lowest speed, over the mean", "gas"),
     ),
 )
+_OF_MOTION = "the mode that has most of this motion"
 MOUNTS = Chapter(
     "mounting.quantity",
     (
         Form("mode.N.Hz", "Hz", "natural frequency on the mounts", "mount"),
         Form("mode.N.share", "%", "largest share of its energy in one motion", "mount"),
         Form("mode.N.damping", "%", "its damping ratio", "mount"),
+        Form("mode.MOTION.Hz", "Hz", f"natural frequency of {_OF_MOTION}", "mount"),
         Form(
-            "mode.MOTION.Hz",
-            "Hz",
-            "the same of a motion; share, damping too",
+            "mode.MOTION.share",
+            "%",
+            "share of this motion in the energy of the mode that has most of it",
             "mount",
         ),
+        Form("mode.MOTION.damping", "%", f"damping ratio of {_OF_MOTION}", "mount"),
         Form(
             "mount.NAME.force",
             "N",

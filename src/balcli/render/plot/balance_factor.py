@@ -49,7 +49,7 @@ def draw_factors(
     ax.set_ylim(bottom=0)
     least = size_text(best.force, force)
     if best.by_moment and moment is not None:
-        least = size_text(best.moment, moment)
+        least = f"moment {size_text(best.moment, moment)}"
     ax.set_title(f"Largest free force over the balance factor; best at {best.factor:.4g} ({least})")
     moments = np.array([row.moment for row in rows])
     if moment is not None and moments.max() > 0:
