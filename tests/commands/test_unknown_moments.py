@@ -251,6 +251,16 @@ def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
         assert "moment (dashed grey)" not in text
 
 
+def test_compare_has_dashes_where_no_engine_has_known_moments(balcli, twin):
+    status, out, _ = balcli("compare", twin, twin)
+    assert status == 0
+    moments = out.partition("Free moment, N·m")[2].partition("\n\n")[0]
+    rows = [
+        line.split()[-3:] for line in moments.splitlines() if line.startswith(("order", "peak"))
+    ]
+    assert rows == [["–"] * 3] * 3
+
+
 def test_compare_and_sum_have_dashes_beside_what_is_known(balcli, twin, tmp_path):
     known = tmp_path / "known.toml"
     known.write_text(GOOD)

@@ -98,3 +98,15 @@ def test_inner_guide_and_sizing_stand_side_by_side() -> None:
     left = [one.sizing.after.force.value for one in alone]
     assert lines["force with devices", None] == pytest.approx(left)
     assert {"shear", "bearing", "guide_x", "moment with devices"} <= {name for name, _ in lines}
+
+
+def test_orders_that_are_asked_for_are_there_balanced_or_not() -> None:
+    """In-line fours have no odd order of any force, moment or torque of inertia."""
+    four = build(parse(GOOD))
+    kinds = ["force", "moment", "couple", "torque", "roll"]
+    asked = compare_engines([four, four], ["one", "other"], orders=[7], only=kinds).lines
+    assert [(line.kind.name, line.order, line.values) for line in asked] == [
+        (kind, 7, (0, 0)) for kind in kinds
+    ]
+    unasked = compare_engines([four, four], ["one", "other"], only=kinds, whole=True).lines
+    assert 7 not in {line.order for line in unasked}

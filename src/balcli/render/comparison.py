@@ -95,8 +95,9 @@ def _tell_speeds(result: Comparison) -> Facts:
 
 
 def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
-    """The unit for the largest of all that is known."""
-    return system.unit(kind).fit(max(v for line in lines for v in _list_known(line)))
+    """The unit for the largest of all that is known, if anything is."""
+    known = (v for line in lines for v in _list_known(line))
+    return system.unit(kind).fit(max(known, default=0.0))
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:

@@ -116,7 +116,7 @@ def compare_engines(
     if only is None and all(engine.gas is not None for engine in engines):
         wanted.add(GAS.name)
     analyses = analyze_alike(engines, orders, partial(analyze, only=wanted, beside=engines))
-    lines = list_lines(analyses)
+    lines = list_lines(analyses, every_order=orders is not None)
     return Comparison(tuple(names), tuple(engines), lines, whole or orders is not None)
 
 
@@ -135,10 +135,14 @@ def analyze_alike(
     return tuple(analyze_one(one.engine, every) for one in analyses)
 
 
-def list_lines(analyses: Sequence[Analysis]) -> tuple[Line, ...]:
-    """Every figure of analyses by the same orders side by side."""
+def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tuple[Line, ...]:
+    """Every figure of analyses by the same orders side by side.
+
+    Args:
+        every_order: also orders above 2 of which all of them are free.
+    """
     return (
-        *_compare_orders(analyses),
+        *_compare_orders(analyses, every_order),
         *_compare_peaks(analyses),
         *_compare_inner(analyses),
         *_compare_guide(analyses),
@@ -156,13 +160,13 @@ def _list_orders(one: Analysis) -> Iterator[Array]:
         yield one.guide.h.orders
 
 
-def _compare_orders(analyses: Sequence[Analysis]) -> Iterator[Line]:
+def _compare_orders(analyses: Sequence[Analysis], every_order: bool) -> Iterator[Line]:
     known = [one.spectra.with_moment_if(one.moments_known) for one in analyses]
     for kind, _ in known[0].items():
         single = _of_one_cylinder(kind, analyses)
         sizes = [spectra[kind.name].major for spectra in known]
         for order, *values in zip(analyses[0].orders, *sizes, strict=True):
-            if order <= 2 or any(values):
+            if every_order or order <= 2 or any(values):
                 yield Line(kind, float(order), tuple(map(float, values)), single)
 
 
