@@ -12,9 +12,14 @@ from .comparison import Line, analyze_alike, list_lines
 
 @dataclass(frozen=True, eq=False)
 class SpeedSeries:
-    """Analyses of one engine by the same orders, a speed each, as the speeds were asked for."""
+    """Analyses of one engine by the same orders, a speed each, as the speeds were asked for.
+
+    Attributes:
+        every_order: whether orders were asked for, so that none of them is left out.
+    """
 
     analyses: tuple[Analysis, ...]
+    every_order: bool = False
 
     @property
     def speeds_rpm(self) -> list[float]:
@@ -24,7 +29,7 @@ class SpeedSeries:
     @property
     def lines(self) -> tuple[Line, ...]:
         """Every figure, with a value a speed."""
-        return list_lines(self.analyses)
+        return list_lines(self.analyses, every_order=self.every_order)
 
 
 def analyze_speeds(
@@ -44,4 +49,5 @@ def analyze_speeds(
         BalcliError: whatever `analyze_one` raises.
     """
     engines = [replace(engine, speed_rpm=speed) for speed in speeds_rpm]
-    return SpeedSeries(analyze_alike(engines, orders, analyze_one))
+    asked = None if orders is None else list(orders)
+    return SpeedSeries(analyze_alike(engines, asked, analyze_one), asked is not None)
