@@ -18,6 +18,7 @@ from ..core.smallest_largest import (
     minimise_largest,
     minimise_squares,
 )
+from ..enginefile.exclusive import join_words
 from ..enginefile.fields import counted, nearest, shorten
 from ..errors import BalcliError, InputError, Problem
 from ..result import Result
@@ -186,9 +187,9 @@ def find_doubts(result: FieldBalance) -> list[str]:
     doubts = []
     alike = [p for p in result.planes if p.own < _NEARLY_ALIKE]
     if len(alike) > 1:
-        *front, last = (p.plane for p in alike)
+        names = join_words([p.plane for p in alike])
         doubts.append(
-            f"what planes {', '.join(front)} and {last} do, other planes do nearly as well: only "
+            f"what planes {names} do, other planes do nearly as well: only "
             f"{min(p.own for p in alike):.1%} of what one does is its own (condition "
             f"{result.condition:.3g}), so errors of reading grow as much; if their weights are "
             f"large, try --without {alike[0].plane}"

@@ -23,7 +23,7 @@ from ..core.vibration import Modes, modal_loss
 from .build import MountedBody
 from .motions import name_mode, name_motions
 
-_EQUAL_SHARES = 1e-9  # of the largest, by which equals may differ
+EQUAL_PARTS = 1e-9  # share of the largest by which rounding may set equal parts apart
 
 
 class BodyMode(NamedTuple):
@@ -111,5 +111,5 @@ def find_mounted_modes(mounted: MountedBody, torque: float = 0.0) -> BodyModes:
 
 def _point_forward(shape: Real, shares: Real) -> Real:
     """The shape, its motion with the largest share of the energy positive, of equals the first."""
-    largest = np.argmax(shares > (1 - _EQUAL_SHARES) * shares.max())
+    largest = np.argmax(shares > (1 - EQUAL_PARTS) * shares.max())
     return shape * np.copysign(1.0, shape[largest])

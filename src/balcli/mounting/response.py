@@ -40,13 +40,12 @@ from ..forces.orders import (
 from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import MOST_MOUNT_RESULTS
 from .build import MountedBody
-from .modes import BodyModes
+from .modes import EQUAL_PARTS, BodyModes
 from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
 _SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
-_EQUAL = 1e-9  # share by which rounding may set equal parts apart
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
 
 
@@ -388,7 +387,7 @@ def _find_leading_modes(
     each = np.arange(len(motion))
     curves = _list_curves(mounted, BodyResponse(parts, forces))[:, each, each]
     sizes = np.linalg.norm(curves, axis=-1)
-    return np.asarray((sizes >= sizes.max(axis=0) * (1 - _EQUAL)).argmax(axis=0))
+    return np.asarray((sizes >= sizes.max(axis=0) * (1 - EQUAL_PARTS)).argmax(axis=0))
 
 
 def _press_some(mounted: MountedBody, loads: BodyLoads, omega: Real) -> Iterator[Real]:
