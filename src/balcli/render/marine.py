@@ -19,7 +19,7 @@ from .sheet import (
     Grid,
     Sheet,
     Text,
-    number,
+    given,
     order_name,
     order_number,
     size_cell,
@@ -221,7 +221,7 @@ def _grid_by_speed(
     heads = (column.name.replace("n", order_name(result.orders[k])) for column, k in chosen)
     lines = tuple(
         (
-            number(speed, 6),
+            given(speed),
             *(_cell(column, i, k, unit, result.every_order) for column, k in chosen),
         )
         for i, speed in enumerate(result.speeds_rpm.tolist())

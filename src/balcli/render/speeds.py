@@ -19,7 +19,7 @@ from .sheet import (
     Sheet,
     Text,
     capitalized,
-    number,
+    given,
     order_name,
     size_text,
 )
@@ -110,7 +110,7 @@ def _kind_part(
     heads = ("peak" if line.order is None else f"order {order_name(line.order)}" for line in shown)
     columns = [show_sizes(line, unit, every=whole) for line in shown]
     table = tuple(
-        (number(speed, 6), *cells) for speed, *cells in zip(speeds_rpm, *columns, strict=True)
+        (given(speed), *cells) for speed, *cells in zip(speeds_rpm, *columns, strict=True)
     )
     title = f"{capitalized(title)}, {unit.name}: largest by order"
     return Grid(title, ("rpm", *heads), table, words=())
