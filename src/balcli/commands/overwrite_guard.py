@@ -1,5 +1,5 @@
-"""What a command reads stays as it is: no result may go onto an engine file, or onto another
-result, and all results have a folder before one is written.
+"""What a command reads stays as it is: no result may go onto an engine file, onto one that it names
+or onto another result, and all results have a folder before one is written.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ..errors import BalcliError, tell_unwritable
 from .file_names import Place
+from .named_files import list_named_files
 
 STANDARD_INPUT = "-"
 
@@ -33,10 +34,12 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
         for option, place in writes.items()
         if place is not None
     ]
+    there = any(os.path.isfile(target) for _, target in targets)
+    named = [str(file) for source in sources if there for file in list_named_files(source)]
     for k, (option, target) in enumerate(targets):
-        if any(_same_file(target, source) for source in sources):
+        if any(_same_file(target, source) for source in (*sources, *named)):
             raise BalcliError(
-                f"{option} {target}: this is the engine file itself, which stays as it is; "
+                f"{option} {target}: this is a file that is read, which stays as it is; "
                 "choose another name"
             )
         if any(_same_file(target, other) for _, other in targets[:k]):

@@ -19,9 +19,9 @@ from ..limits import (
     MOST_MISTAKES_SHOWN,
     MOST_PARTS,
 )
-from .contradictions import find_contradictions, read_without
 from .fields import printable, shorten
 from .file_kinds import ENGINE, refuse_other_kind
+from .key_conflicts import find_conflicts_of_keys, read_without
 from .messages import (
     CHAPTER_LISTS,
     CHAPTERS,
@@ -266,7 +266,7 @@ class _Reader:
         findings = [found for found in error.errors(include_url=False) if found["loc"]]
         broken = {str(finding["loc"][0]) for finding in findings}
         draft = read_without(table, value, broken)
-        contradictions = list(find_contradictions(path, table, value, broken, draft))
+        contradictions = list(find_conflicts_of_keys(path, table, value, broken, draft))
         self.problems += contradictions
         if path in ONE_BY_ONE and draft is not None and not contradictions:
             self.partial[path] = _Partial(draft, broken)

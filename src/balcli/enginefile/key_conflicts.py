@@ -29,7 +29,7 @@ def read_without(
     return draft
 
 
-def find_contradictions(
+def find_conflicts_of_keys(
     path: str,
     table: type[FileTable],
     value: Mapping[str, Any],
