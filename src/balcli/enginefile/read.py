@@ -21,7 +21,6 @@ from ..limits import (
 )
 from .fields import printable, shorten
 from .file_kinds import ENGINE, refuse_other_kind
-from .key_conflicts import find_conflicts_of_keys, read_without
 from .messages import (
     CHAPTER_LISTS,
     CHAPTERS,
@@ -30,10 +29,12 @@ from .messages import (
     TABLES,
     TEXTS,
     describe_finding,
+    find_conflicts_of_keys,
     find_inner_table,
     import_table,
     is_miscounted,
     join_path,
+    read_without,
 )
 from .model import ONE_BY_ONE, EngineFile, FileTable, Override
 from .toml_text import parse_toml

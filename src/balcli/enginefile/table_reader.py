@@ -13,8 +13,7 @@ from pydantic_core import ErrorDetails
 from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN
 from .fields import nearest, shorten
-from .key_conflicts import find_conflicts_of_keys, read_without
-from .messages import is_miscounted, join_path
+from .messages import find_conflicts_of_keys, is_miscounted, join_path, read_without
 from .model import FileTable
 
 T = TypeVar("T", bound=FileTable)
