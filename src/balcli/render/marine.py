@@ -72,7 +72,8 @@ def sheet(one: NamedResult[MarineSheet], system: System) -> Sheet:
     )
     external, inner = _external(result), _inner(result)
     grids: tuple[Grid | Text, ...]
-    of_what = _of_what(result)
+    gas = result.engine.gas
+    of_what = "of inertia alone, without gas" if gas is None else "of inertia and gas"
     if len(result.speeds_rpm) == 1:
         title = f"Guide-force moments Hn, Xn and torque on the crank Tn, {of_what}"
         grids = (
@@ -164,10 +165,6 @@ def _inner(result: MarineSheet) -> tuple[_Column, ...]:
         _Column("guide_x", "Xn", False, result.guide_x, guide),
         _Column("torque", "Tn", False, result.torque, torque),
     )
-
-
-def _of_what(result: MarineSheet) -> str:
-    return "of inertia alone, without gas" if result.engine.gas is None else "of inertia and gas"
 
 
 # ------------------------------------------------------------------ tables

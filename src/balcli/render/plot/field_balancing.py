@@ -75,10 +75,6 @@ def _set_up(ax: PolarAxes, sense: str, title: str) -> None:
         arrowprops={"arrowstyle": "->", "color": SOFT, "connectionstyle": "arc3,rad=0.2"},
     )
     ax.text(0.0, 0.99, "rotation", transform=ax.transAxes, color=SOFT, ha="left")
-    _draw_legend(ax)
-
-
-def _draw_legend(ax: PolarAxes) -> None:
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), ncols=3)
 
 
