@@ -78,8 +78,7 @@ Target = Annotated[
     typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),
 ]
 Speed = Annotated[
-    str | None,
-    optional("RPM", "Crank speed instead of the file's, rpm.", "--speed", "--rpm"),
+    str | None, optional("RPM", "Crank speed instead of the file's, rpm.", "--speed", "--rpm")
 ]
 Orders = Annotated[
     str | None,

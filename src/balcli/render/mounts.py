@@ -212,10 +212,7 @@ def _body(result: MountReport, system: System) -> Facts:
     along = ", ".join(number(round(float(value), 9) + 0.0, 4) for value in axis)
     rolls = f"({along}) through the centre of gravity, {degrees(angle)} deg from z"
     return Facts(
-        (
-            ("torque roll axis", rolls),
-            ("elastic centre", f"({place}) {system.length.name}"),
-        ),
+        (("torque roll axis", rolls), ("elastic centre", f"({place}) {system.length.name}")),
         "The body",
     )
 

@@ -12,17 +12,7 @@ from . import analysis_document, symmetry
 from .comparison import TITLES, find_lines_that_matter, fit_unit, show_sizes
 from .csv import Rows, name_cell
 from .engine_facts import engine_facts
-from .sheet import (
-    NAMELESS,
-    Facts,
-    Grid,
-    Sheet,
-    Text,
-    capitalized,
-    number,
-    order_name,
-    size_text,
-)
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, number, order_name, size_text
 from .view import NamedResult
 
 if TYPE_CHECKING:

@@ -12,18 +12,7 @@ from ...field_balancing.shop import find_angle_deg
 from ..field_balancing import find_label
 from ..field_balancing_document import find_senses
 from ..sheet import number
-from .style import (
-    BLUE,
-    GREEN,
-    INK,
-    PAPER,
-    RED,
-    SOFT,
-    Form,
-    fit_name,
-    open_figure,
-    put_title,
-)
+from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, put_title
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
