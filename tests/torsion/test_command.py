@@ -319,10 +319,7 @@ def test_a_tuned_pendulum_holds_its_node_still():
             '--orders "0.7": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or '
             "1,2.5,4",
         ),
-        (
-            ("--orders", "8-1"),
-            '--orders "8-1": 8-1 must rise, from above 0 to 256 at most',
-        ),
+        (("--orders", "8-1"), '--orders "8-1": 8-1 must rise, from above 0 to 256 at most'),
         (
             ("--speeds", "1000", "--orders", "0.5"),
             "standard input: nothing excites it at the orders asked for",
