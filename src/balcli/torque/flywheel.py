@@ -9,12 +9,7 @@ import numpy as np
 from ..core.phasors import Complex
 from ..core.piecewise import Extreme, Function, PiecewiseCurve, resolved
 from ..core.speed_ripple import RippleLine
-from ..core.speed_variation import (
-    StallError,
-    needed_inertia,
-    small_fluctuation,
-    speed_variation,
-)
+from ..core.speed_variation import StallError, needed_inertia, small_fluctuation, speed_variation
 from ..errors import BalcliError
 from ..limits import HIGHEST_RIPPLE_ORDER, MOST_RIPPLES
 
