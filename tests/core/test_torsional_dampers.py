@@ -7,11 +7,7 @@ import pytest
 from support.chains import no_damping
 
 from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
-from balcli.core.torsional_dampers import (
-    best_viscous_damping,
-    pendulum_inertia,
-    viscous_inertia,
-)
+from balcli.core.torsional_dampers import best_viscous_damping, pendulum_inertia, viscous_inertia
 from balcli.core.torsional_response import respond_chain
 
 W = np.array([50.0, 300, 1000])

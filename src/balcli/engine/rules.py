@@ -18,14 +18,7 @@ from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
 from .assembly import Assembly
 from .firing import check_firing
-from .rods import (
-    RodPlace,
-    RunningGear,
-    check_ends,
-    check_rod_inertia,
-    check_turning,
-    weigh_rod,
-)
+from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
 from .split_pins import find_fitting_splay
 
 STANDSTILL = 1e-12  # of the mean speed: rounding
