@@ -237,6 +237,20 @@ def test_shared_pins_that_an_order_cannot_have():
     )
 
 
+def test_intervals_in_another_turn_are_told():
+    """The pin of a 45-degree twin meets the second bank 45 deg after the first, and a turn later."""
+    twin = {"bank_angle": 45, "firing_order": [1, 2]}
+    found = refused(layout=twin | {"firing_intervals": [315, 405]})
+    assert found.endswith("They fit with layout.firing_intervals = [405, 315]")
+    assert refused(layout=twin | {"firing_intervals": [300, 420]}).endswith("crank.splay = 105")
+
+
+def test_the_order_in_which_a_radial_fires_evenly_is_told():
+    """The pin comes by the cylinders as they are numbered, and every second one fires."""
+    found = refused(layout={"radial": 5, "firing_order": [1, 2, 3, 4, 5]})
+    assert found.endswith("They would fire evenly as 1-3-5-2-4")
+
+
 @pytest.mark.parametrize("angle", [60, 72, 90])
 def test_the_splay_that_makes_a_vee_six_fire_evenly(angle):
     """The second rod of a throw fires 120 degrees after the first, its bank stands `angle` further
