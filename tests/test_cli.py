@@ -145,10 +145,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
     ("args", "message"),
     [
         (["analyze", "no.toml"], "no.toml: no such file"),
-        (
-            ["analyze", str(ENGINES)],
-            f"{ENGINES}: is a folder; name a file in it",
-        ),
+        (["analyze", str(ENGINES)], f"{ENGINES}: is a folder; name a file in it"),
         (
             ["analyze", V8, "--orders", "0x"],
             '--orders "0x": give orders such as 1-8, 1,2,4 or 0.5-8',
@@ -722,10 +719,7 @@ def own_modules(*args: object) -> set[str]:
     return {name for name in modules_of(*args) if name.startswith("balcli.")}
 
 
-@pytest.mark.parametrize(
-    ("form", "left_out"),
-    [("json", FOR_PEOPLE), ("table", FOR_PROGRAMS)],
-)
+@pytest.mark.parametrize(("form", "left_out"), [("json", FOR_PEOPLE), ("table", FOR_PROGRAMS)])
 def test_a_plain_analysis_imports_no_other_format_chapter_or_kind_of_engine(form, left_out):
     loaded = own_modules("analyze", V8, "--format", form)
     names = {name.removeprefix("balcli.") for name in loaded}

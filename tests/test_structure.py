@@ -197,10 +197,7 @@ ON_REQUEST = {
     "balcli.commands.output": ("balcli.files", "balcli.render.plot.style"),
     "balcli.commands.torque_options": ("balcli.enginefile.edit",),
     "balcli.torque.analysis": ("balcli.torque.find_loads",),
-    "balcli.commands.scatter": (
-        "balcli.studies.cycle_scatter",
-        "balcli.studies.part_scatter",
-    ),
+    "balcli.commands.scatter": ("balcli.studies.cycle_scatter", "balcli.studies.part_scatter"),
     "balcli.studies.curves": ("balcli.torque.curves",),
 }
 

@@ -209,8 +209,9 @@ def test_what_pendulums_leave_undamped_is_told(tmp_path):
         """
     hertz = np.sqrt(1e4 / (1 + 2 * 0.099**2 / 0.9)) / (2 * np.pi)
     assert refusal("torsion", "-", "--speeds", "850:1150:50", stdin=text) == (
-        f"standard input: the natural frequency of {hertz:.6g} Hz is excited and nothing damps it: its vibration "
-        "has no bound; give a loss factor (loss = 0.02), or damping"
+        f"standard input: the natural frequency of {hertz:.6g} Hz is excited by order 1 at "
+        f"{60 * hertz:.6g} rpm and nothing damps it: its vibration has no bound; give a loss factor "
+        "(loss = 0.02), or damping"
     )
     beside = run_here("torsion", "-", "--speeds", "950:1150:50", stdin=text)
     assert beside.status == 0
@@ -355,10 +356,7 @@ def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
             '--orders "0.7": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or '
             "1,2.5,4",
         ),
-        (
-            ("--orders", "8-1"),
-            '--orders "8-1": 8-1 must rise, from above 0 to 256 at most',
-        ),
+        (("--orders", "8-1"), '--orders "8-1": 8-1 must rise, from above 0 to 256 at most'),
         (
             ("--speeds", "1000", "--orders", "0.5"),
             "standard input: nothing excites it at the orders asked for",

@@ -388,14 +388,8 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
             ("--write", "x.toml", "--speeds", "1000:2000"),
             "--write: writes a damper into the file; say which, such as --damper viscous",
         ),
-        (
-            ("--damper-at", "disc"),
-            "--damper-at: say which damper, such as --damper viscous",
-        ),
-        (
-            ("--damper-inertia", "3"),
-            "--damper-inertia: say which damper, such as --damper viscous",
-        ),
+        (("--damper-at", "disc"), "--damper-at: say which damper, such as --damper viscous"),
+        (("--damper-inertia", "3"), "--damper-inertia: say which damper, such as --damper viscous"),
         (
             ("--damper", "viscous", "--damper-at", "disk", *RANGE),
             '--damper-at "disk": cannot carry a damper; what can is disc, wall',
@@ -423,10 +417,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
             ("--damper", "viscous", "--orders", "2", *RANGE),
             "--damper: nothing excites the system at the orders asked for",
         ),
-        (
-            ("--what", "modes"),
-            "--what modes: give --plot and a file for the picture",
-        ),
+        (("--what", "modes"), "--what modes: give --plot and a file for the picture"),
         (
             ("--what", "response", "--plot", "x.svg"),
             "--what response: give the range, such as --speeds 1000:2500",

@@ -19,14 +19,7 @@ from ..limits import MOST_SAMPLES
 from .assembly import Assembly
 from .firing import TOLERANCE_DEG, check_firing, find_even_order, find_intervals
 from .layout import cycle_deg
-from .rods import (
-    RodPlace,
-    RunningGear,
-    check_ends,
-    check_rod_inertia,
-    check_turning,
-    weigh_rod,
-)
+from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
 from .split_pins import find_fitting_splay
 
 STANDSTILL = 1e-12  # of the mean speed: rounding

@@ -168,10 +168,7 @@ def _check_runs(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem
             if name not in file.planes:
                 near = nearest(name, file.planes)
                 hint = f"did you mean {near}?" if near else f"there are {', '.join(file.planes)}"
-                yield Problem(
-                    f"run.{k}.weights.{printable(name)}",
-                    f"is no plane; {hint[:200]}",
-                )
+                yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")
         if spoken and run.speed is None:
             hint = f"run.{spoken[0]} gives its speed, so every run must"
             yield Problem.of_missing(f"run.{k}.speed", hint)

@@ -124,16 +124,12 @@ def _shapes(result: TorsionAnalysis, system: System) -> Grid:
         inertia = system.inertia.of(float(result.system.chain.inertia[k]))
         cells = [name, number(inertia) if inertia else "–"]
         cells += [number(float(result.system.gears[k]))] * geared
-        rows.append((*cells, *(_signed(mode.shape[k]) for mode in shown)))
+        rows.append((*cells, *(f"{round(float(mode.shape[k]), 4) + 0.0:.4f}" for mode in shown)))
     note = "Angle of each node by itself, the largest 1."
     left = len(result.modes) - len(shown)
     if left:
         note += f" JSON has {left} mode{'s' * (left > 1)} more."
     return Grid("Inertias and shapes", tuple(heads), tuple(rows), note)
-
-
-def _signed(value: float) -> str:
-    return f"{round(float(value), 4) + 0.0:.4f}"
 
 
 def _criticals(result: TorsionAnalysis) -> Grid:

@@ -15,9 +15,9 @@ from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_distinct
 from ..core.speeds import RPM
+from ..core.vibration import ROUNDING
 from .modes import find_poles
 from .motion import (
-    UNDAMPED,
     move,
     refuse_too_many,
     refuse_torsional_resonance,
@@ -29,7 +29,8 @@ from .system import TorsionalSystem
 _ROUNDS = np.array([1 / 24, 1 / 6])  # parts of the speeds, those with large amplitudes first
 _NEAR = 0.9  # of the largest at the speeds looked at: what a peak beside them may exceed
 _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
-_SIDES = np.array([[-1], [1]])  # of a resonance, where it is looked at, too, in widths
+_SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, looked at, too, in widths
+_HIGH = 0.5  # of the largest: a resonance as high may have a higher peak at its side
 
 
 class LargestVibration(NamedTuple):
@@ -188,7 +189,7 @@ def find_resonant_speeds(
         poles = [find_poles(system)] * len(orders)
     found = [np.zeros((2, 0))]
     for order, each in zip(orders, poles, strict=True):
-        damped = each[(each.imag > 0) & (-each.real > UNDAMPED * np.abs(each))]
+        damped = each[(each.imag > 0) & (-each.real > ROUNDING * np.abs(each))]
         at, width = damped.imag / (RPM * order), -2 * damped.real / (RPM * order)
         steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
         there = (width < widest * steps) & (at > rpm[0]) & (at < rpm[-1])
@@ -214,7 +215,7 @@ def _approach_largest(curves: _Curves, rpm: Real, swings: Real) -> tuple[Real, R
     at, width = find_resonant_speeds(curves.system, rpm, _WIDE)
     tops = _find_large_swings(curves, at, swings.max(axis=0))
     largest = curves.level(np.concatenate([swings, tops]).max(axis=0))
-    high = np.any(tops >= _NEAR * largest, axis=1)
+    high = np.any(tops >= _HIGH * largest, axis=1)
     sides = _look_beside(at[high], width[high], rpm)
     beside = _find_large_swings(curves, sides, largest)
     speeds = np.concatenate([rpm, at, sides])
