@@ -7,9 +7,9 @@ from itertools import pairwise
 
 from ..core.phasors import Figure
 from ..enginefile.model import EngineFile
+from ..limits import MOST_TURNED
 from .assembly import Assembly
 from .firing import (
-    MOST_TURNED,
     TOLERANCE_DEG,
     find_even_order,
     find_instants,

@@ -20,7 +20,6 @@ from ..errors import InputError, Problem
 
 # deg; real files round offsets, angles and intervals, real mistakes are tens of degrees
 TOLERANCE_DEG = 1.0
-MOST_TURNED = 12  # cylinders whose revolutions are tried, each in both: 2048 ways
 
 
 def find_instants(
