@@ -43,6 +43,8 @@ class LargestVibration(NamedTuple):
         stress: (shafts,) Pa, nan where a shaft has no diameter.
         amplitudes: (orders, shafts) torque by order there, N m.
         swing_rpm, free_end: where the first node swings most, and half of that swing, rad.
+        pendulum_rpm, pendulums: (pendulums,) where each swings most against its node, and half of
+            that swing, rad.
         hottest_rpm, heat: (dampers,) where each damper turns most to heat, and how much, W.
     """
 
@@ -53,6 +55,8 @@ class LargestVibration(NamedTuple):
     amplitudes: Real
     swing_rpm: float
     free_end: float
+    pendulum_rpm: Real
+    pendulums: Real
     hottest_rpm: Real
     heat: Real
 
@@ -62,7 +66,7 @@ class _Curves(NamedTuple):
 
     Attributes:
         columns: (curves,) numbers of shafts; behind the last shaft one more is the angle of the
-            first node, rad.
+            first node, and then those of pendulums, rad.
         weights: (curves,) by which each is multiplied.
         together: whether the highest of all is wanted, not that of each.
     """
@@ -79,11 +83,15 @@ class _Curves(NamedTuple):
 
     def at(self, rpm: Real) -> Complex:
         """By order, (orders, speeds, curves)."""
-        motion = move(self.system, rpm)
+        motion, shafts = move(self.system, rpm), len(self.system.shafts)
         found = np.empty((len(self.columns), *motion.torque.shape[:2]), complex)
         for curve, column, weight in zip(found, self.columns, self.weights, strict=True):
-            shaft = column < len(self.system.shafts)
-            curve[:] = motion.torque[:, :, column] if shaft else motion.angle[:, :, 0]
+            if column < shafts:
+                curve[:] = motion.torque[:, :, column]
+            elif column == shafts:
+                curve[:] = motion.angle[:, :, 0]
+            else:
+                curve[:] = motion.pendulums[:, :, column - shafts - 1]
             curve *= weight
         return np.moveaxis(found, 0, -1)
 
@@ -112,11 +120,12 @@ def find_largest_vibration(
     """Of every shaft, the first node and every damper.
 
     Args:
-        swings: half of peak to peak at these speeds (rpm), known already, (speeds, shafts + 1).
+        swings: half of peak to peak at these speeds (rpm), known already, of shafts, the first node
+            and pendulums, (speeds, curves).
         heat: (speeds, dampers), likewise.
     """
     count = len(system.shafts)
-    curves = _Curves(system, range(count + 1), np.ones(count + 1))
+    curves = _Curves(system, range(swings.shape[1]), np.ones(swings.shape[1]))
     at, height = _approach_largest(curves, rpm, swings)
     torque = curves.pick(at[:count], np.arange(count))
     return LargestVibration(
@@ -127,6 +136,8 @@ def find_largest_vibration(
         np.abs(torque),
         float(at[count]),
         float(height[count]),
+        at[count + 1 :],
+        height[count + 1 :],
         *_approach_hottest(system, rpm, heat),
     )
 

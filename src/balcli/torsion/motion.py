@@ -22,12 +22,14 @@ _AT_A_TIME = 1 << 20  # samples of a cycle, or torques by order, of all shafts a
 
 
 class ChainMotion(NamedTuple):
-    """Angles (orders, speeds, nodes) and torques (orders, speeds, shafts) by order, complex, and
-    power lost in dampers (orders, speeds, dampers).
+    """Angles (orders, speeds, nodes) and torques (orders, speeds, shafts) by order, complex, those
+    of pendulums against their nodes (orders, speeds, pendulums), and power lost in dampers (orders,
+    speeds, dampers).
     """
 
     angle: Complex
     torque: Complex
+    pendulums: Complex
     heat: Real
 
 
@@ -45,7 +47,8 @@ def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
         met = float(excitation.orders[row])
         raise _refuse_resonance(system, error.frequency, met) from None
     heat = _heat_of_oil(system, w, twist.angle), _heat_of_rubber(system, w, twist.torque)
-    return ChainMotion(twist.angle, twist.torque, np.concatenate(heat, axis=-1))
+    swings = system.swing_pendulums(excitation.orders, twist.angle)
+    return ChainMotion(twist.angle, twist.torque, swings, np.concatenate(heat, axis=-1))
 
 
 def _heat_of_rubber(system: TorsionalSystem, w: Real, torque: Complex) -> Real:
