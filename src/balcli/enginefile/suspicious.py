@@ -12,6 +12,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from .exclusive import join_words
+from .fields import count_lambda_digits
 from .model import Counterweight, EngineFile
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
+SPEED_LOW = 9.0  # rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
 OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
 # Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 MEAN_PRESSURE = 60.0  # bar
@@ -55,21 +57,10 @@ SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is round
 
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
-    parts = (
-        *(
-            _piston,
-            _proportions,
-            _rod,
-            _rod_ends,
-            _inertia,
-            _motion,
-            _neighbours,
-            _throw_angles,
-            _layout,
-        ),
-        *(_throw, _bobweight, _counterweights, _rotary, _turning, _gas, _torsion),
-    )
-    return [warning for part in parts for warning in part(model)]
+    of_rods = _piston, _proportions, _rod, _rod_ends, _inertia, _motion
+    of_crank = _neighbours, _throw_angles, _layout, _throw, _bobweight, _counterweights
+    beyond = _rotary, _turning, _gas, _torsion
+    return [warning for find in (*of_rods, *of_crank, *beyond) for warning in find(model)]
 
 
 def _piston(model: EngineFile) -> Iterator[str]:
@@ -96,7 +87,7 @@ def _proportions(model: EngineFile) -> Iterator[str]:
     ratio = _lambda(model)
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA_HIGH
     if ratio is not None and not LAMBDA_LOW <= ratio <= most:
-        shown = f"{ratio:.4g}" if ratio < 0.999 else f"{ratio:.7g}"  # at 1 the crank locks
+        shown = f"{ratio:.{count_lambda_digits(ratio)}g}"
         yield (
             f"crank radius / rod length is {shown}, where {LAMBDA_LOW:g} to {most:g} is usual; "
             "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
@@ -167,6 +158,11 @@ def _motion(model: EngineFile) -> Iterator[str]:
             f"the mean piston speed is {piston_speed:.3g} m/s at {speed:g} rpm and a stroke of "
             f"{stroke:g} mm, more than {PISTON_SPEED:g}; are operation.speed and crank.stroke "
             "right?"
+        )
+    if 0 < speed < SPEED_LOW:
+        yield (
+            f"operation.speed is {speed:g} rpm; a point parts decimals, not thousands: were "
+            f"{1000 * speed:g} rpm meant?"
         )
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
         yield (

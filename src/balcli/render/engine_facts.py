@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..engine.build import Engine, SilentCylinders
+from ..enginefile.fields import count_lambda_digits
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
 from .sheet import Facts, given, number
@@ -142,9 +143,14 @@ def _crank(engine: Engine, system: System) -> str:
     first = engine.numbers.index(1)
     radius, lam = float(c.radius), float(c.lam[first if len(c.lam) > 1 else 0])
     radius_shown, rod_shown = number(unit.of(radius)), number(unit.of(radius / lam))
-    ratio = number(lam, 4) if lam < 0.999 else given(lam, 7)  # at 1 the crank locks
-    sizes = f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}"
-    return f"{sizes}, λ = {ratio}{_unequal(engine)}"
+    needed = count_lambda_digits(
+        lam
+    )  # more where a fewer would make 1 of it, at which a crank locks
+    ratio = number(lam, needed) if lam < 0.999 else given(lam, needed)
+    return (
+        f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}, λ = {ratio}"
+        f"{_unequal(engine)}"
+    )
 
 
 def _masses(engine: Engine, system: System, *, whole: bool) -> str:
