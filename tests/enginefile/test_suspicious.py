@@ -153,6 +153,16 @@ def test_ordinary_engines_pass(text):
             ),
         ),
         (
+            changed(("speed = 3000", "speed = 3.000")),  # 2 x 90 mm x 3/60 Hz
+            "the mean piston speed is 0.009 m/s at 3 rpm and a stroke of 90 mm, less than 0.2; is "
+            "operation.speed in rpm, without a point between thousands?",
+        ),
+        (
+            changed(more="[[shaft]]\nratio = -2\nunbalance = 4500\nat = [0, 0.08]\n"),
+            "shaft.1.at is within 0.08 mm of the crank's axis; is it in mm? Another unit is said "
+            'as in "0.08 m"',
+        ),
+        (
             changed(("bore = 86", "bore = 86\noffset = -20")),
             "piston.offset is -20 mm, more than 20% of the stroke (18 mm); is it in mm?",
         ),
@@ -219,6 +229,15 @@ def test_ordinary_engines_pass(text):
 )
 def test_warnings(text, warning):
     assert find_suspicious(parse(text)) == [warning]
+
+
+def test_shafts_on_the_axis_and_engines_without_a_speed_are_no_slip():
+    """The place of a shaft that may stand anywhere, and the speed that is assumed."""
+    shafts = "[[shaft]]\nratio = -2\nunbalance = 45\nat = [0, %s]\n"
+    on_it, beside = (changed(more=shafts % y) for y in ("1e-14", "2"))
+    tiny = changed(("stroke = 90", "stroke = 2"), ("speed = 3000", ""))
+    assert find_suspicious(parse(on_it)) == find_suspicious(parse(beside)) == []
+    assert not any("piston speed" in told for told in find_suspicious(parse(tiny)))
 
 
 @pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])

@@ -33,6 +33,10 @@ SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
+# m/s; slow engines have 2, steam engines 1, and a three of "3.000", read with a point, 0.01
+PISTON_SLOW = 0.2
+NEAR_THE_CRANK = 0.02  # strokes; a shaft this near would stand within the crank
+NO_DISTANCE = 1e-6  # mm: on the axis, but for rounding
 OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
 # Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 MEAN_PRESSURE = 60.0  # bar
@@ -67,7 +71,7 @@ def find_suspicious(model: EngineFile) -> list[str]:
             _throw_angles,
             _layout,
         ),
-        *(_throw, _bobweight, _counterweights, _rotary, _turning, _gas, _torsion),
+        *(_throw, _bobweight, _counterweights, _shafts, _rotary, _turning, _gas, _torsion),
     )
     return [warning for part in parts for warning in part(model)]
 
@@ -168,6 +172,12 @@ def _motion(model: EngineFile) -> Iterator[str]:
             f"{stroke:g} mm, more than {PISTON_SPEED:g}; are operation.speed and crank.stroke "
             "right?"
         )
+    if piston_speed < PISTON_SLOW and "speed" in model.operation.model_fields_set:
+        yield (
+            f"the mean piston speed is {piston_speed:.2g} m/s at {speed:g} rpm and a stroke of "
+            f"{stroke:g} mm, less than {PISTON_SLOW:g}; is operation.speed in rpm, without a point "
+            "between thousands?"
+        )
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
         yield (
             f"piston.offset is {model.piston.offset:g} mm, more than {OFFSET_SHARE:.0%} of the "
@@ -242,6 +252,18 @@ def _counterweights(model: EngineFile) -> Iterator[str]:
                 f"counterweight.{number}: its unbalance is {abs(_unbalance(weight)):.4g} g mm, "
                 f"more than {UNBALANCE_SHARE:g} times all moving masses at the crank radius "
                 f"({limit:.3g}); is it in g mm?"
+            )
+
+
+def _shafts(model: EngineFile) -> Iterator[str]:
+    """One beside the crank's axis, and yet within the crank: a place in metres, most likely."""
+    nearest = NEAR_THE_CRANK * model.crank.stroke
+    for number, shaft in enumerate(model.shaft, 1):
+        away = max(map(abs, shaft.at))
+        if NO_DISTANCE < away < nearest:
+            yield (
+                f"shaft.{number}.at is within {away:.3g} mm of the crank's axis; is it in mm? "
+                f'Another unit is said as in "{away:.3g} m"'
             )
 
 

@@ -42,6 +42,7 @@ class LargestVibration(NamedTuple):
         stress: (shafts,) Pa, nan where a shaft has no diameter.
         amplitudes: (orders, shafts) torque by order there, N m.
         swing_rpm, free_end: where the first node swings most, and half of that swing, rad.
+        swings: (orders,) amplitude of the first node by order there, rad.
         hottest_rpm, heat: (dampers,) where each damper turns most to heat, and how much, W.
     """
 
@@ -52,6 +53,7 @@ class LargestVibration(NamedTuple):
     amplitudes: Real
     swing_rpm: float
     free_end: float
+    swings: Real
     hottest_rpm: Real
     heat: Real
 
@@ -117,7 +119,8 @@ def find_largest_vibration(
     count = len(system.shafts)
     curves = _Curves(system, range(count + 1), np.ones(count + 1))
     at, height = _approach_largest(curves, rpm, swings)
-    torque = curves.pick(at[:count], np.arange(count))
+    there = curves.pick(at, np.arange(count + 1))
+    torque, swings_there = there[:, :count], np.abs(there[:, count])
     return LargestVibration(
         at[:count],
         height[:count],
@@ -126,6 +129,7 @@ def find_largest_vibration(
         np.abs(torque),
         float(at[count]),
         float(height[count]),
+        swings_there,
         *_approach_hottest(system, rpm, heat),
     )
 
