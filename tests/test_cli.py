@@ -164,10 +164,7 @@ def test_bad_usage_that_the_parser_words(balcli, args):
     ("args", "message"),
     [
         (["analyze", "no.toml"], "no.toml: no such file"),
-        (
-            ["analyze", str(ENGINES)],
-            f"{ENGINES}: is a folder; name a file in it",
-        ),
+        (["analyze", str(ENGINES)], f"{ENGINES}: is a folder; name a file in it"),
         (
             ["analyze", V8, "--orders", "0x"],
             '--orders "0x": give orders such as 1-8, 1,2,4 or 0.5-8',
@@ -656,6 +653,25 @@ def test_any_locale_gets_utf_8():
     assert "F1 = m r ω² = " in done.stdout
 
 
+def test_an_engine_file_may_name_a_file_that_this_locale_cannot(good):
+    """Only where names of files are no UTF-8; elsewhere there is just no such file."""
+    good.write_text(GOOD + '[gas]\nindicator = "drück_λ.csv"\n', encoding="utf-8")
+    ascii_names = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    done = run_command("torque", good, env=ascii_names)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert re.match(f"balcli: {re.escape(str(good))}: gas.indicator: .?drück_λ.csv", done.stderr)
+
+
+def test_without_docstrings_all_is_computed_and_help_is_short():
+    bare = run_python("-OO", "-m", "balcli", "analyze", I4)
+    assert (bare.returncode, bare.stderr) == (0, "")
+    assert bare.stdout == run_command("analyze", I4).stdout
+    bare = run_python("-OO", "-m", "balcli", "balance", "-h")
+    assert (bare.returncode, bare.stderr) == (0, "")
+    assert COMMANDS["balance"] in " ".join(bare.stdout.split())
+    assert "--scheme" in bare.stdout
+
+
 # ------------------------------------------------------------------ what is imported
 HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "tomli_w", "jinja2", "scipy"}
 PROBE = """
@@ -741,10 +757,7 @@ def own_modules(*args: object) -> set[str]:
     return {name for name in modules_of(*args) if name.startswith("balcli.")}
 
 
-@pytest.mark.parametrize(
-    ("form", "left_out"),
-    [("json", FOR_PEOPLE), ("table", FOR_PROGRAMS)],
-)
+@pytest.mark.parametrize(("form", "left_out"), [("json", FOR_PEOPLE), ("table", FOR_PROGRAMS)])
 def test_a_plain_analysis_imports_no_other_format_chapter_or_kind_of_engine(form, left_out):
     loaded = own_modules("analyze", V8, "--format", form)
     names = {name.removeprefix("balcli.") for name in loaded}
@@ -887,7 +900,7 @@ def test_a_closed_standard_error_changes_no_status(tmp_path):
     assert (tmp_path / "x").read_text() == run_command("analyze", I4).stdout
 
 
-SIGNALS = [getattr(signal, name, 0) for name in ("SIGINT", "SIGTERM", "SIGHUP")]
+SIGNALS = [getattr(signal, name, 0) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU")]
 
 
 @unix
@@ -952,6 +965,19 @@ FAULT = (
     "is to be trusted: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "
     "where it is)\n"
 )
+
+
+@unix
+def test_too_little_memory_is_no_fault_of_ours():
+    """With 2 GB of addresses, for samples that need 8."""
+    code = (
+        "import resource; resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30));"
+        "import balcli.cli; balcli.cli.app = lambda **_: __import__('numpy').empty(1 << 30);"
+        "from balcli.__main__ import main; main()"
+    )
+    done = run_python("-c", code)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("balcli: there is not enough memory for this (Unable to allocate")
 
 
 @pytest.mark.parametrize("options", [[], ["-X", "dev"]], ids=" ".join)

@@ -35,10 +35,7 @@ def load(name: str) -> balcli.Engine:
 
 # How each answer is had, and the command that writes the same as JSON.
 ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
-    "Analysis": (
-        lambda: balcli.analyze(load("i3"), only=QUANTITIES),
-        ("analyze", FILES["i3"]),
-    ),
+    "Analysis": (lambda: balcli.analyze(load("i3"), only=QUANTITIES), ("analyze", FILES["i3"])),
     "Balance": (
         lambda: balcli.balance(load("i3"), "counterweights"),
         ("balance", FILES["i3"], "--scheme", "counterweights"),
@@ -51,14 +48,8 @@ ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
         lambda: balcli.compare(load("i3"), load("i4")),
         ("compare", FILES["i3"], FILES["i4"]),
     ),
-    "Curves": (
-        lambda: balcli.curves(load("i3"), 30),
-        ("curves", FILES["i3"], "--step", "30"),
-    ),
-    "FieldBalance": (
-        lambda: balcli.balance_rotor(three_runs()),
-        ("field", "-"),
-    ),
+    "Curves": (lambda: balcli.curves(load("i3"), 30), ("curves", FILES["i3"], "--step", "30")),
+    "FieldBalance": (lambda: balcli.balance_rotor(three_runs()), ("field", "-")),
     "MountReport": (
         lambda: balcli.analyze_mounts(load("i4_mounts"), SPEEDS, orders=[2]),
         ("mounts", FILES["i4_mounts"], "--speeds", "1500,2000", "--orders", "2"),

@@ -197,10 +197,7 @@ ON_REQUEST = {
     "balcli.commands.output": ("balcli.files", "balcli.render.plot.style"),
     "balcli.commands.torque_options": ("balcli.enginefile.edit",),
     "balcli.torque.analysis": ("balcli.torque.find_loads",),
-    "balcli.commands.scatter": (
-        "balcli.studies.cycle_scatter",
-        "balcli.studies.part_scatter",
-    ),
+    "balcli.commands.scatter": ("balcli.studies.cycle_scatter", "balcli.studies.part_scatter"),
     "balcli.studies.curves": ("balcli.torque.curves",),
 }
 
@@ -233,6 +230,7 @@ SHAPING = {
     ("balcli.sizing.device_tables", "find_unbalance"),
     ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
+    ("balcli.sizing.balance_factor", "name_one_cylinder"),
     ("balcli.printed_tables.recomputed", "deviates"),
     ("balcli.printed_tables.recomputed", "parse_decimal"),
     ("balcli.printed_tables.recomputed", "parse_fraction"),

@@ -125,8 +125,12 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
         reason = f"{type(error).__name__}: {error}"
         broken = f"the result recorded in {where} cannot be read ({reason})"
         return [Difference(name, f"{broken}; check --update records it anew")]
+    exactly_new = _list_exact_figures(document).items()
+    moved = [
+        (what, exactly_old[what], now) for what, now in exactly_new if exactly_old[what] != now
+    ]
     return [
-        *_compare_exact_figures(name, exactly_old, _list_exact_figures(document)),
+        *(Difference(name, f"{what}: {old} -> {now}") for what, old, now in moved),
         *_compare_figures(name, old, dict(_list_figures(document)), _find_roundings(found.spectra)),
     ]
 
@@ -143,14 +147,6 @@ def _list_exact_figures(document: dict[str, Any]) -> dict[str, Any]:
         "number of cylinders": document["engine"]["cylinders"],
         "speed, rpm": document["speed_rpm"],
     }
-
-
-def _compare_exact_figures(
-    name: str, old: Mapping[str, Any], new: Mapping[str, Any]
-) -> Iterator[Difference]:
-    for what, now in new.items():
-        if old[what] != now:
-            yield Difference(name, f"{what}: {old[what]} -> {now}")
 
 
 def _compare_figures(

@@ -123,11 +123,7 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
             '--planes "-10,12 in": give every number its unit, or none',
         ),
         (SHAFT, ["--at", "x,2"], '--at "x,2": give x,y of a shaft in mm, such as -40,60'),
-        (
-            SUM,
-            ["--at", "x,2,3"],
-            '--at "x,2,3": give three numbers, X,Y,Z in mm, such as 0,300,0',
-        ),
+        (SUM, ["--at", "x,2,3"], '--at "x,2,3": give three numbers, X,Y,Z in mm, such as 0,300,0'),
         (
             SHAFT,
             ["--at", "1in,2in,3in"],

@@ -55,8 +55,7 @@ def test_nothing_is_written_unless_all_of_it_can_be(tmp_path):
 
 def test_each_page_has_its_own_mind_about_schemes(tmp_path):
     told = refusal(
-        *("plot", FOUR, "--what", "polar,pin", "--scheme", "two-shaft"),
-        *("-o", tmp_path / "x.svg"),
+        *("plot", FOUR, "--what", "polar,pin", "--scheme", "two-shaft"), *("-o", tmp_path / "x.svg")
     )
     assert told == "--what pin shows the engine as it is: leave --scheme and its options out"
 

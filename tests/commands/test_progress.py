@@ -71,9 +71,7 @@ def test_a_share_is_told_of_what_nobody_has_counted(
 
 @pytest.mark.parametrize("why", ["pipe", "quiet", "results on the same terminal"])
 def test_nothing_is_shown_where_nobody_looks(
-    why: str,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    why: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     now = watch_clock(monkeypatch, terminal=why != "pipe")
     if why == "quiet":
@@ -251,7 +249,7 @@ def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(
 @unix
 def test_a_terminal_gets_the_line_and_then_the_result() -> None:
     done = run_in_terminal(
-        *("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1100:10", "--progress"),
+        *("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1100:10", "--progress")
     )
     assert done.status == 0
     line, _, result = done.out.partition("\r\r")

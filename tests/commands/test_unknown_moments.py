@@ -103,14 +103,7 @@ def test_csv_has_no_moments(balcli, twin):
         assert "moment" not in {row["quantity"] for row in rows}
 
 
-@pytest.mark.parametrize(
-    "more",
-    [
-        "spacing = 0",
-        "positions = [0, 0]",
-        "spacing = 100",
-    ],
-)
+@pytest.mark.parametrize("more", ["spacing = 0", "positions = [0, 0]", "spacing = 100"])
 def test_what_is_said_on_purpose_is_known(balcli, twin, more):
     twin.write_text(twin.read_text().replace("[rod]", f"{more}\n[rod]"))
     status, out, err = balcli("analyze", twin, "--only", "moment")

@@ -5,12 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.cycle_peaks import (
-    find_longest,
-    find_swing,
-    largest_of_ellipse,
-    sum_amplitudes,
-)
+from balcli.core.cycle_peaks import find_longest, find_swing, largest_of_ellipse, sum_amplitudes
 
 RELATIVE = 1e-13
 FINE = np.linspace(0, 4 * np.pi, 1 << 16, endpoint=False)
@@ -28,15 +23,7 @@ def random_phasors(seed, *shape):
 
 @pytest.mark.parametrize(
     "orders",
-    [
-        [0.5],
-        [1, 2],
-        [0, 0.5, 1.5],
-        [3, 6, 9, 12],
-        np.arange(1, 25) / 2,
-        [7.5, 40],
-        [12, 0.5, 3],
-    ],
+    [[0.5], [1, 2], [0, 0.5, 1.5], [3, 6, 9, 12], np.arange(1, 25) / 2, [7.5, 40], [12, 0.5, 3]],
 )
 def test_highest_and_lowest_of_many_curves(orders):
     phasors = random_phasors(3, len(orders), 5, 4)

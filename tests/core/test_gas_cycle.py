@@ -245,18 +245,8 @@ REFUSED = {
         ("imep", 10e5),
         "burn_start: is -130°, before -120°, where compression begins",
     ),
-    "no duration": (
-        {},
-        Wiebe(-10, 0),
-        ("imep", 10e5),
-        "burn_duration: is 0°: give more than 0°",
-    ),
-    "shape": (
-        {},
-        Wiebe(-10, 50, -0.5),
-        ("imep", 10e5),
-        "burn_shape: is -0.5: give 0 or more",
-    ),
+    "no duration": ({}, Wiebe(-10, 0), ("imep", 10e5), "burn_duration: is 0°: give more than 0°"),
+    "shape": ({}, Wiebe(-10, 50, -0.5), ("imep", 10e5), "burn_shape: is -0.5: give 0 or more"),
     "imep too low": (
         {},
         Otto(),

@@ -4,18 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.chains import (
-    KINDS,
-    chain_of,
-    no_damping,
-    random_chain,
-)
+from support.chains import KINDS, chain_of, no_damping, random_chain
 
 from balcli.core.holzer_table import tabulate_holzer
-from balcli.core.torsional_chain import (
-    ChainShaft,
-    join_chain,
-)
+from balcli.core.torsional_chain import ChainShaft, join_chain
 from balcli.core.torsional_modes import find_chain_modes
 from balcli.core.torsional_response import respond_chain
 

@@ -29,12 +29,7 @@ from balcli.core.rigid_body import (
     stiffness_matrix,
     turn_axes,
 )
-from balcli.core.vibration import (
-    UndampedResonanceError,
-    find_resonances,
-    frequencies,
-    modal_loss,
-)
+from balcli.core.vibration import UndampedResonanceError, find_resonances, frequencies, modal_loss
 
 CENTRE = np.array([0.01, -0.02, 0.3])
 BODY = Body(150.0, CENTRE, np.array([[9.0, -0.8, 0.5], [-0.8, 4.0, 1.2], [0.5, 1.2, 8.0]]))

@@ -216,9 +216,7 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
         noise = 1e-9 * random.uniform(1, 2, 15)
         found = rule(Phasors.of(ORDERS, FORWARD, backward, noise), w, mean)
         assert found.noise == pytest.approx(
-            rule(Phasors.of(ORDERS, FORWARD, backward, noise), level, mean).noise,
-            rel=1e-12,
-            abs=0,
+            rule(Phasors.of(ORDERS, FORWARD, backward, noise), level, mean).noise, rel=1e-12, abs=0
         )
         for _ in range(20):
             errors = [
@@ -228,11 +226,7 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
             if rule is ripple.apply_to_torque:
                 errors[1] = np.conj(errors[0])
             moved = (
-                rule(
-                    Phasors.of(ORDERS, FORWARD + errors[0], backward + errors[1], noise),
-                    w,
-                    mean,
-                )
+                rule(Phasors.of(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean)
                 - found
             )
             assert np.all(np.abs(moved.forward) <= found.noise + 1e-13)

@@ -22,16 +22,8 @@ from balcli.core.torsional_chain import (
     join_chain,
     rigid_motions,
 )
-from balcli.core.torsional_modes import (
-    chain_loss,
-    count_nodes,
-    find_chain_modes,
-    find_chain_poles,
-)
-from balcli.core.vibration import (
-    modal_loss,
-    scale_shapes,
-)
+from balcli.core.torsional_modes import chain_loss, count_nodes, find_chain_modes, find_chain_poles
+from balcli.core.vibration import modal_loss, scale_shapes
 
 MODES = 1e-13  # relative error of every frequency; the contract says 1e-12
 

@@ -15,11 +15,7 @@ from support.chains import (
     random_damping,
 )
 
-from balcli.core.torsional_chain import (
-    ChainShaft,
-    Damping,
-    join_chain,
-)
+from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
 from balcli.core.torsional_modes import chain_loss, find_chain_modes
 from balcli.core.torsional_response import respond_chain
 from balcli.core.vibration import (

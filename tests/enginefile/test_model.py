@@ -328,8 +328,7 @@ TABLES = (
 
 
 @pytest.mark.parametrize(
-    ("table", "rule"),
-    [(table, rule) for table in TABLES for rule in table.rules],
+    ("table", "rule"), [(table, rule) for table in TABLES for rule in table.rules]
 )
 def test_rules_name_the_keys_that_they_read(table, rule):
     def read(code: CodeType) -> Iterator[str]:

@@ -29,10 +29,7 @@ def polygon(corners: int, first: int, turned: Fraction = Fraction(0), weight: in
     ("terms", "told"),
     [
         (polygon(3, 1), "phasors at 0, 120, 240 deg sum to nothing"),
-        (
-            polygon(3, 1) + polygon(3, 4),
-            "phasors at 0, 120, 240 deg, 2 each, sum to nothing",
-        ),
+        (polygon(3, 1) + polygon(3, 4), "phasors at 0, 120, 240 deg, 2 each, sum to nothing"),
         (polygon(7, 1), "7 evenly spaced phasors sum to nothing"),
         (
             polygon(3, 1) + polygon(2, 4, Fraction(1, 8)),
@@ -55,10 +52,7 @@ def polygon(corners: int, first: int, turned: Fraction = Fraction(0), weight: in
             "phasors at 0, 120, 240 deg sum to nothing",
         ),
         (  # the corner at 180 deg of five and three, less both: no polygon of positive weights
-            [
-                *polygon(5, 1)[1:],
-                *(Term(t.number, -t.weight, t.angle) for t in polygon(3, 6)[1:]),
-            ],
+            [*polygon(5, 1)[1:], *(Term(t.number, -t.weight, t.angle) for t in polygon(3, 6)[1:])],
             "phasors are roots of unity that sum to nothing",
         ),
     ],

@@ -79,9 +79,7 @@ def test_they_are_what_analyze_gives() -> None:
     }
     values = dict(
         zip(
-            expected,
-            evaluate_quantities(engine, parse_quantities(",".join(expected))),
-            strict=True,
+            expected, evaluate_quantities(engine, parse_quantities(",".join(expected))), strict=True
         )
     )
     assert {name: float(v) for name, v in values.items()} == pytest.approx(

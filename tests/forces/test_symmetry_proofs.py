@@ -185,8 +185,6 @@ def test_nearly_even_to_how_much() -> None:
     intervals = [720 / 7] * 6
     intervals[0] += 3e-7
     intervals.append(720 - sum(intervals))
-    file = METRIC | {
-        "layout": f"firing_order = [1,2,3,4,5,6,7]\nfiring_intervals = {intervals}",
-    }
+    file = METRIC | {"layout": f"firing_order = [1,2,3,4,5,6,7]\nfiring_intervals = {intervals}"}
     text = TEXT.format(**file).replace("throws = [0]\n", "")
     assert explain(text)[1].firing == "firing: even to 6e-07 deg, every 102.857 deg"

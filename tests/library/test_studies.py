@@ -629,16 +629,8 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
         TypeError,
         "power: 'x' (str): give a whole number from 0",
     ),
-    (
-        lambda: balcli.tables("series", power=-1),
-        balcli.BalcliError,
-        "power: -1 is less than 0",
-    ),
-    (
-        lambda: balcli.tables("series", power=201),
-        balcli.BalcliError,
-        "power: give 200 at most",
-    ),
+    (lambda: balcli.tables("series", power=-1), balcli.BalcliError, "power: -1 is less than 0"),
+    (lambda: balcli.tables("series", power=201), balcli.BalcliError, "power: give 200 at most"),
     (
         lambda: balcli.search(V8, 5, "moment.1.major"),
         TypeError,

@@ -346,10 +346,7 @@ def test_what_does_not_vary_has_one_mechanism():
 
 
 def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():
-    one, other = (
-        fourier.Series(np.ones((1, 1)), 0.25),
-        fourier.Series(np.full((1, 1), 3.0), 0.5),
-    )
+    one, other = (fourier.Series(np.ones((1, 1)), 0.25), fourier.Series(np.full((1, 1), 3.0), 0.5))
     found = np.array([-2.0]) * one + other
     assert (found.c.item(), found.noise) == (1, 1)
 

@@ -43,8 +43,7 @@ rod = { length = 188, mass = 0.62, cg = 90, inertia = 3500 }
 HUNG = "{ length = 188, mass = 0.62, cg = 90, inertia = 3500 }"
 WEIGHED = ARTICULATED.replace(HUNG, "{ length = 188, small_end = 0.31, big_end = 0.33 }")
 SWUNG = ARTICULATED.replace(
-    HUNG,
-    '{ ratio = 0.32, mass = 0.62, cg = 90, pendulum = { pivot = "big_end", period = 0.85 } }',
+    HUNG, '{ ratio = 0.32, mass = 0.62, cg = 90, pendulum = { pivot = "big_end", period = 0.85 } }'
 )
 SWUNG_ENDS = ARTICULATED.replace(
     HUNG,
@@ -85,10 +84,7 @@ CASES = {
         "more": BOBWEIGHT,
     },
     "shells on the master rods alone": {"layout": "radial = 5", "more": ARTICULATED + BOBWEIGHT},
-    "shells on pins that stand still": {
-        "layout": "radial = 5\nrotary = true",
-        "more": BOBWEIGHT,
-    },
+    "shells on pins that stand still": {"layout": "radial = 5\nrotary = true", "more": BOBWEIGHT},
     "centred": {
         "layout": "bank_angle = 70\nstagger = 20",
         "crank": "throws = [0, 130, 265]\nspacing = 110",

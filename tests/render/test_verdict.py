@@ -158,7 +158,7 @@ def test_of_many_higher_orders_the_lowest_are_told_and_the_largest_of_the_others
     assert first.startswith("First order: ")
     assert second.startswith("Second order: ")
     assert [line.split(" order")[0] for line in told[:-1]] == [
-        *("Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth", "9th", "10th"),
+        *("Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth", "9th", "10th")
     ]
     assert told[-1] == "30 more, of orders 11 to 40: at most a force of 181.8 N in order 11."
     orders, force = orders[:11], force.select_orders(orders[:11])

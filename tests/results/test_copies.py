@@ -22,20 +22,13 @@ from balcli import (
 )
 from balcli.engine.build import build
 from balcli.engine.load import parse
-from balcli.forces.curves import (
-    compute_cylinder_curves,
-    compute_engine_curves,
-    divide_revolution,
-)
+from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
 from balcli.results.knuckles import balance_knuckles
 from balcli.sizing.schemes import SCHEMES
 
 ENGINES = Path(__file__).parents[2] / "engines"
 EVERYTHING = ["force", "moment", "couple", "torque", "roll", "peak", "sizing", "inner", "guide"]
-WAYS = {
-    "pickle": lambda result: pickle.loads(pickle.dumps(result)),
-    "deepcopy": copy.deepcopy,
-}
+WAYS = {"pickle": lambda result: pickle.loads(pickle.dumps(result)), "deepcopy": copy.deepcopy}
 
 
 def difference(one: object, other: object, path: str = "result") -> str:

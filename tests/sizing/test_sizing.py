@@ -217,8 +217,7 @@ def test_an_option_makes_a_difference_or_is_refused(scheme, option):
 def test_planes_are_named_or_given():
     engine = build(parse(SMALL["vee"]))
     with pytest.raises(
-        BalcliError,
-        match=r'--planes "left": give ends, throws, or places along z$',
+        BalcliError, match=r'--planes "left": give ends, throws, or places along z$'
     ):
         size(engine, "counterweights", SchemeOptions(planes="left"))
     with pytest.raises(
@@ -375,10 +374,7 @@ def test_a_single_shaft_has_counterweights_at_both_throws():
     """As `auto` has, though one plane would do."""
     assert [
         d.position for d in size(build(parse(write_engine(0, 0))), "single-shaft").counterweights
-    ] == [
-        -50,
-        50,
-    ]
+    ] == [-50, 50]
 
 
 def test_the_geometry_of_a_pair_in_the_details():

@@ -135,10 +135,7 @@ def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
 
 @pytest.mark.parametrize(
     ("own", "idle"),
-    [
-        ("heat = 900\n", {"imep", "bmep", "max_pressure", "cut_off", "heat"}),
-        ("gas = 0.5\n", set()),
-    ],
+    [("heat = 900\n", {"imep", "bmep", "max_pressure", "cut_off", "heat"}), ("gas = 0.5\n", set())],
 )
 def test_what_all_cylinders_have_of_their_own_is_no_number_of_the_gas(own, idle, tmp_path):
     path = tmp_path / "four.toml"

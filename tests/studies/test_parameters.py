@@ -90,14 +90,8 @@ def test_numbers_of_devices_and_cylinders(path: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            "rod.raito=0.2,0.3",
-            "rod.raito: unknown parameter; did you mean rod.ratio?",
-        ),
-        (
-            "crank.throws.5=0",
-            "crank.throws.5: unknown parameter; did you mean crank.throws.4?",
-        ),
+        ("rod.raito=0.2,0.3", "rod.raito: unknown parameter; did you mean rod.ratio?"),
+        ("crank.throws.5=0", "crank.throws.5: unknown parameter; did you mean crank.throws.4?"),
         ("shaft.1.ratio=1,2", "shaft.1.ratio: unknown parameter"),
         (
             "rod.ratio",

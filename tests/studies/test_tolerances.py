@@ -232,10 +232,7 @@ def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
         ARTICULATED
     )
     (found,) = scatter_engine(
-        load(ARTICULATED),
-        Tolerances(mass=0.005),
-        parse_quantities("force.1.major"),
-        Drawing(10, 1),
+        load(ARTICULATED), Tolerances(mass=0.005), parse_quantities("force.1.major"), Drawing(10, 1)
     ).spreads
     assert {s.name: share for s, share in found.shares}["rod mass 3"] == pytest.approx(
         heavier, rel=1e-3
@@ -248,8 +245,5 @@ def test_rotary_engines_have_no_scatter() -> None:
         BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"
     ):
         scatter_engine(
-            load(rotary),
-            Tolerances(mass=0.005),
-            parse_quantities("force.1.major"),
-            Drawing(10, 1),
+            load(rotary), Tolerances(mass=0.005), parse_quantities("force.1.major"), Drawing(10, 1)
         )

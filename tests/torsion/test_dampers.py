@@ -108,7 +108,10 @@ def test_no_resonance_hides_between_the_speeds(kind):
 
 def test_a_pendulum_is_tuned_to_the_order_that_does_most():
     options = ("--speeds", "3800:4400:20", "--orders", "3")
-    damper = ask_torsion(write_diesel(), *options, "--damper", "pendulum")["damper"]
+    asked = ("torsion", "-", *options, "--damper", "pendulum", "-f", "json")
+    found = run_here(*asked, stdin=write_diesel())
+    assert found.err.startswith("warning: standard input: the pendulums of pulley swing by ")
+    damper = json.loads(found.out)["damper"]
     assert damper["radius_m"] / damper["length_m"] == pytest.approx(9, rel=0.25)
     assert damper["after_Pa"] < 0.1 * damper["before_Pa"]
     assert damper["heat_W"] == 0
@@ -386,14 +389,8 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
             ("--write", "x.toml", "--speeds", "1000:2000"),
             "--write: writes a damper into the file; say which, such as --damper viscous",
         ),
-        (
-            ("--damper-at", "disc"),
-            "--damper-at: say which damper, such as --damper viscous",
-        ),
-        (
-            ("--damper-inertia", "3"),
-            "--damper-inertia: say which damper, such as --damper viscous",
-        ),
+        (("--damper-at", "disc"), "--damper-at: say which damper, such as --damper viscous"),
+        (("--damper-inertia", "3"), "--damper-inertia: say which damper, such as --damper viscous"),
         (
             ("--damper", "viscous", "--damper-at", "disk", *RANGE),
             '--damper-at "disk": cannot carry a damper; what can is disc, wall',
@@ -421,10 +418,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
             ("--damper", "viscous", "--orders", "2", *RANGE),
             "--damper: nothing excites the system at the orders asked for",
         ),
-        (
-            ("--what", "modes"),
-            "--what modes: give --plot and a file for the picture",
-        ),
+        (("--what", "modes"), "--what modes: give --plot and a file for the picture"),
         (
             ("--what", "response", "--plot", "x.svg"),
             "--what response: give the range, such as --speeds 1000:2500",

@@ -155,8 +155,7 @@ def test_crank_inertia_is_shared_by_the_throws():
 def test_two_strokes_have_whole_orders(tmp_path):
     text = write_diesel(extra="").replace("[layout]\n", "[layout]\nstrokes = 2\n")
     text = text.replace(
-        "[torsion]",
-        '[gas]\ncycle = "wiebe"\ncompression_ratio = 15\nimep = 8\n[torsion]',
+        "[torsion]", '[gas]\ncycle = "wiebe"\ncompression_ratio = 15\nimep = 8\n[torsion]'
     ).replace("firing_order = [1, 5, 3, 6, 2, 4]", "firing_order = [1, 6, 2, 4, 3, 5]")
     status, out, _ = run_here("torsion", "-", "--format", "json", stdin=text)
     assert status == 0

@@ -141,11 +141,7 @@ def test_split_pins_have_a_card_each():
             )
         )
     )
-    assert [len(entry.cylinders) for entry in size(e, "factor").card] == [
-        2,
-        2,
-        2,
-    ]
+    assert [len(entry.cylinders) for entry in size(e, "factor").card] == [2, 2, 2]
     assert [len(entry.cylinders) for entry in size(split, "factor").card] == [1] * 6
 
 

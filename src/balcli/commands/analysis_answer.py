@@ -16,8 +16,8 @@ import numpy  # noqa: F401
 from ..engine.build import Engine
 from ..forces.kinds import GAS, ROLL
 from ..render import analyses
-from ..render.formats import Format, Units
-from ..render.view import View
+from ..render.formats import Format, Renderer, Units
+from ..render.view import NamedResult, View
 from ..results.analysis import Analysis, analyze, list_usual_quantities
 from .inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
 from .output import draws_sketch, show
@@ -44,57 +44,30 @@ def answer(paths: Sequence[str], asked: Request, target: Target) -> None:
         Exit: a file is bad.
     """
     if asked.marine:
-        _answer_marine(paths, asked, target)
+        from ..render import marine
+        from ..results.marine import MarineSheet, find_marine_sheet
+
+        def find_sheet(engine: Engine) -> MarineSheet:
+            return find_marine_sheet(
+                engine, asked.speeds_rpm, asked.orders, asked.height_m, every_order=asked.whole
+            )
+
+        _show_each(paths, asked, target, find_sheet, marine)
     elif asked.over_speed:
-        _answer_over_speed(paths, asked, target)
+        from ..render import speeds
+        from ..results.speeds import SpeedSeries, analyze_speeds
+
+        def find_series(engine: Engine) -> SpeedSeries:
+            ask = _ask(asked, engine, target)
+            return analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
+
+        _show_each(paths, asked, target, find_series, speeds)
     else:
-        _answer_at_one_speed(paths, asked, target)
 
+        def find(engine: Engine) -> Analysis:
+            return _ask(asked, engine, target)(engine, asked.orders)
 
-def _answer_at_one_speed(paths: Sequence[str], asked: Request, target: Target) -> None:
-    drawn = draws_sketch(asked.plot, target.form)
-    view = View(asked.whole, asked.parts, asked.orders is not None, pictures=drawn)
-
-    def present(names: Sequence[str], found: Sequence[Analysis]) -> None:
-        named = [analyses.NamedAnalysis(*one, view) for one in zip(names, found, strict=True)]
-        show(named, analyses, *target)
-
-    def find(engine: Engine) -> Analysis:
-        return _ask(asked, engine, target)(engine, asked.orders)
-
-    _analyze_files(paths, asked, find, present, target)
-
-
-def _answer_over_speed(paths: Sequence[str], asked: Request, target: Target) -> None:
-    from ..render import speeds
-    from ..results.speeds import SpeedSeries, analyze_speeds
-
-    view = View(asked.whole, asked.parts, asked.orders is not None)
-
-    def present(names: Sequence[str], found: Sequence[SpeedSeries]) -> None:
-        named = [speeds.NamedSeries(*one, view) for one in zip(names, found, strict=True)]
-        show(named, speeds, *target)
-
-    def find(engine: Engine) -> SpeedSeries:
-        return analyze_speeds(engine, asked.speeds_rpm, asked.orders, _ask(asked, engine, target))
-
-    _analyze_files(paths, asked, find, present, target)
-
-
-def _answer_marine(paths: Sequence[str], asked: Request, target: Target) -> None:
-    from ..render import marine
-    from ..results.marine import MarineSheet, find_marine_sheet
-
-    def present(names: Sequence[str], found: Sequence[MarineSheet]) -> None:
-        named = [marine.NamedMarineSheet(*one) for one in zip(names, found, strict=True)]
-        show(named, marine, *target)
-
-    def find(engine: Engine) -> MarineSheet:
-        return find_marine_sheet(
-            engine, asked.speeds_rpm, asked.orders, asked.height_m, every_order=asked.whole
-        )
-
-    _analyze_files(paths, asked, find, present, target)
+        _show_each(paths, asked, target, find, analyses)
 
 
 def _ask(
@@ -121,18 +94,20 @@ def _ask(
     )
 
 
-def _analyze_files(
+def _show_each(
     paths: Sequence[str],
     asked: Request,
-    find: Callable[[Engine], Found],
-    present: Callable[[Sequence[str], Sequence[Found]], None],
     target: Target,
+    find: Callable[[Engine], Found],
+    renderer: Renderer[NamedResult[Found]],
 ) -> None:
-    """Find something of every file and present it by the engines' names.
+    """Find something of every file and show it by the engines' names.
 
     Raises:
         Exit: with status 2, after the messages, if a file is bad.
     """
+    drawn = draws_sketch(asked.plot, target.form)
+    view = View(asked.whole, asked.parts, asked.orders is not None, pictures=drawn)
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
 
     def find_one(path: str) -> tuple[str, str, Found]:
@@ -142,5 +117,6 @@ def _analyze_files(
     found, errors = try_each(paths, find_one)
     if found and not (errors and target.output):  # a file gets all of them or is left as it was
         engines, good, results = zip(*found, strict=True)
-        present(name_engines(engines, good), results)
+        named = zip(name_engines(engines, good), results, strict=True)
+        show([NamedResult(*one, view) for one in named], renderer, *target)
     exit_on_errors(errors)

@@ -47,18 +47,14 @@ SpeedsOption = Annotated[
         "--rpm",
     ),
 ]
-By = Annotated[
-    str,
-    optional("cylinder", "cylinder: also each cylinder's share.", "--by"),
-]
+By = Annotated[str, optional("cylinder", "cylinder: also each cylinder's share.", "--by")]
 Why = Annotated[
     bool, typer.Option("--why", help="Also say in words why each order is balanced, or is not.")
 ]
 Plot = Annotated[
     bool,
     typer.Option(
-        "--plot",
-        help="Also draw, with characters: bars by order and the loci of force and moment.",
+        "--plot", help="Also draw, with characters: bars by order and the loci of force and moment."
     ),
 ]
 

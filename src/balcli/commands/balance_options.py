@@ -91,10 +91,7 @@ Thickness = Annotated[
     str | None,
     optional("MM", "Thickness of the semicircular steel discs that are stated; default 20."),
 ]
-Disc = Annotated[
-    str | None,
-    optional("MM", "Radius of those discs, instead of their thickness."),
-]
+Disc = Annotated[str | None, optional("MM", "Radius of those discs, instead of their thickness.")]
 Drill = Annotated[
     str | None,
     optional(
@@ -104,8 +101,7 @@ Drill = Annotated[
     ),
 ]
 MaxDepth = Annotated[
-    str | None,
-    optional("MM", "Deepest hole, for --drill; default: to the axis of the crank."),
+    str | None, optional("MM", "Deepest hole, for --drill; default: to the axis of the crank.")
 ]
 Slug = Annotated[
     str | None,
@@ -132,8 +128,7 @@ Grade = Annotated[
     ),
 ]
 Mass = Annotated[
-    str | None,
-    optional("KG", "Mass of the crankshaft as it is balanced, for --grade."),
+    str | None, optional("KG", "Mass of the crankshaft as it is balanced, for --grade.")
 ]
 Write = Annotated[
     Path | None,

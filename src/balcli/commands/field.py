@@ -39,8 +39,7 @@ def field(
         typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
     ] = Minimised.SQUARES,
     without: Annotated[
-        list[str] | None,
-        optional("PLANE", "Leave this plane out; may be given again."),
+        list[str] | None, optional("PLANE", "Leave this plane out; may be given again.")
     ] = None,
     plot: Annotated[
         Path | None,

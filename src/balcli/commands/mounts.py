@@ -13,14 +13,7 @@ from ..render.units import SYSTEMS
 from . import scheme_options
 from .declare import optional
 from .file_names import picture_form, text_format
-from .options import (
-    EnginePaths,
-    FormatOption,
-    Misfire,
-    Output,
-    UnitsOption,
-    parse_orders,
-)
+from .options import EnginePaths, FormatOption, Misfire, Output, UnitsOption, parse_orders
 from .output import show, write_figure
 from .overwrite_guard import refuse_overwriting
 from .progress import reporting

@@ -78,8 +78,7 @@ Target = Annotated[
     typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),
 ]
 Speed = Annotated[
-    str | None,
-    optional("RPM", "Crank speed instead of the file's, rpm.", "--speed", "--rpm"),
+    str | None, optional("RPM", "Crank speed instead of the file's, rpm.", "--speed", "--rpm")
 ]
 Orders = Annotated[
     str | None,
@@ -184,11 +183,10 @@ def _count_halves(text: str) -> int | None:
 
 def parse_only(text: str | None) -> list[str] | None:
     """The quantities of `--only`, by name; a plural names the same."""
-    return None if text is None else [_singular(word.strip().lower()) for word in text.split(",")]
-
-
-def _singular(word: str) -> str:
-    return word[:-1] if word[:-1] in (*KINDS, "peak", "guide") else word
+    if text is None:
+        return None
+    words = [word.strip().lower() for word in text.split(",")]
+    return [word[:-1] if word[:-1] in (*KINDS, "peak", "guide") else word for word in words]
 
 
 def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:

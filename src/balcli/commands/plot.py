@@ -17,8 +17,7 @@ from .plot_pages import What, complete_pages, name_files, parse_pages, write_pag
 from .scheme_options import parse_scheme_options
 
 Picture = Annotated[
-    Path | None,
-    optional("OUT", "Write here; .svg, .png or .pdf.", "--output", "-o"),
+    Path | None, optional("OUT", "Write here; .svg, .png or .pdf.", "--output", "-o")
 ]
 Pages = Annotated[
     str,

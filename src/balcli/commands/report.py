@@ -12,15 +12,7 @@ from ..render.units import SYSTEMS
 from . import scheme_options
 from .declare import optional
 from .file_names import choose_target, format_of, parse_output
-from .options import (
-    EnginePath,
-    Orders,
-    Speed,
-    Target,
-    UnitsOption,
-    parse_orders,
-    parse_speed,
-)
+from .options import EnginePath, Orders, Speed, Target, UnitsOption, parse_orders, parse_speed
 from .output import emit
 from .overwrite_guard import refuse_overwriting
 from .progress import reporting

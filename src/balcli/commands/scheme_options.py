@@ -41,10 +41,7 @@ At = Annotated[
         "twice: of that one, then of the other.",
     ),
 ]
-Position = Annotated[
-    str | None,
-    optional("Z", "Axial place of new devices, mm."),
-]
+Position = Annotated[str | None, optional("Z", "Axial place of new devices, mm.")]
 Planes = Annotated[
     str | None,
     optional(

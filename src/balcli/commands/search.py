@@ -63,8 +63,7 @@ def search(
     form: FormatOption = None,
     output: Output = None,
     write: Annotated[
-        Path | None,
-        optional("OUT.toml", "Write the engine file with the best one.", "--write"),
+        Path | None, optional("OUT.toml", "Write the engine file with the best one.", "--write")
     ] = None,
 ) -> None:
     """The best crank, firing order, bank angle or splay, or value of any number; mirror images and

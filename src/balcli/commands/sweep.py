@@ -101,10 +101,7 @@ def sweep(
             help="Threads that compute what takes more than a second; default: a core each.",
         ),
     ] = None,
-    dask: Annotated[
-        str,
-        optional("ADDRESS|local", "Compute on a dask cluster.", "--dask"),
-    ] = "",
+    dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.", "--dask")] = "",
 ) -> None:
     """Figures of many variants of an engine: numbers of its file over ranges, as a table, CSV, JSON
     or Parquet.

@@ -37,10 +37,7 @@ Lam = Annotated[
         "--lambda",
     ),
 ]
-Angle = Annotated[
-    str | None,
-    optional("0:180:5", "Other crank angles (degrees).", "--angle"),
-]
+Angle = Annotated[str | None, optional("0:180:5", "Other crank angles (degrees).", "--angle")]
 Power = Annotated[
     int | None,
     typer.Option(

@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 LOADS = ("pin", "main")
 _NOTE = "by balcli torque"
 # Where an engine has what a curve is given by an option.
-_IN_ITS_FILE = {
-    "--inertia": "; that of an engine stands in its file: [crank] inertia, [flywheel]",
-}
+_IN_ITS_FILE = {"--inertia": "; that of an engine stands in its file: [crank] inertia, [flywheel]"}
 Engine = Annotated[
     str | None,
     typer.Argument(
@@ -65,8 +63,7 @@ Load = Annotated[
     ),
 ]
 Inertia = Annotated[
-    str | None,
-    optional("KG_MM2", "With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'."),
+    str | None, optional("KG_MM2", "With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'.")
 ]
 Orders = Annotated[
     str | None,
@@ -192,6 +189,8 @@ def refuse_mixture(
     """
     if (path is None) == (curve is None):
         raise BalcliError("give an engine file, or --curve with a torque")
+    if path is not None and path.lower().endswith(".csv"):
+        raise BalcliError(f"{path}: an engine file ends in .toml; is it a torque, for --curve?")
     wrong = alone if path is None else given
     for option, value in wrong.items():
         if value:

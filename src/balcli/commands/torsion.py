@@ -78,8 +78,7 @@ def torsion(
         ),
     ] = None,
     damper_at: Annotated[
-        str | None,
-        optional("NAME", "What carries it; default: the foremost part."),
+        str | None, optional("NAME", "What carries it; default: the foremost part.")
     ] = None,
     damper_inertia: Annotated[
         str | None,
@@ -89,14 +88,8 @@ def torsion(
             "share.",
         ),
     ] = None,
-    write: Annotated[
-        Path | None,
-        optional("FILE", "Write the file with the damper here."),
-    ] = None,
-    plot: Annotated[
-        Path | None,
-        optional("FILE", "Draw pictures; .svg, .png or .pdf."),
-    ] = None,
+    write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
+    plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
     what: Annotated[
         TorsionPicture, typer.Option(help="Which, with --plot; the last two take --speeds.")
     ] = TorsionPicture.ALL,

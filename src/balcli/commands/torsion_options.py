@@ -35,16 +35,12 @@ def parse_half_orders(text: str | None) -> Real | None:
     return np.array(sorted(set(found)), float)
 
 
-def parse_holzer(texts: list[str] | None) -> tuple[HolzerAsked, ...]:
-    """Numbers of modes, or trial frequencies such as `20 rad/s`, `12 Hz` and `900 rpm`.
+def _parse_trial(text: str) -> HolzerAsked:
+    """The number of a mode, or a trial frequency such as `20 rad/s`, `12 Hz` or `900 rpm`.
 
     Raises:
         BalcliError: anything else, with the text.
     """
-    return tuple(_parse_trial(text) for text in texts or ())
-
-
-def _parse_trial(text: str) -> HolzerAsked:
     if re.fullmatch(r"[1-9]\d{0,5}", text.strip()):
         return HolzerAsked(int(text))
     right = 'give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"'
@@ -80,6 +76,5 @@ def parse_question(
     elif damper_at is not None or damper_inertia is not None:
         option = "--damper-inertia" if damper_at is None else "--damper-at"
         raise BalcliError(f"{option}: say which damper, such as --damper viscous")
-    return TorsionQuestion(
-        parse_speeds(speeds), parse_half_orders(orders), parse_holzer(holzer), asked
-    )
+    trials = tuple(map(_parse_trial, holzer or ()))
+    return TorsionQuestion(parse_speeds(speeds), parse_half_orders(orders), trials, asked)

@@ -56,11 +56,7 @@ class PressureDiagram(CylinderPressure):
 
 
 def pressure_diagram(
-    angle_deg: ArrayLike,
-    pressure: ArrayLike,
-    *,
-    strokes: int = 4,
-    firing_deg: float = 0.0,
+    angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4, firing_deg: float = 0.0
 ) -> PressureDiagram:
     """The diagram of rows without what `find_diagram_mistakes` finds.
 

@@ -100,10 +100,7 @@ def speed_variation(
 
 
 def needed_inertia(
-    torque: PiecewiseCurve,
-    mean_speed: float,
-    fluctuation: float,
-    moving: float | Function = 0.0,
+    torque: PiecewiseCurve, mean_speed: float, fluctuation: float, moving: float | Function = 0.0
 ) -> float:
     """The constant inertia (kg m2) that keeps the exact fluctuation, together with the inertia of
     moving parts; negative where these alone do better. Where the shaft would stall before it

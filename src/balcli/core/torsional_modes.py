@@ -6,14 +6,7 @@ import numpy as np
 
 from .singular_values import Complex, Indices, Real
 from .sorted_sets import find_middle
-from .torsional_chain import (
-    Chain,
-    Damping,
-    follow_gears,
-    grow_branches,
-    incidence,
-    rigid_motions,
-)
+from .torsional_chain import Chain, Damping, follow_gears, grow_branches, incidence, rigid_motions
 from .vibration import Modes, find_modes
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest

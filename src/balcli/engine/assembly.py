@@ -18,15 +18,7 @@ from ..core.speed_ripple import RippleLine
 from ..enginefile.model import ONE_BY_ONE, EngineFile
 from . import firing
 from .arrays import column, shared_column
-from .figures import (
-    NOTHING,
-    FileFigures,
-    OwnFigures,
-    RodFigures,
-    either,
-    own_figures,
-    rod_figures,
-)
+from .figures import NOTHING, FileFigures, OwnFigures, RodFigures, either, own_figures, rod_figures
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, weigh_rod
 

@@ -84,8 +84,8 @@ class EngineGas:
             rows.setdefault(cylinder.like, []).append(row)
         return [(self.cylinders[first].torque, own) for first, own in rows.items()]
 
-    def with_share(self, row: int, share: float) -> EngineGas:
-        """The same with another share of the cylinder in one row."""
+    def without_share_of(self, row: int) -> EngineGas:
+        """The same where the gas of the cylinder in one row does nothing."""
         changed = list(self.cylinders)
-        changed[row] = changed[row]._replace(share=share)
+        changed[row] = changed[row]._replace(share=0.0)
         return replace(self, cylinders=tuple(changed))

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from ..enginefile.model import EngineFile
-from ..enginefile.plain_tables import normalize_tables
+from ..enginefile.plain_tables import normalize_tables, take_tables
 from ..enginefile.read import Draft, check_tables, read_tables
 from ..enginefile.toml_text import name_file, read_bytes
-from ..errors import naming_file, wrong_type
+from ..errors import naming_file
 from .assembly import Assembly
 from .build import Engine, build
 from .rules import find_contradictions
@@ -37,13 +37,10 @@ def load(source: str | Path | Mapping[str, Any]) -> Engine:
     Example:
         >>> engine = load("v8.toml")
     """
-    if isinstance(source, Mapping):
-        return build(parse_dict(source))
-    if not isinstance(source, (str, Path)):
-        raise wrong_type("load", source, _WANTED)
-    if isinstance(source, str) and "\n" in source:
-        return build(parse(source))
-    return build_named(read(source), source)
+    tables, name = take_tables("load", source, _WANTED)
+    model = _refuse_mistakes(check_tables(tables, Path(name).parent, name), name)
+    with naming_file(name):
+        return build(model)
 
 
 def build_named(model: EngineFile, path: str | Path) -> Engine:

@@ -51,6 +51,11 @@ def counted(count: int, what: str) -> str:
     return f"{count} {what}{'s' * (count != 1)}"
 
 
+def count_lambda_digits(ratio: float) -> int:
+    """Of crank radius / rod length, as it is told: more next to 1, where the crank locks."""
+    return 4 if ratio < 0.999 else 7
+
+
 def split_hyphens(value: object) -> object:
     """A firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is."""
     if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-, ]\s*\d{1,5})+\s*", value):

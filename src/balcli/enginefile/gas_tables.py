@@ -47,9 +47,7 @@ class Gas(FileTable):
         examples=["p_2000rpm.csv"],
     )
     zero: Annotated[Literal["firing", "gas-exchange"], OneOf("firing", "gas-exchange")] = Field(
-        "firing",
-        description="the dead centre at angle 0 of the diagram",
-        examples=["gas-exchange"],
+        "firing", description="the dead centre at angle 0 of the diagram", examples=["gas-exchange"]
     )
     phase: Angle = Field(0.0, description="added to the angles of the diagram", examples=[-0.5])
     pressure: Annotated[Literal["absolute", "gauge"], OneOf("absolute", "gauge")] = Field(

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, Problem
+from ..errors import InputError, Problem, wrong_type
 from .fields import RIGID
 from .model import EngineFile, FileTable, label_table
+from .toml_text import name_file, parse_toml, read_bytes
 
 
 def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
@@ -27,6 +29,29 @@ def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
     except RecursionError:
         message = "tables are nested too deeply; an engine file needs no more than four levels"
         raise InputError([Problem("", message)]) from None
+
+
+def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, Any], str]:
+    """The tables of what a user of Python gives: a path ("-": standard input), the text of a file,
+    of several lines, or a dict; and the file's name, empty where there is none.
+
+    Args:
+        function: that was given it, for messages.
+        wanted: what would be right, likewise.
+
+    Raises:
+        BalcliError: there is nothing to read.
+        InputError: it is no TOML.
+        TypeError: the source is none of these.
+    """
+    if isinstance(source, Mapping):
+        return normalize_tables(source), ""
+    if isinstance(source, str) and "\n" in source:
+        return parse_toml(source, ""), ""
+    if isinstance(source, (str, Path)):
+        name = name_file(source)
+        return parse_toml(read_bytes(source), name), name
+    raise wrong_type(function, source, wanted)
 
 
 def _key(key: object) -> str:

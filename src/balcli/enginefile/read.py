@@ -13,12 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 from pydantic import ValidationError
 
 from ..errors import DISGUISES, InputError, Problem
-from ..limits import (
-    LONGEST_NAME,
-    MOST_KEY_VALUES,
-    MOST_MISTAKES_SHOWN,
-    MOST_PARTS,
-)
+from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
 from .fields import printable, shorten
 from .file_kinds import ENGINE, refuse_other_kind
 from .messages import (

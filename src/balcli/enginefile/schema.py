@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import combinations, product
 from typing import Any, TypeAlias
+
+from pydantic import BaseModel
 
 from .messages import CHAPTER_LISTS, CHAPTERS, DEVICES, TABLES, import_table
 from .model import EngineFile, FileTable, Override
@@ -25,18 +28,28 @@ def describe_engine_file() -> Node:
         Override,
     ]
     EngineFile.model_rebuild(_types_namespace=chapters)
-    for table in tables:
-        table.model_rebuild()  # pydantic before 2.13 writes no default of a table not built yet
-    document = tidy_schema(EngineFile.model_json_schema())
+    document = describe_file(EngineFile, tables, "engine-file", "balcli engine file")
     for table in tables:
         document["$defs"][table.__name__] |= _exclusions(table)
     document["properties"]["cylinder"]["propertyNames"] = {"pattern": "^[1-9][0-9]*$"}
-    return {
-        "$schema": DIALECT,
-        "$id": "urn:balcli:schema:engine-file",
-        **document,
-        "title": "balcli engine file",
-    }
+    return document
+
+
+def describe_file(
+    file: type[BaseModel], tables: Iterable[type[BaseModel]], name: str, title: str
+) -> Node:
+    """JSON Schema (draft 2020-12) of files: every key with description, unit, bounds and an
+    example.
+
+    Args:
+        file: what they hold.
+        tables: those within it.
+        name: that the schema's identifier ends in.
+    """
+    for table in tables:
+        table.model_rebuild()  # pydantic before 2.13 writes no default of a table not built yet
+    document = tidy_schema(file.model_json_schema())
+    return {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}", **document, "title": title}
 
 
 def tidy_schema(schema: Node) -> Node:

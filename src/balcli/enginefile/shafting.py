@@ -10,14 +10,7 @@ from pydantic import Field
 
 from .fields import RIGID, Number, OneOf
 from .model import FileTable, Size, TableRule
-from .units import (
-    INERTIA,
-    MASS,
-    PLAIN,
-    SHEAR_MODULUS,
-    TORSIONAL_DAMPING,
-    TORSIONAL_STIFFNESS,
-)
+from .units import INERTIA, MASS, PLAIN, SHEAR_MODULUS, TORSIONAL_DAMPING, TORSIONAL_STIFFNESS
 
 
 class _Stiffness(Number):

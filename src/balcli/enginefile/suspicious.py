@@ -12,6 +12,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from .exclusive import join_words
+from .fields import count_lambda_digits
 from .model import Counterweight, EngineFile
 
 if TYPE_CHECKING:
@@ -59,21 +60,10 @@ SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is round
 
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
-    parts = (
-        *(
-            _piston,
-            _proportions,
-            _rod,
-            _rod_ends,
-            _inertia,
-            _motion,
-            _neighbours,
-            _throw_angles,
-            _layout,
-        ),
-        *(_throw, _bobweight, _counterweights, _shafts, _rotary, _turning, _gas, _torsion),
-    )
-    return [warning for part in parts for warning in part(model)]
+    of_rods = _piston, _proportions, _rod, _rod_ends, _inertia, _motion
+    of_crank = _neighbours, _throw_angles, _layout, _throw, _bobweight, _counterweights
+    beyond = _shafts, _rotary, _turning, _gas, _torsion
+    return [warning for find in (*of_rods, *of_crank, *beyond) for warning in find(model)]
 
 
 def _piston(model: EngineFile) -> Iterator[str]:
@@ -100,7 +90,7 @@ def _proportions(model: EngineFile) -> Iterator[str]:
     ratio = _lambda(model)
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA_HIGH
     if ratio is not None and not LAMBDA_LOW <= ratio <= most:
-        shown = f"{ratio:.4g}" if ratio < 0.999 else f"{ratio:.7g}"  # at 1 the crank locks
+        shown = f"{ratio:.{count_lambda_digits(ratio)}g}"
         yield (
             f"crank radius / rod length is {shown}, where {LAMBDA_LOW:g} to {most:g} is usual; "
             "crank.stroke is twice the crank radius, rod.length the distance of its two centres"

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
-from difflib import get_close_matches
 from pathlib import Path
 
 from ..errors import BalcliError
+from .fields import nearest
 
 KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
 SCHEMA = """\
@@ -49,9 +49,8 @@ def template(kind: str, others: Collection[str] = ()) -> str:
     """
     if kind not in KINDS:
         known = (*KINDS, *others)
-        near = get_close_matches(kind.lower()[:100], known, 1)
-        hint = f" Did you mean {near[0]}?" if near else ""
-        hint = _known_as(kind.lower()) or hint
+        near = nearest(kind, known)
+        hint = _known_as(kind.lower()) or (f" Did you mean {near}?" if near else "")
         raise BalcliError(
             f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(known)}.{hint}'
         )

@@ -12,12 +12,7 @@ import numpy as np
 
 from ..core.least_squares import find_dependent_columns, solve
 from ..core.phasors import Array, Complex
-from ..core.smallest_largest import (
-    Region,
-    Smallest,
-    minimise_largest,
-    minimise_squares,
-)
+from ..core.smallest_largest import Region, Smallest, minimise_largest, minimise_squares
 from ..enginefile.exclusive import join_words
 from ..enginefile.fields import counted, nearest, shorten
 from ..errors import BalcliError, InputError, Problem

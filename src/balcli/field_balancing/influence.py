@@ -14,7 +14,7 @@ from ..core.least_squares import solve
 from ..core.phasors import Complex
 from ..enginefile.exclusive import join_words
 from ..errors import InputError, Problem
-from .model import Run, RunsFile
+from .model import RunsFile
 
 _ROUNDING = 1e-13  # share of the largest reading below which a change is none
 
@@ -82,12 +82,12 @@ def find_influence(file: RunsFile, left_out: frozenset[str], name: str = "") -> 
     for k, (speed, runs) in enumerate(zip(speeds, series, strict=True)):
         if file.influence is None:
             trial_count = _count_trials(file, runs, used, speed, name)
-            states = _fit(runs, used)
+            coefficients, found = _fit(runs, used)
         else:
             trial_count = 1
             rows = file.influence[k * sensors : (k + 1) * sensors]
-            states = _take_given(np.array(rows, dtype=complex), runs)
-        coefficients, found = states
+            coefficients = np.array(rows, dtype=complex)
+            found = _find_measured(runs, runs.readings[0] - coefficients @ runs.on[0])
         last = len(runs.numbers) - 1
         now, on = found, np.zeros(len(file.planes), dtype=complex)
         if last >= trial_count:
@@ -122,16 +122,12 @@ def _collect_runs(file: RunsFile, speed: float | None) -> _Series:
     kept = np.zeros(len(file.planes), dtype=complex)
     states = []
     for run in runs:
-        on = kept + _put_on(file, run)
+        on = kept + np.array([run.weights.get(plane, 0j) for plane in file.planes])
         states.append(on)
         kept = on if run.keep_trial else kept
     on = np.array(states)
     readings = np.array([run.readings for run in runs], dtype=complex)
     return _Series(numbers, readings, np.conj(on) if has_opposite_senses(file) else on)
-
-
-def _put_on(file: RunsFile, run: Run) -> Complex:
-    return np.array([run.weights.get(plane, 0j) for plane in file.planes], dtype=complex)
 
 
 def _count_trials(
@@ -194,11 +190,6 @@ def _fit(runs: _Series, used: list[int]) -> tuple[Complex, Complex]:
     coefficients = np.zeros((len(fitted), planes), dtype=complex)
     coefficients[:, there] = np.where(unmoved, 0, changes) / largest
     return coefficients, _find_measured(runs, fitted[:, 0])
-
-
-def _take_given(coefficients: Complex, runs: _Series) -> tuple[Complex, Complex]:
-    before = runs.readings[0] - coefficients @ runs.on[0]
-    return coefficients, _find_measured(runs, before)
 
 
 def _find_measured(runs: _Series, fitted: Complex) -> Complex:

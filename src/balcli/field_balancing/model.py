@@ -23,13 +23,7 @@ from ..enginefile.units import (
     Unit,
     read_unit,
 )
-from ..limits import (
-    LONGEST_FIGURE,
-    MOST_BALANCING_PLANES,
-    MOST_PLACES,
-    MOST_RUNS,
-    MOST_SENSORS,
-)
+from ..limits import LONGEST_FIGURE, MOST_BALANCING_PLANES, MOST_PLACES, MOST_RUNS, MOST_SENSORS
 
 _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
 _AT = rf"\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*"

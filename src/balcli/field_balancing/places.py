@@ -94,9 +94,7 @@ def find_region(angles_deg: Array, most: float) -> Region:
     return Region(inside, normals, supports, line=line)
 
 
-def _sort_places(
-    angles_deg: Array,
-) -> tuple[Array, NDArray[np.intp], Complex]:
+def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
     """Angles in [0, 360), each once; which of the given ones they are, from 1; and as complex
     numbers.
     """

@@ -49,11 +49,13 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
     reader = TableReader(RUNS.name, _describe)
     stand_in = {"run": [Run.model_construct(readings=(0j,))]}  # runs are read one by one
     model = reader.read_table("", {**data, **stand_in}, RunsFile)
-    if "run" in data:
-        runs = reader.read_list("run", data["run"], Run, MOST_RUNS)
-    else:
-        runs = ()
+    runs: tuple[Run | None, ...] = ()
+    if "run" not in data:
         reader.problems.append(Problem.of_missing("run", _NEEDED["run"]))
+    elif data["run"] == []:
+        reader.problems.append(Problem("run", f"is an empty list; {_NEEDED['run']}"))
+    else:
+        runs = reader.read_list("run", data["run"], Run, MOST_RUNS)
     if not reader.problems and model is not None:
         model = model.model_copy(update={"run": runs})
     if model is not None:
@@ -168,10 +170,7 @@ def _check_runs(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem
             if name not in file.planes:
                 near = nearest(name, file.planes)
                 hint = f"did you mean {near}?" if near else f"there are {', '.join(file.planes)}"
-                yield Problem(
-                    f"run.{k}.weights.{printable(name)}",
-                    f"is no plane; {hint[:200]}",
-                )
+                yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")
         if spoken and run.speed is None:
             hint = f"run.{spoken[0]} gives its speed, so every run must"
             yield Problem.of_missing(f"run.{k}.speed", hint)

@@ -11,12 +11,7 @@ import numpy as np
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..limits import HIGHEST_GAS_ORDER_UNASKED
-from .orders import (
-    find_relevant_orders,
-    list_gas_orders,
-    mark_considerable,
-    merge_orders,
-)
+from .orders import find_relevant_orders, list_gas_orders, mark_considerable, merge_orders
 from .spectrum import compute_each_cylinder
 
 

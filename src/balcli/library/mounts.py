@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike
 
 from ..engine.build import Engine, check_engine, take_model
 from ..enginefile.model import EngineFile
-from ..enginefile.plain_tables import normalize_tables
-from ..enginefile.read import check_tables, read_tables
-from ..enginefile.toml_text import name_file, read_bytes
-from ..errors import check_type, wrong_type
+from ..enginefile.plain_tables import take_tables
+from ..enginefile.read import check_tables
+from ..errors import check_type
 from ..forces.orders import check_orders
 from ..mounting.read import check_mounted
 from ..mounting.report import MountReport, report_mounts
@@ -67,16 +66,7 @@ def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
     """The file, its engine if it has one, and its name."""
     if isinstance(source, Engine):
         return take_model(source), source, ""
-    name = ""
-    if isinstance(source, Mapping):
-        draft = check_tables(normalize_tables(source), Path(), bare=True)
-    elif isinstance(source, str) and "\n" in source:
-        draft = read_tables(source, bare=True)
-    elif isinstance(source, (str, Path)):
-        name = name_file(source)
-        draft = read_tables(read_bytes(source), name, bare=True)
-    else:
-        wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"
-        raise wrong_type("analyze_mounts", source, wanted)
-    found = check_mounted(draft, name)
+    wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"
+    tables, name = take_tables("analyze_mounts", source, wanted)
+    found = check_mounted(check_tables(tables, Path(name).parent, name, bare=True), name)
     return found.model, found.engine, name

@@ -6,11 +6,10 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from ..enginefile.plain_tables import normalize_tables
-from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, check_type, wrong_type
+from ..enginefile.plain_tables import take_tables
+from ..errors import BalcliError, check_type
 from ..field_balancing.balance import FieldBalance, find_corrections
-from ..field_balancing.read import check_runs, parse_runs, read_runs
+from ..field_balancing.read import check_runs
 from .arguments import tell_arguments
 
 _UNNAMED = "file of runs"  # in messages, a text or dict
@@ -51,10 +50,6 @@ def balance_rotor(
     check_type("without", without, Collection, 'give names of planes, such as ["front"]')
     for name in without:
         check_type("without", name, str, 'give names of planes, such as ["front"]')
-    if isinstance(runs, Mapping):
-        return find_corrections(check_runs(normalize_tables(runs)), minimise, without, _UNNAMED)
-    if not isinstance(runs, (str, Path)):
-        raise wrong_type("balance_rotor", runs, "give the path, text or dict of a file of runs")
-    if isinstance(runs, str) and "\n" in runs:
-        return find_corrections(parse_runs(runs), minimise, without, _UNNAMED)
-    return find_corrections(read_runs(runs), minimise, without, name_file(runs))
+    wanted = "give the path, text or dict of a file of runs"
+    tables, name = take_tables("balance_rotor", runs, wanted)
+    return find_corrections(check_runs(tables, name), minimise, without, name or _UNNAMED)

@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike
 from ..core.phasors import Array
 from ..engine.build import Engine, take_model
 from ..engine.load import load
-from ..enginefile.plain_tables import normalize_tables
-from ..enginefile.toml_text import name_file, parse_toml, read_bytes
-from ..errors import BalcliError, check_type, wrong_type
+from ..enginefile.plain_tables import take_tables
+from ..errors import BalcliError, check_type
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.damper_proposal import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
@@ -81,20 +80,12 @@ def analyze_torsion(
 
 
 def _read_source(source: Any, orders: Array | None) -> Source:
-    name = ""
-    tables: Mapping[str, Any] = {}
-    if isinstance(source, Mapping):
-        tables = normalize_tables(source)
-    elif isinstance(source, str) and "\n" in source:
-        tables = parse_toml(source, name)
-    elif isinstance(source, (str, Path)):
-        name = name_file(source)
-        tables = parse_toml(read_bytes(source), name)
-    elif not isinstance(source, Engine):
-        wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
-        raise wrong_type("analyze_torsion", source, wanted)
+    if isinstance(source, Engine):
+        return make_source(take_model(source), source, source.name, orders)
+    wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
+    tables, name = take_tables("analyze_torsion", source, wanted)
     if describes_chain(tables):
         name = name or _UNNAMED
         return ChainSource(name, b"", read_chain_tables(tables, name))
-    engine = source if isinstance(source, Engine) else load(source)
+    engine = load(source)
     return make_source(take_model(engine), engine, name or engine.name, orders)

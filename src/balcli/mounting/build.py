@@ -8,13 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.rigid_body import (
-    Body,
-    Mounts,
-    complete_axes,
-    find_free_motions,
-    turn_axes,
-)
+from ..core.rigid_body import Body, Mounts, complete_axes, find_free_motions, turn_axes
 from ..core.singular_values import Real
 from ..enginefile.fields import counted, printable, shorten
 from ..enginefile.model import EngineFile

@@ -12,12 +12,7 @@ from ..core.speeds import RPM
 from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile, FileTable, change_figure, label_table
 from ..errors import BalcliError, InputError, Problem
-from ..forces.target_quantity import (
-    Subject,
-    TargetQuantity,
-    parse_target_quantity,
-    refuse_stranger,
-)
+from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .build import build_mounted_body
 from .modes import BodyModes, find_mounted_modes
 from .motions import AXES, ROLL

@@ -31,12 +31,7 @@ from ..engine.build import NONE_SILENT, Engine, SilentCylinders
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
 from ..forces.in_time import compute_spectra_in_time
-from ..forces.orders import (
-    choose_orders,
-    find_relevant_orders,
-    list_gas_orders,
-    merge_orders,
-)
+from ..forces.orders import choose_orders, find_relevant_orders, list_gas_orders, merge_orders
 from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import MOST_MOUNT_RESULTS
 from .build import MountedBody
@@ -212,11 +207,7 @@ def _find_load(found: Spectra, reference: Real, centre: Real) -> Complex:
 
 
 def respond(
-    mounted: MountedBody,
-    modes: BodyModes,
-    loads: BodyLoads,
-    omega: Real,
-    tell: Tell = tell_nobody,
+    mounted: MountedBody, modes: BodyModes, loads: BodyLoads, omega: Real, tell: Tell = tell_nobody
 ) -> MountingResponse:
     """The response at every order and speed.
 

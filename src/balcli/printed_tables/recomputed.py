@@ -79,8 +79,7 @@ class Table(Result):
     def label(self, row: int) -> str:
         """What names a row: the cells of its stub."""
         shown = [
-            write_shortest(c) if isinstance(c, (int, float)) else c
-            for c in self.exact[row][: self.stub]
+            f"{c:.15g}" if isinstance(c, (int, float)) else c for c in self.exact[row][: self.stub]
         ]
         return ", ".join(text for text in shown if text)
 
@@ -98,11 +97,6 @@ class Table(Result):
             if found is not None and not _same(supposed, value):
                 return explanation.kind + found
         return _plain_kind(value, text)
-
-
-def write_shortest(value: float) -> str:
-    """A number without superfluous zeros: 5, 22.5."""
-    return f"{value:.15g}"
 
 
 def parse_decimal(text: str) -> Decimal | None:

@@ -7,16 +7,7 @@ from dataclasses import dataclass
 
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
-from . import (
-    kvasnikov,
-    layouts,
-    liang,
-    liu,
-    series_coefficients,
-    torque_examples,
-    tsinghua,
-    wang,
-)
+from . import kvasnikov, layouts, liang, liu, series_coefficients, torque_examples, tsinghua, wang
 from .printed import Print, load_print
 from .ranges import Ranges, parse_crank_ratios, parse_range
 from .recomputed import Table

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.mechanisms import slidercrank
 from ..core.phasors import Array
-from ..core.piecewise import PiecewiseCurve, polyline, resolved
+from ..core.piecewise import polyline, resolved
 from ..core.speed_variation import surplus
 from ..core.speeds import RPM
 from .printed import Print
@@ -29,7 +29,7 @@ _UICKER = [  # N m, every 10 deg of two turns
 
 def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers beside the printed ones."""
-    uicker = _uicker_torque()
+    uicker = polyline(np.radians(np.arange(0, 721, 10)), [*_UICKER, _UICKER[0]])
     energy = surplus(uicker).energy
     answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
     rows = [(*words[:-1], answer) for words, answer in zip(printed.rows, answers, strict=True)]
@@ -78,10 +78,6 @@ def _khurmi_zero_side() -> float:
 
 
 # ------------------------------------------------------------------ Uicker 18.1
-def _uicker_torque() -> PiecewiseCurve:
-    return polyline(np.radians(np.arange(0, 721, 10)), [*_UICKER, _UICKER[0]])
-
-
 def _simpson_mean() -> float:
     """N m, by the book's rule."""
     weights = np.tile([2, 4], 36)

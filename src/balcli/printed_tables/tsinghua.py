@@ -50,9 +50,7 @@ def tabulate_speed(printed: Print, ranges: Ranges) -> Table:
     right margins.
     """
     return _tabulate_by_angle(
-        printed,
-        ranges,
-        lambda a, lam: np.where(a % 180 == 0, 0.0, sc.velocity(np.radians(a), lam)),
+        printed, ranges, lambda a, lam: np.where(a % 180 == 0, 0.0, sc.velocity(np.radians(a), lam))
     )
 
 

@@ -161,16 +161,8 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
     remedy, after = sizing.remedy, sizing.after
-    if not (remedy.counterweights or remedy.shafts or remedy.sliders):
-        needs = "no counterweight and no shaft"
-        yield Text(
-            "Sizing",
-            (
-                f"Orders 1 and 2 need {needs}."
-                if after.moments_known
-                else f"The forces of orders 1 and 2 need {needs}; moments are not known.",
-            ),
-        )
+    if not remedy.devices:
+        yield sizing_in_brief(sizing, system)
         return
     steady = ", at steady speed" if after.engine.ripple else ""
     yield Text(

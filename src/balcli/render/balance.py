@@ -86,10 +86,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     parts += _permitted(result, system)
     parts += details_parts(result, system)
     parts += [_orders(result, system), _peaks(result, system)]
-    return Sheet(
-        f"{result.before.engine.name or NAMELESS}: {remedy.scheme}{order}",
-        tuple(parts),
-    )
+    return Sheet(f"{result.before.engine.name or NAMELESS}: {remedy.scheme}{order}", tuple(parts))
 
 
 def _tell_negligible(result: Balance) -> str:

@@ -136,12 +136,7 @@ def _grid(
     """
     orders = along.phasors.orders[:most_orders]
     unit = unit.fit(max(peak.value for peak in along.peaks))
-    heads = (
-        f"place, {length.name}",
-        "largest",
-        "deg",
-        *(f"order {order_name(n)}" for n in orders),
-    )
+    heads = (f"place, {length.name}", "largest", "deg", *(f"order {order_name(n)}" for n in orders))
 
     def cells(k: int) -> tuple[str, ...]:
         peak, here = along.peaks[k], along.at(k)

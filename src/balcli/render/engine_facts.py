@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..engine.build import Engine, SilentCylinders
+from ..enginefile.fields import count_lambda_digits
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
 from .sheet import Facts, number
@@ -144,7 +145,7 @@ def _crank(engine: Engine, system: System) -> str:
     radius_shown, rod_shown = number(unit.of(radius)), number(unit.of(radius / lam))
     return (
         f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}, "
-        f"λ = {number(lam, 4 if lam < 0.999 else 7)}{_unequal(engine)}"  # at 1 the crank locks
+        f"λ = {number(lam, count_lambda_digits(lam))}{_unequal(engine)}"
     )
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
 from ..field_balancing.shop import Piece, find_angle_deg
 from .csv import Rows, name_cell
-from .figures import clean
+from .figures import clean, clean_finite
 from .units import System
 
 _HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
@@ -37,7 +37,7 @@ def document(result: FieldBalance) -> dict[str, Any]:
         "residual": [_figures(complex(value)) for value in result.after],
         "largest": clean(result.largest),
         "rms": clean(result.rms),
-        "condition": _finite(result.condition),
+        "condition": clean_finite(result.condition),
     }
     if result.minimise == "max":
         found["bound"] = clean(result.bound)
@@ -69,10 +69,6 @@ def _list_permitted(result: FieldBalance) -> Iterator[tuple[str, dict[str, Any]]
             )
 
 
-def _finite(value: float) -> float | None:
-    return clean(value) if math.isfinite(value) else None
-
-
 def _reading(result: FieldBalance, k: int) -> dict[str, Any]:
     speed = result.influence.speeds_rpm[k]
     return {"sensor": name_sensor(result, k), "speed_rpm": None if speed is None else clean(speed)}
@@ -84,18 +80,14 @@ def name_sensor(result: FieldBalance, k: int) -> str:
     return result.file.sensors[sensor] if result.file.sensors else f"sensor {sensor + 1}"
 
 
-def _figures(value: complex) -> dict[str, float | None]:
-    return {
-        "amplitude": clean(abs(value)),
-        "phase_deg": clean(find_angle_deg(value)) if value else None,
-    }
+def _figures(
+    value: complex, amount: str = "amplitude", angle: str = "phase_deg"
+) -> dict[str, float | None]:
+    """A reading, or a weight, under these keys; nothing has no angle."""
+    return {amount: clean(abs(value)), angle: clean(find_angle_deg(value)) if value else None}
 
 
-def _weight(value: complex) -> dict[str, float | None]:
-    return {
-        "weight": clean(abs(value)),
-        "angle_deg": clean(find_angle_deg(value)) if value else None,
-    }
+_weight = partial(_figures, amount="weight", angle="angle_deg")
 
 
 def _correction(p: PlaneCorrection, trimmed: bool) -> dict[str, Any]:
@@ -144,7 +136,7 @@ def _lines(result: FieldBalance) -> Iterator[tuple[Any, ...]]:
     for plane, figures in _list_permitted(result):
         yield from _list(("permitted", None), plane, figures, "")
     details = {
-        "condition": _finite(result.condition),
+        "condition": clean_finite(result.condition),
         "largest": clean(result.largest),
         "rms": clean(result.rms),
     }

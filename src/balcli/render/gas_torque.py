@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .sheet import NEGLIGIBLE, Grid, degrees, number, order_name, size_text
+from .figures import peak_deg
+from .sheet import NEGLIGIBLE, NOTHING, Grid, degrees, number, order_name, size_text
 
 if TYPE_CHECKING:
-    from ..core.phasors import Phasors
     from ..forces.spectrum import Spectra
     from .units import System
 
@@ -38,8 +38,9 @@ def gas_grid(
         yield order_name(spectra.orders[k])
         for phasors in (inertia, gas, total, roll):
             size = float(phasors.major[k])
-            yield number(unit.of(size), 4) if size else "balanced"
-        yield _tell_peak(roll, k)
+            yield number(unit.of(size), 4) if size else NOTHING
+        at = peak_deg(complex(roll.x[k]), float(roll.orders[k]))
+        yield "" if at is None else degrees(at)
 
     shown = [
         k
@@ -72,10 +73,3 @@ def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
         told = f"{next(iter(there))} alone"
     most = size_text(float(size[k]), system.moment)
     return f"Order {order_name(roll.orders[k])} rocks the engine most: roll of {most} ({told})."
-
-
-def _tell_peak(roll: Phasors, k: int) -> str:
-    c, order = complex(roll.x[k]), float(roll.orders[k])
-    if not c or not order:
-        return ""
-    return degrees(float(np.degrees(-np.angle(c)) % 360) / order)

@@ -17,7 +17,7 @@ from . import analysis, balance
 from .page_scene import scene
 from .plot.pages import PageSubject, draw_panel, has_picture
 from .plot.style import inline_svg, save_figure
-from .sheet import Facts, Grid, Sheet, Text
+from .sheet import Facts, Grid, Text
 from .units import System
 from .view import ON_A_PAGE
 
@@ -74,7 +74,7 @@ def page(
         title=own.title,
         version=__version__,
         facts=own.parts[0],
-        verdict=_titled(own, "Verdict"),
+        verdict=next((part for part in own.parts if part.title == "Verdict"), None),
         figures=[part for part in own.parts[1:] if part.title != "Verdict"],
         remedy=remedy.parts,
         fitted=fitted,
@@ -146,12 +146,6 @@ def _choose_panels(
 def kind(part: Grid | Facts | Text) -> str:
     """Which macro of the template shows a part."""
     return type(part).__name__.lower()
-
-
-def _titled(sheet: Sheet, title: str) -> Text | None:
-    return next(
-        (part for part in sheet.parts if isinstance(part, Text) and part.title == title), None
-    )
 
 
 def _template() -> Any:

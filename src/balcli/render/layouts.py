@@ -11,7 +11,7 @@ from .sheet import UNKNOWN, Grid, Sheet, number
 
 if TYPE_CHECKING:
     from ..printed_tables.layouts import Layouts
-    from ..printed_tables.recomputed import Cell, Row
+    from ..printed_tables.recomputed import Row
     from .csv import Rows
     from .units import System
 
@@ -30,15 +30,12 @@ def sheet(result: Layouts, _system: System) -> Sheet:
 
     def cells(row: Row) -> tuple[str, ...]:
         name, title, *_ = map(str, row)
-        multiples = (_multiple(row[k]) for k in places)
-        return title.partition(" (")[0], *multiples, _tell_gaps(result.gaps_deg[name])
+        multiples = (number(float(row[k] or 0.0), 4) for k in places)
+        gaps = "/".join(f"{gap:g}" for gap in result.gaps_deg[name])  # 90/150: it fires unevenly
+        return title.partition(" (")[0], *multiples, gaps or UNKNOWN
 
-    grid = Grid(
-        "",
-        ("engine", *_SHOWN, "fires every"),
-        tuple(map(cells, result.table.exact)),
-        note=_NOTE,
-    )
+    rows = tuple(map(cells, result.table.exact))
+    grid = Grid("", ("engine", *_SHOWN, "fires every"), rows, note=_NOTE)
     return Sheet("Free forces and moments of common engines", (grid,))
 
 
@@ -50,12 +47,3 @@ def document(result: Layouts) -> dict[str, Any]:
 def rows(result: Layouts, system: System) -> Rows:
     """CSV: the exact figures of all orders."""
     return printed_table.rows(printed_table.RoundedTable(result.table), system)
-
-
-def _multiple(value: Cell) -> str:
-    return number(float(value or 0.0), 4)
-
-
-def _tell_gaps(gaps: tuple[float, ...]) -> str:
-    """All different intervals, deg: `120`, or `90/150` of an engine that fires unevenly."""
-    return "/".join(f"{gap:g}" for gap in gaps) or UNKNOWN

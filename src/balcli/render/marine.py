@@ -24,6 +24,7 @@ from .sheet import (
     order_number,
     size_cell,
 )
+from .view import NamedResult
 
 if TYPE_CHECKING:
     from ..core.phasors import Array
@@ -34,17 +35,6 @@ _NAMES = (
     "FnV, FnH, MnV, MnH: n is the order, so that M1V and M2V stand in column MnV. Amplitudes; a "
     "vertical force makes a vertical moment."
 )
-
-
-class NamedMarineSheet(NamedTuple):
-    """One of several sheets.
-
-    Attributes:
-        name: of the engine, by which its rows are told from those of the others.
-    """
-
-    name: str
-    result: MarineSheet
 
 
 class _Column(NamedTuple):
@@ -74,7 +64,7 @@ class _Column(NamedTuple):
         return np.asarray(np.any(np.nan_to_num(self.values) > least, axis=0))
 
 
-def sheet(one: NamedMarineSheet, system: System) -> Sheet:
+def sheet(one: NamedResult[MarineSheet], system: System) -> Sheet:
     """What the engine is, what acts on its frame and on its crank, and what the names mean."""
     result = one.result
     head = engine_facts(
@@ -82,13 +72,15 @@ def sheet(one: NamedMarineSheet, system: System) -> Sheet:
     )
     external, inner = _external(result), _inner(result)
     grids: tuple[Grid | Text, ...]
+    gas = result.engine.gas
+    of_what = "of inertia alone, without gas" if gas is None else "of inertia and gas"
     if len(result.speeds_rpm) == 1:
+        title = f"Guide-force moments Hn, Xn and torque on the crank Tn, {of_what}"
         grids = (
             _grid_by_order("External forces and moments", external, result, system),
-            _grid_by_order(_inner_title(result), inner, result, system),
+            _grid_by_order(title, inner, result, system),
         )
     else:
-        of_what = _of_what(result)
         groups = {
             "External forces": external[:2],
             "External moments": external[2:],
@@ -103,7 +95,7 @@ def sheet(one: NamedMarineSheet, system: System) -> Sheet:
     return Sheet(result.engine.name or NAMELESS, (head, *grids, Text("", notes)))
 
 
-def document(one: NamedMarineSheet) -> dict[str, Any]:
+def document(one: NamedResult[MarineSheet]) -> dict[str, Any]:
     """`balcli.marine/1`: SI."""
     result = one.result
     columns = (*_external(result), *_inner(result))
@@ -126,7 +118,7 @@ def document(one: NamedMarineSheet) -> dict[str, Any]:
     }
 
 
-def rows(one: NamedMarineSheet, system: System) -> Rows:
+def rows(one: NamedResult[MarineSheet], system: System) -> Rows:
     """CSV: an order of a speed a line, a column a figure."""
     result = one.result
     columns = (*_external(result), *_inner(result))
@@ -175,14 +167,6 @@ def _inner(result: MarineSheet) -> tuple[_Column, ...]:
     )
 
 
-def _of_what(result: MarineSheet) -> str:
-    return "of inertia alone, without gas" if result.engine.gas is None else "of inertia and gas"
-
-
-def _inner_title(result: MarineSheet) -> str:
-    return f"Guide-force moments Hn, Xn and torque on the crank Tn, {_of_what(result)}"
-
-
 # ------------------------------------------------------------------ tables
 def _grid_by_order(
     title: str, columns: tuple[_Column, ...], result: MarineSheet, system: System
@@ -220,10 +204,7 @@ def _grid_by_speed(
     unit = _fit(tuple(column for column, _ in chosen), columns[0].force, system)
     heads = (column.name.replace("n", order_name(result.orders[k])) for column, k in chosen)
     lines = tuple(
-        (
-            number(speed, 6),
-            *(_cell(column, i, k, unit, result.every_order) for column, k in chosen),
-        )
+        (number(speed, 6), *(_cell(column, i, k, unit, result.every_order) for column, k in chosen))
         for i, speed in enumerate(result.speeds_rpm.tolist())
     )
     return Grid(f"{title}, {unit.name}", ("rpm", *heads), lines, words=())

@@ -209,18 +209,12 @@ def _body(result: MountReport, system: System) -> Facts:
     angle = math.degrees(math.acos(min(1.0, abs(axis[2]))))
     point = [system.length.of(value) for value in result.modes.centre.point]
     place = ", ".join(number(round(value, 6) + 0.0, 4) for value in point)
-    rolls = f"({_vector(axis, 4)}) through the centre of gravity, {degrees(angle)} deg from z"
+    along = ", ".join(number(round(float(value), 9) + 0.0, 4) for value in axis)
+    rolls = f"({along}) through the centre of gravity, {degrees(angle)} deg from z"
     return Facts(
-        (
-            ("torque roll axis", rolls),
-            ("elastic centre", f"({place}) {system.length.name}"),
-        ),
+        (("torque roll axis", rolls), ("elastic centre", f"({place}) {system.length.name}")),
         "The body",
     )
-
-
-def _vector(values: Real, digits: int) -> str:
-    return ", ".join(number(round(float(value), 9) + 0.0, digits) for value in values)
 
 
 def _rest(result: MountReport, system: System) -> Grid:

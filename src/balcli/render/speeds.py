@@ -5,25 +5,15 @@ themselves.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from . import analysis_document, symmetry
 from .comparison import TITLES, find_lines_that_matter, fit_unit, show_sizes
 from .csv import Rows, name_cell
 from .engine_facts import engine_facts
-from .sheet import (
-    NAMELESS,
-    Facts,
-    Grid,
-    Sheet,
-    Text,
-    capitalized,
-    number,
-    order_name,
-    size_text,
-)
-from .view import View
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, number, order_name, size_text
+from .view import NamedResult
 
 if TYPE_CHECKING:
     from ..forces.kinds import Kind
@@ -32,26 +22,13 @@ if TYPE_CHECKING:
     from .units import System
 
 
-class NamedSeries(NamedTuple):
-    """One of several engines, at several speeds.
-
-    Attributes:
-        name: of the engine, by which its rows are told from those of the others.
-        view: what of it a sheet shows.
-    """
-
-    name: str
-    result: SpeedSeries
-    view: View
-
-
-def sheet(one: NamedSeries, system: System) -> Sheet:
+def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
     """What the engine is, and what it does at each speed."""
     engine = one.result.analyses[0].engine
     return Sheet(engine.name or NAMELESS, tuple(_parts(one, system)))
 
 
-def document(one: NamedSeries) -> dict[str, Any]:
+def document(one: NamedResult[SpeedSeries]) -> dict[str, Any]:
     """`balcli.speeds/1`: the analysis at each speed, as `balcli.analysis/1`."""
     return {
         "format": "balcli.speeds/1",
@@ -60,7 +37,7 @@ def document(one: NamedSeries) -> dict[str, Any]:
     }
 
 
-def rows(one: NamedSeries, system: System) -> Rows:
+def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
     """CSV: the rows of each analysis after the engine's name and the speed."""
     told = [(float(each.engine.speed_rpm), each) for each in one.result.analyses]
     every = [(speed, *analysis_document.rows(each, system)) for speed, each in told]
@@ -70,7 +47,7 @@ def rows(one: NamedSeries, system: System) -> Rows:
     return Rows(("engine", "speed_rpm", *every[0][1]), lines)
 
 
-def _parts(one: NamedSeries, system: System) -> Iterator[Facts | Grid | Text]:
+def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Grid | Text]:
     series, view = one.result, one.view
     first = series.analyses[0]
     if not view.parts or view.whole:
@@ -84,16 +61,13 @@ def _parts(one: NamedSeries, system: System) -> Iterator[Facts | Grid | Text]:
     roll = ROLL if first.engine.gas is None else ROLL_TOTAL
     in_brief = not (view.parts or view.whole)
     lines = series.lines
+    whole = view.whole or view.every_order
     for kind in dict.fromkeys(line.kind for line in lines):
         if not in_brief or kind in (FORCE, MOMENT, roll):
             own = [line for line in lines if line.kind == kind]
-            yield _kind_part(kind, own, series.speeds_rpm, system, whole=_is_whole(view))
+            yield _kind_part(kind, own, series.speeds_rpm, system, whole=whole)
     if first.why is not None:
         yield from symmetry.sheet_parts(first.why)
-
-
-def _is_whole(view: View) -> bool:
-    return view.whole or view.every_order
 
 
 def _kind_part(

@@ -84,13 +84,7 @@ def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array], name: str) ->
         for colour in (style.BLUE, style.RED, style.GREEN)
     ]
     for (label, value), (colour, line) in zip(shown, cycle(looks), strict=False):
-        axes.plot(
-            parameter.values,
-            value / unit.size,
-            color=colour,
-            linestyle=line,
-            label=label,
-        )
+        axes.plot(parameter.values, value / unit.size, color=colour, linestyle=line, label=label)
     axes.set(xlabel=name_with_unit(parameter.path, parameter.unit), ylabel=unit.name)
     axes.ticklabel_format(axis="y", useOffset=False, style="plain")
     axes.legend()

@@ -9,13 +9,13 @@ import numpy as np
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
 from ..core.speeds import RPM
-from ..forces.spectrum import Spectra
+from ..limits import MOST_HARMONICS_UNASKED
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
 from ..torque.loads import CycleLoad
 from .engine_facts import list_silent, tell_strokes
-from .figures import peak_deg
+from .order_tables import show_peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name, size_text
 from .torque_document import Result, document, round_angle, rows
 from .units import ShownUnit, System
@@ -239,9 +239,8 @@ def _order_table(result: TorqueAnalysis, system: System) -> Grid:
             yield from _amplitude(complex(phasors.x[k]), n, unit)
         yield number(unit.of(abs(complex(alone.x[k]))), 4)
 
-    shown = [
-        k for k in range(len(spectra.orders)) if not (_nothing(spectra, k) and alone.balanced[k])
-    ]
+    every = [*(phasors for _, phasors in spectra.items()), alone]
+    shown = [k for k in range(len(spectra.orders)) if not all(p.balanced[k] for p in every)]
     return Grid(
         f"Torque by order, {unit.name}",
         (
@@ -253,13 +252,8 @@ def _order_table(result: TorqueAnalysis, system: System) -> Grid:
     )
 
 
-def _nothing(spectra: Spectra, k: int) -> bool:
-    return all(phasors.balanced[k] for _, phasors in spectra.items())
-
-
 def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
-    at = peak_deg(c, order)
-    return (number(unit.of(abs(c)), 5), "–" if at is None else degrees(at)) if c else ("0", "")
+    return (number(unit.of(abs(c)), 5), show_peak_deg(c, order)) if c else ("0", "")
 
 
 def _curve_table(result: CurveAnalysis, system: System) -> Grid:
@@ -268,4 +262,6 @@ def _curve_table(result: CurveAnalysis, system: System) -> Grid:
         (f"{round(float(n), 9):g}", *_amplitude(complex(c), float(n), unit))
         for n, c in zip(result.orders, result.harmonics, strict=True)
     )
-    return Grid(f"Torque by order, {unit.name}", ("order", "torque", "peak, deg"), rows)
+    title = f"Torque by order, {unit.name}"
+    note = "--orders asks for higher ones." if len(rows) == MOST_HARMONICS_UNASKED else ""
+    return Grid(title, ("order", "torque", "peak, deg"), rows, note=note)

@@ -14,7 +14,7 @@ from ..torsion.modes import NaturalMode
 from ..torsion.response import TorsionResponse
 from ..torsion.system import TorsionalSystem
 from .csv import Rows, name_cell
-from .figures import clean, clean_each, silent_entries
+from .figures import clean, clean_each, clean_finite, silent_entries
 from .sheet import order_number
 from .units import SI, ShownUnit, System
 
@@ -59,7 +59,7 @@ def document(result: TorsionAnalysis) -> dict[str, Any]:
             )
         ],
         "shafts": [
-            {"name": name, "stiffness_Nm_per_rad": _finite(stiffness)}
+            {"name": name, "stiffness_Nm_per_rad": clean_finite(stiffness)}
             for name, stiffness in zip(system.shafts, system.chain.stiffness, strict=True)
         ],
         "modes": [
@@ -100,7 +100,7 @@ def _holzer_document(result: TorsionAnalysis, asked: HolzerTable) -> dict[str, A
     columns = _list_holzer(result, asked)
     rows = [
         {"node": node}
-        | {name + _ENDINGS[unit]: _finite(values[k]) for name, unit, values in columns}
+        | {name + _ENDINGS[unit]: clean_finite(values[k]) for name, unit, values in columns}
         for k, node in enumerate(result.system.nodes)
     ]
     mode = {} if asked.mode is None else {"mode": asked.mode}
@@ -164,6 +164,18 @@ def _response_document(result: TorsionAnalysis, response: TorsionResponse) -> di
             }
             for k, name in enumerate(response.dampers)
         ]
+    if result.system.pendulums:
+        found["pendulums"] = [
+            {
+                "node": result.system.nodes[each.node],
+                "half_swing_deg": clean_each(np.degrees(response.pendulums[:, k])),
+                "worst": {
+                    "speed_rpm": clean(worst.pendulum_rpm[k]),
+                    "half_swing_deg": clean(np.degrees(worst.pendulums[k])),
+                },
+            }
+            for k, each in enumerate(result.system.pendulums)
+        ]
     return found
 
 
@@ -185,7 +197,7 @@ def _list_damper(sized: SizedDamper) -> Iterator[tuple[str, str, float | None]]:
             yield name, unit, clean(convert_to_si(name, value))
     measured = "Pa" if sized.measure == "stress" else "N m"
     yield "mode", "", sized.mode
-    yield "before", measured, _finite(sized.before)
+    yield "before", measured, clean_finite(sized.before)
     yield "after", measured, clean(sized.after)
     yield "heat", "W", clean(sized.heat)
     yield "heat", "rpm", clean(sized.heat_rpm)
@@ -194,10 +206,6 @@ def _list_damper(sized: SizedDamper) -> Iterator[tuple[str, str, float | None]]:
 def convert_to_si(name: str, value: float) -> float:
     """A figure of a damper, which a file has in units of its own."""
     return value / _IN_FILE.get(DAMPER_UNITS[name], 1.0)
-
-
-def _finite(value: float) -> float | None:
-    return clean(value) if np.isfinite(value) else None
 
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
@@ -263,7 +271,7 @@ def _system_lines(system: TorsionalSystem) -> Iterator[Line]:
         yield *where, "gear", clean(gear), ""
     for name, stiffness in zip(system.shafts, system.chain.stiffness, strict=True):
         where = ("shaft", None, None, None, name_cell(name))
-        yield *where, "stiffness", _finite(stiffness), "N m/rad"
+        yield *where, "stiffness", clean_finite(stiffness), "N m/rad"
 
 
 def _mode_lines(number: int, mode: NaturalMode, system: TorsionalSystem) -> Iterator[Line]:
@@ -280,7 +288,7 @@ def _holzer_lines(number: int, result: TorsionAnalysis, asked: HolzerTable) -> I
     yield *where, "", "frequency", clean(asked.omega / (2 * np.pi)), "Hz"
     for k, node in enumerate(map(name_cell, result.system.nodes)):
         for name, unit, values in columns:
-            yield *where, node, name, _finite(values[k]), unit
+            yield *where, node, name, clean_finite(values[k]), unit
     yield *where, "", "residual", clean(asked.table.residual), "N m"
 
 
@@ -297,6 +305,9 @@ def _response_lines(system: TorsionalSystem, response: TorsionResponse) -> Itera
         for k, name in enumerate(response.dampers):
             node = name_cell(name.removesuffix(" ring"))
             yield *where, node, "heat", clean(response.heat[s, k]), "W"
+        for k, each in enumerate(system.pendulums):
+            node, swing = name_cell(system.nodes[each.node]), np.degrees(response.pendulums[s, k])
+            yield *where, node, "pendulums", clean(swing), "deg"
 
 
 def _worst_lines(system: TorsionalSystem, response: TorsionResponse) -> Iterator[Line]:
@@ -313,5 +324,9 @@ def _worst_lines(system: TorsionalSystem, response: TorsionResponse) -> Iterator
     for k, name in enumerate(response.dampers):
         where = ("worst", None, clean(worst.hottest_rpm[k]), None)
         yield *where, name_cell(name.removesuffix(" ring")), "heat", clean(worst.heat[k]), "W"
+    for k, each in enumerate(system.pendulums):
+        where = ("worst", None, clean(worst.pendulum_rpm[k]), None)
+        node, swing = name_cell(system.nodes[each.node]), np.degrees(worst.pendulums[k])
+        yield *where, node, "pendulums", clean(swing), "deg"
     where = ("worst", None, clean(worst.swing_rpm), None)
     yield *where, "", "free_end", clean(np.degrees(worst.free_end)), "deg"

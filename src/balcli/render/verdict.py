@@ -55,11 +55,7 @@ class _Vector(NamedTuple):
 
 
 def verdict(
-    spectra: Spectra,
-    system: System,
-    single: Mapping[str, float] = _UNKNOWN,
-    *,
-    steady: bool = True,
+    spectra: Spectra, system: System, single: Mapping[str, float] = _UNKNOWN, *, steady: bool = True
 ) -> tuple[str, ...]:
     """A sentence for every order that matters; empty if neither forces nor moments were asked for.
 

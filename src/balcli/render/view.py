@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 VISIBLE = 1e-3  # share of the largest, below which an order is too small for a picture
+
+
+R = TypeVar("R")
 
 
 class View(NamedTuple):
@@ -27,3 +30,16 @@ class View(NamedTuple):
 
 IN_BRIEF = View()
 ON_A_PAGE = View(hints=False)
+
+
+class NamedResult(NamedTuple, Generic[R]):
+    """What was found of one of several engines.
+
+    Attributes:
+        name: of the engine, by which its rows are told from those of the others.
+        view: what of it a sheet shows.
+    """
+
+    name: str
+    result: R
+    view: View

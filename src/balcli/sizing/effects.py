@@ -93,10 +93,7 @@ def find_effect(
 
 
 def size_unbalances(
-    slots: Sequence[Slot],
-    residual: Residual,
-    parts: Sequence[ResidualPart],
-    least_arm: float = 0.0,
+    slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], least_arm: float = 0.0
 ) -> Fit:
     """The smallest unbalances that cancel these parts as well as the slots can.
 

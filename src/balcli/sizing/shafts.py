@@ -17,12 +17,7 @@ from .planes import (
     read_two_planes,
     takes_moment,
 )
-from .reasons import (
-    explain_counterweights,
-    explain_couple,
-    explain_one_eccentric,
-    explain_shaft,
-)
+from .reasons import explain_counterweights, explain_couple, explain_one_eccentric, explain_shaft
 from .remedy import Remedy
 from .residual import (
     BACKWARD,

@@ -106,10 +106,7 @@ class Scatter(Result):
 
 
 def scatter_engine(
-    model: EngineFile,
-    tolerances: Tolerances,
-    quantities: Sequence[Quantity],
-    drawing: Drawing,
+    model: EngineFile, tolerances: Tolerances, quantities: Sequence[Quantity], drawing: Drawing
 ) -> Scatter:
     """Spread of quantities over random engines.
 

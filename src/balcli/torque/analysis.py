@@ -17,12 +17,7 @@ from ..forces.gas import take_gas
 from ..forces.orders import check_orders, list_gas_orders
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
 from ..result import Result
-from .course import (
-    TorqueCurves,
-    find_constant_inertia,
-    find_moving_inertia,
-    find_torque_curves,
-)
+from .course import TorqueCurves, find_constant_inertia, find_moving_inertia, find_torque_curves
 from .flywheel import Flywheel, FlywheelQuestion, find_flywheel
 from .loads import KINDS_OF_LOAD, CycleLoads
 

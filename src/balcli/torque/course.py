@@ -106,7 +106,7 @@ def silence(engine: Engine, number: int) -> Engine:
         BalcliError: it has no gas, or no such cylinder.
     """
     gas: EngineGas = take_gas(engine)
-    share = gas.with_share(find_row(engine, number, "--misfire"), 0.0)
+    share = gas.without_share_of(find_row(engine, number, "--misfire"))
     return replace(engine, gas=share, model=None)
 
 

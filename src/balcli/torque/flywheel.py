@@ -9,12 +9,7 @@ import numpy as np
 from ..core.phasors import Complex
 from ..core.piecewise import Extreme, Function, PiecewiseCurve, resolved
 from ..core.speed_ripple import RippleLine
-from ..core.speed_variation import (
-    StallError,
-    needed_inertia,
-    small_fluctuation,
-    speed_variation,
-)
+from ..core.speed_variation import StallError, needed_inertia, small_fluctuation, speed_variation
 from ..errors import BalcliError
 from ..limits import HIGHEST_RIPPLE_ORDER, MOST_RIPPLES
 
@@ -127,7 +122,7 @@ def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, .
     """
     turns = speed.period / (2 * np.pi)
     count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))
-    c: Complex = speed.harmonics(count)[1:] / mean_speed
+    c: Complex = speed.harmonics(np.arange(1, count + 1)) / mean_speed
     size = np.abs(c)
     worth = np.flatnonzero(size > _WORTH * size.max(initial=0))
     return tuple(

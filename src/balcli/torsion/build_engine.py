@@ -64,11 +64,7 @@ def build_engine_system(
     ]
     leading = list(_lead_shafts(torsion, [node.name for node in nodes], throws))
     front = len(torsion.front)
-    shafts = [
-        *reversed(leading[:front]),
-        *_join_throws(torsion, front, throws),
-        *leading[front:],
-    ]
+    shafts = [*reversed(leading[:front]), *_join_throws(torsion, front, throws), *leading[front:]]
     limits = Limits(torsion.limit, torsion.angle_limit)
     own_speed = "speed" in model.operation.model_fields_set
     rated = model.operation.speed if own_speed else None

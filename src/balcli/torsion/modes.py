@@ -143,9 +143,7 @@ def _mark_moving(shape: Real) -> NDArray[np.bool_]:
 
 
 def find_criticals(
-    excitation: Excitation,
-    modes: tuple[NaturalMode, ...],
-    range_rpm: tuple[float, float] | None,
+    excitation: Excitation, modes: tuple[NaturalMode, ...], range_rpm: tuple[float, float] | None
 ) -> tuple[Critical, ...]:
     """Criticals, in a range of speeds if there is one, those that do most work first."""
     found = [critical for mode in modes for critical in _meet(excitation, mode, range_rpm)]

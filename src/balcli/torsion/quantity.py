@@ -15,12 +15,7 @@ from ..engine.variants import EngineVariants, Values, remember
 from ..enginefile.model import EngineFile, FileTable, change_figure
 from ..enginefile.torsion_tables import Torsion
 from ..errors import BalcliError, InputError, Problem
-from ..forces.target_quantity import (
-    Subject,
-    TargetQuantity,
-    parse_target_quantity,
-    refuse_stranger,
-)
+from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .build_engine import build_engine_system, excite_engine
 from .largest import find_largest_torques
 from .modes import find_natural_modes

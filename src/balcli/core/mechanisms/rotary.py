@@ -103,11 +103,7 @@ class TurningMotion(Motion):
     """
 
     def __init__(
-        self,
-        psi: Array | Complex,
-        inside: Motion,
-        offset: Array,
-        on_knuckle: Figure | None = None,
+        self, psi: Array | Complex, inside: Motion, offset: Array, on_knuckle: Figure | None = None
     ) -> None:
         self._inside = inside
         turned, piston = slidercrank.on_circle(psi), _Piston(inside, offset)

@@ -32,13 +32,7 @@ def draw_factors(
         ([row.across for row in rows], "across it"),
     )
     for (values, label), look in zip(lines, LOOKS, strict=True):
-        ax.plot(
-            share,
-            np.array(values) / s.size,
-            color=look[0],
-            linestyle=look[1],
-            label=label,
-        )
+        ax.plot(share, np.array(values) / s.size, color=look[0], linestyle=look[1], label=label)
     best = min(rows, key=lambda row: row.cost)
     ax.plot(best.factor, best.force / s.size, "o", color=BLUE)
     ax.set(

@@ -12,18 +12,7 @@ from ...field_balancing.shop import find_angle_deg
 from ..field_balancing import find_label
 from ..field_balancing_document import find_senses
 from ..sheet import number
-from .style import (
-    BLUE,
-    GREEN,
-    INK,
-    PAPER,
-    RED,
-    SOFT,
-    Form,
-    fit_name,
-    open_figure,
-    put_title,
-)
+from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, put_title
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -75,10 +64,6 @@ def _set_up(ax: PolarAxes, sense: str, title: str) -> None:
         arrowprops={"arrowstyle": "->", "color": SOFT, "connectionstyle": "arc3,rad=0.2"},
     )
     ax.text(0.0, 0.99, "rotation", transform=ax.transAxes, color=SOFT, ha="left")
-    _draw_legend(ax)
-
-
-def _draw_legend(ax: PolarAxes) -> None:
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), ncols=3)
 
 

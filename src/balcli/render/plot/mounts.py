@@ -18,19 +18,7 @@ from ...mounting.response import MountingResponse
 from ..body_block import PROJECTION, find_corners
 from ..sheet import NAMELESS, number, order_name
 from ..units import ShownUnit, System
-from .style import (
-    BLUE,
-    FAINT,
-    GREEN,
-    INK,
-    PAPER,
-    RED,
-    SOFT,
-    Form,
-    fit_name,
-    open_figure,
-    put_title,
-)
+from .style import BLUE, FAINT, GREEN, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, put_title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

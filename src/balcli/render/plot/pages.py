@@ -15,6 +15,7 @@ from ...sizing.remedy import Remedy
 from ...studies.pictures import Study
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
 from ..bobweights import percent
+from ..engine_facts import tell_pivot
 from ..sheet import NAMELESS, NEGLIGIBLE, NOTHING, size_text
 from ..units import SI, ShownUnit, System
 from .along_crankshaft import draw_along
@@ -87,8 +88,8 @@ class PageSubject:
         """Of a picture."""
         of_inertia = quantity == ABOUT and self.now.engine.gas is not None
         title = _TITLES[quantity] + (", of inertia alone" if of_inertia else "")
-        off_crank = any(self.now.engine.reference_m[:2])
-        return title.replace("the crank", "the point of reference") if off_crank else title
+        pivot = tell_pivot(self.now.engine).removesuffix(" axis")
+        return title.replace("the crank", pivot)
 
     def list_scalars(self, quantity: str) -> dict[str, Phasors]:
         """What is drawn about the crank, by label, the roll last."""
@@ -124,7 +125,7 @@ def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
         height = 0.6
     with open_figure(width, height, "svg") as fig:
         fig.set_facecolor("none")
-        _PANELS[what](fig, subject, quantity)
+        _PANELS[what](fig.subplots(), subject, quantity)
         return inline_svg(
             save_figure(fig, "svg"), f"{what}-{quantity}{'-after' if subject.study.before else ''}"
         )
@@ -342,8 +343,8 @@ PAGES: dict[str, tuple[float, float, Layout]] = {
     "pin": (9.6, 5.9, _lay_out_gas),
     "main": (9.6, 6.4, _lay_out_gas),
 }
-_PANELS: dict[str, Callable[[Figure, PageSubject, str], None]] = {
-    "polar": lambda fig, subject, quantity: _locus_panel(fig.subplots(), subject, quantity),
-    "spectrum": lambda fig, subject, quantity: _bars_panel(fig.subplots(), subject, quantity),
-    "curves": lambda fig, subject, quantity: _curves_panel(fig.subplots(), subject, quantity),
+_PANELS: dict[str, Callable[[Axes, PageSubject, str], None]] = {
+    "polar": _locus_panel,
+    "spectrum": _bars_panel,
+    "curves": _curves_panel,
 }

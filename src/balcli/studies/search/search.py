@@ -181,11 +181,7 @@ def _read_range(model: EngineFile, over: str) -> tuple[str, tuple[float, float]]
 
 
 def _list_designs(
-    model: EngineFile,
-    what: What,
-    objective: Objective[AnyQuantity],
-    even_firing: bool,
-    tell: Tell,
+    model: EngineFile, what: What, objective: Objective[AnyQuantity], even_firing: bool, tell: Tell
 ) -> Iterator[Design]:
     """What there is to arrange, for figures that take each arrangement by itself."""
     if what == "firing_order":
