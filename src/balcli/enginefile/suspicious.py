@@ -34,8 +34,7 @@ SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
-# m/s; slow engines have 2, steam engines 1, and a three of "3.000", read with a point, 0.01
-PISTON_SLOW = 0.2
+SPEED_LOW = 9.0  # rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
 NEAR_THE_CRANK = 0.02  # strokes; a shaft this near would stand within the crank
 NO_DISTANCE = 1e-6  # mm: on the axis, but for rounding
 OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
@@ -162,11 +161,10 @@ def _motion(model: EngineFile) -> Iterator[str]:
             f"{stroke:g} mm, more than {PISTON_SPEED:g}; are operation.speed and crank.stroke "
             "right?"
         )
-    if piston_speed < PISTON_SLOW and "speed" in model.operation.model_fields_set:
+    if 0 < speed < SPEED_LOW:
         yield (
-            f"the mean piston speed is {piston_speed:.2g} m/s at {speed:g} rpm and a stroke of "
-            f"{stroke:g} mm, less than {PISTON_SLOW:g}; is operation.speed in rpm, without a point "
-            "between thousands?"
+            f"operation.speed is {speed:g} rpm; a point parts decimals, not thousands: were "
+            f"{1000 * speed:g} rpm meant?"
         )
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
         yield (
