@@ -14,6 +14,7 @@ from contextlib import nullcontext
 from types import ModuleType
 
 import pytest
+from support.commands import run_here
 from support.engines import GOOD, tables
 from support.paths import ENGINES
 
