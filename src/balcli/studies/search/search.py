@@ -158,7 +158,8 @@ def search_arrangements(
     if not found:
         also = " and fires evenly" if even_firing else ""
         named = key if is_number else key.replace("_", " ")
-        raise BalcliError(f"no {named} keeps these limits{also}")
+        keeps = "keep" if key == "throws" else "keeps"
+        raise BalcliError(f"no {named} {keeps} these limits{also}")
     orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
     scale = find_textbook_units(engine, orders)
     return Search(model, key, objective, found, scale, locked, ends, constant, refused)
