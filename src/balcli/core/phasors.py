@@ -225,13 +225,6 @@ class Phasors:
         y = np.where(mean, self.forward.imag, across)
         return _settle(y, 2 * self.noise)
 
-    @property
-    def derivative(self) -> Phasors:
-        """That of the curve by the crank angle (rad)."""
-        n = _column(self.orders, self.forward)
-        ahead, astern = 1j * n * self.forward, -1j * n * self.backward
-        return Phasors.of(self.orders, ahead, astern, n * self.noise)
-
     def values(self, theta: ArrayLike) -> Complex:
         """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors
         without trailing axes.

@@ -19,7 +19,7 @@ from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Phasors
 from ..core.sorted_sets import sort_distinct
-from ..engine.arrays import ranked
+from ..engine.arrays import find_first_largest
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_RESULTS_ALONG_CRANK
@@ -51,7 +51,7 @@ class AlongCrank:
     @property
     def largest(self) -> int:
         """Index of the place with the highest peak; of equal ones the first."""
-        return int(np.argmax(ranked([peak.value for peak in self.peaks])))
+        return int(find_first_largest([peak.value for peak in self.peaks]))
 
 
 @dataclass(frozen=True)

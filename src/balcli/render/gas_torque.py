@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..engine.arrays import find_first_largest
 from .figures import peak_deg
 from .sheet import NEGLIGIBLE, NOTHING, Grid, degrees, number, order_name, size_text
 
@@ -65,7 +66,7 @@ def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
     size = np.where(roll.orders > 0, roll.major, 0)
     if not size.any():
         return f"No order rocks the engine about {pivot}."
-    k = int(size.argmax())
+    k = int(find_first_largest(size))
     parts = {"gas": float(gas.major[k]), "inertia": float(inertia.major[k])}
     there = {name: value for name, value in parts.items() if value}
     told = ", ".join(f"{name} {size_text(value, system.moment)}" for name, value in there.items())
