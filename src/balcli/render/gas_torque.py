@@ -9,7 +9,8 @@ import numpy as np
 
 from ..engine.arrays import find_first_largest
 from .figures import peak_deg
-from .sheet import NEGLIGIBLE, NOTHING, Grid, degrees, number, order_name, size_text
+from .order_tables import fit_largest
+from .sheet import NEGLIGIBLE, Grid, degrees, order_name, size_cell, size_text
 
 if TYPE_CHECKING:
     from ..forces.spectrum import Spectra
@@ -32,14 +33,13 @@ def gas_grid(
     if len(found) < len(_SHOWN):
         return
     inertia, gas, total, roll = found
-    unit = system.moment.fit(float(max(p.major.max(initial=0) for p in found)))
+    unit = fit_largest(system.moment, *found)
     least = NEGLIGIBLE * float(max(gas.major.max(initial=0), inertia.major.max(initial=0)))
 
     def row(k: int) -> Iterator[str]:
         yield order_name(spectra.orders[k])
         for phasors in (inertia, gas, total, roll):
-            size = float(phasors.major[k])
-            yield number(unit.of(size), 4) if size else NOTHING
+            yield size_cell(float(phasors.major[k]), unit)
         at = peak_deg(complex(roll.x[k]), float(roll.orders[k]))
         yield "" if at is None else degrees(at)
 

@@ -16,7 +16,7 @@ from ...studies.pictures import Study
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
 from ..bobweights import percent
 from ..engine_facts import tell_pivot
-from ..sheet import NAMELESS, NEGLIGIBLE, NOTHING, size_text
+from ..sheet import NAMELESS, NEGLIGIBLE, size_text, small_text
 from ..units import SI, ShownUnit, System
 from .along_crankshaft import draw_along
 from .axes import divide_cycle
@@ -272,11 +272,9 @@ def _find_words(subject: PageSubject, quantity: str) -> str:
     if subject.is_unknown(quantity):
         return "not known:\ncrank.spacing is missing"
     largest = subject.find_largest(quantity)
-    if not largest:
-        return NOTHING
     kind = ROLL.name if quantity in _ABOUT else quantity
-    if largest < NEGLIGIBLE * subject.now.of_one_cylinder[kind]:
-        return f"negligible ({size_text(largest, subject.unit(kind), 2)})"
+    if not largest or largest < NEGLIGIBLE * subject.now.of_one_cylinder[kind]:
+        return small_text(largest, subject.unit(kind))
     return ""
 
 
