@@ -28,8 +28,7 @@ CASES = [
         "force",
         (0, 5),
         "First order: force of 5 N, turning against the crank: nothing on the crankshaft cancels "
-        "it; "
-        "it needs a balancer shaft at -1 times crank speed.",
+        "it; it needs a balancer shaft at -1 times crank speed.",
     ),
     (
         1,

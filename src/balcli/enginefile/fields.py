@@ -191,8 +191,7 @@ class Whole(_Field):
 
     def _wanted(self) -> str:
         return (
-            f"a whole number from {self.least} to "
-            f"{self.most}{'' if self.zero else ', not 0,'} is "
+            f"a whole number from {self.least} to {self.most}{'' if self.zero else ', not 0,'} is "
             "wanted"
         )
 

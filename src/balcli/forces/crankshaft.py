@@ -109,9 +109,8 @@ def _refuse_too_many_results(orders: int, loads: int) -> None:
     told = orders * loads
     if told > MOST_RESULTS_ALONG_CRANK:
         raise BalcliError(
-            f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights "
-            f"are {told} results, and at most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer "
-            "orders"
+            f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights are "
+            f"{told} results, and at most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
         )
 
 
