@@ -138,9 +138,7 @@ class Phasors:
         return Phasors(self.orders, factor * self.vectors, size * self.noise)
 
     def about(self, p: complex | Complex) -> Phasors:
-        """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a
-        scalar.
-        """
+        """Moment about z of this force at the point p = x + iy: `Im(conj(p) F)`, a scalar."""
         moment = np.conjugate(p) * self.forward - p * np.conjugate(self.backward)
         return Phasors.from_scalar(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
@@ -200,9 +198,7 @@ class Phasors:
 
     @property
     def axis_deg(self) -> Array:
-        """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a
-        mean.
-        """
+        """Major axis from x, deg in (-90, 90]; nan for a circle, a balanced order and a mean."""
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
         turned = wrap_degrees(angle, 180)
         # Rounding shall not turn an axis end for end.

@@ -1,6 +1,4 @@
-"""Engine: what all computation needs of an engine file, in SI units, one row a cylinder, with its
-devices.
-"""
+"""Engine: what all computation needs of an engine file, in SI units, one row a cylinder."""
 
 from __future__ import annotations
 
@@ -257,9 +255,7 @@ class Engine:
 
     @property
     def rows_by_pin(self) -> list[list[int]]:
-        """Rows of the cylinders on each crank pin, in the order of the throws; split pins are
-        several.
-        """
+        """Rows of the cylinders on each crank pin, in the throws' order; split pins are several."""
 
         def find_pin(row: int) -> tuple[int, float]:
             return self.weighed[row].throw, float(self.cylinders.pin_deg[row]) % 360

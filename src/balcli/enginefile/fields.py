@@ -1,6 +1,4 @@
-"""The figures of an engine file as pydantic types: how one is read, how refused, and its JSON
-schema.
-"""
+"""Figures of an engine file as pydantic types: how one is read, refused, and its JSON schema."""
 
 from __future__ import annotations
 
@@ -20,17 +18,13 @@ RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
 
 
 def printable(text: str) -> str:
-    """The first 60 characters; what would move the cursor or colour a terminal becomes a question
-    mark.
-    """
+    """The first 60 characters; what moves the cursor or colours a terminal becomes a "?"."""
     cut = text[:LONGEST_SHOWN] + ("..." if len(text) > LONGEST_SHOWN else "")
     return "".join(letter if letter.isprintable() else "?" for letter in cut)
 
 
 def shorten(value: object) -> str:
-    """A value as a reader may recognise it, cut to about 60 characters; never the whole of a huge
-    one.
-    """
+    """A value as a reader may recognise it, cut to about 60 characters, however huge it is."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int) and value.bit_length() > 200:

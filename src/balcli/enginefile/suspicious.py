@@ -411,9 +411,7 @@ def _spacing(model: EngineFile) -> float | None:
 
 
 def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """How many there are; where the throws are left out, the firing order tells the number of
-    rods.
-    """
+    """How many there are; without throws, the firing order tells the number of rods."""
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
     rods_on_a_throw = banks if layout.rods == "shared" else 1

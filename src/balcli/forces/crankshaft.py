@@ -158,8 +158,6 @@ def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
 
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
-    """Phasors of all orders, shape (orders, places), and their peaks; only these orders are
-    kept.
-    """
+    """Phasors of all orders, (orders, places), and their peaks; only these orders are kept."""
     peaks = tuple(find_peak(phasors.select_place(place)) for place in range(len(places)))
     return AlongCrank(places, phasors.select_orders(orders), peaks)

@@ -57,9 +57,7 @@ def gas_grid(
 
 
 def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
-    """Which order rocks the engine most about a `pivot`, in a sentence; empty where that is not
-    known.
-    """
+    """Which order rocks the engine most about a `pivot`, in a sentence; empty: not known."""
     roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.roll
     if roll is None or gas is None or inertia is None:
         return ""

@@ -174,9 +174,7 @@ def _tell_place(device: DeviceTable) -> str:
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
-    """Every order that matters: `order 2: 458, 4: 26.3 N m`; `every_order` as of
-    `roll_and_peaks`.
-    """
+    """Every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as of `roll_and_peaks`."""
     least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
     rows = [k for k, size in enumerate(roll.major) if size > least]
     largest = float(roll.major.max(initial=0))

@@ -1,6 +1,4 @@
-"""A sheet: what a person reads, before it is known where. Terminal, Markdown and HTML are made of
-it.
-"""
+"""A sheet: what a person reads, of which terminal, Markdown and HTML are made."""
 
 from __future__ import annotations
 

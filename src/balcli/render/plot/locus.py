@@ -60,9 +60,7 @@ def draw_locus(
 
 
 def _values_once(curve: Phasors) -> Complex:
-    """Values along the locus, no part of it twice: dashes drawn over one another would make a full
-    line.
-    """
+    """Values along the locus, no part twice: dashes over one another would make a full line."""
     return curve.values(np.radians(np.arange(find_period_deg(curve) + 1)))
 
 

@@ -134,9 +134,7 @@ def _name_modes(frequencies: Sequence[float], least: float) -> list[tuple[str, f
 
 
 def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
-    """A block of the body's mass and inertia at rest and at the end of its swing, with its
-    mounts.
-    """
+    """A block of the body's mass and inertia, at rest and at its swing's end, with its mounts."""
     body = result.mounted.body
     corners = find_corners(body)
     turned = mode.shape[:3] + np.cross(mode.shape[3:], corners)

@@ -186,9 +186,7 @@ def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
 def _draw_waterfall(
     ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> None:
-    """Torque of the shaft with the largest: every order a stream up the speeds, as wide as it is
-    large.
-    """
+    """Torque of the shaft with the largest: each order a stream up the speeds, as wide as large."""
     shaft = int(np.argmax(response.torque.max(axis=0)))
     amplitudes = response.amplitudes[:, :, shaft]
     gap = float(np.diff(response.orders).min()) if len(response.orders) > 1 else 1.0
