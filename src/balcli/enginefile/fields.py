@@ -97,13 +97,8 @@ class Number(_Field):
         below: float | None = None,
         most: float = math.inf,
     ) -> None:
-        self.dimension, self.above, self.least, self.below, self.most = (
-            dimension,
-            above,
-            least,
-            below,
-            most,
-        )
+        self.dimension, self.above, self.least = dimension, above, least
+        self.below, self.most = below, most
 
     def read(self, value: object) -> float:
         number = self._number(value)
