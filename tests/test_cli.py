@@ -634,6 +634,25 @@ def test_any_locale_gets_utf_8():
     assert "F1 = m r ω² = " in done.stdout
 
 
+def test_an_engine_file_may_name_a_file_that_this_locale_cannot(good):
+    """Only where names of files are no UTF-8; elsewhere there is just no such file."""
+    good.write_text(GOOD + '[gas]\nindicator = "drück_λ.csv"\n', encoding="utf-8")
+    ascii_names = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    done = run_command("torque", good, env=ascii_names)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert re.match(f"balcli: {re.escape(str(good))}: gas.indicator: .?drück_λ.csv", done.stderr)
+
+
+def test_without_docstrings_all_is_computed_and_help_is_short():
+    bare = run_python("-OO", "-m", "balcli", "analyze", I4)
+    assert (bare.returncode, bare.stderr) == (0, "")
+    assert bare.stdout == run_command("analyze", I4).stdout
+    bare = run_python("-OO", "-m", "balcli", "balance", "-h")
+    assert (bare.returncode, bare.stderr) == (0, "")
+    assert COMMANDS["balance"] in " ".join(bare.stdout.split())
+    assert "--scheme" in bare.stdout
+
+
 # ------------------------------------------------------------------ what is imported
 HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "tomli_w", "jinja2", "scipy"}
 PROBE = """
@@ -862,7 +881,7 @@ def test_a_closed_standard_error_changes_no_status(tmp_path):
     assert (tmp_path / "x").read_text() == run_command("analyze", I4).stdout
 
 
-SIGNALS = [getattr(signal, name, 0) for name in ("SIGINT", "SIGTERM", "SIGHUP")]
+SIGNALS = [getattr(signal, name, 0) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU")]
 
 
 @unix
@@ -927,6 +946,19 @@ FAULT = (
     "is to be trusted: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "
     "where it is)\n"
 )
+
+
+@unix
+def test_too_little_memory_is_no_fault_of_ours():
+    """With 2 GB of addresses, for samples that need 8."""
+    code = (
+        "import resource; resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30));"
+        "import balcli.cli; balcli.cli.app = lambda **_: __import__('numpy').empty(1 << 30);"
+        "from balcli.__main__ import main; main()"
+    )
+    done = run_python("-c", code)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("balcli: there is not enough memory for this (Unable to allocate")
 
 
 @pytest.mark.parametrize("options", [[], ["-X", "dev"]], ids=" ".join)

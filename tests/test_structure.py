@@ -230,6 +230,7 @@ SHAPING = {
     ("balcli.sizing.device_tables", "find_unbalance"),
     ("balcli.sizing.device_tables", "measure_direction"),
     ("balcli.sizing.device_tables", "name_kind"),
+    ("balcli.sizing.balance_factor", "name_one_cylinder"),
     ("balcli.printed_tables.recomputed", "deviates"),
     ("balcli.printed_tables.recomputed", "parse_decimal"),
     ("balcli.printed_tables.recomputed", "parse_fraction"),

@@ -100,7 +100,8 @@ class _OnDemand(TyperGroup):
             add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None
         )
         function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
-        single.command(cmd_name, help=_unwrapped(cleandoc(function.__doc__)))(function)
+        text = function.__doc__ or COMMANDS[cmd_name]  # `python -OO` has no docstrings
+        single.command(cmd_name, help=_unwrapped(cleandoc(text)))(function)
         command = get_command(single)
         command.params += _share(self.params, cmd_name, command.params)
         return command
@@ -257,8 +258,8 @@ def main() -> NoReturn:
         say(_usage(error))
     except BrokenPipeError:  # the reader of it has what they want
         sys.exit(Exit.DONE)
-    except OSError as error:  # of what typer prints itself, such as help
-        say(f"balcli: {error.filename or 'standard output'}: {error.strerror or error}")
+    except (OSError, MemoryError, UnicodeEncodeError) as error:
+        say(f"balcli: {_tell_what_the_system_lacks(error)}")
     except typer.Abort:  # Ctrl-C, where balcli is no process of its own
         sys.exit(Exit.INTERRUPTED)
     except SystemExit as end:
@@ -276,6 +277,14 @@ def _run() -> Any:
         note(origin)
     note(f"{time.process_time():.2f} s of processor time, the start of Python included")
     return status
+
+
+def _tell_what_the_system_lacks(error: OSError | MemoryError | UnicodeEncodeError) -> str:
+    if isinstance(error, OSError):  # of what typer prints itself, such as help
+        return f"{error.filename or 'standard output'}: {error.strerror or error}"
+    if isinstance(error, MemoryError):
+        return f"there is not enough memory for this{f' ({error})' if str(error) else ''}"
+    return f"{error.object}: no file can have this name here ({error})"  # text goes out in UTF-8
 
 
 def _usage(error: Any) -> str:

@@ -30,11 +30,14 @@ NEAREST_TO_LOCK = 1e-6
 # Samples of a revolution, of all mechanisms that differ: seconds. Far from their lock mechanisms
 # take 64 to 256 each.
 MOST_SAMPLES = 1 << 19
+MOST_TURNED = 12  # cylinders whose revolutions are tried, each in both: 2048 ways
 
 # Orders --------------------------------------------------------------------------------------
 HIGHEST_ORDER = 4096  # that may be asked for: closed forms are good to here
 HIGHEST_ORDER_UNASKED = 512  # that is shown otherwise: only a mechanism near its lock has more
 HIGHEST_GAS_ORDER_UNASKED = 12  # of gas torque: it falls off slowly
+MOST_HARMONICS_UNASKED = 512  # of a torque curve of many turns: more lines nobody reads
+HIGHEST_HARMONIC = 1 << 16  # of such a curve's period: seconds
 HIGHEST_TABLE_ORDER = 100  # of tangential pressure: builders' tables end at 12 to 24
 HIGHEST_ORDER_SOUGHT = 8  # where a scheme looks for something to balance: engines have it below
 MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are told one by one
@@ -44,7 +47,7 @@ MOST_LOADS_APART = 1_100_000  # loads x orders kept one by one, and half as many
 
 # Figures asked for on the command line -------------------------------------------------------
 FINEST_STEP_DEG = 1e-3  # of the crank angle: 360 000 angles
-FARTHEST_DEG = 1e6  # phase and turn of a second engine: angles keep 10 digits
+FARTHEST_DEG = 1e6  # phase and turn of a second engine, torque curves: angles keep 10 digits
 FARTHEST_M = 1e6  # place of a second engine
 FARTHEST_DEVICE_M = 50.0  # place of a shaft or plane: the longest engines have 30
 LARGEST_FACTOR = 2  # share of the reciprocating mass, either way: shops take 0 to 1

@@ -21,11 +21,11 @@ last_words: list[Callable[[], str]] = []  # the last one says how far a long com
 
 
 def end_on_signals() -> None:
-    """Let Ctrl-C, SIGTERM and SIGHUP end the process at any instant: exit status 128 and the
-    signal's number, as in a shell, without a word unless Ctrl-C ends a long computation. What was
-    ignored from the start (`nohup`) still is.
+    """Let Ctrl-C, SIGTERM, SIGHUP and the end of its processor time end the process at any instant:
+    exit status 128 and the signal's number, as in a shell, without a word unless Ctrl-C ends a long
+    computation. What was ignored from the start (`nohup`) still is.
     """
-    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK"):
+    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU", "SIGBREAK"):
         number = getattr(signal, name, None)  # the last is Windows' own, which has no SIGHUP
         if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _end)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import cmath
 import csv
 import io
 import json
+import math
 import re
 import tomllib
 
@@ -226,6 +228,38 @@ def test_a_period_that_nothing_has_is_doubted(tmp_path, last, doubted):
         "the last row closes the period: is it there?\n"
     )
     assert run_here("torque", "--curve", path).err == (told if doubted else "")
+
+
+def test_a_curve_of_a_thousand_turns_ends_soon(tmp_path):
+    """All its orders to 12 are 12 000 lines, and those to 4096 four million."""
+    path = tmp_path / "t.csv"
+    path.write_text("angle_deg,torque_Nm\n0,1\n180,5\n360000,1\n")
+    shown = json.loads(torque("--curve", str(path), "-f", "json"))["orders"]
+    assert [entry["order"] for entry in shown] == [k / 1000 for k in range(1, 513)]
+    assert run_here("torque", "--curve", path, "--orders", "65,66").err == (
+        "balcli: order 66: of a period of 1000 turns there are orders to 65.54\n"
+    )
+    # Slopes jump by 4 b/(a (b - a)) at 0 and back at a, in turns of a period b.
+    found = torque("--curve", str(path), "--orders", "0.5,65", "-f", "json")
+    sizes = [entry["torque_Nm"]["amplitude"] for entry in json.loads(found)["orders"]]
+    a, b = 0.5, 1000
+    for order, size in zip((0.5, 65), sizes, strict=True):
+        wave = 2 * math.pi * order
+        jumps = 4 * b / (a * (b - a)) * abs(1 - cmath.exp(-1j * wave * a))
+        assert size == pytest.approx(2 / b * jumps / wave**2, rel=1e-8)
+
+
+def test_a_curve_in_place_of_an_engine_is_told_where_it_belongs(curve):
+    told = f"balcli: {curve}: an engine file ends in .toml; is it a torque, for --curve?\n"
+    assert run_here("torque", curve).err == told
+
+
+def test_angles_of_a_curve_have_an_end(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_text("angle_deg,torque_Nm\n0,1\n180,5\n36e12,1\n")
+    assert (
+        run_here("torque", "--curve", path).err == f"balcli: {path}: has angles beyond 1e+06 deg\n"
+    )
 
 
 def test_a_short_period_has_two_orders_at_least(tmp_path):

@@ -184,3 +184,7 @@ def test_of_many_equal_peaks_the_first():
     turned = np.exp(-0.1j)
     found = find_peak(curve((200, turned / 2, turned.conjugate() / 2)))
     assert found.theta == pytest.approx(0.1 / 200)
+
+
+def test_of_what_is_tiny_squares_may_underflow():
+    assert 0 < find_peak(curve((1, 1e-170, 0), (40, 0, 1e-170))).value <= 2e-170

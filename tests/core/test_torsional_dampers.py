@@ -7,7 +7,12 @@ import pytest
 from support.chains import no_damping
 
 from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
-from balcli.core.torsional_dampers import best_viscous_damping, pendulum_inertia, viscous_inertia
+from balcli.core.torsional_dampers import (
+    best_viscous_damping,
+    pendulum_inertia,
+    pendulum_swing,
+    viscous_inertia,
+)
 from balcli.core.torsional_response import respond_chain
 
 W = np.array([50.0, 300, 1000])
@@ -70,6 +75,7 @@ def test_a_pendulum_swings_as_its_equation_of_motion_says():
     y = (radius + length) * order**2 / (radius - length * order**2)
     felt = mass * (radius + length) * (radius + length + length * y)
     assert pendulum_inertia(mass, radius, length, np.array(order)) == pytest.approx(felt)
+    assert pendulum_swing(radius, length, np.array(order)) == pytest.approx(y)
 
 
 @pytest.mark.parametrize("ratio", [0.1, 0.5, 1.0])

@@ -233,6 +233,20 @@ def test_shared_pins_that_an_order_cannot_have():
     )
 
 
+def test_intervals_in_another_turn_are_told():
+    """The pin of a 45-degree twin meets the second bank 45 deg after the first, and a turn later."""
+    twin = {"bank_angle": 45, "firing_order": [1, 2]}
+    found = refused(layout=twin | {"firing_intervals": [315, 405]})
+    assert found.endswith("They fit with layout.firing_intervals = [405, 315]")
+    assert refused(layout=twin | {"firing_intervals": [300, 420]}).endswith("crank.splay = 105")
+
+
+def test_the_order_in_which_a_radial_fires_evenly_is_told():
+    """The pin comes by the cylinders as they are numbered, and every second one fires."""
+    found = refused(layout={"radial": 5, "firing_order": [1, 2, 3, 4, 5]})
+    assert found.endswith("They would fire evenly as 1-3-5-2-4")
+
+
 @pytest.mark.parametrize("angle", [60, 72, 90])
 def test_the_splay_that_makes_a_vee_six_fire_evenly(angle):
     """The second rod of a throw fires 120 degrees after the first, its bank stands `angle` further
@@ -335,9 +349,27 @@ def test_an_order_that_fires_unevenly_beside_an_even_one_is_doubted(parts, told)
     assert doubts == [f"layout.firing_order: {told}"]
 
 
+def test_an_order_of_one_revolution_is_doubted_where_two_are_less_uneven():
+    """A 90-degree V6 on common pins: dead centres at 0, 240, 120 and 90 later; 1-4-3-6-2-5 goes on
+    to the next throw after 150 degrees, 1-4-2-5-3-6 waits for more than a turn.
+    """
+    vee = {"bank_angle": 90, "firing_order": [1, 4, 2, 5, 3, 6]}
+    doubts = engine(crank={"throws": [0, 240, 120]}, layout=vee).doubts
+    (told,) = (doubt for doubt in doubts if "firing" in doubt)
+    assert told == (
+        "layout.firing_order: 1-4-2-5-3-6 fires after 90, 30, 90, 30, 90, 390 deg with these "
+        "throws, and 1-4-3-6-2-5 would after 90, 150, 90, 150, 90, 150; change it"
+        f"{OR_THROWS}, or say layout.firing_intervals = [90, 30, 90, 30, 90, 390] if it is so"
+    )
+
+
 @pytest.mark.parametrize(
     "parts",
     [
+        {
+            "crank": {"throws": [0, 240, 120]},
+            "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]},
+        },
         {"crank": {"throws": [0, 240, 120]}, "layout": {"firing_order": [1, 3, 2]}},
         {"crank": {"throws": [0, 239.5, 120.5]}, "layout": {"firing_order": [1, 3, 2]}},
         {

@@ -136,6 +136,14 @@ def test_ordinary_engines_pass(text):
                 "mm; it is taken about the centre of mass, in kg mm^2"
             ),
         ),
+        *(
+            (
+                changed(("speed = 3000", f"speed = {value}")),
+                "operation.speed is 3 rpm; a point parts decimals, not thousands: were 3000 rpm "
+                "meant?",
+            )
+            for value in ("3.000", '"3.000 rpm"')
+        ),
         (
             changed(("speed = 3000", "speed = 30000")),
             (

@@ -97,6 +97,7 @@ def test_the_bare_unit_changes_nothing(value):
         ("1 yard", LENGTH, 914.4),
         ("1 slug", MASS, 14.5939029372064),  # 1 lbf s^2/ft; NIST SP 811, appendix B
         ("10 inches", LENGTH, 254.0),
+        ("1 blob", MASS, 175.126835246476),  # 12 slugs, as Norton calls it
         ("100 gon", ANGLE, 90.0),
         ("1 lbf s^2 in", INERTIA, 4.4482216152605 * 0.0254 * 1e6),  # lbf from NIST SP 811
         ("1 ounce inch", UNBALANCE, 28.349523125 * 25.4),
@@ -291,7 +292,7 @@ EXACT = {
 }
 PRINTED = {  # NIST SP 811 (2008), appendix B.8: seven digits
     "slug": 14.593903,
-    "slinch": 175.12684,
+    "slinch blob": 175.12684,
     "ozf": 2.780139e-1,
     "pdl poundal": 1.38255e-1,
     "torr Torr": 1.333224e2,

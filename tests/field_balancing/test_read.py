@@ -151,6 +151,10 @@ CASES = [
     ),
     ('planes = ["a"]\n', "run: is missing; write [[run]] for every run, the rotor as found first"),
     (
+        'planes = ["a"]\nrun = []\n',
+        "run: is an empty list; write [[run]] for every run, the rotor as found first",
+    ),
+    (
         '[[run]]\nreadings = ["1 @ 0"]\n',
         'planes: is missing; name the planes that take weights, such as planes = ["front", "rear"]',
     ),

@@ -9,6 +9,7 @@ import warnings
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from functools import cache
+from threading import Event, Thread
 from typing import get_args
 
 import numpy as np
@@ -227,6 +228,27 @@ def test_nothing_global_is_left_changed():
     before = dict(matplotlib.rcParams)
     with style.open_figure(2, 2, "png") as figure:
         figure.subplots()
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_threads_that_draw_leave_matplotlib_as_it_was():
+    """The second begins before the first has ended, and ends after it."""
+    import matplotlib
+
+    before = dict(matplotlib.rcParams)
+    second_is_in, first_is_out = Event(), Event()
+
+    def draw_second():
+        with style.open_figure(2, 2, "png"):
+            second_is_in.set()
+            first_is_out.wait()
+
+    second = Thread(target=draw_second)
+    with style.open_figure(2, 2, "png"):
+        second.start()
+        second_is_in.wait(0.2)
+    first_is_out.set()
+    second.join()
     assert dict(matplotlib.rcParams) == before
 
 

@@ -342,6 +342,15 @@ def test_the_same_weight_by_both_definitions():
     assert figures(fit(INLINE, 0.4))["factor of one cylinder"] == 0.4
 
 
+def test_one_cylinder_of_unequal_ones_is_told_as_their_mean():
+    """50 % of 720 and 550 g are 88 % of the first, and 100 % of 635 g."""
+    two = fit(TWIN + "[cylinder.2]\npiston_mass = 0.33\n", 0.5)
+    (detail,) = (one for one in two.details if one.label == "factor of one cylinder")
+    assert detail.what == "of one cylinder's reciprocating mass, in the mean: the same weight"
+    (detail,) = (one for one in fit(TWIN, 0.5).details if one.label == "factor of one cylinder")
+    assert detail.what == "of one cylinder's reciprocating mass: the same weight"
+
+
 def test_what_was_measured_is_the_factor_it_stands_for():
     """Rotating 2 x 450 g, reciprocating 2 x 720 g: 1375 g on the pin take 475/1440 of it."""
     engine = build_text(TWIN)

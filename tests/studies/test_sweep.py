@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import product
+from threading import Thread
 
 import numpy as np
 import pytest
@@ -259,6 +260,28 @@ def test_threads_give_identical_rows(monkeypatch: pytest.MonkeyPatch, threads: i
     sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
     there = "".join(sweep_csv(sweep, evaluate_chunks(sweep, threads, alone_s=0.0)))
     assert there == "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
+
+
+@pytest.mark.parametrize("given", [0, 1, 3])
+def test_a_system_that_gives_few_threads_has_the_same_rows(
+    monkeypatch: pytest.MonkeyPatch, given: int
+) -> None:
+    """Limits of users and containers (`ulimit -u`, `--pids-limit`) are told by a RuntimeError."""
+    begun: list[Thread] = []
+    start = Thread.start
+
+    def start_few(thread: Thread) -> None:
+        if sum(other.is_alive() for other in begun) >= given:
+            raise RuntimeError("can't start new thread")
+        begun.append(thread)
+        start(thread)
+
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 300)
+    sweep = asked(VEE, *GRID, of="force.2.major")
+    alone = "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
+    monkeypatch.setattr(Thread, "start", start_few)
+    assert "".join(sweep_csv(sweep, evaluate_chunks(sweep, 5, alone_s=0.0))) == alone
+    assert bool(begun) == bool(given)
 
 
 def test_threads_end_with_who_asks_for_their_figures(monkeypatch: pytest.MonkeyPatch) -> None:

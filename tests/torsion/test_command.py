@@ -209,10 +209,12 @@ def test_what_pendulums_leave_undamped_is_told(tmp_path):
         """
     hertz = np.sqrt(1e4 / (1 + 2 * 0.099**2 / 0.9)) / (2 * np.pi)
     assert refusal("torsion", "-", "--speeds", "850:1150:50", stdin=text) == (
-        f"standard input: the natural frequency of {hertz:.6g} Hz is excited and nothing damps it: its vibration "
-        "has no bound; give a loss factor (loss = 0.02), or damping"
+        f"standard input: the natural frequency of {hertz:.6g} Hz is excited by order 1 at "
+        f"{60 * hertz:.6g} rpm and nothing damps it: its vibration has no bound; give a loss factor "
+        "(loss = 0.02), or damping"
     )
-    assert "response" in ask_torsion(text, "--speeds", "950:1150:50"), "beside the range"
+    beside = run_here("torsion", "-", "--speeds", "950:1150:50", stdin=text)
+    assert beside.status == 0
 
 
 def test_a_viscous_ring_takes_heat_as_power_is_fed():
@@ -285,9 +287,45 @@ def test_a_tuned_pendulum_holds_its_node_still():
         order = 2
         cos = 20
         """
-    assert ask_torsion(text, "--speeds", "1500")["response"]["free_end_deg"][0] < 1e-9
+    response = ask_torsion(text, "--speeds", "1500")["response"]
+    assert response["free_end_deg"][0] < 1e-9
+    # the wheel stands still against 40 N m: m R (R + L) times its speed squared for each rad
+    swing = np.degrees(40 / (2 * 0.16 * 0.17 * (750 * np.pi / 30) ** 2))
+    assert response["pendulums"] == [
+        {
+            "node": "wheel",
+            "half_swing_deg": pytest.approx([swing]),
+            "worst": {"speed_rpm": 1500, "half_swing_deg": pytest.approx(swing)},
+        }
+    ]
     detuned = text.replace("order = 2", "order = 2.5")
     assert ask_torsion(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
+
+
+def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
+    """Tuned, they hold 300 N m with 2 kg: m R (R + L) W^2 for each rad, 92 deg at 1500 rpm; five
+    times as many swing by 18 deg.
+    """
+    text = """
+        [[node]]
+        name = "crank"
+        inertia = 3e5
+        damper = { kind = "pendulum", mass = MASS, radius = 60, length = 2.962962962962963 }
+        [[excitation]]
+        node = "crank"
+        order = 4.5
+        cos = 300
+        """
+    swing = np.degrees(300 / (2 * 0.06 * (0.06 + 0.06 / 4.5**2) * (50 * np.pi) ** 2))
+    options = ("torsion", "-", "--speeds", "1500:3000:100")
+    found = run_here(*options, stdin=text.replace("MASS", "2"))
+    assert f"The pendulums of crank swing by ±{swing:.4g} deg at 1500 rpm." in found.out
+    assert found.err == (
+        f"warning: standard input: the pendulums of crank swing by {swing:.3g} deg at 1500 rpm, "
+        "and small swings are computed: at 20 deg one on a circle is 0.8 % out of tune, farther "
+        f"out more; {swing / 20:.2g} times their mass would swing so far\n"
+    )
+    assert run_here(*options, stdin=text.replace("MASS", "10")).err == ""
 
 
 @pytest.mark.parametrize(
@@ -532,13 +570,15 @@ PENDULUMS = 'damper = { kind = "pendulum", mass = 2, radius = 160, length = 10 }
         (
             ("", PENDULUMS),
             " Pendulums are left out; they follow the order.",
-            " Without pendulums, which shift them.",
+            " Without pendulums, which shift them; those of the order that pendulums are tuned to "
+            "vanish.",
         ),
         (
             (RING, PENDULUMS),
             " Rings in oil are left out, as if they were not there. So are pendulums, which follow "
             "the order.",
-            " Without rings in oil and pendulums, which shift them.",
+            " Without rings in oil and pendulums, which shift them; those of the order that pendulums "
+            "are tuned to vanish.",
         ),
     ],
 )

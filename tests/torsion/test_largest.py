@@ -10,6 +10,7 @@ from support.commands import run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
+from balcli import BalcliError, analyze_torsion
 from balcli.core.cycle_peaks import find_swing
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -211,6 +212,67 @@ def test_of_two_peaks_within_one_step_the_higher_is_found():
     largest = max(map(swing, np.arange(1190, 1200, 0.1)))
     assert told["half_peak_to_peak_Nm"] == pytest.approx(largest, rel=1e-6)
     assert told["speed_rpm"] == pytest.approx(1196.82, abs=0.1)
+
+
+def test_a_peak_beside_its_resonance_is_found():
+    """Two resonances side by side push the peaks of the first shaft away from both: the higher one
+    passes what the shaft has at either resonance by far.
+    """
+    text = """
+        loss = 0.002
+        node = [
+            { name = "a", inertia = 38e3, damping = 4.5, damper = { kind = "viscous", inertia = 11e4, damping = 3.3 } },
+            { name = "b", inertia = 447e3 },
+            { name = "c", inertia = 8.2e6 },
+            { name = "d", inertia = 1.63e6 },
+        ]
+        shaft = [
+            { from = "a", to = "b", stiffness = 1.1e6 },
+            { from = "b", to = "c", stiffness = 17e3 },
+            { from = "c", to = "d", stiffness = 45.3e3 },
+        ]
+        excitation = [{ node = "a", order = 1, cos = 80 }]
+        """
+    speeds = np.linspace(1830, 1850, 2001)
+    w = speeds * np.pi / 30
+    stiffness = np.array([1.1e6, 17e3, 45.3e3]) * (1 + 0.002j)
+    twist = np.diff(np.eye(4), axis=0)
+    dynamic = twist.T * stiffness @ twist - w[:, None, None] ** 2 * np.diag(
+        [0.038, 0.447, 8.2, 1.63]
+    )
+    dynamic[:, 0, 0] += 4.5j * w - w**2 * 0.11 / (1 + 1j * w * 0.11 / 3.3)
+    angle = np.linalg.solve(dynamic, np.array([[80.0], [0], [0], [0]]))[:, :, 0]
+    torque = np.abs(stiffness[0] * (angle[:, 0] - angle[:, 1]))
+    worst = analyze_torsion(text, np.linspace(1400, 6100, 6)).response.worst
+    assert worst.torque[0] == pytest.approx(torque.max(), rel=1e-7)
+    assert worst.speeds_rpm[0] == pytest.approx(speeds[torque.argmax()], abs=0.02)
+
+
+@pytest.mark.parametrize("loss", [0.0, 1e-11, 1e-9])
+def test_what_hardly_anything_damps_has_no_bound(loss):
+    """A loss factor of 1e-11 gave a largest torque a thousandth of that at the resonance."""
+    text = f"""
+        fixed = ["wall"]
+        node = [{{ name = "disc", inertia = 1e6 }}, {{ name = "wall" }}]
+        shaft = [{{ from = "disc", to = "wall", stiffness = 1e4, loss = {loss!r} }}]
+        excitation = [{{ node = "disc", order = 1, cos = 1 }}]
+        """
+    with pytest.raises(BalcliError, match=r"15\.9155 Hz is excited by order 1 at 954\.93 rpm"):
+        analyze_torsion(text, [800, 1100])
+    assert analyze_torsion(text, [960, 1100]).response is not None
+
+
+@pytest.mark.parametrize("loss", [3e-9, 1e-6])
+def test_what_something_damps_is_found(loss):
+    """1 N m on a disc of 1 kg m2 on 10 kN m/rad: at the resonance 1/loss times as much."""
+    text = f"""
+        fixed = ["wall"]
+        node = [{{ name = "disc", inertia = 1e6 }}, {{ name = "wall" }}]
+        shaft = [{{ from = "disc", to = "wall", stiffness = 1e4, loss = {loss!r} }}]
+        excitation = [{{ node = "disc", order = 1, cos = 1 }}]
+        """
+    worst = analyze_torsion(text, [800, 1100]).response.worst
+    assert worst.torque == pytest.approx(1 / loss, rel=1e-6)
 
 
 def test_a_single_speed_is_headed_as_one():

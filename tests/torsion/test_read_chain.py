@@ -6,7 +6,7 @@ import json
 import math
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_torsion, refusal, run_here
 
 from balcli.enginefile.toml_text import parse_toml
 from balcli.torsion.build_chain import build_chain
@@ -281,6 +281,20 @@ order = 1.3
 )
 def test_a_mistake_says_what_would_be_right(text, message):
     assert mistakes(text) == [message]
+
+
+def test_a_rubber_ring_is_inertia_enough():
+    """Two springs in series, 10 and 30 kN m/rad, to a ring of 0.1 kg m2; the hub has no inertia."""
+    ring = 'damper = { kind = "rubber", inertia = 1e5, stiffness = 3e4, loss = 0.1 }'
+    found = ask_torsion(
+        f"""
+        fixed = ["wall"]
+        node = [{{ name = "hub", {ring} }}, {{ name = "wall" }}]
+        shaft = [{{ from = "hub", to = "wall", stiffness = 1e4 }}]
+        """
+    )
+    (mode,) = found["modes"]
+    assert mode["frequency_Hz"] == pytest.approx(math.sqrt(7500 / 0.1) / (2 * math.pi), rel=1e-14)
 
 
 def test_sizes_are_limited():

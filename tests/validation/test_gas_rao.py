@@ -27,7 +27,7 @@ EXPECTED = {
 def test_problem_1_116():
     """The first point is at 0.5 ms; the period is 24 steps, not the 23 of a solution in circulation."""
     angle = 2 * np.pi * np.arange(1, 26) / 24
-    found = polyline(angle, [*TORQUE, TORQUE[0]]).harmonics(3)
+    found = polyline(angle, [*TORQUE, TORQUE[0]]).harmonics(np.arange(4))
     assert found[0] == pytest.approx(1137.5, rel=1e-14)
     for order, (cosine, sine) in EXPECTED.items():
         straight = np.sinc(order / 24) ** 2

@@ -189,6 +189,8 @@ def refuse_mixture(
     """
     if (path is None) == (curve is None):
         raise BalcliError("give an engine file, or --curve with a torque")
+    if path is not None and path.lower().endswith(".csv"):
+        raise BalcliError(f"{path}: an engine file ends in .toml; is it a torque, for --curve?")
     wrong = alone if path is None else given
     for option, value in wrong.items():
         if value:

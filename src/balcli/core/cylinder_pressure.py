@@ -230,8 +230,8 @@ class GasTorque(CycleCurve):
         """
         half_orders = np.asarray(halves)
         every = round(4 * np.pi / self.curve.period)
-        found = self.curve.harmonics(int(half_orders.max(initial=0)) // every)
-        return np.where(half_orders % every == 0, found[half_orders // every], 0)
+        found = self.curve.harmonics(half_orders // every)
+        return np.where(half_orders % every == 0, found, 0)
 
 
 @dataclass(frozen=True)

@@ -94,7 +94,7 @@ def find_candidates(curve: Phasors) -> Array:
     height = power[found]
     if len(found) > MOST_CANDIDATES:
         height = _estimate_peaks(spectrum, found)
-        height = np.round(height / height.max(), _DIGITS)
+        height = np.round(height / (height.max() or 1.0), _DIGITS)  # squares may underflow
     highest_first = found[np.argsort(-height, kind="stable")]
     return highest_first[:MOST_CANDIDATES].astype(float) * (2 * np.pi / count)
 

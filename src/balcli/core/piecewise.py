@@ -9,7 +9,6 @@ across a corner or a jump.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -31,7 +30,7 @@ _NOISE = 1e-5  # last terms below this share that halving hardly lowers are roun
 _HARDLY = 0.75
 _HALVINGS = 48
 _EVERYWHERE = 256  # times as many panels: what these do not show is nothing but noise
-_LONGEST_REACH = 1000.0  # rad, of waves over a half panel: the terms of more are no numbers
+_LONGEST_REACH = 16.0  # rad, of waves over half a panel: of more it is cut, and others stay short
 _SAME = 1e-11  # rad; an angle so near to a breakpoint is the breakpoint
 _SAME_X = 1e-15  # of a panel's half width, where Newton's method has arrived
 _NOTHING = 1e-9  # values below this share of the largest have no sign
@@ -156,26 +155,33 @@ class PiecewiseCurve:
         end = self.breaks[0] + self.period * times
         return PiecewiseCurve(np.append(inner, end), np.tile(self.series, (1, times)))
 
-    def harmonics(self, highest: int) -> Complex:
-        """Coefficients c_k, k = 0 .. `highest`, of `Re sum c_k e^{2 pi i k angle/period}`; c_0 is
-        the mean.
+    def harmonics(self, wanted: ArrayLike) -> Complex:
+        """Coefficients c_k of `Re sum c_k e^{2 pi i k angle/period}` for the wanted whole numbers
+        k >= 0, of their shape (harmonics,); c_0 is the mean.
 
-        Gauss-Legendre quadrature of every panel with as many nodes as the series times the highest
-        harmonic need.
+        Gauss-Legendre quadrature of every panel, or where it holds many waves of equal parts of it,
+        with as many nodes as the series times the highest harmonic need.
         """
+        numbers = np.asarray(wanted).tolist()
         unit = 2 * np.pi / self.period
-        middle, half = _panels(self.breaks)
-        x, weights = _nodes_of_waves(len(self.series), highest * unit * float(half.max()))
+        highest = unit * max(numbers, default=0)
+        edges = cut(self.breaks, 2 * _LONGEST_REACH / max(highest, unit))
+        middle, half = _panels(edges)
+        x, weights = gauss(_nodes_for(len(self.series), highest * float(half.max())))
         angle = middle + half * x[:, None]
-        values = legendre(x, len(self.series)).T @ self.series
+        if len(edges) == len(self.breaks):
+            values = legendre(x, len(self.series)).T @ self.series
+        else:
+            values = self.within(angle)
         shares = (values * half * weights[:, None]).reshape(-1) * (2 / self.period)
-        step = np.exp(-1j * unit * angle).reshape(-1)
-        turning = np.ones_like(step)
-        found = np.zeros(highest + 1, complex)
-        found[0] = self.mean
-        for k in range(1, highest + 1):
-            turning *= step
-            found[k] = turning @ shares
+        flat = angle.reshape(-1)
+        step = np.exp(-1j * unit * flat)
+        turning, before = np.ones_like(step), 0
+        found = np.empty(len(numbers), complex)
+        for place, k in enumerate(numbers):
+            turning = turning * step if k == before + 1 else np.exp(-1j * (k * unit) * flat)
+            found[place] = turning @ shares if k else self.mean
+            before = k
         return found
 
     def antiderivative(self) -> PiecewiseCurve:
@@ -351,16 +357,6 @@ def cut(breaks: Array, widest: float) -> Array:
         for low, high, count in zip(breaks[:-1], breaks[1:], wide, strict=True)
     ]
     return np.append(np.concatenate(parts), breaks[-1])
-
-
-def _nodes_of_waves(terms: int, reach: float) -> tuple[Array, Array]:
-    """Nodes and weights that integrate a series times e^{i reach x} over [-1, 1]: of many waves, of
-    each of several equal parts.
-    """
-    parts = max(1, math.ceil(reach / _LONGEST_REACH))
-    x, weights = gauss(_nodes_for(terms, reach / parts))
-    middle = (2 * np.arange(parts)[:, None] + 1) / parts - 1
-    return (middle + x / parts).reshape(-1), np.tile(weights / parts, parts)
 
 
 def _nodes_for(terms: int, reach: float) -> int:

@@ -28,6 +28,14 @@ def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> 
     return mass * (radius + length) ** 2 / _away_from_zero(1 - order**2 * (length / radius) + 0j)
 
 
+def pendulum_swing(radius: float, length: float, order: Real) -> Complex:
+    """Angle of such a pendulum against its node for each rad by which that swings, both small: `n^2
+    (1 + L/R)/(1 - n^2 L/R)`.
+    """
+    detuning = _away_from_zero(1 - order**2 * (length / radius) + 0j)
+    return np.asarray(order**2 * (1 + length / radius) / detuning, complex)
+
+
 def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> float:
     """Damping c (N m s) of the viscous ring (kg m2) that makes the largest response least, of a
     system of one degree of freedom with a natural frequency w (rad/s) and 1/ratio of its inertia:

@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .singular_values import Complex, Real, find_singular_vectors
 
-UNDAMPED = 1e-12  # a loss factor up to here is rounding
+UNDAMPED = 2e-9  # a loss factor up to here is none: no machine vibrates for a billion turns
+ROUNDING = 1e-12  # a share of damping, or a distance of two frequencies, up to here is rounding
 _UNMOVED = 1e-10  # a share of the load up to here does not drive a mode
 _SINGULAR = 1e-11  # a motion in which the load does less than this share of all work is a mode
 _RANK = 1e-13  # singular values below this share of the largest are 0
@@ -201,7 +202,7 @@ def _respond_by_modes(stiffness: Real, mass: Real, frequency: Real, load: Comple
     drive = load @ shapes.T
     distance = squares - frequency[..., None] ** 2
     at_rest = np.abs(drive) <= _UNMOVED * (np.abs(load) @ _largest_motion(shapes))[..., None]
-    resonant = np.abs(distance) <= UNDAMPED * np.maximum(np.abs(squares), frequency[..., None] ** 2)
+    resonant = np.abs(distance) <= ROUNDING * np.maximum(np.abs(squares), frequency[..., None] ** 2)
     _refuse(np.any(resonant & ~at_rest, axis=-1), frequency)
     amplitude = np.where(resonant, 0, drive / np.where(resonant, 1, distance))
     return np.asarray(amplitude @ shapes, complex)

@@ -272,6 +272,14 @@ class Heat(TypedDict):
     worst: WorstHeat
 
 
+class PendulumSwing(TypedDict):
+    """How far pendulums swing against their node, by speed; half of peak to peak."""
+
+    node: str
+    half_swing_deg: Row
+    worst: WorstSwing
+
+
 class TorsionResponse(TypedDict):
     """Forced vibration over speeds."""
 
@@ -280,6 +288,7 @@ class TorsionResponse(TypedDict):
     free_end_deg: Row
     free_end_worst: WorstSwing
     dampers: NotRequired[list[Heat]]
+    pendulums: NotRequired[list[PendulumSwing]]
 
 
 class SizedDamper(TypedDict):

@@ -11,7 +11,7 @@ tau_i`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import accumulate, pairwise
+from itertools import accumulate, pairwise, product
 
 import numpy as np
 
@@ -111,6 +111,27 @@ def find_even_order(first: int, ready: Mapping[int, float], cycle: float) -> lis
             return None
         turn[k] = i
     return [turn[k] for k in range(len(turn))]
+
+
+def find_steadiest_order(first: int, ready: Mapping[int, float]) -> list[int]:
+    """Cylinders in the turn in which a four-stroke engine fires least unevenly with its dead
+    centres, each of which comes in both revolutions: with the least longest interval, by the fewest
+    different ones, and so that the sum of their squares is least.
+
+    Args:
+        first: the cylinder to begin with.
+        ready: dead centres of all, as `find_dead_centres` gives them; at most `MOST_TURNED`.
+    """
+    begin, others = ready[first], sorted(set(ready) - {first})
+
+    def rate(turns: Sequence[float]) -> tuple[float, int, float, list[int]]:
+        late = zip(others, turns, strict=True)
+        fires = {first: 0.0} | {i: (ready[i] - begin) % 360 + turn for i, turn in late}
+        turn = sorted(fires, key=lambda i: (fires[i], i))
+        gaps = [round(b - a, 3) for a, b in pairwise([*(fires[i] for i in turn), 720.0])]
+        return max(gaps), len(set(gaps)), sum(gap * gap for gap in gaps), turn
+
+    return min(map(rate, product((0.0, 360.0), repeat=len(others))))[-1]
 
 
 def check_firing(

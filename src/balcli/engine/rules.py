@@ -17,7 +17,8 @@ from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
 from .assembly import Assembly
-from .firing import check_firing
+from .firing import TOLERANCE_DEG, check_firing, find_even_order, find_intervals
+from .layout import cycle_deg
 from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
 from .split_pins import find_fitting_splay
 
@@ -175,12 +176,14 @@ def _describe_standstill(least: float, theta: float) -> str:
 
 def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
     """Cylinders fire when they are at top dead centre; where they would with the banks or throws
-    the other way round, or with pins that are split, the mistake says so.
+    the other way round, with their intervals or numbers in another turn, or with pins that are
+    split, the mistake says so.
     """
     for problem in _find_dead_centres_missed(parts):
         hint = (
             _suggest_swapped_banks(parts)
             or _suggest_mirrored_throws(parts)
+            or _suggest_turn(parts)
             or _suggest_splay(parts)
         )
         yield problem._replace(message=problem.message + hint)
@@ -230,6 +233,27 @@ def _suggest_mirrored_throws(parts: Assembly) -> str:
         return ""
     throws = ", ".join(f"{throw:g}" for throw in mirrored)
     return f". They fit with throws that count in the sense of rotation: crank.throws = [{throws}]"
+
+
+def _suggest_turn(parts: Assembly) -> str:
+    """The given intervals in another turn, or the order in which all rods of one throw fire evenly,
+    if their dead centres allow it; else empty.
+    """
+    layout, one_throw = parts.model.layout, parts.plan.throws == 1
+    if parts.rank or parts.order is None or not (one_throw or parts.model.crank.throws):
+        return ""
+    cycle, given = cycle_deg(layout), layout.firing_intervals
+    if given is None or max(given) - min(given) < TOLERANCE_DEG:
+        even = find_even_order(parts.order[0], parts.dead_centres_deg, cycle) if one_throw else None
+        return "" if even is None else f". They would fire evenly as {'-'.join(map(str, even))}"
+    try:
+        fitting = find_intervals(parts.order, parts.dead_centres_deg, cycle)
+    except InputError:
+        return ""
+    pairs = zip(sorted(fitting), sorted(given), strict=True)
+    if any(abs(a - b) > TOLERANCE_DEG for a, b in pairs):
+        return ""
+    return f". They fit with layout.firing_intervals = [{', '.join(f'{x:.6g}' for x in fitting)}]"
 
 
 def _suggest_splay(parts: Assembly) -> str:

@@ -37,9 +37,12 @@ def locate_beside(folder: Path, name: str) -> Path:
     """The file of this name, relative to a folder that it may not leave.
 
     Raises:
-        BalcliError: it would.
+        BalcliError: it would, or no file can have that name.
     """
-    home, place = folder.resolve(), (folder / name).resolve()
+    try:
+        home, place = folder.resolve(), (folder / name).resolve()
+    except ValueError as error:  # letters that names of files have not here: LC_ALL=C
+        raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
         raise BalcliError(
             f"{shorten(name)} lies outside the folder of the engine file; put it beside that file, "

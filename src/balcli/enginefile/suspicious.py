@@ -34,6 +34,7 @@ SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
+SPEED_LOW = 9.0  # rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
 OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
 # Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 MEAN_PRESSURE = 60.0  # bar
@@ -157,6 +158,11 @@ def _motion(model: EngineFile) -> Iterator[str]:
             f"the mean piston speed is {piston_speed:.3g} m/s at {speed:g} rpm and a stroke of "
             f"{stroke:g} mm, more than {PISTON_SPEED:g}; are operation.speed and crank.stroke "
             "right?"
+        )
+    if 0 < speed < SPEED_LOW:
+        yield (
+            f"operation.speed is {speed:g} rpm; a point parts decimals, not thousands: were "
+            f"{1000 * speed:g} rpm meant?"
         )
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
         yield (

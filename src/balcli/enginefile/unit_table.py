@@ -23,7 +23,7 @@ _ROWS = {
     "stone": "14 lb",
     "grain": "1/7000 lb",
     "slug": "1 lbf s^2/ft",
-    "slinch": "1 lbf s^2/in",
+    "slinch blob": "1 lbf s^2/in",
     # time
     "sec second": "1 s",
     "min minute": "60 s",
@@ -99,6 +99,7 @@ AMBIGUOUS = {
     "grad": "deg, or gon (0.9 deg)?",
     "grade": "deg, or gon (0.9 deg)?",
     "cycle": "turn, or the two of a four-stroke engine?",
+    "cpm": "rpm, or cycles of two turns in a minute?",
     "cal": "4.184 J, or 4.1868 J?",
     "kcal": "4184 J, or 4186.8 J?",
 }

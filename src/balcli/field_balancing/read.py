@@ -47,11 +47,13 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
     reader = TableReader(RUNS.name, _describe)
     stand_in = {"run": [Run.model_construct(readings=(0j,))]}  # runs are read one by one
     model = reader.read_table("", {**data, **stand_in}, RunsFile)
-    if "run" in data:
-        runs = reader.read_list("run", data["run"], Run, MOST_RUNS)
-    else:
-        runs = ()
+    runs: tuple[Run | None, ...] = ()
+    if "run" not in data:
         reader.problems.append(Problem.of_missing("run", _NEEDED["run"]))
+    elif data["run"] == []:
+        reader.problems.append(Problem("run", f"is an empty list; {_NEEDED['run']}"))
+    else:
+        runs = reader.read_list("run", data["run"], Run, MOST_RUNS)
     if not reader.problems and model is not None:
         model = model.model_copy(update={"run": runs})
     if model is not None:

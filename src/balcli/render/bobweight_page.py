@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import BalcliError, legible
 from ..limits import MOST_HOLES
+from ..sizing.balance_factor import name_one_cylinder
 from ..sizing.bobweight_card import NO_THROW
 from ..sizing.device_tables import find_unbalance
 from .bobweights import group_equal_pins, multiply, name_pins, percent
@@ -55,7 +56,7 @@ def _lines(result: Balance) -> Iterator[str]:
     factor, rods = card[0].factor, len(card[0].cylinders)
     yield f"Balance factor    {percent(factor)} of all reciprocating mass on the pin"
     if rods > 1:
-        yield f"                  = {percent(factor * rods)} of one cylinder's reciprocating mass"
+        yield f"                  = {percent(factor * rods)} of {name_one_cylinder(engine)}"
     for pins in group_equal_pins(card):
         yield ""
         yield from _weigh_pins(pins)

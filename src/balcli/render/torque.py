@@ -9,6 +9,7 @@ import numpy as np
 from ..core.piecewise import PiecewiseCurve
 from ..core.speed_variation import Surplus
 from ..core.speeds import RPM
+from ..limits import MOST_HARMONICS_UNASKED
 from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
@@ -261,4 +262,6 @@ def _curve_table(result: CurveAnalysis, system: System) -> Grid:
         (f"{round(float(n), 9):g}", *_amplitude(complex(c), float(n), unit))
         for n, c in zip(result.orders, result.harmonics, strict=True)
     )
-    return Grid(f"Torque by order, {unit.name}", ("order", "torque", "peak, deg"), rows)
+    title = f"Torque by order, {unit.name}"
+    note = "--orders asks for higher ones." if len(rows) == MOST_HARMONICS_UNASKED else ""
+    return Grid(title, ("order", "torque", "peak, deg"), rows, note=note)

@@ -156,7 +156,10 @@ def _criticals(result: TorsionAnalysis) -> Grid:
     system = result.system
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
     if dampers:
-        note += f" Without {' and '.join(dampers)}, which shift them."
+        note += f" Without {' and '.join(dampers)}, which shift them"
+        note += (
+            "; those of the order that pendulums are tuned to vanish." if system.pendulums else "."
+        )
     if result.response is None:
         note += _tell_gas(result)
     left = len(result.criticals) - len(shown)
@@ -277,10 +280,17 @@ def _tell_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
 
 
 def _tell_swing(result: TorsionAnalysis, response: TorsionResponse) -> str:
-    """The largest swing of the first node, and where."""
-    swing = number(float(np.degrees(response.worst.free_end)), 4)
-    speed = number(response.worst.swing_rpm)
-    return f"{result.system.nodes[0]} swings by ±{swing} deg at {speed} rpm."
+    """The largest swing of the first node and of pendulums, and where."""
+    worst = response.worst
+    swing = number(float(np.degrees(worst.free_end)), 4)
+    told = f"{result.system.nodes[0]} swings by ±{swing} deg at {number(worst.swing_rpm)} rpm."
+    for k, pendulums in enumerate(result.system.pendulums):
+        swing = number(float(np.degrees(worst.pendulums[k])), 4)
+        told += (
+            f" The pendulums of {result.system.nodes[pendulums.node]} swing by ±{swing} deg at "
+            f"{number(float(worst.pendulum_rpm[k]))} rpm."
+        )
+    return told
 
 
 def _name_orders(response: TorsionResponse, shaft: int, unit: ShownUnit) -> str:

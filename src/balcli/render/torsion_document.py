@@ -164,6 +164,18 @@ def _response_document(result: TorsionAnalysis, response: TorsionResponse) -> di
             }
             for k, name in enumerate(response.dampers)
         ]
+    if result.system.pendulums:
+        found["pendulums"] = [
+            {
+                "node": result.system.nodes[each.node],
+                "half_swing_deg": clean_each(np.degrees(response.pendulums[:, k])),
+                "worst": {
+                    "speed_rpm": clean(worst.pendulum_rpm[k]),
+                    "half_swing_deg": clean(np.degrees(worst.pendulums[k])),
+                },
+            }
+            for k, each in enumerate(result.system.pendulums)
+        ]
     return found
 
 
@@ -293,6 +305,9 @@ def _response_lines(system: TorsionalSystem, response: TorsionResponse) -> Itera
         for k, name in enumerate(response.dampers):
             node = name_cell(name.removesuffix(" ring"))
             yield *where, node, "heat", clean(response.heat[s, k]), "W"
+        for k, each in enumerate(system.pendulums):
+            node, swing = name_cell(system.nodes[each.node]), np.degrees(response.pendulums[s, k])
+            yield *where, node, "pendulums", clean(swing), "deg"
 
 
 def _worst_lines(system: TorsionalSystem, response: TorsionResponse) -> Iterator[Line]:
@@ -309,5 +324,9 @@ def _worst_lines(system: TorsionalSystem, response: TorsionResponse) -> Iterator
     for k, name in enumerate(response.dampers):
         where = ("worst", None, clean(worst.hottest_rpm[k]), None)
         yield *where, name_cell(name.removesuffix(" ring")), "heat", clean(worst.heat[k]), "W"
+    for k, each in enumerate(system.pendulums):
+        where = ("worst", None, clean(worst.pendulum_rpm[k]), None)
+        node, swing = name_cell(system.nodes[each.node]), np.degrees(worst.pendulums[k])
+        yield *where, node, "pendulums", clean(swing), "deg"
     where = ("worst", None, clean(worst.swing_rpm), None)
     yield *where, "", "free_end", clean(np.degrees(worst.free_end)), "deg"

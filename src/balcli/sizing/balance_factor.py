@@ -234,7 +234,7 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> list[Det
             "factor of one cylinder",
             "share",
             factor * rods,
-            what="of one cylinder's reciprocating mass: the same weight",
+            what=f"of {name_one_cylinder(engine)}: the same weight",
         ),
         Detail("definition", "", DEFINITION),
     ]
@@ -244,6 +244,12 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> list[Det
         what = "balance each bare pin, at the crank radius, without rods"
         details.insert(0, Detail("measured", "grams", options.measured, what=what))
     return details
+
+
+def name_one_cylinder(engine: Engine) -> str:
+    """What a factor of one cylinder is a share of: any of them, or the mean of unequal ones."""
+    masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
+    return f"one cylinder's reciprocating mass{', in the mean' if len(masses) > 1 else ''}"
 
 
 # ------------------------------------------------------------------ what is wanted, what is there

@@ -6,7 +6,9 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from itertools import islice
+from contextlib import suppress
+from itertools import chain, islice
+from threading import Event, Thread
 from typing import TypeVar
 
 Item = TypeVar("Item")
@@ -37,9 +39,15 @@ def share_work(
 def _share(
     work: Callable[[Item], Outcome], items: Iterator[Item], threads: int
 ) -> Iterator[Outcome]:
-    """The same by so many threads, a little ahead of who asks for it."""
+    """The same by so many threads, a little ahead of who asks for it; by this one alone where the
+    system gives no other.
+    """
     first = list(islice(items, 2 * threads))
     if not first:
+        return
+    threads = _count_startable(threads)
+    if not threads:
+        yield from map(work, chain(first, items))
         return
     from concurrent.futures import ThreadPoolExecutor  # most sweeps have ended without it
 
@@ -51,3 +59,17 @@ def _share(
             waiting.extend(pool.submit(work, item) for item in islice(items, 1))
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+def _count_startable(threads: int) -> int:
+    """How many of so many threads the system gives: a user or a container may have few."""
+    ended, started = Event(), list[Thread]()
+    with suppress(RuntimeError):  # it gives no more
+        for _ in range(threads):
+            thread = Thread(target=ended.wait)
+            thread.start()
+            started.append(thread)
+    ended.set()
+    for thread in started:
+        thread.join()
+    return len(started)

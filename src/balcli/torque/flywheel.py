@@ -122,7 +122,7 @@ def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, .
     """
     turns = speed.period / (2 * np.pi)
     count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))
-    c: Complex = speed.harmonics(count)[1:] / mean_speed
+    c: Complex = speed.harmonics(np.arange(1, count + 1)) / mean_speed
     size = np.abs(c)
     worth = np.flatnonzero(size > _WORTH * size.max(initial=0))
     return tuple(

@@ -15,7 +15,12 @@ from ..core.speed_variation import Surplus, surplus
 from ..enginefile.csv_columns import read_columns
 from ..errors import BalcliError
 from ..forces.orders import check_orders
-from ..limits import HIGHEST_GAS_ORDER_UNASKED
+from ..limits import (
+    FARTHEST_DEG,
+    HIGHEST_GAS_ORDER_UNASKED,
+    HIGHEST_HARMONIC,
+    MOST_HARMONICS_UNASKED,
+)
 from ..result import Result
 from .flywheel import Flywheel, FlywheelQuestion, find_flywheel
 
@@ -71,6 +76,8 @@ def read_curve(path: Path) -> PiecewiseCurve:
     angle, torque = np.array(columns.column(0)), np.array(columns.column(1))
     if len(angle) < 2 or not angle[-1] > angle[0]:
         raise BalcliError(f"{path}: has no two angles; the last row has to close the period")
+    if not np.abs(angle).max() <= FARTHEST_DEG:
+        raise BalcliError(f"{path}: has angles beyond {FARTHEST_DEG:g} deg")
     if len(falling := np.flatnonzero(np.diff(angle) < 0)):
         row = falling[0] + 1
         raise BalcliError(
@@ -108,7 +115,8 @@ def analyze_curve(
         torque, load: N m, over one and the same period.
         shaft: what turns.
         fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
-        orders: default: all that the period has, up to HIGHEST_GAS_ORDER_UNASKED, at least two.
+        orders: default: all that the period has, up to HIGHEST_GAS_ORDER_UNASKED, at least two and
+            at most MOST_HARMONICS_UNASKED.
 
     Raises:
         BalcliError: other periods, orders that the period has not.
@@ -116,7 +124,8 @@ def analyze_curve(
     shaft = shaft or DrivenShaft()
     net = torque if load is None else _subtract(torque, load)
     turns = torque.period / (2 * np.pi)
-    every = np.arange(1, max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2) + 1)
+    usual = max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2)
+    every = np.arange(1, min(usual, MOST_HARMONICS_UNASKED) + 1)
     if orders is not None:
         wanted = check_orders(orders) * turns
         every = np.rint(wanted).astype(int)
@@ -125,9 +134,14 @@ def analyze_curve(
                 f"order {wanted[odd[0]] / turns:g}: a period of {turns * 360:g} deg has multiples "
                 f"of {1 / turns:g}"
             )
+        if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
+            raise BalcliError(
+                f"order {every[high[0]] / turns:g}: of a period of {turns:g} turns there are "
+                f"orders to {HIGHEST_HARMONIC / turns:.4g}"
+            )
     above = surplus(net)._replace(work=torque.integral)
     asked = FlywheelQuestion(net, above.energy, shaft.mean_speed, shaft.inertia, None, fluctuation)
-    found = torque.harmonics(int(every.max(initial=1)))[every]
+    found = torque.harmonics(every)
     found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)
     return CurveAnalysis(
         name, torque, load, every / turns, found, above, shaft, find_flywheel(asked)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -19,6 +21,7 @@ from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # times the file's own speed to which criticals are told: engines overspeed
+WIDE_SWING = math.radians(20)  # on a circle its frequency is 0.8 % low there, by swing^2/16
 _ASTRAY = 1e-3  # of the largest angle: so far from the mode's shape a table is rounding errors
 
 
@@ -78,6 +81,18 @@ class TorsionAnalysis(Result):
     response: TorsionResponse | None
     barred_rpm: tuple[tuple[float, float], ...] | None
     damper: SizedDamper | None = None
+
+    def list_wide_pendulums(self) -> Iterator[tuple[str, float, float]]:
+        """Pendulums that swing beyond what is small: name of their node, half swing in rad, and at
+        which speed, rpm.
+        """
+        if self.response is None:
+            return
+        worst = self.response.worst
+        each = zip(self.system.pendulums, worst.pendulums, worst.pendulum_rpm, strict=True)
+        for pendulums, swing, rpm in each:
+            if swing > WIDE_SWING:
+                yield self.system.nodes[pendulums.node], float(swing), float(rpm)
 
     @property
     def summary(self) -> str:

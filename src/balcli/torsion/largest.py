@@ -15,9 +15,9 @@ from ..core.cycle_peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_distinct
 from ..core.speeds import RPM
+from ..core.vibration import ROUNDING
 from .modes import find_poles
 from .motion import (
-    UNDAMPED,
     move,
     refuse_too_many,
     refuse_torsional_resonance,
@@ -29,7 +29,8 @@ from .system import TorsionalSystem
 _ROUNDS = np.array([1 / 24, 1 / 6])  # parts of the speeds, those with large amplitudes first
 _NEAR = 0.9  # of the largest at the speeds looked at: what a peak beside them may exceed
 _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
-_SIDES = np.array([[-1], [1]])  # of a resonance, where it is looked at, too, in widths
+_SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, looked at, too, in widths
+_HIGH = 0.5  # of the largest: a resonance as high may have a higher peak at its side
 
 
 class LargestVibration(NamedTuple):
@@ -42,6 +43,8 @@ class LargestVibration(NamedTuple):
         stress: (shafts,) Pa, nan where a shaft has no diameter.
         amplitudes: (orders, shafts) torque by order there, N m.
         swing_rpm, free_end: where the first node swings most, and half of that swing, rad.
+        pendulum_rpm, pendulums: (pendulums,) where each swings most against its node, and half of
+            that swing, rad.
         hottest_rpm, heat: (dampers,) where each damper turns most to heat, and how much, W.
     """
 
@@ -52,6 +55,8 @@ class LargestVibration(NamedTuple):
     amplitudes: Real
     swing_rpm: float
     free_end: float
+    pendulum_rpm: Real
+    pendulums: Real
     hottest_rpm: Real
     heat: Real
 
@@ -61,7 +66,7 @@ class _Curves(NamedTuple):
 
     Attributes:
         columns: (curves,) numbers of shafts; behind the last shaft one more is the angle of the
-            first node, rad.
+            first node, and then those of pendulums, rad.
         weights: (curves,) by which each is multiplied.
         together: whether the highest of all is wanted, not that of each.
     """
@@ -78,11 +83,15 @@ class _Curves(NamedTuple):
 
     def at(self, rpm: Real) -> Complex:
         """By order, (orders, speeds, curves)."""
-        motion = move(self.system, rpm)
+        motion, shafts = move(self.system, rpm), len(self.system.shafts)
         found = np.empty((len(self.columns), *motion.torque.shape[:2]), complex)
         for curve, column, weight in zip(found, self.columns, self.weights, strict=True):
-            shaft = column < len(self.system.shafts)
-            curve[:] = motion.torque[:, :, column] if shaft else motion.angle[:, :, 0]
+            if column < shafts:
+                curve[:] = motion.torque[:, :, column]
+            elif column == shafts:
+                curve[:] = motion.angle[:, :, 0]
+            else:
+                curve[:] = motion.pendulums[:, :, column - shafts - 1]
             curve *= weight
         return np.moveaxis(found, 0, -1)
 
@@ -111,11 +120,12 @@ def find_largest_vibration(
     """Of every shaft, the first node and every damper.
 
     Args:
-        swings: half of peak to peak at these speeds (rpm), known already, (speeds, shafts + 1).
+        swings: half of peak to peak at these speeds (rpm), known already, of shafts, the first node
+            and pendulums, (speeds, curves).
         heat: (speeds, dampers), likewise.
     """
     count = len(system.shafts)
-    curves = _Curves(system, range(count + 1), np.ones(count + 1))
+    curves = _Curves(system, range(swings.shape[1]), np.ones(swings.shape[1]))
     at, height = _approach_largest(curves, rpm, swings)
     torque = curves.pick(at[:count], np.arange(count))
     return LargestVibration(
@@ -126,6 +136,8 @@ def find_largest_vibration(
         np.abs(torque),
         float(at[count]),
         float(height[count]),
+        at[count + 1 :],
+        height[count + 1 :],
         *_approach_hottest(system, rpm, heat),
     )
 
@@ -177,7 +189,7 @@ def find_resonant_speeds(
         poles = [find_poles(system)] * len(orders)
     found = [np.zeros((2, 0))]
     for order, each in zip(orders, poles, strict=True):
-        damped = each[(each.imag > 0) & (-each.real > UNDAMPED * np.abs(each))]
+        damped = each[(each.imag > 0) & (-each.real > ROUNDING * np.abs(each))]
         at, width = damped.imag / (RPM * order), -2 * damped.real / (RPM * order)
         steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
         there = (width < widest * steps) & (at > rpm[0]) & (at < rpm[-1])
@@ -203,7 +215,7 @@ def _approach_largest(curves: _Curves, rpm: Real, swings: Real) -> tuple[Real, R
     at, width = find_resonant_speeds(curves.system, rpm, _WIDE)
     tops = _find_large_swings(curves, at, swings.max(axis=0))
     largest = curves.level(np.concatenate([swings, tops]).max(axis=0))
-    high = np.any(tops >= _NEAR * largest, axis=1)
+    high = np.any(tops >= _HIGH * largest, axis=1)
     sides = _look_beside(at[high], width[high], rpm)
     beside = _find_large_swings(curves, sides, largest)
     speeds = np.concatenate([rpm, at, sides])

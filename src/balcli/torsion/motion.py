@@ -12,23 +12,24 @@ from ..core.singular_values import Complex, Real
 from ..core.speeds import RPM
 from ..core.torsional_modes import chain_loss, find_chain_modes
 from ..core.torsional_response import respond_chain
-from ..core.vibration import UndampedResonanceError, find_resonances, frequencies
+from ..core.vibration import UNDAMPED, UndampedResonanceError, find_resonances, frequencies
 from ..errors import BalcliError
 from ..limits import MOST_TORSION_TORQUES
 from .modes import find_poles
 from .system import TorsionalSystem
 
-UNDAMPED = 1e-9  # a pole with a smaller share of damping is rounding
 _AT_A_TIME = 1 << 20  # samples of a cycle, or torques by order, of all shafts and speeds
 
 
 class ChainMotion(NamedTuple):
-    """Angles (orders, speeds, nodes) and torques (orders, speeds, shafts) by order, complex, and
-    power lost in dampers (orders, speeds, dampers).
+    """Angles (orders, speeds, nodes) and torques (orders, speeds, shafts) by order, complex, those
+    of pendulums against their nodes (orders, speeds, pendulums), and power lost in dampers (orders,
+    speeds, dampers).
     """
 
     angle: Complex
     torque: Complex
+    pendulums: Complex
     heat: Real
 
 
@@ -42,9 +43,12 @@ def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
     try:
         twist = respond_chain(system.chain, system.damping, w, load, attached)
     except UndampedResonanceError as error:
-        raise _refuse_resonance(system, error.frequency / (2 * np.pi)) from None
+        row, _ = np.unravel_index(np.abs(w - error.frequency).argmin(), w.shape)
+        met = float(excitation.orders[row])
+        raise _refuse_resonance(system, error.frequency, met) from None
     heat = _heat_of_oil(system, w, twist.angle), _heat_of_rubber(system, w, twist.torque)
-    return ChainMotion(twist.angle, twist.torque, np.concatenate(heat, axis=-1))
+    swings = system.swing_pendulums(excitation.orders, twist.angle)
+    return ChainMotion(twist.angle, twist.torque, swings, np.concatenate(heat, axis=-1))
 
 
 def _heat_of_rubber(system: TorsionalSystem, w: Real, torque: Complex) -> Real:
@@ -87,10 +91,7 @@ def refuse_torsional_resonance(system: TorsionalSystem, rpm: Real) -> None:
     load = excitation.on_nodes(speeds, len(system.nodes))
     met = find_resonances(modes, loss, excitation.orders, speeds, load)
     if met:
-        worst = met[0]
-        hertz = modes.omega[worst.mode] / (2 * np.pi)
-        speed = f" by order {worst.order:g} at {worst.speed / RPM:.6g} rpm"
-        raise _refuse_resonance(system, float(hertz), speed)
+        raise _refuse_resonance(system, float(modes.omega[met[0].mode]), met[0].order)
 
 
 def _drive_undamped(system: TorsionalSystem, rpm: Real) -> None:
@@ -100,17 +101,18 @@ def _drive_undamped(system: TorsionalSystem, rpm: Real) -> None:
     excitation = system.require_excitation()
     for order in excitation.orders:
         poles = find_poles(system, float(order))
-        free = poles[(poles.imag > 0) & (-poles.real <= UNDAMPED * np.abs(poles))]
+        free = poles[(poles.imag > 0) & (-2 * poles.real <= UNDAMPED * np.abs(poles))]
         met = free.imag / (RPM * order)
         met = met[(met >= rpm[0]) & (met <= rpm[-1])]
         if len(met):
             move(replace(system, excitation=excitation.only(order)), met)
 
 
-def _refuse_resonance(system: TorsionalSystem, hertz: float, speed: str = "") -> BalcliError:
+def _refuse_resonance(system: TorsionalSystem, omega: float, order: float) -> BalcliError:
     return system.refusal(
-        f"the natural frequency of {hertz:.6g} Hz is excited{speed} and nothing damps it: "
-        "its vibration has no bound; give a loss factor (loss = 0.02), or damping"
+        f"the natural frequency of {omega / (2 * np.pi):.6g} Hz is excited by order {order:g} at "
+        f"{omega / (RPM * order):.6g} rpm and nothing damps it: its vibration has no bound; give a "
+        "loss factor (loss = 0.02), or damping"
     )
 
 

@@ -34,6 +34,7 @@ class TorsionResponse(NamedTuple):
         sums: (speeds, shafts) sum of the amplitudes of all orders, N m.
         stress: (speeds, shafts) Pa, nan where a shaft has no diameter.
         free_end: (speeds,) half swing of the first node, rad.
+        pendulums: (speeds, pendulums) half swing of each against its node, rad.
         amplitudes: (orders, speeds, shafts) torque by order, N m.
         swings: (orders, speeds) amplitude of the first node by order, rad.
         heat: (speeds, dampers) W, rings of oil first, then of rubber.
@@ -47,6 +48,7 @@ class TorsionResponse(NamedTuple):
     sums: Real
     stress: Real
     free_end: Real
+    pendulums: Real
     amplitudes: Real
     swings: Real
     heat: Real
@@ -75,7 +77,8 @@ def find_response(
         np.concatenate(each, axis=axis)
         for each, axis in zip(zip(*parts, strict=True), _AXES, strict=True)
     ]
-    torque, sums, free_end, amplitudes, swings, heat = joined
+    torque, sums, free_end, pendulums, amplitudes, swings, heat = joined
+    known = np.column_stack([torque, free_end, pendulums])
     return TorsionResponse(
         speeds_rpm,
         orders,
@@ -83,25 +86,28 @@ def find_response(
         sums,
         torque * stress_by_torque(system),
         free_end,
+        pendulums,
         amplitudes,
         swings,
         heat,
         system.dampers,
-        find_largest_vibration(system, speeds_rpm, np.column_stack([torque, free_end]), heat),
+        find_largest_vibration(system, speeds_rpm, known, heat),
     )
 
 
-_AXES = (0, 0, 0, 1, 1, 0)  # the axis of speeds in what is summed up
+_AXES = (0, 0, 0, 0, 1, 1, 0)  # the axis of speeds in what is summed up
 
 
 def _summarise(system: TorsionalSystem, orders: Real, rpm: Real) -> tuple[Real, ...]:
     motion = move(system, rpm)
-    first = motion.angle[:, :, :1]
-    swing = find_swing(orders, np.concatenate([motion.torque, first], axis=-1)).half
+    first, shafts = motion.angle[:, :, :1], motion.torque.shape[-1]
+    curves = np.concatenate([motion.torque, first, motion.pendulums], axis=-1)
+    swing = find_swing(orders, curves).half
     return (
-        swing[:, :-1],
+        swing[:, :shafts],
         sum_amplitudes(motion.torque),
-        swing[:, -1],
+        swing[:, shafts],
+        swing[:, shafts + 1 :],
         np.abs(motion.torque),
         np.abs(first[:, :, 0]),
         motion.heat.sum(axis=0),

@@ -14,7 +14,7 @@ from ..core.cached_property import cached_property
 from ..core.singular_values import Complex, Indices, Real
 from ..core.sorted_sets import are_among
 from ..core.torsional_chain import Chain, Damping, find_pieces
-from ..core.torsional_dampers import pendulum_inertia, viscous_inertia
+from ..core.torsional_dampers import pendulum_inertia, pendulum_swing, viscous_inertia
 from ..engine.build import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
 
@@ -166,4 +166,14 @@ class TorsionalSystem:
         for swung in self.pendulums:
             own = order / self.gears[swung.node]
             found[..., swung.node] += pendulum_inertia(swung.mass, swung.radius, swung.length, own)
+        return found
+
+    def swing_pendulums(self, orders: Real, angle: Complex) -> Complex:
+        """Angles of pendulums against their nodes (orders, speeds, pendulums), where these swing by
+        `angle` (orders, speeds, nodes) at orders (orders,) of the reference.
+        """
+        found = np.zeros((*angle.shape[:2], len(self.pendulums)), complex)
+        for k, swung in enumerate(self.pendulums):
+            ratio = pendulum_swing(swung.radius, swung.length, orders / self.gears[swung.node])
+            found[..., k] = ratio[:, None] * angle[..., swung.node]
         return found

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from functools import lru_cache
 from io import BytesIO
 from textwrap import wrap
+from threading import RLock
 from typing import TYPE_CHECKING, Any, Literal
 from unicodedata import east_asian_width
 
@@ -96,6 +97,7 @@ _EAST = (
     "Malgun Gothic",
     "Arial Unicode MS",
 )
+_one_at_a_time = RLock()
 _UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 
 
@@ -110,13 +112,20 @@ def open_figure(width: float, height: float, form: Form) -> Iterator[Picture]:
 
 @contextmanager
 def in_our_style(form: Form) -> Iterator[None]:
-    """What is drawn in this context is drawn in our style, whatever the user's own is."""
+    """What is drawn in this context is drawn in our style, whatever the user's own is. Threads draw
+    one after the other, for matplotlib has one style for all.
+    """
+    with _one_at_a_time, _set_log_level(), _set_style(form):
+        yield
+
+
+@contextmanager
+def _set_log_level() -> Iterator[None]:
     logger = logging.getLogger("matplotlib")
     usual = logger.level
     logger.setLevel(logging.ERROR)  # "building the font cache" is no news for our users
     try:
-        with _set_style(form):
-            yield
+        yield
     finally:
         logger.setLevel(usual)
 
