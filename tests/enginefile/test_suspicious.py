@@ -143,6 +143,14 @@ def test_ordinary_engines_pass(text):
                 "of mass, in kg mm^2"
             ),
         ),
+        *(
+            (
+                changed(("speed = 3000", f"speed = {value}")),
+                "operation.speed is 3 rpm; a point parts decimals, not thousands: were 3000 rpm "
+                "meant?",
+            )
+            for value in ("3.000", '"3.000 rpm"')
+        ),
         (
             changed(("speed = 3000", "speed = 30000")),
             (
@@ -151,6 +159,11 @@ def test_ordinary_engines_pass(text):
                 "operation.speed and "
                 "crank.stroke right?"
             ),
+        ),
+        (
+            changed(more="[[shaft]]\nratio = -2\nunbalance = 4500\nat = [0, 0.08]\n"),
+            "shaft.1.at is within 0.08 mm of the crank's axis; is it in mm? Another unit is said "
+            'as in "0.08 m"',
         ),
         (
             changed(("bore = 86", "bore = 86\noffset = -20")),
@@ -219,6 +232,13 @@ def test_ordinary_engines_pass(text):
 )
 def test_warnings(text, warning):
     assert find_suspicious(parse(text)) == [warning]
+
+
+def test_shafts_on_the_axis_of_the_crank_are_no_slip():
+    """A shaft that may stand anywhere is written so."""
+    shafts = "[[shaft]]\nratio = -2\nunbalance = 45\nat = [0, %s]\n"
+    on_it, beside = (changed(more=shafts % y) for y in ("1e-14", "2"))
+    assert find_suspicious(parse(on_it)) == find_suspicious(parse(beside)) == []
 
 
 @pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])

@@ -411,7 +411,8 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
     (
         lambda: balcli.sweep(V8, {"rod.ratio": [2.0]}),
         balcli.BalcliError,
-        "rod.ratio: 2 is not below 1; a plain number is wanted, without quotes, below 1",
+        "rod.ratio: 2 is not below 1; a plain number is wanted, without quotes, below 1: crank "
+        "radius / rod length; of a rod 2 times as long as the crank radius it is 0.5",
     ),
     (
         lambda: balcli.sweep(V8, {"rod.ratio": ["x"]}),

@@ -452,7 +452,7 @@ def test_one_speed(four):
 
 def test_too_much_is_refused(tmp_path):
     mounts = "".join(
-        f'[[mount]]\nname = "{k}"\nat = [{k}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
+        f'[[mount]]\nname = "{k}"\nat = [{k + 9}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
         for k in range(100)
     )
     path = tmp_path / "many.toml"

@@ -127,6 +127,19 @@ def test_inertias_in_kg_m2_are_doubted(tmp_path):
     )
 
 
+def test_places_in_metres_are_doubted(tmp_path):
+    """A point at the origin itself is no slip."""
+    path = tmp_path / "x.toml"
+    point = '[[point]]\nname = "seat"\nat = [0, %s, 0]\n'
+    path.write_text(block() + point % "0.5", encoding="utf-8")
+    assert read_mounted(path).doubts == (
+        "point.1.at of 'seat' is within 0.5 mm of the origin; is it in mm? Another unit is said as "
+        'in "0.5 m"',
+    )
+    path.write_text(block() + point % "0", encoding="utf-8")
+    assert read_mounted(path).doubts == ()
+
+
 @pytest.mark.parametrize(
     ("stiffness", "sag"),  # 200 kg x g over four mounts' mean stiffness
     [("[200e3, 150e3, 400e3]", "0.002"), ("[0.2, 0.15, 0.4]", "2e+03")],

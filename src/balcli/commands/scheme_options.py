@@ -4,11 +4,12 @@ engine with them beside the engine as it is.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Annotated
 
 from ..errors import BalcliError
-from ..limits import MOST_FACTORS
+from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..render.formats import Units
 from ..sizing.options import SchemeOptions
 from .amounts import read_lengths, read_mass_on_scales, read_share
@@ -141,7 +142,12 @@ def _parse_factors(text: str) -> tuple[float, ...]:
     """`0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
     if ":" not in text:
-        return tuple(read_share("--factor", part, wanted) for part in text.split(","))
+        listed = tuple(read_share("--factor", part, wanted) for part in text.split(","))
+        if re.fullmatch(r"0,\d+", text) and listed[1] > LARGEST_FACTOR:
+            raise BalcliError(
+                f'--factor "{text}": decimals take a point, such as {text.replace(",", ".")}'
+            )
+        return listed
     parts = [read_share("--factor", part, wanted) for part in text.split(":")]
     if not _is_range(parts):
         raise BalcliError(

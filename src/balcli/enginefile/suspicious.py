@@ -34,6 +34,9 @@ SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
+SPEED_LOW = 9.0  # rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
+NEAR_THE_CRANK = 0.02  # strokes; a shaft this near would stand within the crank
+NO_DISTANCE = 1e-6  # mm: on the axis, but for rounding
 OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
 # Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 MEAN_PRESSURE = 60.0  # bar
@@ -59,7 +62,7 @@ def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     of_rods = _piston, _proportions, _rod, _rod_ends, _inertia, _motion
     of_crank = _neighbours, _throw_angles, _layout, _throw, _bobweight, _counterweights
-    beyond = _rotary, _turning, _gas, _torsion
+    beyond = _shafts, _rotary, _turning, _gas, _torsion
     return [warning for find in (*of_rods, *of_crank, *beyond) for warning in find(model)]
 
 
@@ -159,6 +162,11 @@ def _motion(model: EngineFile) -> Iterator[str]:
             f"{stroke:g} mm, more than {PISTON_SPEED:g}; are operation.speed and crank.stroke "
             "right?"
         )
+    if 0 < speed < SPEED_LOW:
+        yield (
+            f"operation.speed is {speed:g} rpm; a point parts decimals, not thousands: were "
+            f"{1000 * speed:g} rpm meant?"
+        )
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
         yield (
             f"piston.offset is {model.piston.offset:g} mm, more than {OFFSET_SHARE:.0%} of the "
@@ -233,6 +241,18 @@ def _counterweights(model: EngineFile) -> Iterator[str]:
                 f"counterweight.{number}: its unbalance is {abs(_unbalance(weight)):.4g} g mm, "
                 f"more than {UNBALANCE_SHARE:g} times all moving masses at the crank radius "
                 f"({limit:.3g}); is it in g mm?"
+            )
+
+
+def _shafts(model: EngineFile) -> Iterator[str]:
+    """One beside the crank's axis, and yet within the crank: a place in metres, most likely."""
+    nearest = NEAR_THE_CRANK * model.crank.stroke
+    for number, shaft in enumerate(model.shaft, 1):
+        away = max(map(abs, shaft.at))
+        if NO_DISTANCE < away < nearest:
+            yield (
+                f"shaft.{number}.at is within {away:.3g} mm of the crank's axis; is it in mm? "
+                f'Another unit is said as in "{away:.3g} m"'
             )
 
 

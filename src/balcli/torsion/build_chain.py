@@ -117,7 +117,8 @@ def _find_faults(
         how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
         text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
         yield Problem("angle_limit", f"{text} the node that may swing so far")
-    heavy, free = chain.inertia > 0, ~still
+    ringed = [n.damper is not None and n.damper.kind == "rubber" for n in nodes]
+    heavy, free = (chain.inertia > 0) | np.array(ringed), ~still
     pieces = [motion != 0 for motion in rigid_motions(chain)] or [free]
     for piece in [] if apart else pieces:
         if not np.any(heavy[piece]):
