@@ -242,7 +242,7 @@ def _options(
     `balcli analyze i4.toml`.
     """
     usual = _load_defaults(context)
-    set_digits(digits or usual.digits or USUAL_DIGITS)
+    set_digits(digits or usual.digits)
     if usual.units is not None and context.invoked_subcommand is not None:
         context.default_map = {context.invoked_subcommand: {"units": usual.units.value}}
 

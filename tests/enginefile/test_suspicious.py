@@ -361,6 +361,15 @@ def test_stiffness_of_throws_in_another_unit_is_asked_back(stiffness, twist):
     ]
 
 
+def test_loss_factors_in_percent_are_asked_back():
+    more = (TWIST % ("20000", "250000")).replace("[torsion]\n", "[torsion]\nloss = 3.5\n", 1)
+    told = "where at most 1 is usual; {} % is {}, and of a relative damping psi the loss factor is"
+    assert find_suspicious(parse(changed(more=more + "loss = 1.13\n"))) == [
+        f"torsion.loss is 3.5, {told.format(3.5, 0.035)} psi/(2 pi)",
+        f"torsion.rear.1.loss is 1.13, {told.format(1.13, 0.0113)} psi/(2 pi)",
+    ]
+
+
 def test_a_crank_in_kg_m2_is_asked_back():
     crank = changed(("throw_mass = 0.8", "throw_mass = 0.8\ninertia = 0.09"))
     (told,) = find_suspicious(parse(crank))

@@ -405,6 +405,10 @@ SPEEDS = [
         '--speeds "0,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm',
     ),
     (
+        "1e-300,100",
+        '--speeds "1e-300,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm',
+    ),
+    (
         "0:100:10",
         '--speeds "0:100:10": speeds and their step are above 0 and below 1e9 rpm; give first:last',
     ),

@@ -491,6 +491,9 @@ def test_grams_are_what_a_shop_measures(ford):
     assert refusal("balance", ford, "--measured", "-5 g") == (
         '--measured "-5 g": a mass on the pin is not negative'
     )
+    assert refusal("balance", ford, "--measured", "inf").startswith(
+        '--measured "inf": a mass is wanted: a bare number in g'
+    )
 
 
 def test_a_table_with_a_row_for_each_factor(ford):

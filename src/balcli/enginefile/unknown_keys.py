@@ -34,7 +34,7 @@ SYNONYMS = {
     "pin_angles": ("throws",),
     "crank_angles": ("throws",),
     "angles": ("throws", "banks"),
-    "phase": ("throws",),
+    "phase": ("throws", "angle"),
     "phases": ("throws",),
     "bore_spacing": ("spacing",),
     "vee_angle": ("bank_angle",),

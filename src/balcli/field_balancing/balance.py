@@ -77,7 +77,7 @@ class PlaneCorrection(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FieldBalance(Result):
-    """The answer.
+    """Weights that balance a rotor, and the readings that are left with them.
 
     Attributes:
         file: the runs.
