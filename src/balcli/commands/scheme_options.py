@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 from typing import Annotated
 
-from ..errors import BalcliError
+from ..errors import BalcliError, warn
 from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..render.formats import Units
 from ..sizing.options import SchemeOptions
@@ -127,7 +127,10 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
     wanted = "ends, throws, or places along z in mm, such as -200,200"
-    return read_lengths("--planes", text, wanted, units=units)
+    places = read_lengths("--planes", text, wanted, units=units)
+    if len(places) > 2 and len(set(places)) < len(places):
+        warn(f'--planes "{text[:60]}": names a place twice; decimals take a point, not a comma')
+    return places
 
 
 def _parse_measured(text: str, units: Units) -> float:
