@@ -273,4 +273,4 @@ def test_one_file_is_named_to_write(command, example):
 
 
 def test_the_second_name_is_not_the_engine_file():
-    assert "this is the engine file itself" in refusal("plot", "good.toml", "good.toml")
+    assert "this is a file that is read" in refusal("plot", "good.toml", "good.toml")

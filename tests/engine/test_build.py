@@ -308,6 +308,13 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
             {"rod": {"length": 200}, "cylinder": {"1": {"rod_mass": 1, "rod_cg": 230}}},
             "cylinder.1.rod_cg: 230 mm is outside the rod of 200 mm",
         ),
+        (
+            {
+                "rod": {"length": 240, "mass": 1, "cg": 230},
+                "cylinder": {"1": {"rod_length": 200}},
+            },
+            "cylinder.1.rod_length: rod.cg = 230 mm is outside the rod of 200 mm",
+        ),
     ],
 )
 def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):

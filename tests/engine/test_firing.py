@@ -223,6 +223,21 @@ def test_throws_that_count_the_other_way_are_told():
     assert "sense" not in refused(crank=crank, layout=wrong)
 
 
+def test_a_rotary_numbered_as_its_cylinders_come_to_the_top():
+    """Cylinders that turn come to the top in the reverse of the sense in which they are numbered;
+    one pin cannot be split for that.
+    """
+    layout = {"radial": 5, "rotary": True, "firing_order": [1, 3, 5, 2, 4]}
+    numbering = [[1], [5], [4], [3], [2]]
+    found = refused(crank={"throws": [0]}, layout=layout)
+    assert found.endswith(
+        "crank.throws out. They fit with cylinders numbered the other way round: "
+        f"layout.numbering = {numbering}"
+    )
+    turned = engine(crank={"throws": [0]}, layout=layout | {"numbering": numbering})
+    assert sorted(turned.fires_deg.values()) == [144 * k for k in range(5)]
+
+
 def test_shared_pins_that_an_order_cannot_have():
     """Throws from the first bank, and then the second bank must agree with them."""
     assert refused(layout={"firing_order": [1, 2, 3, 4], "bank_angle": 60}) == (

@@ -152,6 +152,11 @@ def test_ordinary_engines_pass(text):
             ),
         ),
         (
+            changed(more="[[shaft]]\nratio = -2\nunbalance = 4500\nat = [0, 0.08]\n"),
+            "shaft.1.at is within 0.08 mm of the crank's axis; is it in mm? Another unit is said "
+            'as in "0.08 m"',
+        ),
+        (
             changed(("bore = 86", "bore = 86\noffset = -20")),
             "piston.offset is -20 mm, more than 20% of the stroke (18 mm); is it in mm?",
         ),
@@ -214,6 +219,13 @@ def test_ordinary_engines_pass(text):
 )
 def test_warnings(text, warning):
     assert find_suspicious(parse(text)) == [warning]
+
+
+def test_shafts_on_the_axis_of_the_crank_are_no_slip():
+    """A shaft that may stand anywhere is written so."""
+    shafts = "[[shaft]]\nratio = -2\nunbalance = 45\nat = [0, %s]\n"
+    on_it, beside = (changed(more=shafts % y) for y in ("1e-14", "2"))
+    assert find_suspicious(parse(on_it)) == find_suspicious(parse(beside)) == []
 
 
 @pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])
@@ -310,6 +322,20 @@ def test_inertias_in_kg_m2_are_asked_back(more, told):
     assert "\n".join(find_suspicious(parse(changed(more=more)))) == told
 
 
+def test_a_propeller_with_a_dashpot_in_its_shaft_is_asked_back():
+    """Damped by the water it would be by node_damping; a coupling has a dashpot."""
+    twist = TWIST % ("20000", "250000") + "damping = 9e4\n"
+    assert find_suspicious(parse(changed(more=twist))) == []
+    propeller = twist.replace("Flywheel", "Propeller")
+    assert find_suspicious(parse(changed(more=propeller))) == [
+        "the part 'Propeller' of [torsion]: damping is of a dashpot between the ends of its shaft; "
+        "of the part against ground, as water damps it, it is node_damping"
+    ]
+    assert (
+        find_suspicious(parse(changed(more=propeller.replace("\ndamping", "\nnode_damping")))) == []
+    )
+
+
 @pytest.mark.parametrize(
     ("stiffness", "twist"),  # 1 MPa x pi/4 (86 mm)^2 x 90 mm = 523 N m
     [("1e3", "0.52"), ("[1e6, 9e3, 1e16]", "0.058")],
@@ -319,6 +345,15 @@ def test_stiffness_of_throws_in_another_unit_is_asked_back(stiffness, twist):
     assert find_suspicious(parse(text)) == [
         f"torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by {twist} rad, "
         'where at most 0.05 is usual; is it in N m/rad? Another unit is said as in "1.2 MN m/rad"'
+    ]
+
+
+def test_loss_factors_in_percent_are_asked_back():
+    more = (TWIST % ("20000", "250000")).replace("[torsion]\n", "[torsion]\nloss = 3.5\n", 1)
+    told = "where at most 1 is usual; {} % is {}, and of a relative damping psi the loss factor is"
+    assert find_suspicious(parse(changed(more=more + "loss = 1.13\n"))) == [
+        f"torsion.loss is 3.5, {told.format(3.5, 0.035)} psi/(2 pi)",
+        f"torsion.rear.1.loss is 1.13, {told.format(1.13, 0.0113)} psi/(2 pi)",
     ]
 
 

@@ -406,6 +406,10 @@ SPEEDS = [
         '--speeds "0,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm',
     ),
     (
+        "1e-300,100",
+        '--speeds "1e-300,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm',
+    ),
+    (
         "0:100:10",
         '--speeds "0:100:10": speeds and their step are above 0 and below 1e9 rpm; give first:last',
     ),
@@ -453,7 +457,7 @@ def test_one_speed(four):
 
 def test_too_much_is_refused(tmp_path):
     mounts = "".join(
-        f'[[mount]]\nname = "{k}"\nat = [{k}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
+        f'[[mount]]\nname = "{k}"\nat = [{k + 9}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
         for k in range(100)
     )
     path = tmp_path / "many.toml"

@@ -74,6 +74,7 @@ class Table(Result):
 
     @property
     def errata(self) -> tuple[Erratum, ...]:
+        """Printed cells that are not the exact ones rounded."""
         return tuple(self._errata())
 
     def label(self, row: int) -> str:

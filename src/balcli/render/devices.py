@@ -11,7 +11,7 @@ from ..limits import MOST_HOLES
 from ..sizing.device_tables import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .figures import clean
-from .sheet import UNKNOWN, Grid, capitalized, degrees, number
+from .sheet import UNKNOWN, Grid, capitalized, degrees, given, number
 
 if TYPE_CHECKING:
     from ..sizing.workshop import Holes, Practical, Tools
@@ -123,7 +123,7 @@ def _practical_row(p: Practical, system: System, slides: bool) -> list[str]:
     """What slides is no disc."""
     disc = (p.disc_radius, p.disc_thickness)
     return [
-        number(p.speed_rpm, 6),
+        given(p.speed_rpm),
         number(system.force.of(p.force)),
         number(system.mass.of(p.mass), 4),
         *(UNKNOWN if slides else number(system.length.of(length), 3) for length in disc),

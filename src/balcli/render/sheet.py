@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from .formats import get_digits
+from .formats import USUAL_DIGITS, get_digits
 
 if TYPE_CHECKING:
     from .units import ShownUnit
@@ -73,16 +73,22 @@ def order_name(order: float) -> str:
 
 
 def number(value: float, digits: int | None = None) -> str:
-    """A number for people: that many significant digits (default: `get_digits`), no
-    exponent between 0.0001 and a million, a plain 0.
+    """A figure for people, with as many significant digits as were asked for; `digits` are usual
+    there. No exponent between 0.0001 and a million, a plain 0.
     """
-    digits = digits or get_digits()
+    return given(value, get_digits(digits or USUAL_DIGITS))
+
+
+def given(value: float, digits: int = 6) -> str:
+    """A number that somebody gave, such as a speed: like a figure (`number`), but whole, however
+    few digits were asked for.
+    """
     if math.isnan(value):
         return UNKNOWN
     if value == 0:
         return "0"
     # the last digits, which are the machine's, do not decide to which side a half is rounded
-    value = float(f"{value:.12g}")
+    value = float(f"{value:.{max(digits, 12)}g}")
     text = f"{value:.{digits}g}"
     if "e" not in text:
         return text

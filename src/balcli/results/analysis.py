@@ -216,8 +216,9 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
         return set(list_usual_quantities(engine))
     wanted = {*list_words("only", only)}
     if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
+        named = ", ".join(stranger or '""' for stranger in strangers)
         raise BalcliError(
-            f"there is no quantity {', '.join(strangers)}: choose from "
+            f"there is no quantity {named}: choose from "
             f"{', '.join((*QUANTITIES, GAS.name, *EXTRAS))}"
         )
     return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
