@@ -40,6 +40,7 @@ HUGE = 10**5000  # Python does not write numbers of so many digits
         (lambda: check_inertia("damper_inertia", HUGE), "damper_inertia: an integer of about 5001"),
         (lambda: check_count("seed", -HUGE, 0), "seed: an integer of about 5001 digits is less"),
         (lambda: check_speeds("torsion", [HUGE]), "speeds_rpm: give crank speeds above 0 in rpm"),
+        (lambda: check_speeds("torsion", [1e-300]), "speeds_rpm: give crank speeds above 0 in rpm"),
         (lambda: check_torsion_orders([HUGE]), "not an integer of about 5001 digits"),
         (lambda: parse_share("quantile", HUGE), "quantile an integer of about 5001 digits: give"),
         (lambda: balcli.analyze(FOUR, [HUGE]), "not an integer of about 5001 digits"),

@@ -153,6 +153,19 @@ def test_mounts_that_give_way_like_none_are_doubted(tmp_path, stiffness, sag):
     )
 
 
+def test_a_loss_factor_in_percent_is_doubted(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text(
+        block().replace("[200, 150, 400]", "[200, 150, 400]\nloss = 8"), encoding="utf-8"
+    )
+    told = (
+        "is 8, where at most 1 is usual; 8 % is 0.08, and of a relative damping psi the loss factor"
+    )
+    assert read_mounted(path).doubts == tuple(
+        f"mount.{k}.loss {told} is psi/(2 pi)" for k in range(1, 5)
+    )
+
+
 @pytest.mark.parametrize("one", ["300", '"300 N/mm"'])
 def test_one_stiffness_holds_along_all_three_axes(tmp_path, one):
     path = tmp_path / "body.toml"

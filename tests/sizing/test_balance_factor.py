@@ -432,11 +432,6 @@ def test_a_range_tells_bobweight_counterweight_and_what_is_left():
             SchemeOptions(planes="ends"),
             "--planes: moments are not known, because crank.spacing is missing",
         ),
-        (
-            TWIN,
-            SchemeOptions(planes="left"),
-            '--planes "left": give ends, throws, or places along z',
-        ),
     ],
 )
 def test_what_a_factor_cannot_be(text, options, told):
@@ -490,6 +485,9 @@ def test_grams_are_what_a_shop_measures(ford):
     assert run_here("balance", ford, "--measured", "1.8721e3").out == bare
     assert refusal("balance", ford, "--measured", "-5 g") == (
         '--measured "-5 g": a mass on the pin is not negative'
+    )
+    assert refusal("balance", ford, "--measured", "inf").startswith(
+        '--measured "inf": a mass is wanted: a bare number in g'
     )
 
 

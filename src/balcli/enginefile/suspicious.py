@@ -7,7 +7,7 @@ remedy.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -54,6 +54,7 @@ TURNING_LIGHT = 0.01
 # rad, by the work that a cylinder does at 10 bar as a torque: engines have 2e-4 to 5e-3; much
 # less is said of shafts that are taken for rigid.
 TWIST_MOST = 0.05
+LOSS_MOST = 1.0  # steel has 0.01 to 0.05, rubber to 0.5; what is in percent is a hundred times that
 SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is rounded, or has bolts
 
 
@@ -314,6 +315,7 @@ def _torsion(model: EngineFile) -> Iterator[str]:
     """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
     if model.torsion is None:
         return
+    yield from doubt_losses(_list_losses(model.torsion))
     yield from _throw_stiffness(model.torsion, model)
     throws, whole = _throw_inertia(model.torsion, model), model.crank.inertia
     if whole is not None and throws > (1 + SAME_INERTIA) * whole:
@@ -321,9 +323,17 @@ def _torsion(model: EngineFile) -> Iterator[str]:
             f"crank.inertia is {whole / 1e6:.4g} kg m^2, and all throws of torsion.throw_inertia "
             f"together have {throws / 1e6:.4g}: the whole has no less than its parts"
         )
+    parts = (*model.torsion.front, *model.torsion.rear)
+    for part in parts:
+        in_water = any(word in part.name.lower() for word in ("propeller", "impeller"))
+        if in_water and part.damping and not part.node_damping:
+            yield (
+                f"the part '{part.name}' of [torsion]: damping is of a dashpot between the ends of "
+                "its shaft; of the part against ground, as water damps it, it is node_damping"
+            )
     named = [
         (part.name, part.inertia)
-        for part in (*model.torsion.front, *model.torsion.rear)
+        for part in parts
         if part.inertia and "flywheel" in (part.name or "").lower()
     ]
     flywheel = _flywheel_inertia(model)
@@ -334,6 +344,26 @@ def _torsion(model: EngineFile) -> Iterator[str]:
                 f"[flywheel] has {flywheel / 1e6:.4g} kg m^2, and the part '{name}' of [torsion] "
                 f"{inertia / 1e6:.4g}: `torque` takes the one, `torsion` the other"
             )
+
+
+def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:
+    """Loss factors, by their paths, that nothing has: in percent, most likely."""
+    for path, loss in losses:
+        if loss is not None and loss > LOSS_MOST:
+            yield (
+                f"{path} is {loss:g}, where at most {LOSS_MOST:g} is usual; {loss:g} % is "
+                f"{loss / 100:g}, and of a relative damping psi the loss factor is psi/(2 pi)"
+            )
+
+
+def _list_losses(torsion: Torsion) -> Iterator[tuple[str, float | None]]:
+    """Of all shafts and dampers, by their paths."""
+    yield "torsion.loss", torsion.loss
+    for end, parts in (("front", torsion.front), ("rear", torsion.rear)):
+        for number, part in enumerate(parts, 1):
+            yield f"torsion.{end}.{number}.loss", part.loss
+            if part.damper is not None:
+                yield f"torsion.{end}.{number}.damper.loss", part.damper.loss
 
 
 def _throw_stiffness(torsion: Torsion, model: EngineFile) -> Iterator[str]:
@@ -431,9 +461,7 @@ def _spacing(model: EngineFile) -> float | None:
 
 
 def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """How many there are; where the throws are left out, the firing order tells the number of
-    rods.
-    """
+    """How many there are; without throws, the firing order tells the number of rods."""
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
     rods_on_a_throw = banks if layout.rods == "shared" else 1

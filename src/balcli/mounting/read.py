@@ -14,6 +14,7 @@ from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
 from ..enginefile.mounting_tables import Body, Mount, Point
 from ..enginefile.read import REQUIRED, Draft, read_tables
+from ..enginefile.suspicious import doubt_losses
 from ..enginefile.toml_text import name_file, read_bytes
 from ..enginefile.units import STANDARD_GRAVITY
 from .build import find_mounting_faults
@@ -24,9 +25,7 @@ SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines ha
 
 
 class MountedFile(NamedTuple):
-    """A file with [body] and [[mount]], its engine, if it has one, and what is valid in it but
-    suspicious.
-    """
+    """A file with [body] and [[mount]], its engine if it has one, and what is doubted of it."""
 
     model: EngineFile
     engine: Engine | None
@@ -57,7 +56,8 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
     body, mounts = draft.model.body, draft.model.mount
     of_body = () if body is None else (*_doubt_tensor(body), *_doubt_size(body, mounts))
     of_mounts = () if body is None else (*_doubt_sag(body, mounts), *_doubt_places(draft.model))
-    return MountedFile(draft.model, engine, (*of_engine, *of_body, *of_mounts))
+    losses = doubt_losses((f"mount.{k}.loss", mount.loss) for k, mount in enumerate(mounts, 1))
+    return MountedFile(draft.model, engine, (*of_engine, *of_body, *of_mounts, *losses))
 
 
 def _doubt_sag(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
