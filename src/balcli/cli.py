@@ -102,9 +102,7 @@ class _Command(TyperCommand):
 
 
 class _OnDemand(TyperGroup):
-    """The commands by name; the module of one is imported when it is called, or its help is asked
-    for.
-    """
+    """The commands by name; a command's module is imported when it, or its help, is asked for."""
 
     def list_commands(self, ctx: Any) -> list[str]:
         return list(COMMANDS)
@@ -319,7 +317,8 @@ def _usage(error: Any) -> str:
         told += _name_commands_with(unknown[1])
     if "unexpected extra argument" not in told:
         return told
-    if re.match(r"Usage: balcli (sweep|scatter) ", told):
+    extra = told.rpartition("argument(s) (")[2]
+    if re.match(r"Usage: balcli (sweep|scatter) ", told) and re.match(r"[a-z_]+\.", extra):
         return told + ": names of quantities stand after -q, with commas between them."
     return told + ': a value or a name with a blank goes in quotes, such as "52 %".'
 

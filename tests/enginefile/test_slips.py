@@ -273,6 +273,8 @@ def test_a_search_says_that_a_number_changes_nothing(tmp_path):
     search = ("search", file, "--over", "crank.stroke=60:90", "--minimise", "force.2.major")
     told = run_here(*search, "--limit", "force.2.major<3000").out
     assert nothing not in told
+    search = ("search", file, "--over", "piston.mass=0.5:0.5", "--minimise", "force.2.major")
+    assert nothing not in run_here(*search).out, "of one value nobody knows"
 
 
 def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):

@@ -235,10 +235,6 @@ def test_standard_input_can_be_written(tmp_path):
             ("--scheme", "two-shaft", "--position", "nan"),
             '--position "nan": give one place along z in mm',
         ),
-        (
-            ("--scheme", "counterweights", "--planes", "left"),
-            '--planes "left": give ends, throws, or places along z',
-        ),
         (("--scheme", "factor", "--factor", "0:1"), "a range is first:last:step"),
         (("--scheme", "factor", "--factor", "0:1:1e-9"), "at most 1000 steps"),
         (("--scheme", "oldham"), "oldham is for a single cylinder; this engine has 4 cylinders"),

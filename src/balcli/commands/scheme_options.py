@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 from typing import Annotated
 
-from ..errors import BalcliError
+from ..errors import BalcliError, warn
 from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..render.formats import Units
 from ..sizing.options import SchemeOptions
@@ -84,9 +84,7 @@ def parse_scheme_options(
     roll: str | None,
     units: Units,
 ) -> SchemeOptions:
-    """What a scheme is asked for, in SI; BalcliError for a text that says nothing, with the
-    text.
-    """
+    """What a scheme is asked for, in SI; BalcliError with a text that says nothing."""
     return SchemeOptions(
         order=order,
         at=tuple(_parse_place(text, units) for text in at) if at else None,
@@ -127,7 +125,10 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
     wanted = "ends, throws, or places along z in mm, such as -200,200"
-    return read_lengths("--planes", text, wanted, units=units)
+    places = read_lengths("--planes", text, wanted, units=units)
+    if len(places) > 2 and len(set(places)) < len(places):
+        warn(f'--planes "{text[:60]}": names a place twice; decimals take a point, not a comma')
+    return places
 
 
 def _parse_measured(text: str, units: Units) -> float:

@@ -335,9 +335,17 @@ def _torsion(model: EngineFile) -> Iterator[str]:
             f"crank.inertia is {whole / 1e6:.4g} kg m^2, and all throws of torsion.throw_inertia "
             f"together have {throws / 1e6:.4g}: the whole has no less than its parts"
         )
+    parts = (*model.torsion.front, *model.torsion.rear)
+    for part in parts:
+        in_water = any(word in part.name.lower() for word in ("propeller", "impeller"))
+        if in_water and part.damping and not part.node_damping:
+            yield (
+                f"the part '{part.name}' of [torsion]: damping is of a dashpot between the ends of "
+                "its shaft; of the part against ground, as water damps it, it is node_damping"
+            )
     named = [
         (part.name, part.inertia)
-        for part in (*model.torsion.front, *model.torsion.rear)
+        for part in parts
         if part.inertia and "flywheel" in (part.name or "").lower()
     ]
     flywheel = _flywheel_inertia(model)
@@ -465,9 +473,7 @@ def _spacing(model: EngineFile) -> float | None:
 
 
 def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """How many there are; where the throws are left out, the firing order tells the number of
-    rods.
-    """
+    """How many there are; without throws, the firing order tells the number of rods."""
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
     rods_on_a_throw = banks if layout.rods == "shared" else 1

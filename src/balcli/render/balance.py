@@ -27,6 +27,7 @@ from .devices import (
 )
 from .engine_facts import is_speed_assumed
 from .figures import assumptions, figure_rows
+from .order_tables import fit_largest
 from .overview import find_orders_that_matter, name_column, tell_others
 from .scheme_details import details_parts, tell_growing_rolls
 from .scheme_details_document import details_document
@@ -164,7 +165,10 @@ def _orders(result: Balance, system: System) -> Grid:
         one[ROLL_TOTAL.name] = max(float(state[ROLL_TOTAL.name].major.max()) for state in states)
     shown = {order for state in states for order in find_orders_that_matter(state, one)}
     rows = [k for k, order in enumerate(orders) if result.every_order or order in shown]
-    units = {kind: _fit(result, kind, system) for kind in columns}
+    units = {
+        kind: fit_largest(system.unit(kind), *(state[kind.name] for state in states))
+        for kind in columns
+    }
 
     def row(k: int) -> tuple[str, ...]:
         cells = [order_name(result.before.orders[k])]
@@ -193,12 +197,6 @@ def _orders(result: Balance, system: System) -> Grid:
 
 def _pick(analysis: Analysis, *kinds: Kind) -> Spectra:
     return analysis.spectra.only([kind.name for kind in kinds])
-
-
-def _fit(result: Balance, kind: Kind, system: System) -> ShownUnit:
-    """The unit for the largest value of the kind."""
-    both = (result.before.spectra[kind.name], result.after.spectra[kind.name])
-    return system.unit(kind).fit(max(float(p.major.max(initial=0)) for p in both))
 
 
 def _peaks(result: Balance, system: System) -> Grid:

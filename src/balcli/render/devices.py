@@ -260,7 +260,5 @@ def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any,
 
 
 def _convert(value: float, size: float, unit: ShownUnit) -> float:
-    """A value in units of this size (in SI units) in another unit; as it is where that is the
-    same.
-    """
+    """A value in units of this size (SI) in another unit; as it is where that is the same."""
     return value if unit.size == size else unit.of(value * size)

@@ -111,6 +111,8 @@ def find_best_numbers(
         evaluate: infinite where it cannot be or may not be.
         tell: which share is done; it may say that what is found by then is enough.
     """
+    if low == high:
+        return [low] if math.isfinite(evaluate(low)) else []
     grid = np.linspace(low, high, _GRID + 1)
     values = np.full(len(grid), np.inf)
     share = 1 / (len(grid) + _MINIMA)
@@ -205,7 +207,7 @@ def find_best_designs(
     if not found:
         raise mistakes[0][1]
     span = max(found) - min(found)
-    constant = not mistakes and span <= _AS_GOOD * max(map(abs, found)) < math.inf
+    constant = low < high and not mistakes and span <= _AS_GOOD * max(map(abs, found)) < math.inf
     refused = ""
     if mistakes:
         value, error = mistakes[0]
