@@ -222,7 +222,8 @@ def _peaks(result: Balance, system: System) -> Grid:
 def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
     if not peak.value:
         return NOTHING, ""
-    return number(unit.of(peak.value)), degrees(float(np.degrees(peak.theta)))
+    at = degrees(float(np.degrees(peak.theta))) if peak.every else "any"
+    return number(unit.of(peak.value)), at
 
 
 # ------------------------------------------------------------------ JSON and CSV
