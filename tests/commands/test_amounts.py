@@ -183,3 +183,17 @@ def test_a_place_that_is_named_twice_is_asked_back():
     assert (
         run_here("balance", ENGINES / "i4.toml", "--factor", "50%", "--planes=-40,0,40").err == ""
     )
+
+
+@pytest.mark.parametrize(
+    ("asked", "doubted"),
+    [
+        ([], True),
+        (["--only", "force"], True),
+        (["--only", "force,guide"], False),
+        (["--all"], False),
+    ],
+)
+def test_a_guide_height_where_no_guides_are_asked_for(asked, doubted):
+    status, _, err = run_here("analyze", ENGINES / "i4.toml", "--guide-height", "300", *asked)
+    assert (status, err.startswith("warning: --guide-height changes")) == (0, doubted)

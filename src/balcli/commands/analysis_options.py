@@ -9,7 +9,7 @@ from typing import Annotated, NamedTuple
 
 import typer
 
-from ..errors import BalcliError
+from ..errors import BalcliError, warn
 from ..limits import MOST_ANALYSED_SPEEDS
 from ..render.formats import Format, Units
 from .declare import optional
@@ -139,6 +139,11 @@ def parse_request(
         marine,
     )
     _refuse_what_does_not_go_together(asked)
+    if asked.height_m is not None and not (marine or whole or "guide" in parts):
+        warn(
+            "--guide-height changes guide-force moments alone: ask for them with --only guide, "
+            "--all or --format marine"
+        )
     return asked
 
 
