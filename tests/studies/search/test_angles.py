@@ -253,6 +253,33 @@ def test_uneven_throws_fire_evenly_at_no_angle() -> None:
             search_arrangements(file, over, parse_objective("moment.1.major"), even_firing=True)
 
 
+@pytest.mark.parametrize(
+    ("throws", "over", "even"),
+    [
+        ([0, 240, 120], "layout.bank_angle=50:170", [120.0]),  # 720 / 6; 0 is out of the range
+        ([0, 240, 120], "crank.splay=-70:70", [-60.0, 60.0]),  # of banks 60 apart: 120, or both
+        ([0, 230, 120], "crank.throws.2=200:250", []),  # banks 60 apart fire 60 apart
+        ([0, 240, 120], "piston.mass=0.3:0.5", []),  # nor do these at any mass
+    ],
+)
+def test_even_firing_is_required_of_a_number_too(throws, over, even) -> None:
+    file, objective = vee(throws=throws, bank=60), parse_objective("moment.1.major")
+    if not even:
+        with pytest.raises(BalcliError, match="can keep these limits and fire evenly"):
+            search_arrangements(file, over, objective, even_firing=True)
+        return
+    found = search_arrangements(file, over, objective, even_firing=True).results
+    assert sorted(one.design.changes()[over.partition("=")[0]] for one in found) == even
+
+
+def test_a_throw_that_lets_a_three_fire_evenly() -> None:
+    three = load(in_line("[0, 230, 120]"))
+    found = search_arrangements(
+        three, "crank.throws.2=200:250", parse_objective("moment.1.major"), even_firing=True
+    )
+    assert [one.design.number for one in found.results] == [("crank.throws.2", 240.0)]
+
+
 def test_even_firing_and_a_limit() -> None:
     """V6 of 72.4 degrees: splays of -47.6, -167.6 and 72.4 fire evenly; the limit leaves two."""
     file = vee(throws=[0, 240, 120], bank=72.4)

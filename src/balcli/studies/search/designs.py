@@ -69,8 +69,10 @@ class Found(NamedTuple):
 
 
 def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
-    """All candidates as one engine, with these as its trailing axis."""
-    paths: dict[str, Array] = {}
+    """All candidates as one engine, with these as its trailing axis; also of a number of the file,
+    by its dotted name.
+    """
+    paths: dict[str, Array] = {key: figures for key, figures in candidates.items() if "." in key}
     if "throws" in candidates:
         model = drop_firing_order(model)
         for number, column in enumerate(candidates["throws"].T, 1):

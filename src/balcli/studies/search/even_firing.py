@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,10 +27,9 @@ def fires_evenly(engine: Engine, model: EngineFile) -> NDArray[np.bool_]:
     return fits
 
 
-def find_even_angles(
-    model: EngineFile, key: Literal["bank_angle", "splay"], span: Span
-) -> Array | None:
+def find_even_angles(model: EngineFile, key: str, span: Span) -> Array | None:
     """The angles in a span at which the cylinders fire evenly, deg; None if they do at any angle.
+    `key`: bank_angle, splay, or the dotted name of an angle of the file.
 
     Where the crank stands at a cylinder's top dead centre depends on the angle in proportion: that
     of one cylinder that moves against cylinder 1 has to be at one of the slots of the cycle.

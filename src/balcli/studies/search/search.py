@@ -11,12 +11,15 @@ from itertools import islice
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.telling import Tell, tell_nobody
 from ...engine.build import Engine, build
+from ...engine.load import parse_dict
 from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
+from ...enginefile.plain_tables import change_tables
 from ...errors import BalcliError, check_type
 from ...forces.orders import merge_orders
 from ...forces.quantity import Quantity, refuse_unknown
@@ -24,7 +27,8 @@ from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
 from ..parameters import find_numbers, parse_parameter
 from ..quantities import AnyQuantity, choose_of_engine, refuse_unknown_of_chapters
-from .designs import Design, Found, build_candidates, drop_firing_order
+from .angles import Span
+from .designs import Design, Found, drop_firing_order
 from .even_firing import find_even_angles, fires_evenly
 from .mirror_images import drop_mirror_images
 from .objective import Objective, choose_sums
@@ -145,9 +149,16 @@ def search_arrangements(
     base = drop_firing_order(model) if fires_at_will or what == "throws" else model
     if what is None:
         key, ends = _read_range(model, over)
-        best = find_best_designs(base, partial(_design_number, key), *ends, objective, tell)
-        constant, refused = best.constant, best.refused
-        candidates = rank_one_by_one(base, best.designs, objective, tell_nobody)
+        even = _find_even_numbers(base, key, ends) if even_firing else None
+        if even is None:
+            best = find_best_designs(base, partial(_design_number, key), *ends, objective, tell)
+            constant, refused = best.constant, best.refused
+            designs = iter(best.designs)
+            if even_firing:
+                designs = (one for one in designs if _fires_evenly(base, one))
+        else:
+            designs = (_design_number(key, value) for value in even.tolist())
+        candidates = rank_one_by_one(base, designs, objective, tell_nobody)
     elif sums is None:
         designs = _list_designs(model, what, objective, even_firing, tell)
         candidates = rank_one_by_one(base, designs, objective, tell)
@@ -211,9 +222,22 @@ def _design_angle(key: Angle, angle: float) -> Design:
     return Design(bank_angle=angle) if key == "bank_angle" else Design(splay=angle)
 
 
+def _find_even_numbers(
+    model: EngineFile, path: str, ends: tuple[float, float]
+) -> NDArray[np.float64] | None:
+    """Values in a range with which an engine fires evenly, of an angle of its crank or cylinders;
+    None: of another number, or all of them.
+    """
+    if not path.startswith(("crank.throws.", "crank.splay", "layout.bank", "cylinder.")):
+        return None
+    if path.startswith("cylinder.") and not path.endswith((".throw", ".bank")):
+        return None
+    return find_even_angles(model, path, Span(*ends))
+
+
 def _fires_evenly(model: EngineFile, design: Design) -> bool:
-    engine = build_candidates(model, {"throws": np.array([design.throws])})
-    return bool(fires_evenly(engine, model)[0])
+    changed = parse_dict(change_tables(model, design.changes()), model.folder)
+    return bool(fires_evenly(build(changed), changed).all())
 
 
 def _parse_over(text: str) -> What:
