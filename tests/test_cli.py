@@ -88,6 +88,7 @@ def usage(command: str, message: str) -> str:
     [
         (["frobnicate"], "", "No such command 'frobnicate'."),
         (["anlyze"], "", "No such command 'anlyze'. Did you mean analyze?"),
+        (["mine.toml"], "", "No such command 'mine.toml'. Did you mean balcli analyze mine.toml?"),
         (["--frob"], "", "No such option: --frob"),
         (
             ["analyze", V8, "--by", "bank"],
@@ -100,6 +101,25 @@ def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message)
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
     assert re.sub(r"\{?FILE\.\.\.\}?(\.\.\.)?", "{FILE...}...", err) == usage(command, message)
+
+
+def test_an_option_given_twice_is_told_so(balcli, good):
+    """Its last value counts, as ever; options that take several say nothing."""
+    once = balcli("analyze", good, "--only", "moment")
+    status, out, err = balcli("analyze", good, "--only", "force", "--only", "moment")
+    assert (status, out) == (0, once[1])
+    assert err == "warning: --only is given 2 times: the last one counts\n"
+    assert balcli("analyze", good, "--only", "force", "-q", "--only", "moment")[2] == ""
+    several = ("sweep", good, "--vary", "rod.length=150", "--vary", "crank.stroke=90")
+    assert balcli(*several)[::2] == (0, "")
+    assert balcli("analyze", good, "-q", "-q")[::2] == (0, "")
+
+
+def test_quantities_of_a_sweep_that_stand_alone_are_told_where_they_go(balcli, good):
+    status, _, err = balcli("sweep", good, "--vary", "rod.length=150", "moment.1.major")
+    assert status == 2
+    assert err.endswith(": names of quantities stand after -q, with commas between them.\n")
+    assert "-q" not in balcli("sweep", good, "--vary", "rod.length", "140:160:5")[2]
 
 
 def test_an_option_of_other_commands_is_told_with_them(balcli):

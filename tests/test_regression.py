@@ -241,25 +241,21 @@ def test_format_speed_and_number_of_cylinders(check, file):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        (
-            "{",
-            "JSONDecodeError: Expecting property name enclosed in double quotes: line 1 column 2 "
-            "(char 1)",
-        ),
-        ("{}", "KeyError: 'orders'"),
-        ("[]", "TypeError: list indices must be integers or slices, not str"),
-        ('{"orders": [{"order": 1}]}', "KeyError: 'force_N'"),
+        ("{", "it is not JSON: line 1"),
+        ("{}", "orders is missing"),
+        ("[]", "it is no result of balcli analyze"),
+        ('{"orders": [{"order": 1}]}', "force_N is missing"),
         (
             '{"orders": [], "peak": {"force_N": Infinity, "moment_Nm": 0}}',
-            "ValueError: a figure is not finite",
+            "a figure is not finite",
         ),
         (
             '{"orders": [], "peak": {"force_N": 1e999, "moment_Nm": 0}}',
-            "ValueError: a figure is not finite",
+            "a figure is not finite",
         ),
         (
             f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}',
-            "OverflowError: int too large to convert to float",
+            "it is no result of balcli analyze",
         ),
     ],
     ids=["text", "object", "list", "order", "infinity", "too large", "whole, too large"],

@@ -154,6 +154,7 @@ ON_REQUEST = {
         "balcli.torsion.starting_file",
     ),
     "balcli.commands.defaults": ("balcli.enginefile.toml_text",),
+    "balcli.commands.overwrite_guard": ("balcli.commands.named_files",),
     "balcli.core.mechanisms.harmonics": (
         "balcli.core.mechanisms.sampled",
         "balcli.core.mechanisms.slidercrank",

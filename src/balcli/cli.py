@@ -18,7 +18,7 @@ from io import StringIO
 from typing import Annotated, Any, NoReturn
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
 from . import __version__
@@ -88,10 +88,22 @@ IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
 WITHOUT_DEFAULTS = ("new", "engines", "schema", "check")  # have no format, units or digits
 
 
+class _Command(TyperCommand):
+    """A command that says so where an option of one value is given more than once."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        given: list[Any] = (
+            [] if ctx.resilient_parsing else self.make_parser(ctx).parse_args([*args])[2]
+        )
+        rest: list[str] = super().parse_args(ctx, args)
+        for option in dict.fromkeys(each for each in given if each.param_type_name == "option"):
+            if given.count(option) > 1 and not (option.multiple or option.is_flag):
+                warn(f"{option.opts[0]} is given {given.count(option)} times: the last one counts")
+        return rest
+
+
 class _OnDemand(TyperGroup):
-    """The commands by name; the module of one is imported when it is called, or its help is asked
-    for.
-    """
+    """The commands by name; a command's module is imported when it, or its help, is asked for."""
 
     def list_commands(self, ctx: Any) -> list[str]:
         return list(COMMANDS)
@@ -104,7 +116,7 @@ class _OnDemand(TyperGroup):
         )
         function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
         text = function.__doc__ or COMMANDS[cmd_name]  # `python -OO` has no docstrings
-        single.command(cmd_name, help=_unwrapped(cleandoc(text)))(function)
+        single.command(cmd_name, cls=_Command, help=_unwrapped(cleandoc(text)))(function)
         command = get_command(single)
         command.params += _share(self.params, cmd_name, command.params)
         return command
@@ -122,6 +134,8 @@ class _OnDemand(TyperGroup):
 
             if near := get_close_matches(args[0].lower()[:100], COMMANDS, 1):
                 error.message += f" Did you mean {near[0]}?"
+            elif args[0].lower().endswith(".toml"):
+                error.message += f" Did you mean balcli analyze {args[0]}?"
             raise
 
 
@@ -227,7 +241,7 @@ def _options(
     `balcli analyze i4.toml`.
     """
     usual = _load_defaults(context)
-    set_digits(digits or usual.digits or USUAL_DIGITS)
+    set_digits(digits or usual.digits)
     if usual.units is not None and context.invoked_subcommand is not None:
         context.default_map = {context.invoked_subcommand: {"units": usual.units.value}}
 
@@ -307,8 +321,12 @@ def _usage(error: Any) -> str:
         )
     elif unknown := re.search(r"No such option: (--[a-z-]+)", told):
         told += _name_commands_with(unknown[1])
-    blank = ': a value or a name with a blank goes in quotes, such as "52 %".'
-    return told + (blank if "unexpected extra argument" in told else "")
+    if "unexpected extra argument" not in told:
+        return told
+    extra = told.rpartition("argument(s) (")[2]
+    if re.match(r"Usage: balcli (sweep|scatter) ", told) and re.match(r"[a-z_]+\.", extra):
+        return told + ": names of quantities stand after -q, with commas between them."
+    return told + ': a value or a name with a blank goes in quotes, such as "52 %".'
 
 
 def _name_commands_with(option: str) -> str:

@@ -115,15 +115,14 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
             return []
         old = dict(_list_figures(recorded))
         if not all(map(math.isfinite, old.values())):  # beside infinity nothing would differ
-            raise ValueError("a figure is not finite")
+            raise BalcliError("a figure is not finite")
         exactly_old = _list_exact_figures(recorded)
         orders = {entry["order"] for entry in recorded["orders"]}
         if not orders <= set(found.orders):
             found = analyze(engine, {*orders, *found.orders}, wanted)
             document = renderer.document(found)
     except _UNREADABLE as error:
-        reason = f"{type(error).__name__}: {error}"
-        broken = f"the result recorded in {where} cannot be read ({reason})"
+        broken = f"the result recorded in {where} cannot be read ({_describe_broken(error)})"
         return [Difference(name, f"{broken}; check --update records it anew")]
     exactly_new = _list_exact_figures(document).items()
     moved = [
@@ -133,6 +132,19 @@ def find_differences(name: str, engine: Engine, record: Path) -> list[Difference
         *(Difference(name, f"{what}: {old} -> {now}") for what, old, now in moved),
         *_compare_figures(name, old, dict(_list_figures(document)), _find_roundings(found.spectra)),
     ]
+
+
+def _describe_broken(error: Exception) -> str:
+    """Why a recorded result cannot be read, for people who know no Python."""
+    if isinstance(error, OSError):
+        return error.strerror or str(error)
+    if isinstance(error, json.JSONDecodeError):
+        return f"it is not JSON: line {error.lineno}"
+    if isinstance(error, KeyError):
+        return f"{error.args[0]} is missing"
+    if isinstance(error, BalcliError):
+        return str(error)
+    return "it is no result of balcli analyze"
 
 
 def _list_recorded(engine: Engine) -> tuple[str, ...]:

@@ -143,6 +143,11 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
         ),
         (
             FACTOR,
+            ["--factor", "0,5"],
+            '--factor "0,5": decimals take a point, such as 0.5',
+        ),
+        (
+            FACTOR,
             ["--factor", "51%%"],
             '--factor "51%%": give a share of the reciprocating mass such as 51% or 0.51, or a '
             "range such as 50%:54%:1%",
@@ -166,3 +171,15 @@ def test_shares():
     assert read_share("--factor", "51 %", "a share") == 0.51
     with pytest.raises(BalcliError, match='--factor "nan": give a share'):
         read_share("--factor", "nan", "a share")
+
+
+def test_a_place_that_is_named_twice_is_asked_back():
+    """-40,5,40,5 was to be -40.5 and 40.5."""
+    told = run_here("balance", ENGINES / "i4.toml", "--factor", "50%", "--planes=-40,5,40,5")
+    assert (told.status, told.err) == (
+        0,
+        'warning: --planes "-40,5,40,5": names a place twice; decimals take a point, not a comma\n',
+    )
+    assert (
+        run_here("balance", ENGINES / "i4.toml", "--factor", "50%", "--planes=-40,0,40").err == ""
+    )

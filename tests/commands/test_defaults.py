@@ -12,7 +12,7 @@ from support.paths import ENGINES
 from typer.main import get_command
 
 from balcli.cli import COMMANDS, WITHOUT_DEFAULTS, app
-from balcli.render.formats import USUAL_DIGITS, set_digits
+from balcli.render.formats import set_digits
 
 ASKED = ("analyze", ENGINES / "i4.toml", "--only", "force", "--orders", "2")
 
@@ -23,7 +23,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     (tmp_path / "below").mkdir()
     monkeypatch.chdir(tmp_path / "below")
     yield tmp_path
-    set_digits(USUAL_DIGITS)
+    set_digits(None)
 
 
 def imperial(*more: object) -> bool:
@@ -88,6 +88,24 @@ def test_digits_of_tables_and_json_that_nothing_changes(folder, monkeypatch):
         assert f" {largest:.{digits}g} " in run_here(*options, *ASKED).out
     monkeypatch.delenv("BALCLI_DIGITS")
     assert f" {largest:.5g} " in run_here(*ASKED).out
+
+
+@pytest.mark.parametrize("digits", [3, 7, 15])
+def test_digits_of_what_is_told_in_brief(folder, digits):
+    """The short table, verdict and peaks have as many as are asked for; a speed is as given."""
+    asked = ("analyze", ENGINES / "i3.toml", "--speed", "4321.5")
+    result = json.loads(run_here(*asked, "-f", "json").out)
+    moment = result["orders"][1]["moment_Nm"]
+    parts = [abs(complex(*moment[side])) for side in ("forward", "backward")]
+    brief = run_here(*asked, "--digits", digits).out
+    cells = next(line for line in brief.splitlines() if line.startswith("2 ")).split()
+    assert cells[2:] == [f"{size:.{digits}g}" for size in (moment["major"], *parts)]
+    assert f"moment of up to {moment['major']:.{digits}g} N·m" in brief
+    peak = result["peak"]["moment_Nm"]
+    assert (
+        f"moment      {peak:.{digits}g} N·m" in brief or digits == 3
+    )  # no fewer than before the point
+    assert "4321.5 rpm" in brief
 
 
 def test_every_mistake_of_a_file_is_told_by_its_path(folder):

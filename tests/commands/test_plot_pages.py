@@ -74,8 +74,7 @@ def test_no_page_goes_onto_the_engine_file(tmp_path):
     path.write_text(FOUR.read_text(encoding="utf-8"), encoding="utf-8")
     told = refusal("plot", path, "--what", "torque,pin", "-o", tmp_path / "x.svg")
     assert told == (
-        f"--what pin {path}: this is the engine file itself, which stays as it is; choose another "
-        "name"
+        f"--what pin {path}: this is a file that is read, which stays as it is; choose another name"
     )
 
 

@@ -70,9 +70,26 @@ def test_never_onto_the_engine_file(balcli, good, command, target):
     status, out, err = balcli(name, good, *rest, option, target)
     assert (status, out) == (2, "")
     assert (
-        err
-        == f"balcli: {option} {Path(target)}: this is the engine file itself, which stays as it "
+        err == f"balcli: {option} {Path(target)}: this is a file that is read, which stays as it "
         "is; choose another name\n"
+    )
+    assert contents() == before
+
+
+@pytest.mark.parametrize(
+    "table", ['[gas]\nindicator = "p.csv"', '[gas]\nharmonics = "p.csv"', "[cylinder.2]\n{}"]
+)
+@pytest.mark.parametrize("command", [["curves"], ["sweep", "--vary", "crank.stroke=80,90"]])
+def test_never_onto_a_file_that_the_engine_file_names(balcli, good, command, table):
+    """Whatever else is wrong with either file: a diagram that was measured is not there twice."""
+    good.write_text(GOOD + table.format('indicator = "p.csv"'))
+    Path("p.csv").write_text("measured")
+    before = contents()
+    status, out, err = balcli(command[0], good, *command[1:], "-o", "./p.csv")
+    assert (status, out) == (2, "")
+    assert err == (
+        "balcli: --output p.csv: this is a file that is read, which stays as it is; choose "
+        "another name\n"
     )
     assert contents() == before
 

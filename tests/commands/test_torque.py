@@ -379,6 +379,7 @@ def test_with_imperial_units_a_bare_inertia_asks_for_its_unit(curve):
             ["{four}", "--inertia", "3"],
             "--inertia needs --curve; that of an engine stands in its file: [crank] inertia, [flywheel]",
         ),
+        (["{four}", "--fluctuation", "1e-10"], '--fluctuation "1e-10": give (highest - lowest)/m'),
         (["{four}", "--fluctuation", "x"], '--fluctuation "x": give (highest - lowest)/mean sp'),
         (["{four}", "--fluctuation", "1/0"], '--fluctuation "1/0": give (highest - lowest)/mea'),
         (["{four}", "--cylinder", "7"], "--cylinder 7: four has the cylinders 1, 2, 3, 4"),

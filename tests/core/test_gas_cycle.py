@@ -184,6 +184,12 @@ REFUSED = {
         ("max_pressure", 60e5),
         "max_pressure: does not make a diesel cycle: give imep, heat or cut_off",
     ),
+    "goal of an Otto cycle": (
+        {},
+        Otto(),
+        ("cut_off", 2),
+        "cut_off: does not make an otto cycle: give imep, heat or max_pressure",
+    ),
     "ratio": (
         {"compression_ratio": 0.9},
         Otto(),

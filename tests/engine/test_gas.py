@@ -55,6 +55,29 @@ def test_bmep_is_imep_times_mechanical_efficiency():
     assert gas.cylinders[0].torque.imep == pytest.approx(10e5, rel=1e-12)
 
 
+@pytest.mark.parametrize(("intake", "strokes"), [(1.0, 4), (2.5, 4), (1.0, 2)])
+def test_more_heat_than_the_air_of_the_charge_burns_is_doubted(intake, strokes):
+    """Of 14.6 kg of air for 43 MJ of petrol, at 300 K: 34 times pressure times volume, here that of
+    the whole cylinder; a supercharged engine has more of it.
+    """
+    text = FOUR if strokes == 4 else TWO_STROKE
+    ratio, swept = 11, build_text(text + WIEBE).gas.cylinders[0].piston.swept
+    charge = intake * 1e5 * swept * ratio / (ratio - 1)
+    air = charge / (287 * 300)
+    assert 43e6 / 14.6 * air == pytest.approx(34 * charge, rel=0.02)
+
+    def doubts(heat):
+        gas = f"""[gas]\ncycle = "otto"\ncompression_ratio = {ratio}\nintake = {intake}\n"""
+        return build_text(f"{text}{gas}heat = {heat}\n").gas.doubts
+
+    assert doubts(39 * charge) == ()
+    assert doubts(50 * charge) == (
+        f"gas.heat takes {50 * charge:.4g} J in each cycle, 50 times pressure times volume of its "
+        f"charge, where fuel that uses up the air gives some 34; is gas.intake = {intake:g} bar "
+        "right? It is absolute, and more where the engine is supercharged",
+    )
+
+
 def test_a_cylinder_without_heat_compresses_and_expands_alike():
     """Its pressure by hand, p V^1.32 both ways; work is that of changing the gas alone."""
     engine = build_text(FOUR + WIEBE + "intake = 1.6\nexhaust = 1.9\n[cylinder.3]\nheat = 0\n")

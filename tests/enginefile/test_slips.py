@@ -43,6 +43,10 @@ def told(tmp_path, *changes, args=()):
         ("throws = [0, 180, 180, 0]", "throws = [0, 180", ""),
         ("stroke = 90", "stroke = “90 mm”", ': stroke = “90 mm”: quotes are straight: stroke = "90 mm"'),
         ("stroke = 90", "stroke = ‘3.5 in’  # inch", ': stroke = ‘3.5 in’: quotes are straight: stroke = "3.5 in"'),
+        ("stroke = 90", "stroke: 90", ": a key and its value have = between them: stroke = 90"),
+        ("stroke = 90", "stroke == 90  # mm", ": a key and its value have = between them: stroke = 90"),
+        ("stroke = 90", "stroke := 90", ": a key and its value have = between them: stroke = 90"),
+        ("[rod]", "rod:", ": the head of a table stands in brackets: [rod]"),
         ("throws = [0, 180, 180, 0]", "throws = 0,180,180,0", ": throws = 0,180,180,0: a list stands in brackets: throws = [0,180,180,0]"),
     ],
 )  # fmt: skip
@@ -117,8 +121,10 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"engine": {"rpm": 80}}, "engine.rpm: there is no table [engine]; did you mean speed of [operation]?"),
         ({"foo": {"bar": 1}}, "foo.bar: there is no table [foo]"),
         ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, which is twice the crank"),
+        ({"cylinder": {"2": {"bore": 65}}}, "cylinder.2.bore: unknown key in [cylinder]; all cylinders have piston.bore; of"),
         ({"crank": {"strokes": 4}}, "crank.strokes: unknown key in [crank]; strokes belongs to [layout]"),
         ({"crank": {"phase": [0, 180]}}, "crank.phase: unknown key in [crank]; did you mean throws?"),
+        ({"shaft": [{"ratio": 2, "unbalance": 9, "phase": 3}]}, "shaft.1.phase: unknown key in [shaft]; did you mean angle?"),
         ({"bore": 80}, "bore: unknown key in an engine file; bore belongs to [piston]"),
         ({"mass": 80}, "mass: unknown key in an engine file; mass belongs to [rod] or [piston]"),
         ({"rpm": 3000}, "rpm: unknown key in an engine file; did you mean speed of [operation]?"),
@@ -267,6 +273,24 @@ def test_a_search_says_that_a_number_changes_nothing(tmp_path):
     search = ("search", file, "--over", "crank.stroke=60:90", "--minimise", "force.2.major")
     told = run_here(*search, "--limit", "force.2.major<3000").out
     assert nothing not in told
+    search = ("search", file, "--over", "piston.mass=0.5:0.5", "--minimise", "force.2.major")
+    assert nothing not in run_here(*search).out, "of one value nobody knows"
+
+
+def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
+    """A firing order fits one splay alone: of a 60-degree V6 that fires evenly, -60."""
+    file = tmp_path / "v6.toml"
+    file.write_text(
+        changed(
+            ("throws = [0, 180, 180, 0]", "splay = -60"),
+            ("firing_order = [1, 3, 4, 2]", "firing_order = [1, 4, 2, 5, 3, 6]\nbank_angle = 60"),
+        )
+    )
+    search = ("search", file, "--minimise", "moment.1.backward", "--over", "crank.splay=-80:80")
+    told = run_here(*search).out
+    assert "\n-60 " in told
+    assert "Not every value of the range makes an engine; with crank.splay = -80: layout.f" in told
+    assert "changes nothing" not in told
 
 
 def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):

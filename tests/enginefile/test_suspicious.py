@@ -32,8 +32,7 @@ def test_ordinary_engines_pass(text):
             ),
             (
                 "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the "
-                "units right? "
-                "Bare numbers are kg and mm"
+                "units right? Bare numbers are kg and mm"
             ),
         ),
         (
@@ -75,9 +74,7 @@ def test_ordinary_engines_pass(text):
             changed(("length = 160", "length = 100")),
             (
                 "crank radius / rod length is 0.45, where 0.15 to 0.4 is usual; crank.stroke is "
-                "twice the "
-                "crank radius, "
-                "rod.length the distance of its two centres"
+                "twice the crank radius, rod.length the distance of its two centres"
             ),
         ),
         (
@@ -93,8 +90,7 @@ def test_ordinary_engines_pass(text):
             changed(("length = 160", "ratio = 0.1")),
             (
                 "crank radius / rod length is 0.1, where 0.15 to 0.4 is usual; crank.stroke is "
-                "twice the crank radius, "
-                "rod.length the distance of its two centres"
+                "twice the crank radius, rod.length the distance of its two centres"
             ),
         ),
         (
@@ -121,8 +117,7 @@ def test_ordinary_engines_pass(text):
             changed(("cg = 45", "cg = -45")),
             (
                 "rod.cg is -45 mm, outside the rod (0 to 160 mm); it is measured from the big-end "
-                "centre "
-                "towards the small end"
+                "centre towards the small end"
             ),
         ),
         (
@@ -138,9 +133,7 @@ def test_ordinary_engines_pass(text):
             changed(("cg = 45", "cg = 45\ninertia = 0.0023")),
             (
                 "rod.inertia is 0.0023 kg mm^2, where 307 to 6.14e+03 is usual for 0.6 kg and 160 "
-                "mm; it is "
-                "taken about the centre "
-                "of mass, in kg mm^2"
+                "mm; it is taken about the centre of mass, in kg mm^2"
             ),
         ),
         *(
@@ -154,11 +147,14 @@ def test_ordinary_engines_pass(text):
         (
             changed(("speed = 3000", "speed = 30000")),
             (
-                "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than "
-                "40; are "
-                "operation.speed and "
-                "crank.stroke right?"
+                "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than 40; "
+                "are operation.speed and crank.stroke right?"
             ),
+        ),
+        (
+            changed(more="[[shaft]]\nratio = -2\nunbalance = 4500\nat = [0, 0.08]\n"),
+            "shaft.1.at is within 0.08 mm of the crank's axis; is it in mm? Another unit is said "
+            'as in "0.08 m"',
         ),
         (
             changed(("bore = 86", "bore = 86\noffset = -20")),
@@ -171,9 +167,7 @@ def test_ordinary_engines_pass(text):
             ),
             (
                 "layout.stagger is 220 mm, more than the distance of neighbouring throws (80 mm); "
-                "it is the "
-                "distance of two rods "
-                "on one throw"
+                "it is the distance of two rods on one throw"
             ),
         ),
         (
@@ -184,9 +178,7 @@ def test_ordinary_engines_pass(text):
             # 5 x (4 x 0.8 + 4 x (0.5 + 0.6)) kg x 45 mm
             (
                 "counterweight.2: its unbalance is 2.4e+06 g mm, more than 5 times all moving "
-                "masses at the "
-                "crank radius (1.71e+06); "
-                "is it in g mm?"
+                "masses at the crank radius (1.71e+06); is it in g mm?"
             ),
         ),
         (
@@ -227,6 +219,33 @@ def test_ordinary_engines_pass(text):
 )
 def test_warnings(text, warning):
     assert find_suspicious(parse(text)) == [warning]
+
+
+def test_shafts_on_the_axis_of_the_crank_are_no_slip():
+    """A shaft that may stand anywhere is written so."""
+    shafts = "[[shaft]]\nratio = -2\nunbalance = 45\nat = [0, %s]\n"
+    on_it, beside = (changed(more=shafts % y) for y in ("1e-14", "2"))
+    assert find_suspicious(parse(on_it)) == find_suspicious(parse(beside)) == []
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "usual"),
+    [
+        ("intake", 14.7, "0.15 to 12 bar, absolute,"),
+        ("exhaust", 0.101, "0.15 to 12 bar, absolute,"),
+        ("crankcase", 14.7, "0.15 to 12 bar, absolute,"),
+        ("compression_ratio", 100, "2 to 30"),
+        ("compression_index", 3, "1 to 1.67"),
+        ("expansion_index", 2.5, "1 to 1.67"),
+    ],
+)
+def test_gas_of_no_engine_is_doubted(key, value, usual):
+    """Psi and MPa for bar, a slip of the decimal point, more than an adiabate of helium."""
+    gas = {"cycle": '"otto"', "compression_ratio": 10, "imep": 9} | {key: value}
+    text = "\n".join(f"{name} = {figure}" for name, figure in gas.items())
+    assert find_suspicious(parse(changed(more=f"[gas]\n{text}\n"))) == [
+        f"gas.{key} is {value:g}, where {usual} is usual"
+    ]
 
 
 @pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])
@@ -323,6 +342,20 @@ def test_inertias_in_kg_m2_are_asked_back(more, told):
     assert "\n".join(find_suspicious(parse(changed(more=more)))) == told
 
 
+def test_a_propeller_with_a_dashpot_in_its_shaft_is_asked_back():
+    """Damped by the water it would be by node_damping; a coupling has a dashpot."""
+    twist = TWIST % ("20000", "250000") + "damping = 9e4\n"
+    assert find_suspicious(parse(changed(more=twist))) == []
+    propeller = twist.replace("Flywheel", "Propeller")
+    assert find_suspicious(parse(changed(more=propeller))) == [
+        "the part 'Propeller' of [torsion]: damping is of a dashpot between the ends of its shaft; "
+        "of the part against ground, as water damps it, it is node_damping"
+    ]
+    assert (
+        find_suspicious(parse(changed(more=propeller.replace("\ndamping", "\nnode_damping")))) == []
+    )
+
+
 @pytest.mark.parametrize(
     ("stiffness", "twist"),  # 1 MPa x pi/4 (86 mm)^2 x 90 mm = 523 N m
     [("1e3", "0.52"), ("[1e6, 9e3, 1e16]", "0.058")],
@@ -332,6 +365,15 @@ def test_stiffness_of_throws_in_another_unit_is_asked_back(stiffness, twist):
     assert find_suspicious(parse(text)) == [
         f"torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by {twist} rad, "
         'where at most 0.05 is usual; is it in N m/rad? Another unit is said as in "1.2 MN m/rad"'
+    ]
+
+
+def test_loss_factors_in_percent_are_asked_back():
+    more = (TWIST % ("20000", "250000")).replace("[torsion]\n", "[torsion]\nloss = 3.5\n", 1)
+    told = "where at most 1 is usual; {} % is {}, and of a relative damping psi the loss factor is"
+    assert find_suspicious(parse(changed(more=more + "loss = 1.13\n"))) == [
+        f"torsion.loss is 3.5, {told.format(3.5, 0.035)} psi/(2 pi)",
+        f"torsion.rear.1.loss is 1.13, {told.format(1.13, 0.0113)} psi/(2 pi)",
     ]
 
 

@@ -290,9 +290,23 @@ def test_a_trial_weight_is_doubted_at_each_speed():
         text += run([10], [], own) + run([after], [("p1", weight)], own)
     (doubt,) = find_doubts(find_corrections(parse_runs(text)))
     assert doubt == (
-        "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0% of the "
+        "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0.11% of the "
         "largest; a heavier one tells more"
     )
+
+
+def test_units_of_radius_and_trial_weights_are_doubted():
+    metres = three_runs("radius = [0.1, 0.45]")
+    assert find_doubts(find_corrections(parse_runs(metres))) == [
+        'radius is 0.45 mm; is it in mm? Another unit is said as in "0.45 m"'
+    ]
+    kilograms = (
+        head(2) + run([10, 10]) + run([15, 10], [("p1", 0.02)]) + run([10, 14], [("p2", 15)])
+    )
+    *_, doubt = find_doubts(find_corrections(parse_runs(kilograms)))
+    assert doubt == "the weights tried are 0.02 g in p1 and 15 g in p2; are both in g?"
+    far = run([10, 10]) + run([15, 10], [("p1", 0.2)]) + run([10, 14], [("p2", 15)])
+    assert find_doubts(find_corrections(parse_runs(head(2) + far))) == []
 
 
 def test_planes_that_are_nearly_alike_are_doubted():

@@ -22,6 +22,10 @@ def with_first(old: str, new: str) -> str:
 
 CASES = [
     (
+        with_first('"53 @ 78"', '"5,3 @ 78"'),
+        'run.1.readings: the 2nd value "5,3 @ 78" is no amplitude @ angle in degrees; write it like "170 @ 112"; decimals take a point, thousands no comma',
+    ),
+    (
         with_first('"53 @ 78"', '"53"'),
         'run.1.readings: the 2nd value "53" is no amplitude @ angle in degrees; write it like "170 @ 112"',
     ),

@@ -40,6 +40,7 @@ HUGE = 10**5000  # Python does not write numbers of so many digits
         (lambda: check_inertia("damper_inertia", HUGE), "damper_inertia: an integer of about 5001"),
         (lambda: check_count("seed", -HUGE, 0), "seed: an integer of about 5001 digits is less"),
         (lambda: check_speeds("torsion", [HUGE]), "speeds_rpm: give crank speeds above 0 in rpm"),
+        (lambda: check_speeds("torsion", [1e-300]), "speeds_rpm: give crank speeds above 0 in rpm"),
         (lambda: check_torsion_orders([HUGE]), "not an integer of about 5001 digits"),
         (lambda: parse_share("quantile", HUGE), "quantile an integer of about 5001 digits: give"),
         (lambda: balcli.analyze(FOUR, [HUGE]), "not an integer of about 5001 digits"),
@@ -411,7 +412,8 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
     (
         lambda: balcli.sweep(V8, {"rod.ratio": [2.0]}),
         balcli.BalcliError,
-        "rod.ratio: 2 is not below 1; a plain number is wanted, without quotes, below 1",
+        "rod.ratio: 2 is not below 1; a plain number is wanted, without quotes, below 1: crank "
+        "radius / rod length; of a rod 2 times as long as the crank radius it is 0.5",
     ),
     (
         lambda: balcli.sweep(V8, {"rod.ratio": ["x"]}),

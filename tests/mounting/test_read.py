@@ -127,6 +127,19 @@ def test_inertias_in_kg_m2_are_doubted(tmp_path):
     )
 
 
+def test_places_in_metres_are_doubted(tmp_path):
+    """A point at the origin itself is no slip."""
+    path = tmp_path / "x.toml"
+    point = '[[point]]\nname = "seat"\nat = [0, %s, 0]\n'
+    path.write_text(block() + point % "0.5", encoding="utf-8")
+    assert read_mounted(path).doubts == (
+        "point.1.at of 'seat' is within 0.5 mm of the origin; is it in mm? Another unit is said as "
+        'in "0.5 m"',
+    )
+    path.write_text(block() + point % "0", encoding="utf-8")
+    assert read_mounted(path).doubts == ()
+
+
 @pytest.mark.parametrize(
     ("stiffness", "sag"),  # 200 kg x g over four mounts' mean stiffness
     [("[200e3, 150e3, 400e3]", "0.002"), ("[0.2, 0.15, 0.4]", "2e+03")],
@@ -137,6 +150,19 @@ def test_mounts_that_give_way_like_none_are_doubted(tmp_path, stiffness, sag):
     assert read_mounted(path).doubts == (
         f"mount.stiffness: under its weight the body would sink by about {sag} mm, where 0.02 to 200 "
         'mm is usual; is it in N/mm? Another unit is said as in "250 kN/m"',
+    )
+
+
+def test_a_loss_factor_in_percent_is_doubted(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text(
+        block().replace("[200, 150, 400]", "[200, 150, 400]\nloss = 8"), encoding="utf-8"
+    )
+    told = (
+        "is 8, where at most 1 is usual; 8 % is 0.08, and of a relative damping psi the loss factor"
+    )
+    assert read_mounted(path).doubts == tuple(
+        f"mount.{k}.loss {told} is psi/(2 pi)" for k in range(1, 5)
     )
 
 

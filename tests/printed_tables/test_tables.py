@@ -255,6 +255,22 @@ def test_digits():
         if line.startswith("0 ")
     )
     assert first.split() == ["0", *["0.00"] * 9, "360"]  # printed .0000; whole angles stay whole
+    beyond = run("tsinghua-1-6", "--angle", "90,105", "--lambda", "0.25", "--digits", "2").out
+    assert beyond.splitlines()[-2].split() == ["105", "-0.48", "255"]  # nor does a row not printed
+
+
+@pytest.mark.parametrize(
+    ("given", "hint"),
+    [
+        ("0,25", "; decimals take a point: 0.25"),
+        ("3.5", "; of a rod 3.5 times as long as the crank radius it is 1/3.5"),
+        ("0.9:1.1:0.1", ""),
+    ],
+)
+def test_a_lambda_that_cannot_be_is_told_what_it_would_be(given, hint):
+    result = run("tsinghua-1-2", "--lambda", given)
+    assert result.status == 2
+    assert result.err.endswith(f"a crank turns only with 0 < lambda < 1{hint}\n")
 
 
 def test_errata_of_one_table_and_of_all():

@@ -220,6 +220,8 @@ def test_an_unknown_quantity():
         "there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
         "peak, sizing, gas, inner, guide"
     )
+    with pytest.raises(BalcliError, match='there is no quantity "": choose'):
+        analyze(example("i4"), only=["force", ""])
 
 
 def test_more_by_cylinder_than_anyone_reads_is_refused():

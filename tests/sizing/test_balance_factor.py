@@ -432,11 +432,6 @@ def test_a_range_tells_bobweight_counterweight_and_what_is_left():
             SchemeOptions(planes="ends"),
             "--planes: moments are not known, because crank.spacing is missing",
         ),
-        (
-            TWIN,
-            SchemeOptions(planes="left"),
-            '--planes "left": give ends, throws, or places along z',
-        ),
     ],
 )
 def test_what_a_factor_cannot_be(text, options, told):
@@ -490,6 +485,9 @@ def test_grams_are_what_a_shop_measures(ford):
     assert run_here("balance", ford, "--measured", "1.8721e3").out == bare
     assert refusal("balance", ford, "--measured", "-5 g") == (
         '--measured "-5 g": a mass on the pin is not negative'
+    )
+    assert refusal("balance", ford, "--measured", "inf").startswith(
+        '--measured "inf": a mass is wanted: a bare number in g'
     )
 
 
@@ -661,3 +659,18 @@ def find_cylinder_force(text: str) -> float:
     """m r omega^2 of the reciprocating mass of cylinder 1, N."""
     engine = build_text(text)
     return float(engine.weighed[0].reciprocating * engine.cylinders.radius * engine.omega**2)
+
+
+def test_split_pins_are_told_from_front_to_back():
+    """Of a 60-degree V6 with pins 60 degrees apart: those of the first bank stand in front."""
+    six = changed(
+        ("throws = [0, 180, 180, 0]", "splay = -60"),
+        (
+            "firing_order = [1, 3, 4, 2]",
+            "firing_order = [1, 4, 2, 5, 3, 6]\nstagger = 36\nbank_angle = 60",
+        ),
+    )
+    remedy = size(build_text(six), "factor")
+    assert [pin.cylinders for pin in remedy.card] == [(1,), (4,), (2,), (5,), (3,), (6,)]
+    places = [device.position for device in remedy.devices]
+    assert places == sorted(places)

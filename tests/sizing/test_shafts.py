@@ -263,6 +263,14 @@ def test_lower_orders_that_stay_as_they_are_are_named():
     assert not size(load(I4), "single-shaft").note  # order 1 is balanced
 
 
+def test_orders_that_stay_for_the_same_reason_are_named_together():
+    """A four has forces of even orders alone, and no moment."""
+    note = size(load(I4), "couple-shaft").note
+    assert note.endswith(
+        "Orders 2, 4, 6 and 8 stay as they are (they have a free force: two-shaft)"
+    )
+
+
 def test_what_turns_with_the_crank_is_said_with_its_size():
     twin = build(parse(STAGGERED_TWIN))
     remedy = size(twin, "single-shaft", SchemeOptions(order=1))

@@ -302,6 +302,19 @@ def test_a_tuned_pendulum_holds_its_node_still():
     assert ask_torsion(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
 
 
+def test_loss_factors_of_a_chain_in_percent_are_doubted():
+    text = """
+        loss = 2
+        node = [{ name = "a", inertia = 2e5 }, { name = "b", inertia = 3e5 }]
+        shaft = [{ from = "a", to = "b", stiffness = 1e6, loss = 5 }]
+        """
+    found = run_here("torsion", "-", stdin=text)
+    assert [line.partition(",")[0] for line in found.err.splitlines()] == [
+        "warning: standard input: loss is 2",
+        "warning: standard input: shaft.1.loss is 5",
+    ]
+
+
 def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
     """Tuned, they hold 300 N m with 2 kg: m R (R + L) W^2 for each rad, 92 deg at 1500 rpm; five
     times as many swing by 18 deg.

@@ -311,7 +311,8 @@ stiffness = 1e6
     ],
 )
 def test_dampers_of_unlikely_size(options, told):
-    asked = (*RANGE, "--damper", "viscous", *options, "--format", "json")
+    speeds = () if "--speeds" in options else RANGE
+    asked = (*speeds, "--damper", "viscous", *options, "--format", "json")
     status, out, err = run_here("torsion", "-", *asked, stdin=NOSE)
     assert status == 0
     assert err == (f"warning: --damper: {told}\n" if told else "")
@@ -443,7 +444,7 @@ def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_
         "modes": "Shapes of modes: angle of each node",
         "campbell": "Campbell diagram: orders, and criticals by work",
         "response": "Vibratory stress",
-        "waterfall": "by order, its width; the largest",
+        "waterfall": "by order: width, at most",
     }
     for name, title in titles.items():
         assert (title in text) == (what in ("all", name))
@@ -460,6 +461,24 @@ def test_pictures_of_large_torques_are_in_kilonewton_metres():
     assert waterfall.get_title("left").endswith(" kN·m")
     assert response.get_ylabel() == "± kN·m"
     assert max(line.get_ydata().max() for line in response.lines) == pytest.approx(largest)
+
+
+def test_pictures_show_a_resonance_between_the_speeds():
+    """Two hundred rpm apart, the curve would stay below what the table tells."""
+    result = analyze_torsion(write_diesel("limit = 60"), [4030, 4230, 4430, 4630])
+    response, worst = result.response, result.response.worst
+    fine = analyze_torsion(write_diesel("limit = 60"), np.arange(4200, 4500, 0.5)).response
+    assert np.nanmax(fine.stress) > 1.1 * np.nanmax(response.stress)
+    stress, swing = make_torsion(result, "response", "svg").axes
+    highest = max(max(line.get_ydata()) for line in stress.lines)
+    assert highest == pytest.approx(np.nanmax(fine.stress) / 1e6, rel=1e-3)
+    total, *orders = (max(line.get_ydata()) for line in swing.lines)
+    assert total == pytest.approx(np.degrees(fine.free_end.max()), rel=1e-3)
+    assert max(orders) == pytest.approx(np.degrees(fine.swings.max()), rel=1e-3)
+    (waterfall,) = make_torsion(result, "waterfall", "svg").axes
+    told = float(waterfall.get_title("left").split()[-2])
+    shaft = np.argmax(worst.torque)
+    assert told == pytest.approx(fine.amplitudes[:, :, shaft].max() / 1e3, rel=5e-3)
 
 
 def test_orders_of_a_waterfall_do_not_cover_one_another():

@@ -161,7 +161,7 @@ node = "q"
 order = 1.3
 """
     assert mistakes(text) == [
-        "19 mistakes",
+        "21 mistakes",
         "  limt: unknown key in a chain file; did you mean limit?",
         "  loss: -1 is less than 0; a plain number is wanted, without quotes, 0 or more",
         "  node.1.inertia: is 0; leave it out where a node has no inertia",
@@ -174,11 +174,14 @@ order = 1.3
         '  node.4.damper.kind: "spring" is not "viscous" or "rubber" or "pendulum"',
         "  node.4.damper.foo: unknown key in a damper; it has kind, inertia, damping, stiffness, loss, "
         "mass, radius, length",
+        "  shaft.1: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
+        "a plain shaft",
         '  shaft.1.to: is missing; give it, such as to = "flywheel"',
         "  shaft.2.stiffness: 0 is not above 0; a torsional stiffness is wanted: a bare number in "
         'N m/rad, or "1.25e6 N m/rad" or "24.17e6 lbf in/rad", above 0',
         "  shaft.3: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
-        "a plain shaft; has a bore of 40 mm and a diameter of 30; the bore is the smaller of both",
+        "a plain shaft",
+        "  shaft.3: has a bore of 40 mm and a diameter of 30; the bore is the smaller of both",
         "  gear.1.ratio: 0 is no speed ratio; give driven over driving speed, not 0",
         "  excitation.1.order: 1.3 is no order that can be added up over two turns of the first "
         "node; give a multiple of 0.5",
@@ -186,8 +189,14 @@ order = 1.3
         '  shaft.2.to: "c" is no node; there are a, d',
         '  shaft.3: goes from "a" to itself; it joins two nodes',
         '  excitation.1.node: "q" is no node; there are a, d',
-        '  fixed: "nowhere" is no node; there are a, d',
+        "  and 1 more",
     ]
+
+
+def test_what_a_misspelt_key_would_have_said_is_not_missed():
+    text = TWO.replace("stiffness", "stifness", 1)
+    assert text != TWO
+    assert mistakes(text) == ["shaft.1.stifness: unknown key in [[shaft]]; did you mean stiffness?"]
 
 
 @pytest.mark.parametrize(

@@ -61,8 +61,11 @@ def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
 
 
 def read_mass_on_scales(option: str, text: str, units: Units = Units.SI) -> float:
-    """As `read_mass`, but a bare number is in g, as on the scales of a shop."""
-    return _read(option, text, _SCALES, units) / 1e3
+    """As `read_mass`, but a bare number is in g, as on the scales of a shop, and finite."""
+    found = _read(option, text, _SCALES, units) / 1e3
+    if not math.isfinite(found):
+        raise BalcliError(f"{_shown(option, text)}: {wanted(_SCALES)}")
+    return found
 
 
 def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
@@ -115,9 +118,7 @@ def convert_speed(text: str) -> float:
 
 
 def read_share(option: str, text: str, needed: str) -> float:
-    """A share, as a number or in per cent; BalcliError with the option, its text and what is
-    needed.
-    """
+    """A share, as a number or in per cent; BalcliError with option, text and what is needed."""
     number, percent, rest = text.strip().partition("%")
     value = _as_bare(number)
     if value is None or rest or not math.isfinite(value):

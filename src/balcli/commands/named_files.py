@@ -1,5 +1,5 @@
-"""Files that an engine file names, such as a measured diagram: they stand beside it, and what is
-written anew has to find them.
+"""Files that an engine file names, such as a measured diagram: they stand beside it, stay as they
+are, and what is written anew has to find them.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from ..enginefile.toml_text import parse_toml, read_bytes
 from ..errors import BalcliError
 
 
@@ -33,6 +34,17 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
                 f'{target}: the engine file names "{name}", which stands beside it in {folder}; '
                 f"write into that folder, or copy {name} into {target.parent} first"
             )
+
+
+def list_named_files(source: str) -> list[Path]:
+    """Files that an engine file names, at this path; none where it cannot be read, which is told
+    elsewhere.
+    """
+    try:
+        data = parse_toml(read_bytes(source), source) if Path(source).is_file() else {}
+        return [Path(source).parent / name for name in _list_names(data)]
+    except (BalcliError, AttributeError, TypeError):
+        return []
 
 
 def _are_equal(one: Path, other: Path) -> bool:

@@ -1,11 +1,11 @@
-"""What a command reads stays as it is: no result may go onto an engine file, or onto another
-result, and all results have a folder before one is written.
+"""What a command reads stays as it is: no result may go onto an engine file, onto one that it names
+or onto another result, and all results have a folder before one is written.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ..errors import BalcliError, tell_unwritable
@@ -33,10 +33,12 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
         for option, place in writes.items()
         if place is not None
     ]
+    there = any(os.path.isfile(target) for _, target in targets)
+    named = _list_named(sources) if there else []
     for k, (option, target) in enumerate(targets):
-        if any(_same_file(target, source) for source in sources):
+        if any(_same_file(target, source) for source in (*sources, *named)):
             raise BalcliError(
-                f"{option} {target}: this is the engine file itself, which stays as it is; "
+                f"{option} {target}: this is a file that is read, which stays as it is; "
                 "choose another name"
             )
         if any(_same_file(target, other) for _, other in targets[:k]):
@@ -47,6 +49,13 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
             os.stat(os.path.join(os.path.dirname(target) or ".", ""))
         except OSError as error:
             raise tell_unwritable(target, error) from None
+
+
+def _list_named(sources: Iterable[str]) -> list[str]:
+    """Paths of the files that engine files name."""
+    from .named_files import list_named_files  # for an output that is there already alone
+
+    return [str(file) for source in sources for file in list_named_files(source)]
 
 
 def _same_file(one: str, other: str) -> bool:

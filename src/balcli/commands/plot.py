@@ -27,10 +27,10 @@ Pages = Annotated[
         autocompletion=complete_pages,
         help="polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
         "crank angle; all: these on one page; "
-        "factor: over the balance factor; bank: a vee over its bank angle; inner: along the "
-        "crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and main "
-        "(polar diagrams of bearing loads); modes, campbell, response, waterfall: of its torsion. "
-        "Several: pages of one PDF, or a file each (v8-pin.svg).",
+        "factor: over the balance factor; bank: the force of a vee over its bank angle; inner: "
+        "along the crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and "
+        "main (polar diagrams of bearing loads); modes, campbell, response, waterfall: of its "
+        "torsion. Several: pages of one PDF, or a file each (v8-pin.svg).",
     ),
 ]
 

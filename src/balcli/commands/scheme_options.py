@@ -4,11 +4,12 @@ engine with them beside the engine as it is.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Annotated
 
-from ..errors import BalcliError
-from ..limits import MOST_FACTORS
+from ..errors import BalcliError, warn
+from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..render.formats import Units
 from ..sizing.options import SchemeOptions
 from .amounts import read_lengths, read_mass_on_scales, read_share
@@ -83,9 +84,7 @@ def parse_scheme_options(
     roll: str | None,
     units: Units,
 ) -> SchemeOptions:
-    """What a scheme is asked for, in SI; BalcliError for a text that says nothing, with the
-    text.
-    """
+    """What a scheme is asked for, in SI; BalcliError with a text that says nothing."""
     return SchemeOptions(
         order=order,
         at=tuple(_parse_place(text, units) for text in at) if at else None,
@@ -126,7 +125,10 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
     wanted = "ends, throws, or places along z in mm, such as -200,200"
-    return read_lengths("--planes", text, wanted, units=units)
+    places = read_lengths("--planes", text, wanted, units=units)
+    if len(places) > 2 and len(set(places)) < len(places):
+        warn(f'--planes "{text[:60]}": names a place twice; decimals take a point, not a comma')
+    return places
 
 
 def _parse_measured(text: str, units: Units) -> float:
@@ -141,7 +143,12 @@ def _parse_factors(text: str) -> tuple[float, ...]:
     """`0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
     if ":" not in text:
-        return tuple(read_share("--factor", part, wanted) for part in text.split(","))
+        listed = tuple(read_share("--factor", part, wanted) for part in text.split(","))
+        if re.fullmatch(r"0,\d+", text) and listed[1] > LARGEST_FACTOR:
+            raise BalcliError(
+                f'--factor "{text}": decimals take a point, such as {text.replace(",", ".")}'
+            )
+        return listed
     parts = [read_share("--factor", part, wanted) for part in text.split(":")]
     if not _is_range(parts):
         raise BalcliError(

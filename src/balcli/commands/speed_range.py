@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated
 
 from ..errors import BalcliError
-from ..limits import LONGEST_SHOWN, MOST_SPEEDS
+from ..limits import LONGEST_SHOWN, MOST_SPEEDS, SMALLEST_POSITIVE
 from .amounts import convert_speed
 from .declare import optional
 
@@ -49,7 +49,7 @@ def parse_speeds(
         raise BalcliError(start + right) from None
     if ranged and len(figures) > 3:
         raise BalcliError(start + right)
-    if not all(0 < figure < 1e9 for figure in figures):
+    if not all(SMALLEST_POSITIVE <= figure < 1e9 for figure in figures):
         wrong = "speeds and their step are" if ranged else "speeds are"
         raise BalcliError(f"{start}{wrong} above 0 and below 1e9 rpm; {right}")
     if not ranged:

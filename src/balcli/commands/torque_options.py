@@ -13,6 +13,7 @@ import typer
 from ..core.speeds import RPM
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
+from ..limits import SMALLEST_FLUCTUATION
 from ..render.formats import Units
 from .amounts import read_inertia
 from .declare import optional
@@ -89,7 +90,7 @@ def parse_fluctuation(text: str | None) -> float | None:
     """`1/200`, `0.005` or `0.5%`.
 
     Raises:
-        BalcliError: anything else; what is not between 0 and 2.
+        BalcliError: anything else; what is not between 1e-9 and 2.
     """
     if text is None:
         return None
@@ -100,7 +101,7 @@ def parse_fluctuation(text: str | None) -> float | None:
         found = float(above) / float(below or 1) / (100 if percent else 1)
     except (ValueError, ZeroDivisionError):
         found = math.nan
-    if not 0 < found < 2:
+    if not SMALLEST_FLUCTUATION <= found < 2:
         raise BalcliError(
             f'--fluctuation "{text[:60]}": give (highest - lowest)/mean speed, such as 1/200 or '
             "0.5%"

@@ -127,7 +127,9 @@ def find_cycle_mistakes(
     if goal.name not in burn.goals:
         *most, last = burn.goals
         kind = type(burn).__name__.lower()
-        yield GasError(goal.name, f"does not make a {kind} cycle: give {', '.join(most)} or {last}")
+        article = "an" if kind == "otto" else "a"
+        hint = f"give {', '.join(most)} or {last}"
+        yield GasError(goal.name, f"does not make {article} {kind} cycle: {hint}")
     if not p.compression_ratio > 1:
         yield GasError("compression_ratio", f"is {p.compression_ratio:g}: give more than 1")
     if not p.intake > 0:
@@ -290,9 +292,7 @@ def _heat(cycle: _Cycle, burning: Combustion, goal: Goal) -> float:
 
 
 def _heat_for_imep(cycle: _Cycle, burning: Combustion, imep: float) -> float:
-    """By Newton's method from the least heat on: imep is concave in the heat, so that no step
-    leads too far.
-    """
+    """By Newton's method from the least heat on: imep is concave in it, no step leads too far."""
     heat = burning.least
     lowest = cycle.imep(burning, heat)
     if imep < lowest:

@@ -1,13 +1,10 @@
-"""Engine: what all computation needs of an engine file, in SI units, one row a cylinder, with its
-devices.
-"""
+"""Engine: what all computation needs of an engine file, in SI units, one row a cylinder."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from itertools import groupby
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -258,15 +255,15 @@ class Engine:
     @property
     def rows_by_pin(self) -> list[list[int]]:
         """Rows of the cylinders on each crank pin, in the order of the throws; split pins are
-        several.
+        several, in their order along the throw.
         """
-
-        def find_pin(row: int) -> tuple[int, float]:
-            return self.weighed[row].throw, float(self.cylinders.pin_deg[row]) % 360
-
-        rows = range(len(self.numbers))
-        in_order = sorted(rows, key=lambda row: (*find_pin(row), self.numbers[row]))
-        return [list(group) for _, group in groupby(in_order, key=find_pin)]
+        rows = sorted(range(len(self.numbers)), key=self.numbers.__getitem__)
+        pins: dict[tuple[int, float], list[int]] = {}
+        for row in rows:
+            pin = self.weighed[row].throw, float(self.cylinders.pin_deg[row]) % 360
+            pins.setdefault(pin, []).append(row)
+        along = sorted(pins, key=lambda pin: (pin[0], float(self.cylinders.z[pins[pin]].min())))
+        return [pins[pin] for pin in along]
 
     @property
     def pins_deg(self) -> dict[int, Figure]:

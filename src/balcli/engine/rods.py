@@ -18,6 +18,7 @@ from ..limits import NEAREST_TO_LOCK
 from .figures import PendulumTest, RodFigures, or_nothing
 
 ENDS = ("small_end", "big_end")
+LENGTHS = ("length", "ratio")
 
 
 class RunningGear(NamedTuple):
@@ -118,11 +119,15 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         return
     length_mm = np.min(gear.length) * 1e3
     cg_mm = np.max(or_nothing(place.rod.cg)) * 1e3
+    # A cylinder's own length may be what the centre of mass of all rods does not fit
+    path, what = place.path("cg"), ""
+    if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:
+        path, what = place.path(*LENGTHS), f"{path} = "
     yield Problem(
-        place.path("cg"),
-        f"{cg_mm:g} mm is outside the rod of {length_mm:g} mm, and two masses at its ends cannot "
-        f"stand for such a rod, one would be negative: give a cg from 0 to {length_mm:g} mm, or "
-        "the rod's inertia",
+        path,
+        f"{what}{cg_mm:g} mm is outside the rod of {length_mm:g} mm, and two masses at its ends "
+        f"cannot stand for such a rod, one would be negative: give a cg from 0 to {length_mm:g} "
+        "mm, or the rod's inertia",
     )
 
 
@@ -150,7 +155,7 @@ def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterato
         )
         or_offset = " or the offset smaller"
     yield Problem(
-        place.path("length", "ratio"),
+        place.path(*LENGTHS),
         f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
         f"{np.min(gear.length) * 1e3:g} mm is lambda = {lam:.9g}{with_offset}; at most 1 - "
         f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer{or_offset}",

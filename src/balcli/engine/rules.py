@@ -182,6 +182,7 @@ def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
     for problem in _find_dead_centres_missed(parts):
         hint = (
             _suggest_swapped_banks(parts)
+            or _suggest_turned_numbers(parts)
             or _suggest_mirrored_throws(parts)
             or _suggest_turn(parts)
             or _suggest_splay(parts)
@@ -221,6 +222,21 @@ def _suggest_swapped_banks(parts: Assembly) -> str:
     )
 
 
+def _suggest_turned_numbers(parts: Assembly) -> str:
+    """The numbering of a radial or rotary engine against the sense in which it is numbered, if all
+    would fire at top dead centre by it; else empty.
+    """
+    layout, cells = parts.model.layout, parts.plan.cells
+    if layout.radial is None or layout.numbering is not None or parts.rank:
+        return ""
+    rows = [tuple(c.number for c in cells if c.bank == bank) for bank in range(layout.radial)]
+    turned = (rows[0], *reversed(rows[1:]))
+    if _find_dead_centres_missed(Assembly(parts.model.with_table("layout", numbering=turned))):
+        return ""
+    shown = [list(row) for row in turned]
+    return f". They fit with cylinders numbered the other way round: layout.numbering = {shown}"
+
+
 def _suggest_mirrored_throws(parts: Assembly) -> str:
     """The throws counted against the sense of rotation, if all would fire at top dead centre by
     them; else empty.
@@ -258,7 +274,8 @@ def _suggest_turn(parts: Assembly) -> str:
 
 def _suggest_splay(parts: Assembly) -> str:
     """The splay with which all would fire at top dead centre; empty if there is none."""
-    splay = None if parts.rank else find_fitting_splay(parts.model)
+    one_pin = parts.model.layout.radial is not None
+    splay = None if parts.rank or one_pin else find_fitting_splay(parts.model)
     if splay is None:
         return ""
     return f". They fit with {'split' if splay else 'common'} pins: crank.splay = {splay:g}"

@@ -45,6 +45,22 @@ if TYPE_CHECKING:
     from .mounting_tables import Body, Mount, Point
     from .torsion_tables import Torsion
 
+
+class CrankRatio(Number):
+    """Lambda, crank radius over rod length; who gives the inverse is told what it would be."""
+
+    def __init__(self) -> None:
+        super().__init__(PLAIN, above=0, below=1)
+
+    def _fault(self, number: float) -> tuple[str, str] | None:
+        fault = super()._fault(number)
+        if fault is None or number <= 1:
+            return fault
+        found, bounds = fault
+        inverse = f"of a rod {number:.4g} times as long as the crank radius it is {1 / number:.4g}"
+        return found, f"{bounds}: crank radius / rod length; {inverse}"
+
+
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
 # Bounds of figures are far beyond every engine; products and powers of them overflow nothing.
@@ -61,7 +77,7 @@ Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 ShareOfGas = Annotated[float, Number(PLAIN, least=0, most=100)]
 Heat = Annotated[float, Number(ENERGY, least=0, most=1e12)]
-RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
+RodRatio = Annotated[float, CrankRatio()]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
 RippleOrder = Annotated[float, Halves(most=HIGHEST_RIPPLE_ORDER)]

@@ -6,7 +6,7 @@ What the tables say against each other is not looked at here: that takes an engi
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -24,10 +24,12 @@ from .messages import (
     TABLES,
     TEXTS,
     describe_finding,
+    find_conflicts_of_keys,
     find_inner_table,
     import_table,
     is_miscounted,
     join_path,
+    read_without,
 )
 from .model import ONE_BY_ONE, EngineFile, FileTable, Override
 from .toml_text import parse_toml
@@ -259,8 +261,8 @@ class _Reader:
         """
         findings = [found for found in error.errors(include_url=False) if found["loc"]]
         broken = {str(finding["loc"][0]) for finding in findings}
-        draft = _read_without(table, value, broken)
-        contradictions = list(_find_contradictions(path, table, value, broken, draft))
+        draft = read_without(table, value, broken)
+        contradictions = list(find_conflicts_of_keys(path, table, value, broken, draft))
         self.problems += contradictions
         if path in ONE_BY_ONE and draft is not None and not contradictions:
             self.partial[path] = _Partial(draft, broken)
@@ -278,45 +280,6 @@ class _Partial(NamedTuple):
 
     draft: FileTable
     broken: set[str]
-
-
-def _read_without(
-    table: type[FileTable], value: Mapping[str, Any], broken: set[str]
-) -> FileTable | None:
-    """The table without its broken keys, with examples of those that have to be there; None where
-    that is none, either.
-    """
-    known = {key: part for key, part in value.items() if key not in broken}
-    needed = {key: field for key, field in table.keys().items() if field.is_required()}
-    examples = {key: (field.examples or [None])[0] for key, field in needed.items()}
-    try:
-        draft = table.model_validate(examples | known, context=broken)
-    except ValidationError:
-        return None
-    draft.model_fields_set.update(broken & value.keys())  # these are given, too
-    return draft
-
-
-def _find_contradictions(
-    path: str,
-    table: type[FileTable],
-    value: Mapping[str, Any],
-    broken: set[str],
-    draft: FileTable | None,
-) -> Iterator[Problem]:
-    """What the keys of a table say against each other, and their values, as far as that can be said
-    without the broken ones, which `draft` lacks.
-    """
-
-    def tell(mistakes: Iterable[str], keys: Iterable[str]) -> Iterator[Problem]:
-        missing = tuple(join_path(path, [key]) for key in keys if key not in value)
-        return (Problem(path, mistake, missing) for mistake in mistakes)
-
-    for choice in table.choices:
-        yield from tell(choice.mistakes(value), choice.find_missing(value))
-    for rule in table.rules if draft is not None else ():
-        if rule.needs.isdisjoint(broken):
-            yield from tell(rule.check(draft), {*rule.needs, *rule.wants})
 
 
 def _count_values(value: object) -> int:

@@ -7,7 +7,7 @@ remedy.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -35,10 +35,16 @@ SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
 SPEED_LOW = 9.0  # rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
+NEAR_THE_CRANK = 0.02  # strokes; a shaft this near would stand within the crank
+NO_DISTANCE = 1e-6  # mm: on the axis, but for rounding
 OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
 # Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 MEAN_PRESSURE = 60.0  # bar
 MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
+# bar, absolute: at 10 km of height there are 0.26, charged in two stages 10; psi and MPa: beyond.
+AROUND = 0.15, 12.0
+COMPRESSION = 2.0, 30.0  # engines have 4 (of 1910) to 25
+INDEX_MOST = 5 / 3  # of a gas of single atoms that loses nothing; engines have 1.2 to 1.4
 THROW_HEAVY = 20.0  # unbalanced mass of a throw / its rods and pistons: engines have up to 1.4
 BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
 # Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
@@ -52,6 +58,7 @@ TURNING_LIGHT = 0.01
 # rad, by the work that a cylinder does at 10 bar as a torque: engines have 2e-4 to 5e-3; much
 # less is said of shafts that are taken for rigid.
 TWIST_MOST = 0.05
+LOSS_MOST = 1.0  # steel has 0.01 to 0.05, rubber to 0.5; what is in percent is a hundred times that
 SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is rounded, or has bolts
 
 
@@ -59,7 +66,7 @@ def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     of_rods = _piston, _proportions, _rod, _rod_ends, _inertia, _motion
     of_crank = _neighbours, _throw_angles, _layout, _throw, _bobweight, _counterweights
-    beyond = _rotary, _turning, _gas, _torsion
+    beyond = _shafts, _rotary, _turning, _gas, _torsion
     return [warning for find in (*of_rods, *of_crank, *beyond) for warning in find(model)]
 
 
@@ -241,6 +248,18 @@ def _counterweights(model: EngineFile) -> Iterator[str]:
             )
 
 
+def _shafts(model: EngineFile) -> Iterator[str]:
+    """One beside the crank's axis, and yet within the crank: a place in metres, most likely."""
+    nearest = NEAR_THE_CRANK * model.crank.stroke
+    for number, shaft in enumerate(model.shaft, 1):
+        away = max(map(abs, shaft.at))
+        if NO_DISTANCE < away < nearest:
+            yield (
+                f"shaft.{number}.at is within {away:.3g} mm of the crank's axis; is it in mm? "
+                f'Another unit is said as in "{away:.3g} m"'
+            )
+
+
 def _rotary(model: EngineFile) -> Iterator[str]:
     if model.layout.rotary and model.crank.inertia is not None:
         yield (
@@ -294,12 +313,21 @@ def _gas(model: EngineFile) -> Iterator[str]:
                 f"gas.{key} is {value:.4g} bar, where at most {limit:g} is usual; is it in bar? "
                 'Another unit is said as in "130 psi" or "0.9 MPa"'
             )
+    ranges = dict.fromkeys(("intake", "exhaust", "crankcase"), (*AROUND, " bar, absolute,"))
+    if model.gas.cycle is not None:  # a compressor, which has a diagram, leaves less clearance
+        ranges["compression_ratio"] = (*COMPRESSION, "")
+        ranges["compression_index"] = ranges["expansion_index"] = (1.0, INDEX_MOST, "")
+    for key, (low, high, unit) in ranges.items():
+        value = getattr(model.gas, key)
+        if value is not None and not low <= value <= high:
+            yield f"gas.{key} is {value:.4g}, where {low:g} to {high:.3g}{unit} is usual"
 
 
 def _torsion(model: EngineFile) -> Iterator[str]:
     """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
     if model.torsion is None:
         return
+    yield from doubt_losses(_list_losses(model.torsion))
     yield from _throw_stiffness(model.torsion, model)
     throws, whole = _throw_inertia(model.torsion, model), model.crank.inertia
     if whole is not None and throws > (1 + SAME_INERTIA) * whole:
@@ -307,9 +335,17 @@ def _torsion(model: EngineFile) -> Iterator[str]:
             f"crank.inertia is {whole / 1e6:.4g} kg m^2, and all throws of torsion.throw_inertia "
             f"together have {throws / 1e6:.4g}: the whole has no less than its parts"
         )
+    parts = (*model.torsion.front, *model.torsion.rear)
+    for part in parts:
+        in_water = any(word in part.name.lower() for word in ("propeller", "impeller"))
+        if in_water and part.damping and not part.node_damping:
+            yield (
+                f"the part '{part.name}' of [torsion]: damping is of a dashpot between the ends of "
+                "its shaft; of the part against ground, as water damps it, it is node_damping"
+            )
     named = [
         (part.name, part.inertia)
-        for part in (*model.torsion.front, *model.torsion.rear)
+        for part in parts
         if part.inertia and "flywheel" in (part.name or "").lower()
     ]
     flywheel = _flywheel_inertia(model)
@@ -320,6 +356,26 @@ def _torsion(model: EngineFile) -> Iterator[str]:
                 f"[flywheel] has {flywheel / 1e6:.4g} kg m^2, and the part '{name}' of [torsion] "
                 f"{inertia / 1e6:.4g}: `torque` takes the one, `torsion` the other"
             )
+
+
+def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:
+    """Loss factors, by their paths, that nothing has: in percent, most likely."""
+    for path, loss in losses:
+        if loss is not None and loss > LOSS_MOST:
+            yield (
+                f"{path} is {loss:g}, where at most {LOSS_MOST:g} is usual; {loss:g} % is "
+                f"{loss / 100:g}, and of a relative damping psi the loss factor is psi/(2 pi)"
+            )
+
+
+def _list_losses(torsion: Torsion) -> Iterator[tuple[str, float | None]]:
+    """Of all shafts and dampers, by their paths."""
+    yield "torsion.loss", torsion.loss
+    for end, parts in (("front", torsion.front), ("rear", torsion.rear)):
+        for number, part in enumerate(parts, 1):
+            yield f"torsion.{end}.{number}.loss", part.loss
+            if part.damper is not None:
+                yield f"torsion.{end}.{number}.damper.loss", part.damper.loss
 
 
 def _throw_stiffness(torsion: Torsion, model: EngineFile) -> Iterator[str]:
@@ -417,9 +473,7 @@ def _spacing(model: EngineFile) -> float | None:
 
 
 def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """How many there are; where the throws are left out, the firing order tells the number of
-    rods.
-    """
+    """How many there are; without throws, the firing order tells the number of rods."""
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
     rods_on_a_throw = banks if layout.rods == "shared" else 1

@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN
 from .fields import nearest, shorten
-from .messages import is_miscounted, join_path
+from .messages import find_conflicts_of_keys, is_miscounted, join_path, read_without
 from .model import FileTable
 
 T = TypeVar("T", bound=FileTable)
@@ -57,15 +57,25 @@ class TableReader:
         for key in unknown:
             self._refuse_key(path, key, table)
         meant = {nearest(key, keys) for key in unknown}
+        known = {key: value[key] for key in value if key in keys}
         try:
-            return table.model_validate({key: value[key] for key in value if key in keys})
+            return table.model_validate(known)
         except ValidationError as error:
-            for finding in error.errors(include_url=False):
-                is_meant = finding["type"] == "missing" and finding["loc"][-1] in meant
-                if not (is_meant or is_miscounted(finding)):
-                    problem = self._describe(path, finding, table)
-                    self.problems.append(problem._replace(path=problem.path.lstrip(".")))
-            return None
+            findings = [found for found in error.errors(include_url=False) if found["loc"]]
+        broken = {str(finding["loc"][0]) for finding in findings}
+        draft = read_without(table, known, broken)
+        paths = {join_path(path, [key]) for key in meant}
+        found = [
+            problem
+            for problem in find_conflicts_of_keys(path, table, known, broken, draft)
+            if paths.isdisjoint(problem.missing)
+        ]
+        for finding in findings:
+            is_meant = finding["type"] == "missing" and finding["loc"][-1] in meant
+            if not (is_meant or is_miscounted(finding)):
+                found.append(self._describe(path, finding, table))
+        self.problems += (problem._replace(path=problem.path.lstrip(".")) for problem in found)
+        return None
 
     def refusal(self, name: str) -> InputError:
         """The error that lists the mistakes of the file with this name, or of one without."""

@@ -100,6 +100,10 @@ def _explain(text: str | bytes, error: str) -> str:
     twice = re.match(r"\s*([\w.-]{1,60})\s*=", line)
     if twice and error.startswith("Cannot overwrite"):
         return f": {twice[1]} is given twice; write it once"
+    if misfit := re.fullmatch(r"\s*([\w.-]{1,40})\s*(?::=?|==)\s*([^:=#]{1,60}?)\s*(?:#.*)?", line):
+        return f": a key and its value have = between them: {misfit[1]} = {misfit[2]}"
+    if table := re.fullmatch(r"\s*([\w.-]{1,40})\s*:\s*(?:#.*)?", line):
+        return f": the head of a table stands in brackets: [{table[1]}]"
     given = r"([^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,-]{1,60}\])"
     assigned = re.fullmatch(rf"\s*([\w.-]{{1,40}})\s*=\s*{given}\s*(?:#.*)?", line)
     if assigned is None or not assigned[2].isprintable():

@@ -76,7 +76,9 @@ class Part(ShaftKeys):
         "it in the list, the first on the nearest throw",
         examples=["throw 1"],
     )
-    node_damping: Damping = Field(0.0, description="of the part against ground", examples=[5])
+    node_damping: Damping = Field(
+        0.0, description="of the part against ground, as water damps a propeller", examples=[5]
+    )
     damper: Damper | None = Field(
         None,
         description="a damper that it has",

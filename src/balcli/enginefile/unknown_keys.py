@@ -34,7 +34,7 @@ SYNONYMS = {
     "pin_angles": ("throws",),
     "crank_angles": ("throws",),
     "angles": ("throws", "banks"),
-    "phase": ("throws",),
+    "phase": ("throws", "angle"),
     "phases": ("throws",),
     "bore_spacing": ("spacing",),
     "vee_angle": ("bank_angle",),
@@ -85,6 +85,10 @@ _DAMPER = (
 _TORQUES = (
     "an engine is excited by its masses and its gas; torques on other parts, such as a "
     "propeller's, stand in a chain of shafts: balcli new torsion"
+)
+_BORE = (
+    "all cylinders have piston.bore; of one with another, gas is the share of its gas force, "
+    "(its bore / piston.bore)^2"
 )
 # What is no figure of an engine file by any name, and what says it instead
 INSTEAD = {
@@ -170,6 +174,8 @@ def _suggest(first: str, key: str, own: list[str]) -> tuple[str, str]:
     """What to write instead of a key in a table (its name, its keys), in words; and the key of the
     same table that was probably meant, or "".
     """
+    if (first, key) == ("cylinder", "bore"):
+        return _BORE, ""
     instead = INSTEAD.get(key.lower(), "")
     of_engine = first not in {*DEVICES, *CHAPTERS, *CHAPTER_LISTS}
     if instead and (of_engine or instead in _IN_CHAPTERS.get(first, ())):

@@ -4,7 +4,7 @@ permitted unbalance is reached.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -26,6 +26,8 @@ Minimise = Literal["squares", "max"]
 
 _NEARLY_ALIKE = 0.2  # of a plane's effect, that no other plane has: below, planes are nearly one
 _SMALL_CHANGE = 0.1  # of the largest reading: less tells little about a plane
+_SMALL_RADIUS = 1.0  # mm; the smallest rotors that are balanced have more
+_UNLIKE = 100.0  # times the lightest trial weight of a plane: planes of one rotor are more alike
 _FAR_BEYOND = 5.0  # times the largest trial weight: far from where the coefficients were measured
 _ROUNDING = 1e-14
 _NOTHING = 1e-9  # share of the weight that would do as much as all unbalance
@@ -75,7 +77,7 @@ class PlaneCorrection(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FieldBalance(Result):
-    """The answer.
+    """Weights that balance a rotor, and the readings that are left with them.
 
     Attributes:
         file: the runs.
@@ -199,7 +201,7 @@ def find_doubts(result: FieldBalance) -> list[str]:
         )
     if result.file.influence is None:
         doubts += _doubt_trials(result)
-    return doubts
+    return [*doubts, *_doubt_units(result.file)]
 
 
 # ------------------------------------------------------------------ steps
@@ -293,7 +295,8 @@ def _doubt_trials(result: FieldBalance) -> list[str]:
                 at = f" at {speed:g} rpm" if len(speeds) > 1 else ""
                 doubts.append(
                     f"the trial weight in {p.plane}{at} changes no reading by more than "
-                    f"{change:.3g}, {change / largest:.0%} of the largest; a heavier one tells more"
+                    f"{change:.3g}, {100 * change / largest:.2g}% of the largest; a heavier one "
+                    "tells more"
                 )
         trial = max(abs(run.weights[p.plane]) for run in file.run if p.plane in run.weights)
         if abs(p.total) > _FAR_BEYOND * trial:
@@ -303,6 +306,26 @@ def _doubt_trials(result: FieldBalance) -> list[str]:
                 "again, and add that run to the file"
             )
     return doubts
+
+
+def _doubt_units(file: RunsFile) -> Iterator[str]:
+    """Metres for millimetres, and kilograms for grams in one of the planes."""
+    if file.radius is not None and max(file.radius) < _SMALL_RADIUS:
+        at = max(file.radius)
+        yield f'radius is {at:g} mm; is it in mm? Another unit is said as in "{at:g} m"'
+    trials = {
+        plane: max(abs(run.weights[plane]) for run in file.run if plane in run.weights)
+        for plane in file.planes
+        if any(plane in run.weights for run in file.run)
+    }
+    if len(trials) > 1:
+        light, heavy = min(trials, key=trials.__getitem__), max(trials, key=trials.__getitem__)
+        unit = file.weight_unit
+        if trials[heavy] > _UNLIKE * trials[light]:
+            yield (
+                f"the weights tried are {trials[light]:.3g} {unit} in {light} and "
+                f"{trials[heavy]:.3g} {unit} in {heavy}; are both in {unit}?"
+            )
 
 
 def _find_change(result: FieldBalance, plane: str, speed: float | None) -> tuple[float, float]:

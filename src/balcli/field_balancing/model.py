@@ -97,7 +97,9 @@ class Polar(Number):
                 f'names a unit, which stands once at the head of the file: write "{figure} @ '
                 f'{angle}", and {self.unit} = {shorten(unit)} there'
             )
-        return f'is no amplitude @ angle in degrees; write it like "{self.example}"'
+        comma = re.search(r"\d,\d", text)
+        hint = "; decimals take a point, thousands no comma" if comma else ""
+        return f'is no amplitude @ angle in degrees; write it like "{self.example}"{hint}'
 
     def json(self) -> dict[str, Any]:
         return {"type": "string", "pattern": rf"^{_POLAR.pattern}$"}

@@ -17,7 +17,7 @@ from ..core.sorted_sets import sort_distinct
 from ..enginefile.fields import shorten
 from ..errors import BalcliError, InputError, wrong_type
 from ..forces.orders import check_orders
-from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS
+from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
 
 Words = str | Iterable[str]  # names, or a text of them with commas between
 _REAL = (int, float, np.integer, np.floating)
@@ -105,7 +105,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
         found = np.array([math.inf])
     if given.ndim > 1:
         raise BalcliError(f"speeds_rpm: of shape {given.shape}; give them along one axis")
-    if not found.size or not np.all((found > 0) & (found < 1e9)):
+    if not found.size or not np.all((found >= SMALLEST_POSITIVE) & (found < 1e9)):
         raise BalcliError("speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]")
     if found.size > MOST_SPEEDS:
         raise BalcliError(f"speeds_rpm: {found.size} speeds; at most {MOST_SPEEDS} are computed")

@@ -12,20 +12,20 @@ from ..engine.build import Engine
 from ..engine.load import build_named
 from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
-from ..enginefile.mounting_tables import Body, Mount
+from ..enginefile.mounting_tables import Body, Mount, Point
 from ..enginefile.read import REQUIRED, Draft, read_tables
+from ..enginefile.suspicious import doubt_losses
 from ..enginefile.toml_text import name_file, read_bytes
 from ..enginefile.units import STANDARD_GRAVITY
 from .build import find_mounting_faults
 
 SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber gives way by 1 to 20
+NEAR_THE_ORIGIN = 2.0  # mm; no mount stands within the crankshaft
 SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines have 0.2 to 1
 
 
 class MountedFile(NamedTuple):
-    """A file with [body] and [[mount]], its engine, if it has one, and what is valid in it but
-    suspicious.
-    """
+    """A file with [body] and [[mount]], its engine if it has one, and what is doubted of it."""
 
     model: EngineFile
     engine: Engine | None
@@ -55,8 +55,9 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
     of_engine = () if engine is None else engine.unlikely
     body, mounts = draft.model.body, draft.model.mount
     of_body = () if body is None else (*_doubt_tensor(body), *_doubt_size(body, mounts))
-    of_mounts = () if body is None else _doubt_sag(body, mounts)
-    return MountedFile(draft.model, engine, (*of_engine, *of_body, *of_mounts))
+    of_mounts = () if body is None else (*_doubt_sag(body, mounts), *_doubt_places(draft.model))
+    losses = doubt_losses((f"mount.{k}.loss", mount.loss) for k, mount in enumerate(mounts, 1))
+    return MountedFile(draft.model, engine, (*of_engine, *of_body, *of_mounts, *losses))
 
 
 def _doubt_sag(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
@@ -68,6 +69,21 @@ def _doubt_sag(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
             f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; is it in N/mm? Another unit is said as in "
             '"250 kN/m"'
         )
+
+
+def _doubt_places(model: EngineFile) -> Iterator[str]:
+    """Mounts and points within the crankshaft, but not at its middle: in metres, most likely."""
+    named: list[tuple[str, Mount | Point]] = [
+        *((f"mount.{number}", mount) for number, mount in enumerate(model.mount, 1)),
+        *((f"point.{number}", point) for number, point in enumerate(model.point, 1)),
+    ]
+    for path, each in named:
+        away = max(map(abs, each.at))
+        if 0 < away < NEAR_THE_ORIGIN:
+            yield (
+                f"{path}.at of '{each.name}' is within {away:.3g} mm of the origin; is it in mm? "
+                f'Another unit is said as in "{away:.3g} m"'
+            )
 
 
 def _doubt_size(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:

@@ -44,7 +44,7 @@ class Other(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MountReport(Result):
-    """The answer.
+    """What the frame feels of a body on its mounts, with its engine or without.
 
     Attributes:
         name: of the engine, or of the body.

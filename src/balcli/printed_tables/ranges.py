@@ -66,8 +66,13 @@ def parse_crank_ratios(text: str) -> tuple[str, ...]:
     found = parse_range(text, "--lambda")
     bad = next((heading for heading in found if not 0 < float(parse_number(heading)) < 1), None)
     if bad is not None:
+        hint = ""
+        if re.fullmatch(r"0,\d+", text):
+            hint = f"; decimals take a point: {text.replace(',', '.')}"
+        elif parse_number(bad) > 1:
+            hint = f"; of a rod {bad} times as long as the crank radius it is 1/{bad}"
         raise BalcliError(
-            f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1"
+            f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1{hint}"
         )
     return found
 

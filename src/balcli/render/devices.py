@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..enginefile.model import Counterweight, Shaft, Slider
@@ -11,7 +12,7 @@ from ..limits import MOST_HOLES
 from ..sizing.device_tables import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .figures import clean
-from .sheet import UNKNOWN, Grid, capitalized, degrees, number
+from .sheet import UNKNOWN, Grid, capitalized, degrees, given, number
 
 if TYPE_CHECKING:
     from ..sizing.workshop import Holes, Practical, Tools
@@ -123,7 +124,7 @@ def _practical_row(p: Practical, system: System, slides: bool) -> list[str]:
     """What slides is no disc."""
     disc = (p.disc_radius, p.disc_thickness)
     return [
-        number(p.speed_rpm, 6),
+        given(p.speed_rpm),
         number(system.force.of(p.force)),
         number(system.mass.of(p.mass), 4),
         *(UNKNOWN if slides else number(system.length.of(length), 3) for length in disc),
@@ -238,6 +239,15 @@ def practical_columns(p: Practical) -> Iterator[tuple[str, float | None, str]]:
             yield key, value, ""
 
 
+def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:
+    """Each device with its name among those of its kind: `shaft 2`."""
+    numbers: Counter[str] = Counter()
+    for device in devices:
+        kind = name_kind(device)
+        numbers[kind] += 1
+        yield f"{kind} {numbers[kind]}", device
+
+
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:
     """Name, value and unit of every figure of a device, as an engine file would say it."""
     length, unbalance = system.length, system.unbalance
@@ -260,7 +270,5 @@ def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any,
 
 
 def _convert(value: float, size: float, unit: ShownUnit) -> float:
-    """A value in units of this size (in SI units) in another unit; as it is where that is the
-    same.
-    """
+    """A value in units of this size (SI) in another unit; as it is where that is the same."""
     return value if unit.size == size else unit.of(value * size)

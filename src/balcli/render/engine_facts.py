@@ -12,7 +12,7 @@ from ..engine.build import Engine, SilentCylinders
 from ..enginefile.fields import count_lambda_digits
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
-from .sheet import Facts, number
+from .sheet import Facts, given, number
 from .units import System
 
 AXES_SHOWN = 9  # of banks
@@ -71,7 +71,7 @@ def tell_speed(engine: Engine) -> str:
     """Its mean speed, and whether that is assumed or uneven."""
     uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
     assumed = ", assumed: the file gives none" if is_speed_assumed(engine) else ""
-    return f"{number(float(engine.speed_rpm), 6)} rpm{assumed}{uneven}"
+    return f"{given(float(engine.speed_rpm))} rpm{assumed}{uneven}"
 
 
 def is_speed_assumed(engine: Engine) -> bool:
@@ -82,7 +82,7 @@ def is_speed_assumed(engine: Engine) -> bool:
 
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
-    first, last = (number(float(speed), 6) for speed in (speeds_rpm[0], speeds_rpm[-1]))
+    first, last = (given(float(speed)) for speed in (speeds_rpm[0], speeds_rpm[-1]))
     gas = "" if engine.gas is None else "; gas as in the file at every speed"
     return f"{first} to {last} rpm, {len(speeds_rpm)} speeds{gas}"
 
@@ -143,9 +143,13 @@ def _crank(engine: Engine, system: System) -> str:
     first = engine.numbers.index(1)
     radius, lam = float(c.radius), float(c.lam[first if len(c.lam) > 1 else 0])
     radius_shown, rod_shown = number(unit.of(radius)), number(unit.of(radius / lam))
+    needed = count_lambda_digits(
+        lam
+    )  # more where a fewer would make 1 of it, at which a crank locks
+    ratio = number(lam, needed) if lam < 0.999 else given(lam, needed)
     return (
-        f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}, "
-        f"λ = {number(lam, count_lambda_digits(lam))}{_unequal(engine)}"
+        f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}, λ = {ratio}"
+        f"{_unequal(engine)}"
     )
 
 

@@ -29,18 +29,20 @@ class Units(StrEnum):
 
 
 USUAL_DIGITS = 5
-_digits = USUAL_DIGITS  # significant ones, of most figures in tables
+_digits: int | None = None  # significant ones, that were asked for
 
 
-def set_digits(digits: int) -> None:
-    """How many significant digits tables have, for the rest of this process."""
+def set_digits(digits: int | None) -> None:
+    """How many significant digits figures have, for the rest of this process; None: those that are
+    usual where they stand.
+    """
     global _digits
     _digits = digits
 
 
-def get_digits() -> int:
-    """How many significant digits figures of tables have, unless a table says otherwise."""
-    return _digits
+def get_digits(usual: int = USUAL_DIGITS) -> int:
+    """How many significant digits a figure has: those that were asked for, else the usual ones."""
+    return _digits or usual
 
 
 Shown = TypeVar("Shown")

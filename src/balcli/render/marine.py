@@ -19,7 +19,7 @@ from .sheet import (
     Grid,
     Sheet,
     Text,
-    number,
+    given,
     order_name,
     order_number,
     size_cell,
@@ -204,7 +204,7 @@ def _grid_by_speed(
     unit = _fit(tuple(column for column, _ in chosen), columns[0].force, system)
     heads = (column.name.replace("n", order_name(result.orders[k])) for column, k in chosen)
     lines = tuple(
-        (number(speed, 6), *(_cell(column, i, k, unit, result.every_order) for column, k in chosen))
+        (given(speed), *(_cell(column, i, k, unit, result.every_order) for column, k in chosen))
         for i, speed in enumerate(result.speeds_rpm.tolist())
     )
     return Grid(f"{title}, {unit.name}", ("rpm", *heads), lines, words=())

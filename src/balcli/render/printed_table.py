@@ -84,12 +84,20 @@ def count_deviations(table: Table) -> str:
 def _shown(table: Table, i: int, j: int, digits: int | None) -> str:
     """A cell as the print would have it, followed by the print where that deviates."""
     value, text = table.exact[i][j], table.printed[i][j]
-    shown = _rounded_like(text, value, None if j < table.stub else digits)
+    like = text or next((row[j] for row in table.printed if row[j]), None)
+    named = j < table.stub or (text is None and _is_whole(like, value))
+    shown = _rounded_like(text, value, None if named else digits)
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
 
 
 def _is_word(cell: Cell) -> bool:
     return isinstance(cell, str) and parse_decimal(cell) is None and parse_fraction(cell) is None
+
+
+def _is_whole(text: str | None, value: Cell) -> bool:
+    """Whether a whole number is printed as one, such as an angle."""
+    printed = text is not None and text.lstrip("+-").isdigit()
+    return printed and isinstance(value, (int, float)) and float(value).is_integer()
 
 
 def _rounded_like(text: str | None, value: Cell, digits: int | None) -> str:
@@ -99,8 +107,7 @@ def _rounded_like(text: str | None, value: Cell, digits: int | None) -> str:
     if not isinstance(value, (int, float)):
         return value or ""
     like = parse_decimal(text) if text else None
-    whole = text is not None and text.lstrip("+-").isdigit() and float(value).is_integer()
-    if digits is not None and not whole:
+    if digits is not None and not _is_whole(text, value):
         return f"{value:.{digits}f}"
     if like is None or text is None:
         return f"{value:.6g}"

@@ -94,6 +94,8 @@ def _notes(result: Search) -> Iterator[str]:
             f"{round(low, 1):g} to {round(high, 1):g}" for low, high in result.locked
         )
         yield f"No candidates: at {spans} deg the articulated rods cannot follow the crank."
+    if result.refused:
+        yield f"Not every value of the range makes an engine; with {result.refused}."
     if result.constant:
         yield f"{result.over} changes nothing of what is minimised: it is the same at every value."
     if result.best_at_end:

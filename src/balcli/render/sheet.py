@@ -1,13 +1,11 @@
-"""A sheet: what a person reads, before it is known where. Terminal, Markdown and HTML are made of
-it.
-"""
+"""A sheet: what a person reads, of which terminal, Markdown and HTML are made."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from .formats import get_digits
+from .formats import USUAL_DIGITS, get_digits
 
 if TYPE_CHECKING:
     from .units import ShownUnit
@@ -75,16 +73,22 @@ def order_name(order: float) -> str:
 
 
 def number(value: float, digits: int | None = None) -> str:
-    """A number for people: that many significant digits (default: `get_digits`), no
-    exponent between 0.0001 and a million, a plain 0.
+    """A figure for people, with as many significant digits as were asked for; `digits` are usual
+    there. No exponent between 0.0001 and a million, a plain 0.
     """
-    digits = digits or get_digits()
+    return given(value, get_digits(digits or USUAL_DIGITS))
+
+
+def given(value: float, digits: int = 6) -> str:
+    """A number that somebody gave, such as a speed: like a figure (`number`), but whole, however
+    few digits were asked for.
+    """
     if math.isnan(value):
         return UNKNOWN
     if value == 0:
         return "0"
     # the last digits, which are the machine's, do not decide to which side a half is rounded
-    value = float(f"{value:.12g}")
+    value = float(f"{value:.{max(digits, 12)}g}")
     text = f"{value:.{digits}g}"
     if "e" not in text:
         return text
@@ -100,7 +104,14 @@ def size_text(value: float, unit: ShownUnit, digits: int | None = 4) -> str:
     return f"{number(unit.of(value), digits)} {unit.name}"
 
 
-def size_cell(value: float, unit: ShownUnit, *, negligible: bool, digits: int | None = 4) -> str:
+def small_text(value: float, unit: ShownUnit) -> str:
+    """What is too small to count (SI), in words, and how small it is if it is anything."""
+    return f"negligible ({size_text(value, unit, 2)})" if value else NOTHING
+
+
+def size_cell(
+    value: float, unit: ShownUnit, *, negligible: bool = False, digits: int | None = 4
+) -> str:
     """A force or moment (SI) in a column with this unit, or a word where there is none that counts;
     digits as of `number`.
     """

@@ -12,7 +12,7 @@ from . import analysis_document, symmetry
 from .comparison import TITLES, find_lines_that_matter, fit_unit, show_sizes
 from .csv import Rows, name_cell
 from .engine_facts import engine_facts
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, number, order_name, size_text
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, given, order_name, size_text
 from .view import NamedResult
 
 if TYPE_CHECKING:
@@ -40,7 +40,10 @@ def document(one: NamedResult[SpeedSeries]) -> dict[str, Any]:
 def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
     """CSV: the rows of each analysis after the engine's name and the speed."""
     told = [(float(each.engine.speed_rpm), each) for each in one.result.analyses]
-    every = [(speed, *analysis_document.rows(each, system)) for speed, each in told]
+    devices = "sizing" in one.view.parts
+    every = [
+        (speed, *analysis_document.rows(each, system, devices=devices)) for speed, each in told
+    ]
     lines = (
         (name_cell(one.name), speed, *line) for speed, _, own_lines in every for line in own_lines
     )
@@ -84,7 +87,7 @@ def _kind_part(
     heads = ("peak" if line.order is None else f"order {order_name(line.order)}" for line in shown)
     columns = [show_sizes(line, unit, every=whole) for line in shown]
     table = tuple(
-        (number(speed, 6), *cells) for speed, *cells in zip(speeds_rpm, *columns, strict=True)
+        (given(speed), *cells) for speed, *cells in zip(speeds_rpm, *columns, strict=True)
     )
     title = f"{capitalized(title)}, {unit.name}: largest by order"
     return Grid(title, ("rpm", *heads), table, words=())

@@ -1,6 +1,4 @@
-"""Variants of a sweep as a table that people read: few of them whole, of many the first and the
-last.
-"""
+"""Variants of a sweep as a table: few of them whole, of many the first and the last."""
 
 from __future__ import annotations
 
@@ -10,7 +8,7 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..studies.quantity_names import tell_assumed_speed
-from .sheet import NAMELESS, Grid, Sheet, number
+from .sheet import NAMELESS, Grid, Sheet, given, number
 from .units import name_with_unit, unit_of_name
 
 if TYPE_CHECKING:
@@ -36,9 +34,12 @@ def make_sheet(sweep: Sweep, ends: Ends) -> Sheet:
     largest = np.nanmax(np.abs(figures), axis=0, initial=0).tolist()
     names = [p.unit for p in sweep.parameters] + [q.unit for q in sweep.quantities]
     units = [unit_of_name(name).fit(size) for name, size in zip(names, largest, strict=True)]
-    digits = [8] * len(sweep.parameters) + [5] * len(sweep.quantities)  # what was asked for: whole
     sizes = np.array([unit.size for unit in units])
-    rows = [tuple(map(number, row, digits)) for row in (figures / sizes).tolist()]
+    asked = len(sweep.parameters)  # how many columns hold what was asked for, which is told whole
+    rows = [
+        (*(given(value, 8) for value in row[:asked]), *map(number, row[asked:]))
+        for row in (figures / sizes).tolist()
+    ]
     heads = map(name_with_unit, sweep.columns, (unit.name for unit in units))
     notes = []
     if ends.left_out:

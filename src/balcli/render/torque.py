@@ -16,7 +16,7 @@ from ..torque.given_curve import CurveAnalysis
 from ..torque.loads import CycleLoad
 from .engine_facts import list_silent, tell_strokes
 from .order_tables import show_peak_deg
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name, size_text
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, given, number, order_name, size_text
 from .torque_document import Result, document, round_angle, rows
 from .units import ShownUnit, System
 
@@ -104,7 +104,7 @@ def _load_table(
 def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
     gas = result.max_pressure
     pairs = [("cycle", f"{tell_strokes(result.engine)}, {round_angle(result.cycle_deg)} deg")]
-    pairs.append(("speed", f"{number(float(result.engine.speed_rpm), 6)} rpm"))
+    pairs.append(("speed", f"{given(float(result.engine.speed_rpm))} rpm"))
     mean = f"{_size(result.imep, system.pressure)} indicated"
     if result.bmep is not None:
         mean += f", {_size(result.bmep, system.pressure)} brake"
@@ -139,7 +139,7 @@ def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
     pairs = [("period", f"{round_angle(float(np.degrees(result.torque.period)))} deg")]
     speed = result.shaft.mean_speed
     if speed is not None:
-        pairs.append(("speed", f"{number(speed / RPM, 6)} rpm"))
+        pairs.append(("speed", f"{given(speed / RPM)} rpm"))
     power = None if speed is None else result.torque.mean * speed
     pairs += _mean_pairs(result.torque.mean, power, system, {"": 1.0})
     if result.load is not None:

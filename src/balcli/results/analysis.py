@@ -1,6 +1,4 @@
-"""Engine -> Analysis: free forces and moments by order, peaks and sizing, computing only what was
-asked.
-"""
+"""Engine -> Analysis: forces and moments by order, peaks, sizing, as far as they are asked."""
 
 from __future__ import annotations
 
@@ -96,9 +94,7 @@ class Analysis(Result):
 
     @property
     def moments_known(self) -> bool:
-        """Whether the engine file says where the throws stand; else moments are of coincident
-        ones.
-        """
+        """Whether the file says where the throws stand; else moments are of coincident ones."""
         return self.engine.places_known
 
     @property
@@ -220,8 +216,9 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
         return set(list_usual_quantities(engine))
     wanted = {*list_words("only", only)}
     if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
+        named = ", ".join(stranger or '""' for stranger in strangers)
         raise BalcliError(
-            f"there is no quantity {', '.join(strangers)}: choose from "
+            f"there is no quantity {named}: choose from "
             f"{', '.join((*QUANTITIES, GAS.name, *EXTRAS))}"
         )
     return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted

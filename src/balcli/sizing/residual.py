@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
+from ..enginefile.exclusive import join_words
 from ..errors import BalcliError
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
@@ -161,18 +162,31 @@ def _find_lowest(engine: Engine, kinds: Sequence[PartKind], senses: Sequence[int
     shakes at lower ones.
     """
     what = f"{' or '.join(kinds)}{_turning(senses)}"
-    left_alone = ""
+    rests: dict[str, list[int]] = {}
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
         if _has_any(residual, kinds, senses):
-            lowest = f"Order {order} is the lowest with a free {what}.{left_alone}"
-            return residual._replace(note=lowest if left_alone else "")
+            lowest = f"Order {order} is the lowest with a free {what}.{_tell_left_alone(rests)}"
+            return residual._replace(note=lowest if rests else "")
         if rest := _tell_rest(residual, kinds, senses):
-            left_alone += f" Order {order} stays as it is ({'; '.join(rest)})."
+            rests.setdefault("; ".join(rest), []).append(order)
+    left_alone = _tell_left_alone(rests)
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
         f"--order names a higher one{'.' if left_alone else ''}{left_alone.removesuffix('.')}"
     )
+
+
+def _tell_left_alone(rests: Mapping[str, Sequence[int]]) -> str:
+    """Sentences on orders that nothing is done about, by what they have."""
+    told = ""
+    for rest, orders in rests.items():
+        if len(orders) == 1:
+            told += f" Order {orders[0]} stays as it is ({rest})."
+        else:
+            each = join_words([f"{order}" for order in orders])
+            told += f" Orders {each} stay as they are ({rest.replace('it has', 'they have')})."
+    return told
 
 
 def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:

@@ -16,6 +16,7 @@ from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.gas import take_gas
 from ..forces.orders import check_orders, list_gas_orders
 from ..forces.spectrum import Spectra, compute_each_cylinder, compute_spectra
+from ..limits import SMALLEST_FLUCTUATION
 from ..result import Result
 from .course import TorqueCurves, find_constant_inertia, find_moving_inertia, find_torque_curves
 from .flywheel import Flywheel, FlywheelQuestion, find_flywheel
@@ -109,8 +110,8 @@ def analyze_torque(
         loads: "pin" (of crank pins), "main" (of main bearings), or both.
 
     Raises:
-        BalcliError: no gas; no such cylinder; a fluctuation that is not between 0 and 2; loads that
-            are not known.
+        BalcliError: no gas; no such cylinder; a fluctuation that is not between 1e-9 and 2; loads
+            that are not known.
         TypeError: what is no engine, no number, no words.
 
     Example:
@@ -120,7 +121,7 @@ def analyze_torque(
     check_type("cylinder", cylinder, (int, np.integer), "give a whole number from 1")
     if fluctuation is not None:
         fluctuation = check_number("fluctuation", fluctuation, "give a number, as 1 / 200")
-        if not 0 < fluctuation < 2:
+        if not SMALLEST_FLUCTUATION <= fluctuation < 2:
             raise BalcliError(
                 f"fluctuation {fluctuation:g}: give (highest - lowest)/mean speed, such as 1 / 200"
             )

@@ -4,6 +4,7 @@ engine.
 Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own.
 """
 
+from collections.abc import Iterator
 from typing import Annotated
 
 from pydantic import Field
@@ -103,3 +104,12 @@ class ChainFile(FileTable):
     shaft: tuple[ChainShaft, ...] = Field((), examples=[], description="the shafts between them")
     gear: tuple[Gear, ...] = Field((), examples=[], description="meshes of gears between them")
     excitation: tuple[Excitation, ...] = Field((), examples=[], description="torques on nodes")
+
+    def list_losses(self) -> Iterator[tuple[str, float | None]]:
+        """Loss factors of all shafts and dampers, by their paths."""
+        yield "loss", self.loss
+        for number, shaft in enumerate(self.shaft, 1):
+            yield f"shaft.{number}.loss", shaft.loss
+        for number, node in enumerate(self.node, 1):
+            if node.damper is not None:
+                yield f"node.{number}.damper.loss", node.damper.loss

@@ -43,6 +43,7 @@ class LargestVibration(NamedTuple):
         stress: (shafts,) Pa, nan where a shaft has no diameter.
         amplitudes: (orders, shafts) torque by order there, N m.
         swing_rpm, free_end: where the first node swings most, and half of that swing, rad.
+        swings: (orders,) amplitude of the first node by order there, rad.
         pendulum_rpm, pendulums: (pendulums,) where each swings most against its node, and half of
             that swing, rad.
         hottest_rpm, heat: (dampers,) where each damper turns most to heat, and how much, W.
@@ -55,6 +56,7 @@ class LargestVibration(NamedTuple):
     amplitudes: Real
     swing_rpm: float
     free_end: float
+    swings: Real
     pendulum_rpm: Real
     pendulums: Real
     hottest_rpm: Real
@@ -127,7 +129,8 @@ def find_largest_vibration(
     count = len(system.shafts)
     curves = _Curves(system, range(swings.shape[1]), np.ones(swings.shape[1]))
     at, height = _approach_largest(curves, rpm, swings)
-    torque = curves.pick(at[:count], np.arange(count))
+    there = curves.pick(at[: count + 1], np.arange(count + 1))
+    torque, swings_there = there[:, :count], np.abs(there[:, count])
     return LargestVibration(
         at[:count],
         height[:count],
@@ -136,6 +139,7 @@ def find_largest_vibration(
         np.abs(torque),
         float(at[count]),
         float(height[count]),
+        swings_there,
         at[count + 1 :],
         height[count + 1 :],
         *_approach_hottest(system, rpm, heat),

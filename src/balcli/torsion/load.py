@@ -12,6 +12,7 @@ from ..engine.load import build_named, parse
 from ..enginefile.file_kinds import CHAIN, ENGINE, refuse_other_kind
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import Damper
+from ..enginefile.suspicious import doubt_losses
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..enginefile.torsion_tables import Part
 from ..errors import BalcliError
@@ -25,12 +26,16 @@ from .system import Excitation, TorsionalSystem
 
 @dataclass(frozen=True)
 class ChainSource:
-    """A chain file that has been read: its name, its text, what it says; nothing is doubted."""
+    """A chain file that has been read: its name, its text, what it says."""
 
     file: str
     text: bytes
     model: ChainFile
-    doubts: tuple[str, ...] = ()
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What it says that is allowed and yet unlikely, in words."""
+        return tuple(doubt_losses(self.model.list_losses()))
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what hangs together wrongly."""

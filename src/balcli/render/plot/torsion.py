@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...core.singular_values import Real
 from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
@@ -142,18 +143,21 @@ def _draw_torque(
     ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> None:
     """Half of peak to peak of the shafts with the largest; as stress, of those with a diameter,
-    where the file limits it.
+    where the file limits it. Each curve has its largest, too, where that lies between the speeds.
     """
-    largest = np.argsort(-response.torque.max(axis=0), kind="stable").tolist()
+    worst = response.worst
+    largest = np.argsort(-worst.torque, kind="stable").tolist()
     stressed = [k for k in largest if result.system.sections[k] is not None]
     limit = result.system.limit_pa
     by_stress = bool(stressed) and limit is not None
     shown = sorted((stressed if by_stress else largest)[:_MOST_SHAFTS])
     swings = response.stress if by_stress else response.torque
-    unit = (system.stress if by_stress else system.moment).fit(float(swings[:, shown].max()))
+    peaks = worst.stress if by_stress else worst.torque
+    unit = (system.stress if by_stress else system.moment).fit(float(peaks[shown].max()))
     for k, (line, colour) in zip(shown, cycle(_STYLES)):
         name = fit_name(result.system.shafts[k], 22)
-        ax.plot(response.speeds_rpm, swings[:, k] / unit.size, line, color=colour, label=name)
+        rpm, swing = _put_in(response.speeds_rpm, swings[:, k], worst.speeds_rpm[k], peaks[k])
+        ax.plot(rpm, swing / unit.size, line, color=colour, label=name)
     if by_stress and limit is not None:
         ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
     _finish(ax, response, unit.name)
@@ -164,17 +168,24 @@ def _draw_torque(
 
 def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
     """Half swing of the first node, and its largest orders."""
-    degrees = np.degrees(response.free_end)
-    ax.plot(response.speeds_rpm, degrees, color=INK, label="added up in time")
-    largest = np.argsort(-response.swings.max(axis=1), kind="stable")[:5]
+    worst = response.worst
+    rpm, swing = _put_in(response.speeds_rpm, response.free_end, worst.swing_rpm, worst.free_end)
+    _, swings = _put_in(response.speeds_rpm, response.swings, worst.swing_rpm, worst.swings)
+    ax.plot(rpm, np.degrees(swing), color=INK, label="added up in time")
+    largest = np.argsort(-swings.max(axis=1), kind="stable")[:5]
     for k, (line, colour) in zip(sorted(largest), _STYLES, strict=False):
         label = f"order {order_name(float(response.orders[k]))}"
-        swing = np.degrees(response.swings[k])
-        ax.plot(response.speeds_rpm, swing, line, color=colour, linewidth=1, label=label)
+        ax.plot(rpm, np.degrees(swings[k]), line, color=colour, linewidth=1, label=label)
     _finish(ax, response, "deg")
     ax.set_title(f"Half swing of {fit_name(result.system.nodes[0], 30)}", pad=34)
     ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3, borderaxespad=0, handlelength=1.4)
     _shade_barred(ax, result)
+
+
+def _put_in(rpm: Real, values: Real, peak_rpm: float, peak: Real | float) -> tuple[Real, Real]:
+    """Speeds and the values (..., speeds) there, with a peak that lies at or between them."""
+    k = int(np.searchsorted(rpm, peak_rpm))
+    return np.insert(rpm, k, peak_rpm), np.insert(values, k, peak, axis=-1)
 
 
 def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
@@ -186,21 +197,25 @@ def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
 def _draw_waterfall(
     ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> None:
-    """Torque of the shaft with the largest: every order a stream up the speeds, as wide as it is
-    large.
-    """
-    shaft = int(np.argmax(response.torque.max(axis=0)))
-    amplitudes = response.amplitudes[:, :, shaft]
+    """Torque of the shaft with the largest: each order a stream up the speeds, as wide as large."""
+    worst = response.worst
+    shaft = int(np.argmax(worst.torque))
+    rpm, amplitudes = _put_in(
+        response.speeds_rpm,
+        response.amplitudes[:, :, shaft],
+        worst.speeds_rpm[shaft],
+        worst.amplitudes[:, shaft],
+    )
     gap = float(np.diff(response.orders).min()) if len(response.orders) > 1 else 1.0
     half = _WIDEST * gap / 2 / (float(amplitudes.max()) or 1.0)
     for order, sizes in zip(response.orders, amplitudes, strict=True):
         left, right = order - half * sizes, order + half * sizes
         ax.axvline(order, color=FAINT, linewidth=0.5, zorder=0)
-        ax.fill_betweenx(response.speeds_rpm, left, right, color=BLUE, linewidth=0.4)
+        ax.fill_betweenx(rpm, left, right, color=BLUE, linewidth=0.4)
     ax.set(xlabel="order", ylabel="rpm")
     ax.grid(visible=False, axis="x")
     ax.set_xlim(0, float(response.orders[-1]) + gap)
     name = fit_name(result.system.shafts[shaft], 22)
     unit = system.moment.fit(float(amplitudes.max()))
     largest = f"{number(unit.of(float(amplitudes.max())), 3)} {unit.name}"
-    ax.set_title(f"Torque of {name} by order, its width; the largest {largest}", pad=22)
+    ax.set_title(f"Torque of {name} by order: width, at most {largest}", pad=22)

@@ -111,6 +111,8 @@ def find_best_numbers(
         evaluate: infinite where it cannot be or may not be.
         tell: which share is done; it may say that what is found by then is enough.
     """
+    if low == high:
+        return [low] if math.isfinite(evaluate(low)) else []
     grid = np.linspace(low, high, _GRID + 1)
     values = np.full(len(grid), np.inf)
     share = 1 / (len(grid) + _MINIMA)
@@ -165,10 +167,12 @@ class BestNumbers(NamedTuple):
 
     Attributes:
         constant: whether the objective is the same for all values that were tried.
+        refused: a value that makes no engine, and why: `rod.length = 20: …`; empty if all do.
     """
 
     designs: list[Design]
     constant: bool
+    refused: str
 
 
 def find_best_designs(
@@ -188,20 +192,25 @@ def find_best_designs(
     Raises:
         InputError: no value makes an engine.
     """
-    mistakes: list[InputError] = []
+    mistakes: list[tuple[float, InputError]] = []
     found: list[float] = []
 
     def evaluate(value: float) -> float:
         try:
             found.append(_try(model, name(value), objective).objective)
         except InputError as error:
-            mistakes.append(error)
+            mistakes.append((value, error))
             return np.inf
         return found[-1]
 
     best = find_best_numbers(evaluate, low, high, tell)
     if not found:
-        raise mistakes[0]
+        raise mistakes[0][1]
     span = max(found) - min(found)
-    constant = span <= _AS_GOOD * max(map(abs, found)) < math.inf
-    return BestNumbers(list(map(name, best)), constant)
+    constant = low < high and not mistakes and span <= _AS_GOOD * max(map(abs, found)) < math.inf
+    refused = ""
+    if mistakes:
+        value, error = mistakes[0]
+        [(key, setting)] = name(value).given().items()
+        refused = f"{key} = {setting:.6g}: {error.problems[0]}"
+    return BestNumbers(list(map(name, best)), constant, refused)

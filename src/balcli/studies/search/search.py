@@ -52,6 +52,7 @@ class Search(Result):
             there was a candidate.
         ends: of the range in which a number of the file was searched for; None for anything else.
         constant: whether that number changes nothing of the objective.
+        refused: a value of that range that makes no engine, and why; empty if all do.
     """
 
     model: EngineFile
@@ -62,6 +63,7 @@ class Search(Result):
     locked: tuple[tuple[float, float], ...] = ()
     ends: tuple[float, float] | None = None
     constant: bool = False
+    refused: str = ""
 
     @property
     def best_at_end(self) -> bool:
@@ -138,13 +140,13 @@ def search_arrangements(
     what = None if is_number else _parse_over(over)
     sums = choose_sums(objective)
     locked: tuple[tuple[float, float], ...] = ()
-    ends, constant = None, False
+    ends, constant, refused = None, False, ""
     fires_at_will = model.gas is None and model.crank.throws is not None and what != "firing_order"
     base = drop_firing_order(model) if fires_at_will or what == "throws" else model
     if what is None:
         key, ends = _read_range(model, over)
         best = find_best_designs(base, partial(_design_number, key), *ends, objective, tell)
-        constant = best.constant
+        constant, refused = best.constant, best.refused
         candidates = rank_one_by_one(base, best.designs, objective, tell_nobody)
     elif sums is None:
         designs = _list_designs(model, what, objective, even_firing, tell)
@@ -154,12 +156,12 @@ def search_arrangements(
         candidates = _SEARCHES[what](Task(model, sums, count, even_firing, locked, tell))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
-        also = " and fires evenly" if even_firing else ""
+        also = " and fire evenly" if even_firing else ""
         named = key if is_number else key.replace("_", " ")
-        raise BalcliError(f"no {named} keeps these limits{also}")
+        raise BalcliError(f"no {named} can keep these limits{also}")
     orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
     scale = find_textbook_units(engine, orders)
-    return Search(model, key, objective, found, scale, locked, ends, constant)
+    return Search(model, key, objective, found, scale, locked, ends, constant, refused)
 
 
 def _read_range(model: EngineFile, over: str) -> tuple[str, tuple[float, float]]:
