@@ -315,6 +315,36 @@ def test_loss_factors_of_a_chain_in_percent_are_doubted():
     ]
 
 
+@pytest.mark.parametrize("diameter", ["", "diameter = 60"])
+def test_what_no_shaft_outlasts_is_doubted(diameter):
+    """At resonance 100 N m are magnified by the inverse of the loss, 1e-4: 1 MN m, on 1e4 N m/rad
+    100 rad; with 60 mm 23.6 kN/mm2.
+    """
+    text = f"""
+        fixed = ["wall"]
+        node = [{{ name = "disc", inertia = 1e6 }}, {{ name = "wall" }}]
+        [[shaft]]
+        from = "disc"
+        to = "wall"
+        stiffness = 1e4
+        loss = LOSS
+        {diameter}
+        [[excitation]]
+        node = "disc"
+        order = 1
+        cos = 100
+        """
+    options = ("torsion", "-", "--speeds", "900:1000:1")
+    what = f"disc would swing by {np.degrees(100):.4g} deg at 954.93 rpm, which no shaft outlasts"
+    if diameter:
+        stress = 16 * 1e6 / (np.pi * 0.06**3) / 1e6
+        what = f"disc-wall would bear {stress:.4g} N/mm2 at 954.93 rpm, which no steel does"
+    found = run_here(*options, stdin=text.replace("LOSS", "1e-4"))
+    why = "is the damping (loss, damping) of all that twists right?"
+    assert found.err == f"warning: standard input: {what}; {why}\n"
+    assert run_here(*options, stdin=text.replace("LOSS", "0.05")).err == ""
+
+
 def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
     """Tuned, they hold 300 N m with 2 kg: m R (R + L) W^2 for each rad, 92 deg at 1500 rpm; five
     times as many swing by 18 deg.
