@@ -74,6 +74,7 @@ def mounts(
     scheme = choose_beside(scheme, options)
     from ..mounting.report import report_mounts
     from ..render import mounts as renderer
+    from .inputs import warn_each
 
     model, engine, beside = _read_files(paths, misfire or ())
     with reporting("work") as tell:
@@ -86,6 +87,7 @@ def mounts(
             "schemes say nothing of it: add [crank], [rod] and [piston], or name an engine file "
             "after this one"
         )
+    warn_each(result.list_doubts(), name_file(paths[0]))
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import make_mounts  # brings matplotlib
 
