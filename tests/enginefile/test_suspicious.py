@@ -228,6 +228,26 @@ def test_shafts_on_the_axis_of_the_crank_are_no_slip():
     assert find_suspicious(parse(on_it)) == find_suspicious(parse(beside)) == []
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "usual"),
+    [
+        ("intake", 14.7, "0.15 to 12 bar, absolute,"),
+        ("exhaust", 0.101, "0.15 to 12 bar, absolute,"),
+        ("crankcase", 14.7, "0.15 to 12 bar, absolute,"),
+        ("compression_ratio", 100, "2 to 30"),
+        ("compression_index", 3, "1 to 1.67"),
+        ("expansion_index", 2.5, "1 to 1.67"),
+    ],
+)
+def test_gas_of_no_engine_is_doubted(key, value, usual):
+    """Psi and MPa for bar, a slip of the decimal point, more than an adiabate of helium."""
+    gas = {"cycle": '"otto"', "compression_ratio": 10, "imep": 9} | {key: value}
+    text = "\n".join(f"{name} = {figure}" for name, figure in gas.items())
+    assert find_suspicious(parse(changed(more=f"[gas]\n{text}\n"))) == [
+        f"gas.{key} is {value:g}, where {usual} is usual"
+    ]
+
+
 @pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])
 def test_throws_side_by_side_are_no_slip(throws):
     assert find_suspicious(parse(changed(("[0, 180, 180, 0]", throws), FREE))) == []

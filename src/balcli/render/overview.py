@@ -89,7 +89,7 @@ def tell_others(
     others = [
         float(order)
         for k, order in enumerate(states[0].orders)
-        if order not in shown and any(p.major[k] for one in states for _, p in one.items())
+        if order not in shown and any(p.major[k] > 0 for one in states for _, p in one.items())
     ]
     if not others:
         return ""
