@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +20,7 @@ from .devices import (
     device_grid,
     device_rows,
     holes_grid,
+    number_devices,
     practical_columns,
     practical_entry,
     practical_grid,
@@ -275,11 +275,8 @@ def rows(result: Balance, system: System) -> Rows:
 
 
 def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
-    numbers: Counter[str] = Counter()
-    for device, practical in zip(result.remedy.devices, result.practical, strict=True):
-        kind = name_kind(device)
-        numbers[kind] += 1
-        part = f"{kind} {numbers[kind]}"
+    devices = number_devices(result.remedy.devices)
+    for (part, device), practical in zip(devices, result.practical, strict=True):
         for figure in device_rows(device, system):
             yield part, "", "", *figure
         for name, value in _with_paths(practical_entry(practical)):

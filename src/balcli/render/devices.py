@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..enginefile.model import Counterweight, Shaft, Slider
@@ -236,6 +237,15 @@ def practical_columns(p: Practical) -> Iterator[tuple[str, float | None, str]]:
             yield name, value, unit
         elif key == "holes":
             yield key, value, ""
+
+
+def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:
+    """Each device with its name among those of its kind: `shaft 2`."""
+    numbers: Counter[str] = Counter()
+    for device in devices:
+        kind = name_kind(device)
+        numbers[kind] += 1
+        yield f"{kind} {numbers[kind]}", device
 
 
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:
