@@ -87,7 +87,7 @@ def test_the_sheet_says_what_the_frame_feels(four):
 def test_mounts_that_travel_farther_than_any_are_doubted(tmp_path):
     """At least as far as the force presses the stiffest of the springs."""
     path = tmp_path / "undamped.toml"
-    path.write_text(ENGINE + block("loss = 0.001"), encoding="utf-8")
+    path.write_text(ENGINE + block("loss = 0.0001"), encoding="utf-8")
     found = run_here("mounts", path, "--speeds", "200:3000:50", "-f", "json")
     worst = [mount["worst"] for mount in json.loads(found.out)["response"]["mounts"]]
     force, rpm = max((each["force_N"], each["speed_rpm"]) for each in worst)
