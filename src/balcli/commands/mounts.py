@@ -95,8 +95,8 @@ def _warn(result: MountReport, file: str, *, asked: bool) -> None:
 
     if asked and result.response is None:
         warn(
-            f"{file}: nothing shakes this body, so speeds, orders, misfires and schemes say nothing "
-            "of it: add [crank], [rod] and [piston], or name an engine file after this one"
+            f"{file}: nothing shakes this body, so speeds, orders, misfires and schemes say "
+            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
         )
     warn_each(result.list_doubts(), file)
 
