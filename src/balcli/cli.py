@@ -102,9 +102,7 @@ class _Command(TyperCommand):
 
 
 class _OnDemand(TyperGroup):
-    """The commands by name; the module of one is imported when it is called, or its help is asked
-    for.
-    """
+    """The commands by name; a command's module is imported when it, or its help, is asked for."""
 
     def list_commands(self, ctx: Any) -> list[str]:
         return list(COMMANDS)

@@ -14,6 +14,7 @@ from contextlib import nullcontext
 from types import ModuleType
 
 import pytest
+from support.commands import run_here
 from support.engines import GOOD, tables
 from support.paths import ENGINES
 
@@ -532,3 +533,22 @@ def test_schemes_are_explained_with_their_options_within_80_columns(balcli):
     for name, taken in SCHEMES.items():
         place = out.index(f"{name} ")
         assert all(f"--{option}" in out[place : place + 250] for option in taken), name
+
+
+def test_devices_of_a_sizing_that_is_asked_for_in_csv():
+    """Those of its JSON, in the units of an engine file; without asking, CSV has none of them."""
+    three = ENGINES / "i3.toml"
+    asked = ("analyze", three, "--only", "sizing", "--format")
+    sizing = json.loads(run_here(*asked, "json").out)["sizing"]
+    header, *lines = csv.reader(run_here(*asked, "csv").out.splitlines())
+    figures = {(line[2], line[4]): float(line[5]) for line in lines}
+    assert header == ["engine", "cylinder", "quantity", "order", "figure", "value", "unit"]
+    assert {part for part, _ in figures} == {
+        *(f"counterweight {k + 1}" for k in range(len(sizing["counterweights"]))),
+        *(f"shaft {k + 1}" for k in range(len(sizing["shafts"]))),
+    }
+    for k, shaft in enumerate(sizing["shafts"], 1):
+        assert figures[f"shaft {k}", "ratio"] == shaft["ratio"]
+        assert figures[f"shaft {k}", "position"] == shaft["position_mm"]
+        assert figures[f"shaft {k}", "unbalance"] == pytest.approx(1e6 * shaft["unbalance_kg_m"])
+    assert "counterweight" not in run_here("analyze", three, "--format", "csv").out

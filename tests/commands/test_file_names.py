@@ -251,6 +251,7 @@ def test_parquet_says_nothing_where_there_is_nothing_and_what_it_is():
     assert table["force.1.axis"].null_count == 2  # order 1 is balanced and has none
     assert table["crank.stroke"].to_pylist() == [80, 90]
     assert table.schema.field("force.1.major").metadata == {b"unit": b"N"}
+    assert table.schema.field("crank.stroke").metadata == {b"unit": b"mm"}
     assert table.schema.metadata[b"balcli.engine"] == b"in-line four"
     assert table.schema.metadata[b"balcli.version"] == __version__.encode()
 

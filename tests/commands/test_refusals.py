@@ -140,10 +140,6 @@ def test_balance(options, message):
             "odd.toml --over firing_order --minimise force.1.major",
             "these throws allow no even firing order",
         ),
-        (
-            "four.toml --over bank_angle --minimise force.1.major",
-            "there is no bank angle to look for: the engine is no vee (give layout.bank_angle)",
-        ),
     ],
 )
 def test_search(options, message):

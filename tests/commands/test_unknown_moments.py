@@ -29,8 +29,25 @@ def twin(tmp_path):
     return file
 
 
+@pytest.fixture
+def boxer(tmp_path):
+    """Two opposed cylinders, without any force."""
+    file = tmp_path / "boxer.toml"
+    opposed = ("[operation]", '[layout]\nbanks = [-90, 90]\nrods = "alternating"\n\n[operation]')
+    file.write_text(
+        changed(FLAT_CRANK, ("[layout]\nfiring_order = [1, 3, 4, 2]", ""), NO_SPACING, opposed)
+    )
+    return file
+
+
 def warning(file):
     return f"warning: {file}: {UNKNOWN}\n"
+
+
+def test_of_orders_of_which_nothing_is_known_none_is_called_negligible(balcli, boxer):
+    out = balcli("analyze", boxer).out
+    assert "Negligible" not in out
+    assert "First order: free of force." in out
 
 
 def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):

@@ -43,9 +43,8 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
         (
             [("radial = 7", "")],
             "",
-            "articulation: needs a throw that carries the rods of several banks; this engine has "
-            "1 bank: "
-            "give bank_angle, banks or radial",
+            "articulation: needs a throw that carries the rods of several banks; this engine has 1 "
+            "bank: give bank_angle, banks or radial",
         ),
         (
             [
@@ -89,8 +88,7 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
             [],
             "[cylinder.3]\nthrow = 20\n",
             "cylinder.3.throw: cylinder 3 has an articulated rod, which hangs on the master rod "
-            "and not on "
-            "a crank pin: leave this out",
+            "and not on a crank pin: leave this out",
         ),
     ],
 )

@@ -253,31 +253,25 @@ def test_uneven_speed():
         ),
         (
             {"rod": {"length": 50}},
-            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 50 mm is "
-            "lambda = 1; "
-            "at most 1 - 1e-06 is allowed: make the rod longer",
+            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 50 mm is lambda "
+            "= 1; at most 1 - 1e-06 is allowed: make the rod longer",
         ),
         (
             {"rod": {"length": 65}, "piston": {"mass": 1, "offset": -20}},
-            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 65 mm is "
-            "lambda = 0.769230769, with the "
-            "piston offset of 20 mm lambda + |offset|/length = 1.07692308; at most 1 - 1e-06 is "
-            "allowed: make the rod longer "
-            "or the offset smaller",
+            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 65 mm is lambda "
+            "= 0.769230769, with the piston offset of 20 mm lambda + |offset|/length = 1.07692308; "
+            "at most 1 - 1e-06 is allowed: make the rod longer or the offset smaller",
         ),
         (
             {"crank": {"throws": [0, 0]}, "cylinder": {"2": {"rod_length": 40}}},
             "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 40 "
-            "mm is lambda = 1.25; "
-            "at most 1 - 1e-06 is allowed: make the rod longer",
+            "mm is lambda = 1.25; at most 1 - 1e-06 is allowed: make the rod longer",
         ),
         (
             {"rod": {"ratio": 0.25}, "piston": {"mass": 1, "offset": 150}},
-            "rod.ratio: the crank cannot turn: crank radius 50 mm over rod length 200 mm is "
-            "lambda = 0.25, with the piston "
-            "offset of 150 mm lambda + |offset|/length = 1; at most 1 - 1e-06 is allowed: make "
-            "the rod longer or the offset "
-            "smaller",
+            "rod.ratio: the crank cannot turn: crank radius 50 mm over rod length 200 mm is lambda "
+            "= 0.25, with the piston offset of 150 mm lambda + |offset|/length = 1; at most 1 - "
+            "1e-06 is allowed: make the rod longer or the offset smaller",
         ),
     ],
 )
@@ -329,8 +323,7 @@ def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
     """
     assert refused(**parts) == (
         f"engine: {message}, and two masses at its ends cannot stand for such a rod, one would be "
-        "negative: give a cg from 0 to 200 mm, "
-        "or the rod's inertia"
+        "negative: give a cg from 0 to 200 mm, or the rod's inertia"
     )
     assert engine(**parts | {"rod": parts["rod"] | {"inertia": 1000}}).cylinders.count == 1
 
@@ -346,13 +339,11 @@ def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
     }
     found = [
         "cylinder.1.rod_small_end: needs rod_big_end beside it: weigh the rod at both ends",
-        "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm "
-        "is lambda = 1.66666667; "
-        "at most 1 - 1e-06 is allowed: make the rod longer",
+        "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm is "
+        "lambda = 1.66666667; at most 1 - 1e-06 is allowed: make the rod longer",
         "cylinder.3.rod_big_end: needs rod_small_end beside it: weigh the rod at both ends",
-        "cylinder.3.rod_length: the crank cannot turn: crank radius 50 mm over rod length 35 mm "
-        "is lambda = 1.42857143; "
-        "at most 1 - 1e-06 is allowed: make the rod longer",
+        "cylinder.3.rod_length: the crank cannot turn: crank radius 50 mm over rod length 35 mm is "
+        "lambda = 1.42857143; at most 1 - 1e-06 is allowed: make the rod longer",
     ]
     crank = {"throws": [0, 0, 0]}
     assert refused(crank=crank, cylinder=cylinders).splitlines() == [

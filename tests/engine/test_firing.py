@@ -169,20 +169,18 @@ def test_given_both_they_must_agree():
         layout={"firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4},
     ) == (
         "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its "
-        "crank pin stands 180 deg "
-        "ahead of cylinder 1's, and would have to stand at 0 deg (allowed difference 1 deg); "
-        "change crank.throws, "
-        "crank.splay, firing_order or firing_intervals, or leave crank.throws out"
+        "crank pin stands 180 deg ahead of cylinder 1's, and would have to stand at 0 deg (allowed "
+        "difference 1 deg); change crank.throws, crank.splay, firing_order or firing_intervals, or "
+        "leave crank.throws out"
     )
 
 
 def test_an_order_that_takes_more_than_a_cycle():
     assert refused(crank={"throws": [0, 180, 180, 0]}, layout={"firing_order": [1, 4, 2, 3]}) == (
         "engine: layout.firing_order: 1-4-2-3 would take 1080 deg with these throws, a cycle has "
-        "720; firing evenly, "
-        "every 180 deg, cylinder 4 is the first that is not at top dead centre when it fires "
-        "(allowed difference 1 "
-        "deg): change firing_order or crank.throws, or leave crank.throws out"
+        "720; firing evenly, every 180 deg, cylinder 4 is the first that is not at top dead centre "
+        "when it fires (allowed difference 1 deg): change firing_order or crank.throws, or leave "
+        "crank.throws out"
     )
 
 
@@ -244,11 +242,9 @@ def test_shared_pins_that_an_order_cannot_have():
     """Throws from the first bank, and then the second bank must agree with them."""
     assert refused(layout={"firing_order": [1, 2, 3, 4], "bank_angle": 60}) == (
         "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its "
-        "crank pin stands 0 deg "
-        "ahead of cylinder 1's, and would have to stand at 60 deg (allowed difference 1 deg); "
-        "change crank.splay, "
-        "firing_order or firing_intervals, or give crank.throws and no firing_order. They fit with "
-        "split pins: crank.splay = 60"
+        "crank pin stands 0 deg ahead of cylinder 1's, and would have to stand at 60 deg (allowed "
+        "difference 1 deg); change crank.splay, firing_order or firing_intervals, or give "
+        "crank.throws and no firing_order. They fit with split pins: crank.splay = 60"
     )
 
 

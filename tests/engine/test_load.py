@@ -205,10 +205,6 @@ def test_standard_input(monkeypatch):
             "rod.lenght: unknown key in [rod]; did you mean length?",
         ),
         (
-            GOOD + "[articulation]\nknuckle_radius = 50\nrod = { mass = 1 }\n",
-            "articulation.rod: has neither length nor ratio; give either length or ratio",
-        ),
-        (
             GOOD + "[bobweight]\noverbalance = 0.51\n",
             "bobweight.overbalance: unknown key in [bobweight]; did you mean --factor? The balance "
             "factor is no figure of the engine: balcli balance FILE --factor 51%",

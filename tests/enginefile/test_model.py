@@ -198,8 +198,7 @@ def test_unusual_but_allowed(text):
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180]")),
             (
                 "e.toml: layout: firing_intervals has 3 intervals for 4 firings; give one for "
-                "each, the last "
-                "one back to the first cylinder"
+                "each, the last one back to the first cylinder"
             ),
         ),
         (
@@ -215,8 +214,7 @@ def test_unusual_but_allowed(text):
             GOOD + "[[counterweight]]\nangle = 180\n",
             (
                 "e.toml: counterweight.1: has neither unbalance nor mass and radius; give either "
-                "unbalance or "
-                "mass and radius"
+                "unbalance or mass and radius"
             ),
         ),
         (
@@ -249,8 +247,7 @@ def test_a_pendulum_is_never_quicker_than_a_point_mass():
     parse(changed(("cg = 45", text.format(shortest * 1.000001))))
     assert refusal(changed(("cg = 45", text.format(0.1)))) == (
         "e.toml: rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the "
-        "pivot a full swing "
-        f"takes more than {shortest:.4g} s"
+        f"pivot a full swing takes more than {shortest:.4g} s"
     )
     ends = changed(
         (

@@ -32,8 +32,7 @@ def test_ordinary_engines_pass(text):
             ),
             (
                 "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the "
-                "units right? "
-                "Bare numbers are kg and mm"
+                "units right? Bare numbers are kg and mm"
             ),
         ),
         (
@@ -75,9 +74,7 @@ def test_ordinary_engines_pass(text):
             changed(("length = 160", "length = 100")),
             (
                 "crank radius / rod length is 0.45, where 0.15 to 0.4 is usual; crank.stroke is "
-                "twice the "
-                "crank radius, "
-                "rod.length the distance of its two centres"
+                "twice the crank radius, rod.length the distance of its two centres"
             ),
         ),
         (
@@ -93,8 +90,7 @@ def test_ordinary_engines_pass(text):
             changed(("length = 160", "ratio = 0.1")),
             (
                 "crank radius / rod length is 0.1, where 0.15 to 0.4 is usual; crank.stroke is "
-                "twice the crank radius, "
-                "rod.length the distance of its two centres"
+                "twice the crank radius, rod.length the distance of its two centres"
             ),
         ),
         (
@@ -121,8 +117,7 @@ def test_ordinary_engines_pass(text):
             changed(("cg = 45", "cg = -45")),
             (
                 "rod.cg is -45 mm, outside the rod (0 to 160 mm); it is measured from the big-end "
-                "centre "
-                "towards the small end"
+                "centre towards the small end"
             ),
         ),
         (
@@ -138,9 +133,7 @@ def test_ordinary_engines_pass(text):
             changed(("cg = 45", "cg = 45\ninertia = 0.0023")),
             (
                 "rod.inertia is 0.0023 kg mm^2, where 307 to 6.14e+03 is usual for 0.6 kg and 160 "
-                "mm; it is "
-                "taken about the centre "
-                "of mass, in kg mm^2"
+                "mm; it is taken about the centre of mass, in kg mm^2"
             ),
         ),
         *(
@@ -154,10 +147,8 @@ def test_ordinary_engines_pass(text):
         (
             changed(("speed = 3000", "speed = 30000")),
             (
-                "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than "
-                "40; are "
-                "operation.speed and "
-                "crank.stroke right?"
+                "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than 40; "
+                "are operation.speed and crank.stroke right?"
             ),
         ),
         (
@@ -176,9 +167,7 @@ def test_ordinary_engines_pass(text):
             ),
             (
                 "layout.stagger is 220 mm, more than the distance of neighbouring throws (80 mm); "
-                "it is the "
-                "distance of two rods "
-                "on one throw"
+                "it is the distance of two rods on one throw"
             ),
         ),
         (
@@ -189,9 +178,7 @@ def test_ordinary_engines_pass(text):
             # 5 x (4 x 0.8 + 4 x (0.5 + 0.6)) kg x 45 mm
             (
                 "counterweight.2: its unbalance is 2.4e+06 g mm, more than 5 times all moving "
-                "masses at the "
-                "crank radius (1.71e+06); "
-                "is it in g mm?"
+                "masses at the crank radius (1.71e+06); is it in g mm?"
             ),
         ),
         (
@@ -239,6 +226,26 @@ def test_shafts_on_the_axis_of_the_crank_are_no_slip():
     shafts = "[[shaft]]\nratio = -2\nunbalance = 45\nat = [0, %s]\n"
     on_it, beside = (changed(more=shafts % y) for y in ("1e-14", "2"))
     assert find_suspicious(parse(on_it)) == find_suspicious(parse(beside)) == []
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "usual"),
+    [
+        ("intake", 14.7, "0.15 to 12 bar, absolute,"),
+        ("exhaust", 0.101, "0.15 to 12 bar, absolute,"),
+        ("crankcase", 14.7, "0.15 to 12 bar, absolute,"),
+        ("compression_ratio", 100, "2 to 30"),
+        ("compression_index", 3, "1 to 1.67"),
+        ("expansion_index", 2.5, "1 to 1.67"),
+    ],
+)
+def test_gas_of_no_engine_is_doubted(key, value, usual):
+    """Psi and MPa for bar, a slip of the decimal point, more than an adiabate of helium."""
+    gas = {"cycle": '"otto"', "compression_ratio": 10, "imep": 9} | {key: value}
+    text = "\n".join(f"{name} = {figure}" for name, figure in gas.items())
+    assert find_suspicious(parse(changed(more=f"[gas]\n{text}\n"))) == [
+        f"gas.{key} is {value:g}, where {usual} is usual"
+    ]
 
 
 @pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])

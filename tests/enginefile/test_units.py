@@ -131,9 +131,8 @@ def test_rarer_units(text, dimension, expected):
             "30 rpm",
             ANGLE,
             (
-                'is a speed of rotation, but an angle is wanted: a bare number in deg, or "30 '
-                'deg" or "1.2 '
-                'rad" or "1/7 turn"'
+                'is a speed of rotation, but an angle is wanted: a bare number in deg, or "30 deg" '
+                'or "1.2 rad" or "1/7 turn"'
             ),
         ),
         (

@@ -290,7 +290,7 @@ def test_a_trial_weight_is_doubted_at_each_speed():
         text += run([10], [], own) + run([after], [("p1", weight)], own)
     (doubt,) = find_doubts(find_corrections(parse_runs(text)))
     assert doubt == (
-        "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0% of the "
+        "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0.11% of the "
         "largest; a heavier one tells more"
     )
 

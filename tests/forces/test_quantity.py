@@ -41,9 +41,8 @@ def test_names_read_back(name: str) -> None:
         ),
         (
             "force.2",
-            "force.2 is no quantity: after the order comes one of major, minor, forward, "
-            "backward, axis, x, y, "
-            "x_cos, x_sin, y_cos, y_sin",
+            "force.2 is no quantity: after the order comes one of major, minor, forward, backward, "
+            "axis, x, y, x_cos, x_sin, y_cos, y_sin",
         ),
         (
             "couple.2.axis",

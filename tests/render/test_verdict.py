@@ -10,6 +10,7 @@ import pytest
 
 from balcli.core.phasors import Phasors
 from balcli.forces.spectrum import Spectra
+from balcli.render.gas_torque import tell_rocking
 from balcli.render.units import SI
 from balcli.render.verdict import verdict
 
@@ -27,8 +28,7 @@ CASES = [
         "force",
         (0, 5),
         "First order: force of 5 N, turning against the crank: nothing on the crankshaft cancels "
-        "it; "
-        "it needs a balancer shaft at -1 times crank speed.",
+        "it; it needs a balancer shaft at -1 times crank speed.",
     ),
     (
         1,
@@ -174,3 +174,10 @@ def test_ordinals(order: int, name: str) -> None:
     force = Phasors.of(np.array([float(order)]), one, one, np.zeros(1))
     (told,) = verdict(Spectra(np.array([float(order)]), force=force), SI)
     assert told.startswith(f"{name} order: force up to 10 N; ")
+
+
+def test_of_orders_that_rock_alike_the_first_is_named():
+    """The second is larger by an ulp."""
+    roll = Phasors.from_scalar(np.array([2.0, 4.0]), np.array([0.3, 0.1 + 0.2 + 0j]), np.zeros(2))
+    spectra = Spectra(roll.orders, roll=roll, gas=roll, roll_total=roll)
+    assert tell_rocking(spectra, SI, "the crank axis").startswith("Order 2 rocks the engine most")

@@ -38,8 +38,7 @@ def test_reasons_name_what_turns_and_how_it_is_cancelled():
     )
     assert four[0] == (
         "Order 2 force turning with the crank: nothing on the crankshaft can cancel it; one "
-        "eccentric on a shaft at "
-        "+2 times crank speed can"
+        "eccentric on a shaft at +2 times crank speed can"
     )
     assert three[2].startswith("Order 1 moment turning against the crank: nothing")
     assert vee[0].endswith(
@@ -47,8 +46,7 @@ def test_reasons_name_what_turns_and_how_it_is_cancelled():
     )
     assert vee[-1] == (
         "Order 2 force and moment turning against the crank: nothing on the crankshaft can cancel "
-        "it; eccentrics in two "
-        "planes on a shaft at -2 times crank speed can"
+        "it; eccentrics in two planes on a shaft at -2 times crank speed can"
     )
 
 

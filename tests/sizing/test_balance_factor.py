@@ -432,11 +432,6 @@ def test_a_range_tells_bobweight_counterweight_and_what_is_left():
             SchemeOptions(planes="ends"),
             "--planes: moments are not known, because crank.spacing is missing",
         ),
-        (
-            TWIN,
-            SchemeOptions(planes="left"),
-            '--planes "left": give ends, throws, or places along z',
-        ),
     ],
 )
 def test_what_a_factor_cannot_be(text, options, told):

@@ -13,10 +13,9 @@ from support.engines import GOOD, VEE, changed
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
-from balcli.errors import BalcliError, InputError
+from balcli.errors import InputError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.render.sweep import sweep_csv, sweep_json
-from balcli.render.sweep_plot import check_drawable
 from balcli.studies.boxes import Box, BoxSize, divide_grid, group_boxes
 from balcli.studies.parameters import Parameter, parse_parameter
 from balcli.studies.quantities import parse_quantities
@@ -249,11 +248,6 @@ def test_json_is_one_document() -> None:
 def test_a_variant_that_cannot_turn_is_found_before_anything_is_computed() -> None:
     with pytest.raises(InputError, match=r"rod.length: the crank cannot turn: .* lambda = 1.25"):
         check_corners(asked(GOOD, "crank.stroke=80:400:1"))
-
-
-def test_a_picture_of_too_many_variants_is_refused() -> None:
-    with pytest.raises(BalcliError, match="4004001 variants are too many for one picture"):
-        check_drawable(asked(GOOD, "piston.mass=0:2:0.001", "crank.stroke=80:100:0.01"))
 
 
 GRID = ("layout.bank_angle=0:100:1", "rod.ratio=0.2:0.3:0.0002")

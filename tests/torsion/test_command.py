@@ -649,3 +649,28 @@ def test_a_barred_speed_that_is_the_file_s_own_is_named(speed, told):
     )
     out = run_here("torsion", "-", "--speeds", "2000:2300:50", stdin=text).out
     assert re.search(r"\nbarred speeds  2086 to 2268\.4 rpm(.*)\n", out)[1] == told
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        (
+            "inertia = 950000",
+            "inertia = 0.95",
+            "node.2.inertia of 'flywheel' is 0.95 kg mm^2; is it in kg mm^2? Another unit is said as "
+            'in "0.95 kg m^2"',
+        ),
+        (
+            "diameter = 45 ",
+            "diameter = 0.045 ",
+            'shaft.2.diameter is 0.045 mm; is it in mm? Another unit is said as in "0.045 m"',
+        ),
+        ("inertia = 950000", 'inertia = "0.95 kg m^2"', ""),
+    ],
+)
+def test_chains_in_metres_are_asked_back(old, new, told):
+    text = read_starting_file()
+    assert old in text
+    result = run_here("torsion", "-", stdin=text.replace(old, new))
+    assert result.status == 0
+    assert result.err == (f"warning: standard input: {told}\n" if told else "")

@@ -133,9 +133,7 @@ def of_engine(engine: Engine, orders: list[int]) -> Complex:
 
 
 def sampled(points: int) -> Vectors:
-    """Force of every cylinder at crank angles, summed and transformed: what one writes first with
-    numpy.
-    """
+    """Force of every cylinder at crank angles, summed and transformed: what one writes first."""
 
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
         mass, turning, axis, phase, z = _columns(engine)

@@ -118,9 +118,7 @@ def convert_speed(text: str) -> float:
 
 
 def read_share(option: str, text: str, needed: str) -> float:
-    """A share, as a number or in per cent; BalcliError with the option, its text and what is
-    needed.
-    """
+    """A share, as a number or in per cent; BalcliError with option, text and what is needed."""
     number, percent, rest = text.strip().partition("%")
     value = _as_bare(number)
     if value is None or rest or not math.isfinite(value):

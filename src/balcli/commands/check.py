@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..enginefile.fields import counted
 from ..errors import Exit, legible
 from .output import emit, make_folder_of, write_file
 from .progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
@@ -53,13 +54,9 @@ def check(
         results, errors = try_each(each_until_stopped(files, progress), compare_or_record)
     abandoned = regression.find_abandoned(find_expected(paths))
     moved = [difference for found in (*results, abandoned) for difference in found]
-    done = " recorded" if update else f", {_counted(len(moved), 'difference')}"
-    emit(legible("\n".join([*map(str, moved), _counted(len(results), "engine") + done])))
+    done = " recorded" if update else f", {counted(len(moved), 'difference')}"
+    emit(legible("\n".join([*map(str, moved), counted(len(results), "engine") + done])))
     exit_on_errors(errors)
     exit_if_cut_short(progress)
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)
-
-
-def _counted(number: int, thing: str) -> str:
-    return f"{number} {thing}{'' if number == 1 else 's'}"

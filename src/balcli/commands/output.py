@@ -84,9 +84,7 @@ def standard_output() -> Iterator[TextIO]:
 
 
 def _discard_what_is_left() -> None:
-    """Let what is still to be written go nowhere, so that nothing fails again when the program
-    ends.
-    """
+    """Let what is left go nowhere, so that nothing fails again when the program ends."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

@@ -1,6 +1,4 @@
-"""How far a long computation is: a line that is rewritten on a terminal, and the word after
-Ctrl-C.
-"""
+"""How far a long computation is: a line rewritten on a terminal, and the word after Ctrl-C."""
 
 from __future__ import annotations
 

@@ -84,9 +84,7 @@ def parse_scheme_options(
     roll: str | None,
     units: Units,
 ) -> SchemeOptions:
-    """What a scheme is asked for, in SI; BalcliError for a text that says nothing, with the
-    text.
-    """
+    """What a scheme is asked for, in SI; BalcliError with a text that says nothing."""
     return SchemeOptions(
         order=order,
         at=tuple(_parse_place(text, units) for text in at) if at else None,

@@ -39,9 +39,8 @@ def sweep(
         list[str],
         optional(
             "NUMBER=VALUES",
-            "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 "
-            "(from:to:step, ends included) or crank.throws.2=90,180. "
-            "Several span a grid, the last one fastest.",
+            "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step, "
+            "ends included) or crank.throws.2=90,180. Several span a grid, the last one fastest.",
             "--vary",
             autocompletion=complete_numbers,
         ),

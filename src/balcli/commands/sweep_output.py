@@ -1,6 +1,4 @@
-"""Writing the variants of a sweep as they are computed: to a stream, a text file or a Parquet
-file.
-"""
+"""Variants of a sweep, written as they are computed: to a stream, a text or a Parquet file."""
 
 from __future__ import annotations
 

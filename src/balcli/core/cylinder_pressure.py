@@ -149,9 +149,7 @@ def _slung(
 
 @dataclass(frozen=True)
 class _Plain:
-    """A function of the crank mechanism over the cycle angle, m; a class, so that engines can be
-    pickled.
-    """
+    """A function of the crank mechanism over the cycle angle, m; a class, which can be pickled."""
 
     of: Callable[[Array, float, float], Array]
     radius: float
@@ -223,9 +221,7 @@ class GasTorque(CycleCurve):
 
     @property
     def work(self) -> float:
-        """Work of one cycle, J; over the swept volume it is the indicated mean effective
-        pressure.
-        """
+        """Work of one cycle, J; over the swept volume, the indicated mean effective pressure."""
         return self.curve.integral
 
     def harmonics(self, halves: ArrayLike) -> Complex:

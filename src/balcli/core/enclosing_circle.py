@@ -109,9 +109,7 @@ def _through(points: Complex, fixed: Sequence[int]) -> tuple[complex, float, lis
 
 
 def _lower_bound(points: Complex, centre: complex) -> float:
-    """A lower bound of the radius, by the weights with which the points balance about the
-    centre.
-    """
+    """A lower bound of the radius, by the weights with which the points balance about a centre."""
     arms = points - centre
     rows = np.stack([arms.real, arms.imag, np.full(len(arms), np.abs(arms).max() or 1.0)])
     weights = np.clip(

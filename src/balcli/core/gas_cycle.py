@@ -292,9 +292,7 @@ def _heat(cycle: _Cycle, burning: Combustion, goal: Goal) -> float:
 
 
 def _heat_for_imep(cycle: _Cycle, burning: Combustion, imep: float) -> float:
-    """By Newton's method from the least heat on: imep is concave in the heat, so that no step
-    leads too far.
-    """
+    """By Newton's method from the least heat on: imep is concave in it, no step leads too far."""
     heat = burning.least
     lowest = cycle.imep(burning, heat)
     if imep < lowest:

@@ -57,9 +57,7 @@ class Loads:
 
     @property
     def couple(self) -> Phasors:
-        """Free transverse couple about z, N m: the cylinders' own, and the forces' arms in x and
-        y.
-        """
+        """Free transverse couple about z, N m: the cylinders' own, and the forces' arms."""
         own = find_couples(self.cylinders, self.harmonics, self.square)
         parts = [self.phases.add_scalars(series) for series in own]
         total = reduce(add, parts) if parts else self.phases.nothing()

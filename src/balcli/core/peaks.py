@@ -118,9 +118,7 @@ def _estimate_peaks(spectrum: Complex, at: NDArray[np.intp]) -> Array:
 
 
 def _evaluate_each(series: Complex, x: Array) -> Complex:
-    """Polynomials of coefficients of shape (terms, polynomials), each at its own x, by Horner's
-    rule.
-    """
+    """Polynomials of coefficients (terms, polynomials), each at its own x, by Horner's rule."""
     value = series[-1]
     for coefficient in series[-2::-1]:
         value = coefficient + value * x
@@ -134,9 +132,7 @@ def _differentiate(series: Complex) -> Complex:
 
 
 def climb_peaks(curve: Phasors, theta: Array, step: float) -> Array:
-    """Newton's method for the maxima of |F|^2 beside the given angles, in steps of at most
-    `step`.
-    """
+    """Newton's method for the maxima of |F|^2 beside these angles, in steps of at most `step`."""
     for _ in range(_CLIMBS):
         f, f1, f2 = differentiate(curve.orders, curve.forward, curve.backward, theta)
         move = find_move(f, f1, f2, step)

@@ -138,9 +138,7 @@ class Phasors:
         return Phasors(self.orders, factor * self.vectors, size * self.noise)
 
     def about(self, p: complex | Complex) -> Phasors:
-        """Moment about z of this force acting at the point p = x + iy: `Im(conj(p) F)`, a
-        scalar.
-        """
+        """Moment about z of this force at the point p = x + iy: `Im(conj(p) F)`, a scalar."""
         moment = np.conjugate(p) * self.forward - p * np.conjugate(self.backward)
         return Phasors.from_scalar(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
@@ -200,9 +198,7 @@ class Phasors:
 
     @property
     def axis_deg(self) -> Array:
-        """Direction of the major axis from x in (-90, 90]; nan for a circle, a balanced order and a
-        mean.
-        """
+        """Major axis from x, deg in (-90, 90]; nan for a circle, a balanced order and a mean."""
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
         turned = wrap_degrees(angle, 180)
         # Rounding shall not turn an axis end for end.
@@ -224,13 +220,6 @@ class Phasors:
         across = -1j * (self.forward - np.conj(self.backward))
         y = np.where(mean, self.forward.imag, across)
         return _settle(y, 2 * self.noise)
-
-    @property
-    def derivative(self) -> Phasors:
-        """That of the curve by the crank angle (rad)."""
-        n = _column(self.orders, self.forward)
-        ahead, astern = 1j * n * self.forward, -1j * n * self.backward
-        return Phasors.of(self.orders, ahead, astern, n * self.noise)
 
     def values(self, theta: ArrayLike) -> Complex:
         """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors

@@ -284,9 +284,7 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
 
 
 def quadrature(breaks: Array) -> tuple[Array, Array]:
-    """Angles within panels and their weights in a mean over the period, each of shape (nodes,
-    panels).
-    """
+    """Angles within panels, and their weights in a mean over the period, (nodes, panels) each."""
     nodes, weights = gauss(_TERMS)
     middle, half = _panels(breaks)
     return middle + half * nodes[:, None], half * weights[:, None] / (breaks[-1] - breaks[0])

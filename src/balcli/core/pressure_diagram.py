@@ -1,6 +1,4 @@
-"""Measured pressure: rows of angle and pressure, with straight lines between them, closed
-periodically.
-"""
+"""Measured pressure: rows of angle and pressure, straight lines between them, periodic."""
 
 from __future__ import annotations
 

@@ -54,9 +54,7 @@ def _find_on_curve(c: Cylinders, linkage: Linkage) -> tuple[Array, Array, Array]
 
 
 def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:
-    """Newton's method for the zeros of the piston's velocity beside these angles (rad), one a
-    cylinder.
-    """
+    """Newton's method for the zeros of the pistons' velocity beside these angles (rad)."""
     for _ in range(6):
         motion = linkage.motion(psi[..., None], c.lam, c.eps)
         psi = psi - (motion.velocity / motion.acceleration)[..., 0]

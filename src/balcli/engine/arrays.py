@@ -8,9 +8,11 @@ from collections.abc import Sequence
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..core.phasors import Array, Complex, Figure
+
+_ROUNDING = 1e-9  # share of the largest by which rounding may set equal values apart
 
 
 def place_in_plane(x: Figure, y: Figure) -> complex | Complex:
@@ -34,6 +36,15 @@ def shared_column(values: Sequence[Figure], rank: int) -> Array:
     """The same, or a single row, shape (1, *trailing), where all values are equal."""
     rows = column(values, rank)
     return rows[:1] if len(rows) > 1 and (rows == rows[:1]).all() else rows
+
+
+def find_first_largest(values: ArrayLike) -> NDArray[np.intp]:
+    """Row of the largest of some values (rows, ...), shape (...); of those that rounding alone sets
+    apart the first.
+    """
+    found = np.asarray(values, float)
+    largest = found.max(axis=0)
+    return np.asarray((found >= largest - _ROUNDING * np.abs(largest)).argmax(axis=0))
 
 
 def ranked(values: ArrayLike) -> Array:

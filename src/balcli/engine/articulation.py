@@ -204,9 +204,7 @@ def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Prob
 
 
 def _rise_above(values: Array, top: int) -> float:
-    """How far a parabola through a sampled maximum (at index `top`) and its neighbours rises above
-    it.
-    """
+    """How far a parabola through a sampled maximum (index `top`) and its neighbours rises above."""
     before, at, after = values[top - 1], values[top], values[(top + 1) % len(values)]
     bend = 2 * at - before - after
     return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0

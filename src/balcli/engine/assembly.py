@@ -373,9 +373,7 @@ class Assembly:
         return shared_column([find(n) for n in numbers], self.rank)
 
     def _at_pin(self, number: int) -> Figure:
-        """What turns with a crank pin because of one cylinder, kg; the pins of a rotary engine
-        stand still.
-        """
+        """What turns with a crank pin because of one cylinder, kg; pins of a rotary stand still."""
         if self.model.layout.rotary:
             return 0.0
         if number in self.masters:

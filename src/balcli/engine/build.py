@@ -1,6 +1,4 @@
-"""Engine: what all computation needs of an engine file, in SI units, one row a cylinder, with its
-devices.
-"""
+"""Engine: what all computation needs of an engine file, in SI units, one row a cylinder."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""Counterweights, balancer shafts and sliders of an engine file as rotating vectors of mass x
-radius.
-"""
+"""Counterweights, shafts and sliders of an engine file as rotating vectors of mass x radius."""
 
 from __future__ import annotations
 
@@ -65,9 +63,7 @@ def _shaft(figures: FileFigures, path: str, shaft: Shaft) -> Device:
 
 
 def _slider(figures: FileFigures, path: str, slider: Slider) -> Device:
-    """Its displacement `U cos(n theta + angle)` is two vectors of half the size, turning against
-    each other.
-    """
+    """Its displacement `U cos(n theta + angle)` is two vectors of half the size, one each way."""
     half = _unbalance(figures, path, slider) / 2
     direction = unit(figures.take(f"{path}.direction", slider.direction))
     phase = unit(figures.take(f"{path}.angle", slider.angle))

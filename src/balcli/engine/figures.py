@@ -81,9 +81,7 @@ class FileFigures:
 def _find_rivals(
     start: str, key: str, table: FileTable, varied: Mapping[str, Figure]
 ) -> Iterator[str]:
-    """Names of what else a table (at `start`) gives that says the same as its figure `key`, which
-    varies.
-    """
+    """Names of what else a table (at `start`) gives that says the same as its varying `key`."""
     for other in varied:
         if any(f"{other}.".startswith(f"{start}.{rival}.") for rival in table.rivals(key)):
             raise BalcliError(f"{start}.{key} and {other} say the same; vary one of them")
@@ -129,9 +127,7 @@ class RodFigures(NamedTuple):
         return {key: value for key, value in self._asdict().items() if value is not None}
 
     def length_for(self, radius: Figure) -> Figure:
-        """Its length, m: as given, or by its ratio to the crank radius; one of them there always
-        is.
-        """
+        """Its length, m: as given, or by its ratio to the crank radius; one of them is there."""
         return self.length if self.length is not None else radius / cast(Figure, self.ratio)
 
     def with_own(self, own: RodFigures) -> RodFigures:
@@ -144,9 +140,7 @@ class RodFigures(NamedTuple):
 
 
 class OwnFigures(NamedTuple):
-    """What is said of one cylinder alone: kg, m, deg, and its place along the crank in mm; None:
-    nothing.
-    """
+    """What is said of one cylinder alone: kg, m, deg, its place along the crank in mm; or None."""
 
     piston_mass: Figure | None = None
     piston_offset: Figure | None = None

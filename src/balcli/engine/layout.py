@@ -96,9 +96,7 @@ def cycle_deg(layout: Layout) -> float:
 
 
 def _count_throws(crank: Crank, layout: Layout, rods: int) -> int:
-    """Number of throws, with so many rods on each: those given, or as many as the firing order
-    needs.
-    """
+    """Number of throws, with so many rods on each: given, or as the firing order needs it."""
     if crank.throws is not None:
         return len(crank.throws)
     cylinders = len(layout.firing_order or ())

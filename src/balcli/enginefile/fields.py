@@ -1,6 +1,4 @@
-"""The figures of an engine file as pydantic types: how one is read, how refused, and its JSON
-schema.
-"""
+"""Figures of an engine file as pydantic types: how one is read, refused, and its JSON schema."""
 
 from __future__ import annotations
 
@@ -20,17 +18,13 @@ RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
 
 
 def printable(text: str) -> str:
-    """The first 60 characters; what would move the cursor or colour a terminal becomes a question
-    mark.
-    """
+    """The first 60 characters; what moves the cursor or colours a terminal becomes a "?"."""
     cut = text[:LONGEST_SHOWN] + ("..." if len(text) > LONGEST_SHOWN else "")
     return "".join(letter if letter.isprintable() else "?" for letter in cut)
 
 
 def shorten(value: object) -> str:
-    """A value as a reader may recognise it, cut to about 60 characters; never the whole of a huge
-    one.
-    """
+    """A value as a reader may recognise it, cut to about 60 characters, however huge it is."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int) and value.bit_length() > 200:
@@ -103,13 +97,8 @@ class Number(_Field):
         below: float | None = None,
         most: float = math.inf,
     ) -> None:
-        self.dimension, self.above, self.least, self.below, self.most = (
-            dimension,
-            above,
-            least,
-            below,
-            most,
-        )
+        self.dimension, self.above, self.least = dimension, above, least
+        self.below, self.most = below, most
 
     def read(self, value: object) -> float:
         number = self._number(value)
@@ -191,8 +180,7 @@ class Whole(_Field):
 
     def _wanted(self) -> str:
         return (
-            f"a whole number from {self.least} to "
-            f"{self.most}{'' if self.zero else ', not 0,'} is "
+            f"a whole number from {self.least} to {self.most}{'' if self.zero else ', not 0,'} is "
             "wanted"
         )
 

@@ -70,9 +70,7 @@ def import_lists() -> dict[str, type[model.FileTable]]:
 
 
 def join_path(start: str, parts: Iterable[int | str]) -> str:
-    """`operation`, ("speed_ripple", 0, "order") -> `operation.speed_ripple.1.order`: people count
-    from 1.
-    """
+    """`a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people count from 1."""
     names = (str(part + 1) if isinstance(part, int) else printable(part) for part in parts)
     return ".".join([start, *names])
 

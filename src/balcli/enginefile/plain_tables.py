@@ -118,9 +118,7 @@ def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, An
 
 
 def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[Any, Any]:
-    """The table or list at these keys, as it is written and as the model has it (None: it has
-    none).
-    """
+    """The table or list at these keys, as written and as the model has it (None: it has none)."""
     for key in keys:
         if isinstance(place, list):
             k = _find_member(place, given, key, path)

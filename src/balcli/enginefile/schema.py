@@ -53,9 +53,7 @@ def describe_file(
 
 
 def tidy_schema(schema: Node) -> Node:
-    """Without what pydantic adds for Python's sake: null (TOML has none), titles of keys, empty
-    defaults.
-    """
+    """Without what pydantic adds for Python: null (TOML has none), titles, empty defaults."""
     node: Node = {key: _tidy_member(value) for key, value in schema.items()}
     if isinstance(node.get("description"), str):
         node["description"] = " ".join(node["description"].split())  # docstrings are wrapped

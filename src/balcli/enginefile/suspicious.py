@@ -41,6 +41,10 @@ OFFSET_SHARE = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle v
 # Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 MEAN_PRESSURE = 60.0  # bar
 MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
+# bar, absolute: at 10 km of height there are 0.26, charged in two stages 10; psi and MPa: beyond.
+AROUND = 0.15, 12.0
+COMPRESSION = 2.0, 30.0  # engines have 4 (of 1910) to 25
+INDEX_MOST = 5 / 3  # of a gas of single atoms that loses nothing; engines have 1.2 to 1.4
 THROW_HEAVY = 20.0  # unbalanced mass of a throw / its rods and pistons: engines have up to 1.4
 BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
 # Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
@@ -309,6 +313,14 @@ def _gas(model: EngineFile) -> Iterator[str]:
                 f"gas.{key} is {value:.4g} bar, where at most {limit:g} is usual; is it in bar? "
                 'Another unit is said as in "130 psi" or "0.9 MPa"'
             )
+    ranges = dict.fromkeys(("intake", "exhaust", "crankcase"), (*AROUND, " bar, absolute,"))
+    if model.gas.cycle is not None:  # a compressor, which has a diagram, leaves less clearance
+        ranges["compression_ratio"] = (*COMPRESSION, "")
+        ranges["compression_index"] = ranges["expansion_index"] = (1.0, INDEX_MOST, "")
+    for key, (low, high, unit) in ranges.items():
+        value = getattr(model.gas, key)
+        if value is not None and not low <= value <= high:
+            yield f"gas.{key} is {value:.4g}, where {low:g} to {high:.3g}{unit} is usual"
 
 
 def _torsion(model: EngineFile) -> Iterator[str]:
@@ -461,9 +473,7 @@ def _spacing(model: EngineFile) -> float | None:
 
 
 def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """How many there are; where the throws are left out, the firing order tells the number of
-    rods.
-    """
+    """How many there are; without throws, the firing order tells the number of rods."""
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
     rods_on_a_throw = banks if layout.rods == "shared" else 1

@@ -1,6 +1,4 @@
-"""Starting files: a commented engine of every common kind, which analyses as it stands and teaches
-the keys.
-"""
+"""Starting files: of every common kind an engine with comments, which analyses as it stands."""
 
 from __future__ import annotations
 

@@ -209,9 +209,7 @@ def _split(figure: str) -> tuple[Fraction, str] | None:
 
 
 def read_unit(names: str, dimension: Dimension) -> Unit:
-    """The product of a unit's parts; ValueError for an unknown one, with examples of
-    `dimension`.
-    """
+    """The product of a unit's parts; ValueError for an unknown one, with examples."""
     if re.sub(_PART, "", names, flags=re.ASCII).strip(" .-"):
         raise ValueError(f'has the unknown unit "{names}"; {wanted(dimension)}')
     scale, powers = Fraction(1), Powers()

@@ -295,7 +295,8 @@ def _doubt_trials(result: FieldBalance) -> list[str]:
                 at = f" at {speed:g} rpm" if len(speeds) > 1 else ""
                 doubts.append(
                     f"the trial weight in {p.plane}{at} changes no reading by more than "
-                    f"{change:.3g}, {change / largest:.0%} of the largest; a heavier one tells more"
+                    f"{change:.3g}, {100 * change / largest:.2g}% of the largest; a heavier one "
+                    "tells more"
                 )
         trial = max(abs(run.weights[p.plane]) for run in file.run if p.plane in run.weights)
         if abs(p.total) > _FAR_BEYOND * trial:

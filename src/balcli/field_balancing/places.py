@@ -95,9 +95,7 @@ def find_region(angles_deg: Array, most: float) -> Region:
 
 
 def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
-    """Angles in [0, 360), each once; which of the given ones they are, from 1; and as complex
-    numbers.
-    """
+    """Angles in [0, 360), each once; which of the given ones, from 1; and as complex numbers."""
     rounded = np.round(np.asarray(angles_deg) % 360, 9) % 360
     angles, first = np.unique(rounded, return_index=True)
     return angles, first + 1, np.exp(1j * np.radians(angles))

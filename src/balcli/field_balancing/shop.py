@@ -1,6 +1,4 @@
-"""What the shop can do in one plane: weights at its places, or holes in its rim, none of them too
-heavy.
-"""
+"""What the shop can do in one plane: weights at places, or holes in the rim, none too heavy."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Phasors
 from ..core.sorted_sets import sort_distinct
-from ..engine.arrays import ranked
+from ..engine.arrays import find_first_largest
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_RESULTS_ALONG_CRANK
@@ -51,7 +51,7 @@ class AlongCrank:
     @property
     def largest(self) -> int:
         """Index of the place with the highest peak; of equal ones the first."""
-        return int(np.argmax(ranked([peak.value for peak in self.peaks])))
+        return int(find_first_largest([peak.value for peak in self.peaks]))
 
 
 @dataclass(frozen=True)
@@ -109,9 +109,8 @@ def _refuse_too_many_results(orders: int, loads: int) -> None:
     told = orders * loads
     if told > MOST_RESULTS_ALONG_CRANK:
         raise BalcliError(
-            f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights "
-            f"are {told} results, and at most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer "
-            "orders"
+            f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights are "
+            f"{told} results, and at most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
         )
 
 
@@ -159,8 +158,6 @@ def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
 
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
-    """Phasors of all orders, shape (orders, places), and their peaks; only these orders are
-    kept.
-    """
+    """Phasors of all orders, (orders, places), and their peaks; only these orders are kept."""
     peaks = tuple(find_peak(phasors.select_place(place)) for place in range(len(places)))
     return AlongCrank(places, phasors.select_orders(orders), peaks)

@@ -26,9 +26,7 @@ SHOWN = 1e-6  # share of a quantity's largest order below which an order is not 
 
 
 def is_order(number: float) -> bool:
-    """Whether a number is an order that may be asked for: a multiple of 1/2, from 0 to
-    HIGHEST_ORDER.
-    """
+    """Whether it is an order that may be asked for: a multiple of 1/2, 0 to HIGHEST_ORDER."""
     return 0 <= number <= HIGHEST_ORDER and number % 0.5 == 0
 
 

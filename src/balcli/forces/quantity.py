@@ -110,9 +110,7 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
 
 
 def leave_out_unknown(engine: Engine, quantities: Iterable[Quantity]) -> tuple[Quantity, ...]:
-    """The quantities without moments of an engine whose file does not say where its throws
-    stand.
-    """
+    """The quantities without moments, of an engine that does not say where its throws stand."""
     return tuple(q for q in quantities if q.kind != "moment" or engine.places_known)
 
 

@@ -1,6 +1,4 @@
-"""Engine -> free forces and moments by order, computing only the quantities and orders that are
-asked for.
-"""
+"""Engine -> free forces and moments by order, computing only what is asked for."""
 
 from __future__ import annotations
 

@@ -20,10 +20,9 @@ from ..core.rigid_body import (
 )
 from ..core.singular_values import Real
 from ..core.vibration import Modes, modal_loss
+from ..engine.arrays import find_first_largest
 from .build import MountedBody
 from .motions import name_mode, name_motions
-
-EQUAL_PARTS = 1e-9  # share of the largest by which rounding may set equal parts apart
 
 
 class BodyMode(NamedTuple):
@@ -111,5 +110,4 @@ def find_mounted_modes(mounted: MountedBody, torque: float = 0.0) -> BodyModes:
 
 def _point_forward(shape: Real, shares: Real) -> Real:
     """The shape, its motion with the largest share of the energy positive, of equals the first."""
-    largest = np.argmax(shares > (1 - EQUAL_PARTS) * shares.max())
-    return shape * np.copysign(1.0, shape[largest])
+    return shape * np.copysign(1.0, shape[find_first_largest(shares)])

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ..core.speeds import RPM
+from ..engine.arrays import find_first_largest
 from ..engine.variants import EngineVariants
 from ..enginefile.model import EngineFile, FileTable, change_figure, label_table
 from ..errors import BalcliError, InputError, Problem
@@ -159,7 +160,7 @@ def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:
         mode = max(modes.six, key=lambda one: one.shares[motion])
     else:
         mode = modes.six[int(q.target) - 1]
-        motion = int(np.argmax(mode.shares))
+        motion = int(find_first_largest(mode.shares))
     if q.part == "Hz":
         return mode.hertz
     return float(100 * mode.shares[motion] if q.part == "share" else 50 * mode.loss)

@@ -25,9 +25,7 @@ SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines ha
 
 
 class MountedFile(NamedTuple):
-    """A file with [body] and [[mount]], its engine, if it has one, and what is valid in it but
-    suspicious.
-    """
+    """A file with [body] and [[mount]], its engine if it has one, and what is doubted of it."""
 
     model: EngineFile
     engine: Engine | None

@@ -27,6 +27,7 @@ from ..core.sorted_sets import sort_others
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
 from ..core.vibration import UNDAMPED, UndampedResonanceError, find_resonances, frequencies
+from ..engine.arrays import find_first_largest
 from ..engine.build import NONE_SILENT, Engine, SilentCylinders
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
@@ -35,7 +36,7 @@ from ..forces.orders import choose_orders, find_relevant_orders, list_gas_orders
 from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import MOST_MOUNT_RESULTS
 from .build import MountedBody
-from .modes import EQUAL_PARTS, BodyModes
+from .modes import BodyModes
 from .motions import ROLL
 
 _KINDS = ("force", "moment", "roll")
@@ -350,7 +351,7 @@ def _find_worst(
     own = _list_curves(mounted, found)[:, each, each]
     value = find_longest(loads.orders, own).value
     alone = largest_of_ellipse(own)
-    leading = alone.argmax(axis=0)
+    leading = find_first_largest(alone)
     orders = loads.orders[leading]
     mode = _find_leading_modes(mounted, modes, orders * best, found.motion[leading, each])
     return tuple(
@@ -378,7 +379,7 @@ def _find_leading_modes(
     each = np.arange(len(motion))
     curves = _list_curves(mounted, BodyResponse(parts, forces))[:, each, each]
     sizes = np.linalg.norm(curves, axis=-1)
-    return np.asarray((sizes >= sizes.max(axis=0) * (1 - EQUAL_PARTS)).argmax(axis=0))
+    return find_first_largest(sizes)
 
 
 def _press_some(mounted: MountedBody, loads: BodyLoads, omega: Real) -> Iterator[Real]:

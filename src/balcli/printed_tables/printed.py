@@ -97,9 +97,7 @@ def parse_number(text: str) -> Fraction:
 
 
 def identify(text: str) -> Key:
-    """What identifies a row or column: its number where it is one (so that 0.3 is 0.30), or else
-    its text.
-    """
+    """What identifies a row or column: its number (0.3 is 0.30), or else its text."""
     try:
         return parse_number(text)
     except ValueError:

@@ -123,9 +123,7 @@ def round_like(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> De
 
 
 def deviates(value: Cell, text: str) -> bool:
-    """Whether a printed figure is not the exact value rounded to its digits. Words and ranges never
-    deviate.
-    """
+    """Whether a printed figure is not the exact value rounded; words and ranges never deviate."""
     printed = parse_decimal(text)
     if isinstance(value, (int, float)):
         if printed is not None:
@@ -137,9 +135,7 @@ def deviates(value: Cell, text: str) -> bool:
 
 
 def explain_figure(value: Cell, text: str) -> str | None:
-    """How this value leads to the printed figure: "" by rounding, ", truncated", ...; None if it
-    does not.
-    """
+    """How this value leads to the printed figure: "", ", truncated", ...; None: it does not."""
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
         return None

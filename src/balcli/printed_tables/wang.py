@@ -69,9 +69,7 @@ def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
 
 
 def _half_cycle(lam: float) -> Row:
-    """The printed search: P, k, alpha, direction phi of the force (of an undirected line) and
-    theta.
-    """
+    """The printed search: P, k, alpha, direction phi of the force (undirected) and theta."""
     k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
     force = _force(lam, k[:, None, None], alpha[:, None], theta)
     peaks = np.abs(force).max(axis=-1)

@@ -33,5 +33,6 @@ def rows(one: NamedResult[Analysis], system: System) -> Rows:
     """CSV: the rows of the analysis, each after the engine's name."""
     from . import analysis_document
 
-    header, lines = analysis_document.rows(one.result, system)
+    devices = "sizing" in one.view.parts
+    header, lines = analysis_document.rows(one.result, system, devices=devices)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))

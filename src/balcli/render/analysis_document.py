@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .csv import Columns, Rows
-from .devices import device_entries
+from .devices import device_entries, device_rows, number_devices
 from .figures import (
     FigureRow,
     assumptions,
@@ -103,15 +103,22 @@ def brief_document(result: Analysis) -> dict[str, Any]:
     return {"peak": peak_entries(result), "orders": order_entries(result.spectra)}
 
 
-def rows(result: Analysis, system: System) -> Rows:
-    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve."""
-    return Rows(
-        ("cylinder", "quantity", "order", "figure", "value", "unit"), _all_rows(result, system)
-    )
+def rows(result: Analysis, system: System, *, devices: bool = True) -> Rows:
+    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve.
+
+    Args:
+        devices: whether those of the sizing are wanted.
+    """
+    header = ("cylinder", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _all_rows(result, system, devices=devices))
 
 
-def _all_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
+def _all_rows(result: Analysis, system: System, *, devices: bool) -> Iterator[FigureRow]:
     yield from figure_rows(result, system)
+    if devices and result.sizing is not None:
+        for part, device in number_devices(result.sizing.remedy.devices):
+            for figure, value, unit in device_rows(device, system):
+                yield FigureRow(0, part, None, figure, value, unit)
     if result.travel is not None:
         from . import strokes
 

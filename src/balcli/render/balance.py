@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -21,12 +20,14 @@ from .devices import (
     device_grid,
     device_rows,
     holes_grid,
+    number_devices,
     practical_columns,
     practical_entry,
     practical_grid,
 )
 from .engine_facts import is_speed_assumed
 from .figures import assumptions, figure_rows
+from .order_tables import fit_largest
 from .overview import find_orders_that_matter, name_column, tell_others
 from .scheme_details import details_parts, tell_growing_rolls
 from .scheme_details_document import details_document
@@ -164,7 +165,10 @@ def _orders(result: Balance, system: System) -> Grid:
         one[ROLL_TOTAL.name] = max(float(state[ROLL_TOTAL.name].major.max()) for state in states)
     shown = {order for state in states for order in find_orders_that_matter(state, one)}
     rows = [k for k, order in enumerate(orders) if result.every_order or order in shown]
-    units = {kind: _fit(result, kind, system) for kind in columns}
+    units = {
+        kind: fit_largest(system.unit(kind), *(state[kind.name] for state in states))
+        for kind in columns
+    }
 
     def row(k: int) -> tuple[str, ...]:
         cells = [order_name(result.before.orders[k])]
@@ -195,12 +199,6 @@ def _pick(analysis: Analysis, *kinds: Kind) -> Spectra:
     return analysis.spectra.only([kind.name for kind in kinds])
 
 
-def _fit(result: Balance, kind: Kind, system: System) -> ShownUnit:
-    """The unit for the largest value of the kind."""
-    both = (result.before.spectra[kind.name], result.after.spectra[kind.name])
-    return system.unit(kind).fit(max(float(p.major.max(initial=0)) for p in both))
-
-
 def _peaks(result: Balance, system: System) -> Grid:
     rows = []
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
@@ -224,7 +222,8 @@ def _peaks(result: Balance, system: System) -> Grid:
 def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
     if not peak.value:
         return NOTHING, ""
-    return number(unit.of(peak.value)), degrees(float(np.degrees(peak.theta)))
+    at = degrees(float(np.degrees(peak.theta))) if peak.every else "any"
+    return number(unit.of(peak.value)), at
 
 
 # ------------------------------------------------------------------ JSON and CSV
@@ -276,11 +275,8 @@ def rows(result: Balance, system: System) -> Rows:
 
 
 def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
-    numbers: Counter[str] = Counter()
-    for device, practical in zip(result.remedy.devices, result.practical, strict=True):
-        kind = name_kind(device)
-        numbers[kind] += 1
-        part = f"{kind} {numbers[kind]}"
+    devices = number_devices(result.remedy.devices)
+    for (part, device), practical in zip(devices, result.practical, strict=True):
         for figure in device_rows(device, system):
             yield part, "", "", *figure
         for name, value in _with_paths(practical_entry(practical)):

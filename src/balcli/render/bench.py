@@ -16,9 +16,7 @@ ROUNDING = 1e-13  # errors below it are rounding, which a picture shows here
 
 
 def document(result: Bench) -> dict[str, Any]:
-    """`balcli.bench/1`: seconds, relative errors (null where there is none), ratios of run
-    times.
-    """
+    """`balcli.bench/1`: seconds, relative errors (null: there is none), ratios of run times."""
     return {
         "format": "balcli.bench/1",
         "rows": [

@@ -120,9 +120,7 @@ def _matters(line: Line, least: float) -> bool:
 
 
 def show_sizes(line: Line, unit: ShownUnit, *, every: bool) -> list[str]:
-    """Amplitudes in their unit, or a word where there is none that counts, unless `every` one is
-    wanted.
-    """
+    """Amplitudes in their unit, or a word where none counts, unless `every` one is wanted."""
     small = [False] * len(line.values) if every else _tell_negligible(line)
     sizes = zip(line.values, small, strict=True)
     return [size_cell(value, unit, negligible=s, digits=None) for value, s in sizes]

@@ -1,6 +1,4 @@
-"""Shear forces, bending moments and bearing loads along the crankshaft: as tables, in JSON and as
-rows.
-"""
+"""Shear forces, bending moments and bearing loads along the crankshaft, in every format."""
 
 from __future__ import annotations
 
@@ -131,9 +129,7 @@ def _grid(
     length: ShownUnit,
     most_orders: int = ORDERS_SHOWN,
 ) -> Grid:
-    """One row a place: the peak over a revolution, and the largest value of each of the first
-    orders.
-    """
+    """One row a place: the peak over a revolution, and the largest of each of the first orders."""
     orders = along.phasors.orders[:most_orders]
     unit = unit.fit(max(peak.value for peak in along.peaks))
     heads = (f"place, {length.name}", "largest", "deg", *(f"order {order_name(n)}" for n in orders))

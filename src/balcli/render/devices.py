@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..enginefile.model import Counterweight, Shaft, Slider
@@ -238,6 +239,15 @@ def practical_columns(p: Practical) -> Iterator[tuple[str, float | None, str]]:
             yield key, value, ""
 
 
+def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:
+    """Each device with its name among those of its kind: `shaft 2`."""
+    numbers: Counter[str] = Counter()
+    for device in devices:
+        kind = name_kind(device)
+        numbers[kind] += 1
+        yield f"{kind} {numbers[kind]}", device
+
+
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:
     """Name, value and unit of every figure of a device, as an engine file would say it."""
     length, unbalance = system.length, system.unbalance
@@ -260,7 +270,5 @@ def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any,
 
 
 def _convert(value: float, size: float, unit: ShownUnit) -> float:
-    """A value in units of this size (in SI units) in another unit; as it is where that is the
-    same.
-    """
+    """A value in units of this size (SI) in another unit; as it is where that is the same."""
     return value if unit.size == size else unit.of(value * size)

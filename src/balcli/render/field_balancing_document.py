@@ -57,16 +57,14 @@ def document(result: FieldBalance) -> dict[str, Any]:
 def _list_permitted(result: FieldBalance) -> Iterator[tuple[str, dict[str, Any]]]:
     """Each plane by its name, with what may be left in it; none where there is no grade."""
     for p in result.planes:
-        if p.permitted is not None:
-            yield (
-                p.plane,
-                {
-                    "permitted_g_mm": clean(p.permitted.permitted),
-                    "present_g_mm": clean(p.permitted.present),
-                    "reached": p.permitted.reached,
-                    "after_g_mm": clean(p.permitted.after),
-                },
-            )
+        if (found := p.permitted) is not None:
+            figures = {
+                "permitted_g_mm": clean(found.permitted),
+                "present_g_mm": clean(found.present),
+                "reached": found.reached,
+                "after_g_mm": clean(found.after),
+            }
+            yield p.plane, figures
 
 
 def _reading(result: FieldBalance, k: int) -> dict[str, Any]:

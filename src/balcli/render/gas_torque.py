@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..engine.arrays import find_first_largest
 from .figures import peak_deg
-from .sheet import NEGLIGIBLE, NOTHING, Grid, degrees, number, order_name, size_text
+from .order_tables import fit_largest
+from .sheet import NEGLIGIBLE, Grid, degrees, order_name, size_cell, size_text
 
 if TYPE_CHECKING:
     from ..forces.spectrum import Spectra
@@ -31,14 +33,13 @@ def gas_grid(
     if len(found) < len(_SHOWN):
         return
     inertia, gas, total, roll = found
-    unit = system.moment.fit(float(max(p.major.max(initial=0) for p in found)))
+    unit = fit_largest(system.moment, *found)
     least = NEGLIGIBLE * float(max(gas.major.max(initial=0), inertia.major.max(initial=0)))
 
     def row(k: int) -> Iterator[str]:
         yield order_name(spectra.orders[k])
         for phasors in (inertia, gas, total, roll):
-            size = float(phasors.major[k])
-            yield number(unit.of(size), 4) if size else NOTHING
+            yield size_cell(float(phasors.major[k]), unit)
         at = peak_deg(complex(roll.x[k]), float(roll.orders[k]))
         yield "" if at is None else degrees(at)
 
@@ -56,16 +57,14 @@ def gas_grid(
 
 
 def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
-    """Which order rocks the engine most about a `pivot`, in a sentence; empty where that is not
-    known.
-    """
+    """Which order rocks the engine most about a `pivot`, in a sentence; empty: not known."""
     roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.roll
     if roll is None or gas is None or inertia is None:
         return ""
     size = np.where(roll.orders > 0, roll.major, 0)
     if not size.any():
         return f"No order rocks the engine about {pivot}."
-    k = int(size.argmax())
+    k = int(find_first_largest(size))
     parts = {"gas": float(gas.major[k]), "inertia": float(inertia.major[k])}
     there = {name: value for name, value in parts.items() if value}
     told = ", ".join(f"{name} {size_text(value, system.moment)}" for name, value in there.items())

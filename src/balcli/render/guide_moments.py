@@ -6,31 +6,29 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from .figures import FigureRow, clean, order_rows, scalar_entries
-from .sheet import NOTHING, UNKNOWN, Grid, number, order_name, order_number
+from .order_tables import fit_largest
+from .sheet import UNKNOWN, Grid, number, order_name, order_number, size_cell
 
 if TYPE_CHECKING:
     from ..core.phasors import Array, Phasors
     from ..forces.guide_moments import GuideMoments
-    from .units import ShownUnit, System
+    from .units import System
 
 _ALONE = "of inertia alone, without gas"
 
 
 def sheet_parts(guide: GuideMoments, system: System) -> Iterator[Grid]:
     """One table, an order a row."""
-    both = [moment for moment in (guide.h, guide.x) if moment is not None]
-    unit = system.moment.fit(max(float(moment.major.max(initial=0)) for moment in both))
+    both = (guide.h, guide.x)
+    unit = fit_largest(system.moment, *filter(None, both))
+
+    def cell(moment: Phasors | None, k: int) -> str:
+        return UNKNOWN if moment is None else size_cell(float(moment.major[k]), unit, digits=None)
+
     yield Grid(
         f"Guide-force moments {'of inertia and gas' if guide.with_gas else _ALONE}, {unit.name}",
         ("order", "H-type", "X-type"),
-        tuple(
-            (
-                order_name(n),
-                _largest(guide.h, k, unit),
-                UNKNOWN if guide.x is None else _largest(guide.x, k, unit),
-            )
-            for k, n in enumerate(guide.h.orders)
-        ),
+        tuple((order_name(n), *(cell(m, k) for m in both)) for k, n in enumerate(guide.h.orders)),
         note=define_guide_moments(guide.height_m, system),
     )
 
@@ -73,8 +71,3 @@ def _heights(height_m: Array, system: System) -> str:
     found = (float(height_m.min()), float(height_m.max()))
     texts = dict.fromkeys(number(system.length.of(height)) for height in found)
     return f"{' to '.join(texts)} {system.length.name}"
-
-
-def _largest(moment: Phasors, k: int, unit: ShownUnit) -> str:
-    size = float(moment.major[k])
-    return number(unit.of(size)) if size else NOTHING

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from ..core.singular_values import Real
+from ..engine.arrays import find_first_largest
 from ..mounting.motions import AXES
 from ..mounting.report import MountReport
 from ..mounting.response import LargestAmplitude, MountingResponse
@@ -111,15 +112,21 @@ def _less(after: LargestAmplitude, before: LargestAmplitude) -> str:
 def _find_farthest(
     result: MountReport, response: MountingResponse
 ) -> tuple[str, LargestAmplitude] | None:
-    """The point that moves most; None: none is asked for."""
-    pairs = zip(result.mounted.point_names, response.worst_motion, strict=True)
-    return max(pairs, key=lambda pair: pair[1].value, default=None)
+    """The point that moves most, of equal ones the first; None: none is asked for."""
+    names, each = result.mounted.point_names, response.worst_motion
+    return _find_worst(names, each) if names else None
 
 
 def _find_hardest(result: MountReport, response: MountingResponse) -> tuple[str, LargestAmplitude]:
-    """The mount with the largest force."""
-    pairs = zip(result.mounted.names, response.worst_force, strict=True)
-    return max(pairs, key=lambda pair: pair[1].value)
+    """The mount with the largest force, of equal ones the first."""
+    return _find_worst(result.mounted.names, response.worst_force)
+
+
+def _find_worst(
+    names: Sequence[str], each: Sequence[LargestAmplitude]
+) -> tuple[str, LargestAmplitude]:
+    k = int(find_first_largest([one.value for one in each]))
+    return names[k], each[k]
 
 
 def _explain(result: MountReport, response: MountingResponse, worst: LargestAmplitude) -> str:

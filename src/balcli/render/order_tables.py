@@ -22,7 +22,9 @@ from .sheet import (
     number,
     order_name,
     order_number,
+    size_cell,
     size_text,
+    small_text,
 )
 
 if TYPE_CHECKING:
@@ -145,7 +147,7 @@ def _shown_rows(
 
 
 def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) -> Grid:
-    unit = _fit(unit, phasors)
+    unit = fit_largest(unit, phasors)
 
     def cells(k: int) -> Cells:
         name = order_name(phasors.orders[k])
@@ -168,7 +170,7 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) ->
 
 def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every: bool) -> Grid:
     scalars = spectra.scalars()
-    unit = _fit(unit, *(phasors for _, phasors in scalars))
+    unit = fit_largest(unit, *(phasors for _, phasors in scalars))
 
     def cells(k: int) -> Cells:
         pairs = (_amplitude(phasors.x[k], spectra.orders[k], unit) for _, phasors in scalars)
@@ -197,20 +199,22 @@ def show_peak_deg(c: complex, order: float) -> str:
     return UNKNOWN if at is None else degrees(at)
 
 
-def _fit(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
+def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
     """The unit for the largest of all that is known."""
     return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
 
 
 def _direction_table(spectra: Spectra, system: System, every: bool) -> Grid:
     """Vertical and horizontal, as builders state them."""
-    vectors = [(phasors, _fit(system.unit(kind), phasors)) for kind, phasors in spectra.vectors()]
+    vectors = [
+        (phasors, fit_largest(system.unit(kind), phasors)) for kind, phasors in spectra.vectors()
+    ]
 
     def cells(k: int) -> Iterator[str]:
         yield order_name(spectra.orders[k])
         for phasors, unit in vectors:
             for c in (phasors.x[k], phasors.y[k]):
-                yield number(unit.of(abs(c)), 4) if c else NOTHING
+                yield size_cell(abs(c), unit)
                 yield degrees(float(phase_deg(c))) if c else ""
 
     phasors = [phasors for phasors, _ in vectors]
@@ -254,10 +258,8 @@ def _size_and_angle(v: complex, unit: ShownUnit) -> str:
 
 
 def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:
-    if not peak.value:
-        return NOTHING
-    if peak.value < least:
-        return f"negligible ({size_text(peak.value, unit, 2)})"
+    if not peak.value or peak.value < least:
+        return small_text(peak.value, unit)
     size = size_text(peak.value, unit, 5)
     if not peak.every:
         return f"{size} at every crank angle"

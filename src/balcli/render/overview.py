@@ -12,7 +12,7 @@ from ..enginefile.model import Counterweight, Shaft
 from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..sizing.device_tables import DeviceTable, find_unbalance
 from .engine_facts import tell_pivot
-from .order_tables import peak_facts
+from .order_tables import fit_largest, peak_facts
 from .sheet import (
     NEGLIGIBLE,
     NOTHING,
@@ -24,6 +24,7 @@ from .sheet import (
     number,
     order_name,
     size_text,
+    small_text,
 )
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
     it; the other orders in one line, with a hint how to see them.
     """
     chosen = spectra.select_orders(shown)
-    vectors = [(kind, p, _unit_of(kind, p, system)) for kind, p in chosen.vectors()]
+    vectors = [(kind, p, fit_largest(system.unit(kind), p)) for kind, p in chosen.vectors()]
 
     def row(k: int) -> Iterator[str]:
         yield order_name(chosen.orders[k])
@@ -88,7 +89,7 @@ def tell_others(
     others = [
         float(order)
         for k, order in enumerate(states[0].orders)
-        if order not in shown and any(p.major[k] for one in states for _, p in one.items())
+        if order not in shown and any(p.major[k] > 0 for one in states for _, p in one.items())
     ]
     if not others:
         return ""
@@ -173,24 +174,18 @@ def _tell_place(device: DeviceTable) -> str:
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
-    """Every order that matters: `order 2: 458, 4: 26.3 N m`; `every_order` as of
-    `roll_and_peaks`.
-    """
+    """Every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as of `roll_and_peaks`."""
     least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
     rows = [k for k, size in enumerate(roll.major) if size > least]
     largest = float(roll.major.max(initial=0))
     if not rows:
-        nothing = f"negligible ({size_text(largest, system.moment, 2)})" if largest else NOTHING
+        nothing = small_text(largest, system.moment)
         return f"{nothing} in the orders shown" if every_order else nothing
     unit = system.moment.fit(largest)
     sizes = (
         f"{order_name(roll.orders[k])}: {number(unit.of(float(roll.major[k])), 4)}" for k in rows
     )
     return f"order {', '.join(sizes)} {unit.name}"
-
-
-def _unit_of(kind: Kind, phasors: Phasors, system: System) -> ShownUnit:
-    return system.unit(kind).fit(float(np.nanmax(phasors.major, initial=0.0)))
 
 
 def _vector_cells(phasors: Phasors, k: int, unit: ShownUnit) -> tuple[str, str, str]:

@@ -1,6 +1,4 @@
-"""What the page needs to let torque and pressure run with the crank: plain figures in the reader's
-units.
-"""
+"""What the page needs to run torque and pressure with the crank, in the reader's units."""
 
 from __future__ import annotations
 

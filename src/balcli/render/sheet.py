@@ -1,6 +1,4 @@
-"""A sheet: what a person reads, before it is known where. Terminal, Markdown and HTML are made of
-it.
-"""
+"""A sheet: what a person reads, of which terminal, Markdown and HTML are made."""
 
 from __future__ import annotations
 
@@ -106,7 +104,14 @@ def size_text(value: float, unit: ShownUnit, digits: int | None = 4) -> str:
     return f"{number(unit.of(value), digits)} {unit.name}"
 
 
-def size_cell(value: float, unit: ShownUnit, *, negligible: bool, digits: int | None = 4) -> str:
+def small_text(value: float, unit: ShownUnit) -> str:
+    """What is too small to count (SI), in words, and how small it is if it is anything."""
+    return f"negligible ({size_text(value, unit, 2)})" if value else NOTHING
+
+
+def size_cell(
+    value: float, unit: ShownUnit, *, negligible: bool = False, digits: int | None = 4
+) -> str:
     """A force or moment (SI) in a column with this unit, or a word where there is none that counts;
     digits as of `number`.
     """

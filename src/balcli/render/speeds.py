@@ -40,7 +40,10 @@ def document(one: NamedResult[SpeedSeries]) -> dict[str, Any]:
 def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
     """CSV: the rows of each analysis after the engine's name and the speed."""
     told = [(float(each.engine.speed_rpm), each) for each in one.result.analyses]
-    every = [(speed, *analysis_document.rows(each, system)) for speed, each in told]
+    devices = "sizing" in one.view.parts
+    every = [
+        (speed, *analysis_document.rows(each, system, devices=devices)) for speed, each in told
+    ]
     lines = (
         (name_cell(one.name), speed, *line) for speed, _, own_lines in every for line in own_lines
     )

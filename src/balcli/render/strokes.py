@@ -14,9 +14,7 @@ if TYPE_CHECKING:
 
 
 def sheet_parts(travel: Travel, numbers: Sequence[int], system: System) -> Iterator[Grid]:
-    """One table, a cylinder a row; `numbers` are those of the cylinders, in the order of the
-    arrays.
-    """
+    """One table, a cylinder a row; `numbers`: of the cylinders, in the order of the arrays."""
     yield Grid(
         "Strokes and dead centres",
         ("cylinder", f"stroke, {system.length.name}", "top, deg", "bottom, deg"),

@@ -15,9 +15,7 @@ if TYPE_CHECKING:
 
 
 def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
-    """A header, and one variant a line; what has no value (the axis of a circle) is an empty
-    cell.
-    """
+    """A header, and one variant a line; what has no value (axis of a circle) is an empty cell."""
     yield ",".join(sweep.columns) + "\n"
     for chunk in chunks:
         yield "\n".join(_lines(sweep, chunk, "")) + "\n"
@@ -39,9 +37,7 @@ def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 
 def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
-    """Rows of a chunk, cells with commas between them; each value of a parameter is written out
-    once.
-    """
+    """Rows of a chunk, with commas; each value of a parameter is written out once."""
     axes = [
         _texts(p.values[cut], nothing) for p, cut in zip(sweep.parameters, chunk.box, strict=True)
     ]

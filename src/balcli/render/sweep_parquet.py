@@ -35,7 +35,9 @@ def write_sweep_parquet(sweep: Sweep, rows: Iterable[list[Array]], place: Path) 
         from pyarrow import parquet
     except ImportError:
         raise BalcliError(NO_PYARROW) from None
-    units = {quantity.name: {"unit": quantity.unit} for quantity in sweep.quantities}
+    named = [(p.path, p.unit) for p in sweep.parameters]
+    named += [(quantity.name, quantity.unit) for quantity in sweep.quantities]
+    units = {name: {"unit": unit} for name, unit in named}
     schema = pyarrow.schema(
         [
             pyarrow.field(name, pyarrow.float64(), metadata=units.get(name))

@@ -1,6 +1,4 @@
-"""Variants of a sweep as a table that people read: few of them whole, of many the first and the
-last.
-"""
+"""Variants of a sweep as a table: few of them whole, of many the first and the last."""
 
 from __future__ import annotations
 

@@ -14,9 +14,7 @@ COLUMNS = ("name", "title", "source", "errata")
 
 
 def sheet(tables: Sequence[Table], _system: System) -> Sheet:
-    """A table a row, and what to ask next; then where they were printed, by the
-    first word of their names.
-    """
+    """A table a row, and what to ask next; where they were printed, by their names' first word."""
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
     errata = sum(len(t.errata) for t in tables)
     note = f"{errata} errata; balcli tables NAME shows a table, --errata lists them"

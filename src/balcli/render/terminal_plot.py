@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.phasors import Complex, Phasors
 from ..results.analysis import Analysis
-from .sheet import NEGLIGIBLE, NOTHING, Text, capitalized, number, order_name, size_text
+from .sheet import NEGLIGIBLE, Text, capitalized, number, order_name, size_text, small_text
 from .units import ShownUnit, System
 from .view import VISIBLE
 
@@ -28,8 +28,7 @@ def sketches(result: Analysis, system: System) -> Iterator[Text]:
     for kind, phasors, unit in computed:
         least = NEGLIGIBLE * result.of_one_cylinder[kind.name]
         if (largest := _find_largest(phasors)) < least:
-            told = f"negligible ({size_text(largest, unit, 2)})" if largest else NOTHING
-            yield Text(capitalized(kind.label), (told,))
+            yield Text(capitalized(kind.label), (small_text(largest, unit),))
         else:
             shown.append((kind, phasors, unit))
     for kind, phasors, unit in shown:

@@ -1,6 +1,4 @@
-"""Torque on the crank for a terminal: as `render.torque`, and the curve over the cycle in Braille
-dots.
-"""
+"""Torque on the crank for a terminal: as `render.torque`, and its curve in Braille dots."""
 
 from __future__ import annotations
 

@@ -106,9 +106,7 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
 
 
 def _tell_other_speed(first: Engine, second: Engine) -> str:
-    """That the second engine's own speed, or its unevenness, does not count, where it is another
-    one.
-    """
+    """That the second engine's own speed, or its unevenness, does not count where it is another."""
     slower = second.speed_rpm != first.speed_rpm and not is_speed_assumed(second)
     other = slower or second.ripple not in ((), first.ripple)
     return "; what the second's file says of its speed does not count" if other else ""

@@ -1,6 +1,4 @@
-"""Engine -> Analysis: free forces and moments by order, peaks and sizing, computing only what was
-asked.
-"""
+"""Engine -> Analysis: forces and moments by order, peaks, sizing, as far as they are asked."""
 
 from __future__ import annotations
 
@@ -96,9 +94,7 @@ class Analysis(Result):
 
     @property
     def moments_known(self) -> bool:
-        """Whether the engine file says where the throws stand; else moments are of coincident
-        ones.
-        """
+        """Whether the file says where the throws stand; else moments are of coincident ones."""
         return self.engine.places_known
 
     @property

@@ -1,6 +1,4 @@
-"""Knuckle angles that make the strokes, or the dead centres, of an engine with articulated rods
-even.
-"""
+"""Knuckle angles that make strokes, or dead centres, of articulated rods even."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""Two engines on one frame, geared one to one (H, U and opposed-piston engines): their phasors
-added.
-"""
+"""Two engines on one frame, geared one to one (H, U, opposed-piston): phasors added."""
 
 from __future__ import annotations
 

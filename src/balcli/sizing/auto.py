@@ -1,6 +1,4 @@
-"""The default remedy: the fewest weights and shafts that leave no free force or moment of orders 1
-and 2.
-"""
+"""The default remedy: fewest weights and shafts that leave nothing free of orders 1 and 2."""
 
 from __future__ import annotations
 

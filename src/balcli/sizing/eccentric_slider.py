@@ -214,9 +214,7 @@ def _exchange(values: Array, slopes: Array) -> Array:
 
 
 def _minimise_mean(design: str, engine: Array, x: Array) -> Array:
-    """Newton's method on the gradient of the integral of |P|, which the zeros of P give in closed
-    form.
-    """
+    """Newton's method on the gradient of the integral of |P|, in closed form by the zeros of P."""
 
     def find_gradient(x: Array) -> Array:
         remaining = _find_remaining(design, engine, x)

@@ -102,7 +102,5 @@ def _as_degrees(theta: ArrayLike) -> tuple[float, ...]:
 
 
 def _find_gain(circle: enclosing_circle.Circle, half: float) -> float:
-    """The share by which the circle is smaller than the force `half`; 0 where they differ by
-    rounding.
-    """
+    """By which share the circle is smaller than the force `half`; 0 where only rounding differs."""
     return 1 - circle.radius / half if abs(half - circle.radius) > circle.noise else 0.0

@@ -47,9 +47,7 @@ def locate_force(residual: Residual, sense: int) -> float:
 
 
 def find_single_plane(residual: Residual, sense: int, within: tuple[float, float]) -> float | None:
-    """z at which one device takes force and moment together; None if there is none within these
-    bounds (m).
-    """
+    """z at which one device takes force and moment; None: nowhere within these bounds (m)."""
     if residual.force(sense) == 0:
         return None
     low, high = within
@@ -62,9 +60,7 @@ def find_single_plane(residual: Residual, sense: int, within: tuple[float, float
 
 
 def takes_moment(residual: Residual, sense: int, z: float) -> bool:
-    """Whether one device at z (m) that takes the force turning in this sense takes its moment,
-    too.
-    """
+    """Whether a device at z (m) that takes the force turning in this sense takes its moment."""
     left = residual.moment(sense) - (z - residual.reference.z) * residual.force(sense)
     return abs(left) <= residual.noise[ResidualPart("moment", sense)]
 

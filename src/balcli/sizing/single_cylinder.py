@@ -59,9 +59,7 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _make_shafts(engine: Engine, fitted: Optimum) -> tuple[Device, ...]:
-    """Both shafts together: a device for each order of their motion, which shakes along the
-    cylinder axis.
-    """
+    """Both shafts: a device for each order of their motion, which shakes along the cylinder."""
     mass, radius = _find_piston(engine)
     axis = complex(unit(float(engine.cylinders.axis_deg[0])))
     z = float(engine.cylinders.z[0])

@@ -45,9 +45,7 @@ class Tolerances:
 
 
 class Source(NamedTuple):
-    """One thing that deviates: what, of which cylinder or throw (counted from 1), and by how
-    much.
-    """
+    """One thing that deviates: what, of which cylinder or throw (from 1), and by how much."""
 
     what: What
     number: int

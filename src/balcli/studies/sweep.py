@@ -176,9 +176,7 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
 def plan_sweep(
     model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
 ) -> Sweep:
-    """The sweep of an engine file; `name` is that of the file in messages, all else as of
-    `read_sweep`.
-    """
+    """The sweep of an engine file; `name`: of the file, in messages; else as of `read_sweep`."""
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")

@@ -1,6 +1,4 @@
-"""How free forces and moments spread when masses, rod lengths and throw angles vary within
-tolerances.
-"""
+"""How forces and moments spread when masses, rod lengths and throw angles vary."""
 
 from __future__ import annotations
 

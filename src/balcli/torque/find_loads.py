@@ -76,9 +76,7 @@ def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
 def _measure(
     engine: Engine, vectors: Vectors, names: Iterable[int], places: Array, area: float | None
 ) -> Iterator[CycleLoad]:
-    """Largest and mean size of each vector over the cycle; 0 where it is rounding error beside the
-    others.
-    """
+    """Largest and mean size of each vector over the cycle; 0 where it is rounding beside others."""
 
     def compute(angles: Array) -> Complex:
         return compute_in_pieces(engine, vectors, angles)

@@ -100,9 +100,7 @@ def _join_throws(torsion: Torsion, front: int, throws: int) -> Iterator[PlannedS
 
 
 def _lead_shafts(torsion: Torsion, names: Sequence[str], throws: int) -> Iterator[PlannedShaft]:
-    """Shaft of every part, front ones first, from what it hangs on; its stiffness counts in its
-    own speed.
-    """
+    """Shaft of every part, front ones first, from what it hangs on, stiff in its own speed."""
     joints = _join_parts(torsion, throws)
     gears = _find_gears(joints, throws)
     for _, part, of in joints:

@@ -95,9 +95,7 @@ def size_damper(
     tried = count(1)
 
     def judge(damper: Damper | None) -> float:
-        """Largest stress or torque of the shafts that are there without it, between the speeds,
-        too.
-        """
+        """Largest stress or torque of the shafts there without it, between the speeds, too."""
         system = build(damper)
         shafts = [system.shafts.index(name) for name in bare.shafts]
         tell(next(tried) / _RESPONSES)

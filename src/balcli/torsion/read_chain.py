@@ -1,6 +1,4 @@
-"""A chain file -> model: every mistake at once, each by its path in the file and with what would be
-right.
-"""
+"""A chain file -> model: every mistake at once, by its path and with what would be right."""
 
 from __future__ import annotations
 

@@ -249,7 +249,7 @@ def _even(second: float, throws: list[float], interval: float) -> bool:
 def test_uneven_throws_fire_evenly_at_no_angle() -> None:
     file = vee(throws=[0, 100, 190])
     for over in PATHS:
-        with pytest.raises(BalcliError, match="fires evenly"):
+        with pytest.raises(BalcliError, match="can keep these limits and fire evenly"):
             search_arrangements(file, over, parse_objective("moment.1.major"), even_firing=True)
 
 

@@ -142,7 +142,7 @@ def test_limits_are_kept() -> None:
     ).results
     assert free[0].design != kept[0].design
     assert kept[0].figures["moment.2.major"] < 1
-    with pytest.raises(BalcliError, match="no throws keeps these limits"):
+    with pytest.raises(BalcliError, match="no throws can keep these limits"):
         search_arrangements(
             file, "throws", parse_objective("moment.1.major", ["force.4.major<1e-9"])
         )

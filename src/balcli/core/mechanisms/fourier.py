@@ -58,9 +58,7 @@ NONE = Series(np.zeros((1, 1)))  # what is left out
 
 
 class Curve(NamedTuple):
-    """What unit mass does on a closed curve z(psi) (complex, in crank radii, x along the cylinder's
-    axis).
-    """
+    """What unit mass does on a closed curve z(psi) (complex, crank radii, x along the cylinder)."""
 
     along: Series  # -Re z''
     across: Series  # -Im z''

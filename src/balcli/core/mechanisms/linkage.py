@@ -100,9 +100,7 @@ class Linkage(ABC):
         )
 
     def count_all_samples(self, lam: Array, eps: Array) -> tuple[int, int]:
-        """How many mechanisms differ, and about how many samples of a revolution they take
-        together.
-        """
+        """How many mechanisms differ, and about how many samples of a revolution all take."""
         few = self.find_distinct(lam, eps)
         figures = [values[:, None] for values in few.figures]
         step = max(_AT_ONCE // len(figures[0]), 1)

@@ -68,9 +68,7 @@ def displacement(order: int, power: int) -> Series:
 
 
 def velocity(order: int, power: int) -> Series:
-    """Coefficients of the velocity v/(r omega) = sum sin n psi, positive away from top dead
-    centre.
-    """
+    """Coefficients of the velocity v/(r omega) = sum sin n psi, positive away from the top."""
     return _scaled(from_shaft(order, power), order)
 
 

@@ -177,16 +177,12 @@ def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
 
 
 def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Piston velocity v/(r omega) = sin(psi + beta)/cos beta, positive away from top dead
-    centre.
-    """
+    """Piston velocity v/(r omega) = sin(psi + beta)/cos beta, positive away from the top."""
     return -SliderCrank(psi, lam, eps).velocity
 
 
 def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Piston acceleration j/(r omega^2), positive towards the crankshaft (as near top dead
-    centre).
-    """
+    """Piston acceleration j/(r omega^2), positive towards the crankshaft (as near the top)."""
     return -SliderCrank(psi, lam, eps).acceleration
 
 
@@ -258,9 +254,7 @@ def _top(lam: Array, eps: Array) -> tuple[Array, Array]:
 
 
 def _bisect(falling: Callable[[Array], Array], low: Array, high: Array) -> Array:
-    """Root of a function that is positive at `low` and not at `high`, halved down to neighbouring
-    numbers.
-    """
+    """Root of a function, positive at `low` and not at `high`, between neighbouring numbers."""
     for _ in range(60):
         middle = (low + high) / 2
         positive = falling(middle) > 0

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Array, Phasors
+from ..order_tables import fit_largest
 from ..sheet import number, order_name
 from ..units import ShownUnit
 from ..view import VISIBLE
@@ -26,7 +27,7 @@ def draw_vector_bars(
     it the part against; dashed what there was before.
     """
     shown = visible_rows(curve, before)
-    s = unit.fit(max([float(p.major.max(initial=0)) for p in (curve, before) if p is not None]))
+    s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
     ahead = np.abs(curve.forward[shown]) / s.size
     against = np.abs(curve.backward[shown]) / s.size
     places = np.arange(len(shown))
@@ -42,7 +43,7 @@ def draw_vector_bars(
 def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -> None:
     """Draw the amplitudes of several scalars, side by side."""
     shown = sorted({k for curve in curves.values() for k in visible_rows(curve)})
-    s = unit.fit(max(float(c.major.max(initial=0)) for c in curves.values()))
+    s = fit_largest(unit, *curves.values())
     for (label, curve), look, shift in zip(curves.items(), LOOKS, (-0.27, 0, 0.27), strict=False):
         ax.bar(
             np.arange(len(shown)) + shift,

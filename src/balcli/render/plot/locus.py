@@ -60,9 +60,7 @@ def draw_locus(
 
 
 def _values_once(curve: Phasors) -> Complex:
-    """Values along the locus, no part of it twice: dashes drawn over one another would make a full
-    line.
-    """
+    """Values along the locus, no part twice: dashes over one another would make a full line."""
     return curve.values(np.radians(np.arange(find_period_deg(curve) + 1)))
 
 
@@ -72,7 +70,9 @@ def _mark_crank_angles(ax: Axes, curve: Phasors, s: ShownUnit, limit: float) -> 
     """
     period = find_period_deg(curve)
     marks = np.arange(12) * period / 12
-    at, along = curve.values(np.radians(marks)), curve.derivative.values(np.radians(marks))
+    n = curve.orders
+    slope = Phasors.of(n, 1j * n * curve.forward, -1j * n * curve.backward, n * curve.noise)
+    at, along = curve.values(np.radians(marks)), slope.values(np.radians(marks))
     ax.plot(at.imag / s.size, at.real / s.size, "o", color=BLUE, markersize=2.6)
     side = -1 if _turning(curve) >= 0 else 1  # left or right of the way, in x up and y right
     written: list[complex] = []

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.singular_values import Real
+from ...engine.arrays import find_first_largest
 from ...mounting.modes import BodyMode
 from ...mounting.report import MountReport
 from ...mounting.response import MountingResponse
@@ -92,7 +93,7 @@ def _draw_curves(
 
 def _draw_meetings(ax: Axes, result: MountReport, response: MountingResponse) -> None:
     """Orders over speed, as wide as the force of the mount that feels most; modes lie across."""
-    hardest = int(np.argmax([worst.value for worst in response.worst_force]))
+    hardest = int(find_first_largest([worst.value for worst in response.worst_force]))
     force = response.force[:, :, hardest]
     largest = force.max() or 1.0
     rpm = response.speeds_rpm
@@ -133,9 +134,7 @@ def _name_modes(frequencies: Sequence[float], least: float) -> list[tuple[str, f
 
 
 def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
-    """A block of the body's mass and inertia at rest and at the end of its swing, with its
-    mounts.
-    """
+    """A block of the body's mass and inertia, at rest and at its swing's end, with its mounts."""
     body = result.mounted.body
     corners = find_corners(body)
     turned = mode.shape[:3] + np.cross(mode.shape[3:], corners)

@@ -16,7 +16,7 @@ from ...studies.pictures import Study
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
 from ..bobweights import percent
 from ..engine_facts import tell_pivot
-from ..sheet import NAMELESS, NEGLIGIBLE, NOTHING, size_text
+from ..sheet import NAMELESS, NEGLIGIBLE, size_text, small_text
 from ..units import SI, ShownUnit, System
 from .along_crankshaft import draw_along
 from .axes import divide_cycle
@@ -65,9 +65,7 @@ class PageSubject:
         return self.now.spectra[quantity], None if before is None else before.spectra[quantity]
 
     def find_largest(self, quantity: str) -> float:
-        """The largest value over a revolution, with devices and without, SI; quantity is one of
-        PICTURED.
-        """
+        """The largest over a revolution, with devices and without, SI; quantity one of PICTURED."""
         kinds = _ABOUT.get(quantity, (quantity,))
         curves = [p for kind in kinds for p in self.phasors(kind) if p is not None]
         return float(max(np.abs(p.values(divide_cycle(p))).max(initial=0) for p in curves))
@@ -213,9 +211,7 @@ def _lay_out_bank(fig: Figure, subject: PageSubject) -> None:
 
 
 def _lay_out_inner(fig: Figure, subject: PageSubject) -> None:
-    """Along the crankshaft: shear, bending and bearings; with gas bending of shaft and block, and
-    bearings.
-    """
+    """Shear, bending and bearings along the crankshaft; with gas bending of both, and bearings."""
     bent, system = subject.study.bent, subject.system
     if gas := [inner.with_gas for inner in bent if inner.with_gas is not None]:
         over = "the cycle"
@@ -272,11 +268,9 @@ def _find_words(subject: PageSubject, quantity: str) -> str:
     if subject.is_unknown(quantity):
         return "not known:\ncrank.spacing is missing"
     largest = subject.find_largest(quantity)
-    if not largest:
-        return NOTHING
     kind = ROLL.name if quantity in _ABOUT else quantity
-    if largest < NEGLIGIBLE * subject.now.of_one_cylinder[kind]:
-        return f"negligible ({size_text(largest, subject.unit(kind), 2)})"
+    if not largest or largest < NEGLIGIBLE * subject.now.of_one_cylinder[kind]:
+        return small_text(largest, subject.unit(kind))
     return ""
 
 

@@ -197,9 +197,7 @@ def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
 def _draw_waterfall(
     ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> None:
-    """Torque of the shaft with the largest: every order a stream up the speeds, as wide as it is
-    large.
-    """
+    """Torque of the shaft with the largest: each order a stream up the speeds, as wide as large."""
     worst = response.worst
     shaft = int(np.argmax(worst.torque))
     rpm, amplitudes = _put_in(

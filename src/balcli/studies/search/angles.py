@@ -145,9 +145,7 @@ def _find_edges(curve: Curve, limit: float, nodes: Array, span: Span) -> Array:
 
 
 def _round_off(curve: Curve, x: Array, farthest: float, slack: float) -> Array:
-    """The same angles, or rounder ones, not farther than that, that are as good but for the
-    slack.
-    """
+    """The same angles, or rounder ones, no farther than that, as good but for the slack."""
     found, enough = x, curve(x) + slack
     for grain in reversed(ROUND):
         rounder = np.round(found / grain) * grain

@@ -119,9 +119,7 @@ def evaluate_candidates(
 def rank_candidates(
     model: EngineFile, candidates: Candidates, objective: Objective[Quantity]
 ) -> Iterator[Found]:
-    """Candidates that keep the limits, with their figures, computed anew for the whole engine, best
-    first.
-    """
+    """Candidates that keep the limits, best first, with figures of the whole engine anew."""
     count = len(next(iter(candidates.values())))
     if not count:
         return

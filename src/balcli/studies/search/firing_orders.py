@@ -109,9 +109,7 @@ class Slots:
         return [half_turns * k % (2 * len(self.cells)) for k in range(len(self.cells))]
 
     def _find_slot(self, cell: Cell, throw: float) -> int:
-        """Where the crank stands when this cylinder is at top dead centre; -1 if nothing fires
-        there.
-        """
+        """Where the crank stands when this cylinder is at the top; -1 if nothing fires there."""
         grain = 180.0 / len(self.cells)
         ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
         nearest = round(ready / grain)

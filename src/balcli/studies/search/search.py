@@ -156,9 +156,9 @@ def search_arrangements(
         candidates = _SEARCHES[what](Task(model, sums, count, even_firing, locked, tell))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
-        also = " and fires evenly" if even_firing else ""
+        also = " and fire evenly" if even_firing else ""
         named = key if is_number else key.replace("_", " ")
-        raise BalcliError(f"no {named} keeps these limits{also}")
+        raise BalcliError(f"no {named} can keep these limits{also}")
     orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
     scale = find_textbook_units(engine, orders)
     return Search(model, key, objective, found, scale, locked, ends, constant, refused)

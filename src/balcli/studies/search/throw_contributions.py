@@ -1,6 +1,4 @@
-"""Forces and moments as sums over the throws: what each throw contributes at each angle that it may
-take.
-"""
+"""Forces and moments as sums over the throws: what each contributes at each angle it may take."""
 
 from __future__ import annotations
 

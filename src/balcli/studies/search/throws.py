@@ -187,9 +187,7 @@ class _Tree:
         return np.insert(self._places.levels[rows], self._places.fixed, 0.0, axis=1)
 
     def _add(self, rows: Arrangements) -> dict[Key, tuple[Complex, Complex]]:
-        """Forward and backward vectors of cranks that begin with these rows, shape (candidates,)
-        each.
-        """
+        """Forward and backward vectors of cranks that begin with these rows, (candidates,) each."""
         sums = {}
         for key, own in self._table.items():
             ahead, astern = own.add_throws(self._places.free[: rows.shape[1]], rows)
