@@ -952,6 +952,30 @@ main()
 
 
 @unix
+def test_processes_begun_meanwhile_never_hear_of_ctrl_c():
+    """This one does, afterwards; the first process of `multiprocessing` is no exception."""
+    code = """
+import os, signal, sys, time
+from multiprocessing import get_context
+from balcli.process import ctrl_c_later, end_on_signals
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    end_on_signals()
+    with ctrl_c_later():
+        begun = get_context("spawn").Process(target=time.sleep, args=(0.5,))
+        begun.start()
+        os.kill(begun.pid, signal.SIGINT)
+        os.kill(os.getpid(), signal.SIGINT)
+        begun.join()
+        print(begun.exitcode, flush=True)
+    print("still here")
+"""
+    done = run_python("-c", code)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "0\n", "")
+
+
+@unix
 def test_a_hangup_that_was_ignored_stays_ignored():
     code = (
         "import os, signal; signal.signal(signal.SIGHUP, signal.SIG_IGN);"
@@ -966,6 +990,31 @@ FAULT = (
     "is to be trusted: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "
     "where it is)\n"
 )
+
+
+GONE = """
+import os, sys
+os.mkdir(sys.argv[1]); os.chdir(sys.argv[1]); os.rmdir(sys.argv.pop(1))
+from balcli.__main__ import main; main()
+"""
+
+
+@unix
+def test_a_working_folder_that_is_gone_is_told_as_such(tmp_path):
+    done = run_python("-c", GONE, tmp_path / "gone", "report", I4, "-o", "r.html")
+    said = "balcli: working folder: No such file or directory\n"
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", said)
+
+
+def test_what_a_library_tells_of_the_system_is_told_as_it_is():
+    """Matplotlib without a folder to write to; it has no number of the system's, and no file."""
+    code = (
+        "def refuse(**_): raise OSError('a writable cache directory is needed')\n"
+        "import balcli.cli; balcli.cli.app = refuse; from balcli.__main__ import main; main()"
+    )
+    done = run_python("-c", code)
+    said = "balcli: a writable cache directory is needed\n"
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", said)
 
 
 @unix

@@ -6,6 +6,7 @@ Only the module of the command that is called is imported; what a command does i
 
 from __future__ import annotations
 
+import errno
 import re
 import sys
 import time
@@ -295,9 +296,14 @@ def _run() -> Any:
     return status
 
 
+# What fails where an error of the system names no file; None: somebody has told it in words.
+_UNNAMED = {errno.ENOENT: "working folder", errno.EAGAIN: "", None: ""}
+
+
 def _tell_what_the_system_lacks(error: OSError | MemoryError | UnicodeEncodeError) -> str:
-    if isinstance(error, OSError):  # of what typer prints itself, such as help
-        return f"{error.filename or 'standard output'}: {error.strerror or error}"
+    if isinstance(error, OSError):
+        named = error.filename or _UNNAMED.get(error.errno, "standard output")  # such as of help
+        return ": ".join(filter(None, (named, error.strerror or str(error))))
     if isinstance(error, MemoryError):
         return f"there is not enough memory for this{f' ({error})' if str(error) else ''}"
     return f"{error.object}: no file can have this name here ({error})"  # text goes out in UTF-8

@@ -10,8 +10,8 @@ import errno
 import os
 import signal
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 
 started_with = dict(os.environ)  # before this program sets what makes its own start quick
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # as <malloc.h> has them
@@ -39,6 +39,24 @@ def _end(number: int, _frame: object) -> None:
         with suppress(OSError):  # past `sys.stderr`, which may be in the middle of a line
             os.write(2, last_words[-1]().encode())
     os._exit(128 + number)
+
+
+@contextmanager
+def ctrl_c_later() -> Iterator[None]:
+    """Ctrl-C is heeded afterwards; processes and threads that are begun here never hear of it (a
+    terminal sends it to all, and a Python that just starts says so at length).
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    from multiprocessing import resource_tracker  # for few
+
+    resource_tracker.ensure_running()  # else that, with the first process, lets Ctrl-C through
+    usual = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, usual)
 
 
 def discard(path: str) -> None:

@@ -197,3 +197,18 @@ def test_a_place_that_is_named_twice_is_asked_back():
 def test_a_guide_height_where_no_guides_are_asked_for(asked, doubted):
     status, _, err = run_here("analyze", ENGINES / "i4.toml", "--guide-height", "300", *asked)
     assert (status, err.startswith("warning: --guide-height changes")) == (0, doubted)
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--planes=-0.2,0.2"], '--planes "-0.2,0.2": bare lengths are mm; metres are said as in "0.2 m"'),
+        (["--radius", "0.08"], '--radius "0.08": bare lengths are mm; metres are said as in "0.08 m"'),
+        (["--planes=-0.2 m,0.2 m", "--radius", "0.08 m"], ""),
+        (["--planes=0,0.5,100"], ""),
+    ],
+)  # fmt: skip
+def test_bare_metres_are_asked_back(options, told):
+    result = run_here("balance", ENGINES / "i4.toml", "--factor", "50%", *options)
+    assert result.status == 0
+    assert result.err == (f"warning: {told}\n" if told else "")

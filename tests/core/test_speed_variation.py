@@ -175,3 +175,17 @@ def test_a_shaft_stalls_where_it_is_slowest():
     )
     barely = stalled.value.least * (1 + 1e-9)
     assert speed_variation(TORQUE, 0.5, barely).lowest.value < 0.01 * barely
+
+
+def test_of_an_inertia_that_nearly_vanishes_rounding_errors_are_not_resolved():
+    """I = a + sin^2 and no torque: the mean of I^-1/2 is 1 over the arithmetic-geometric mean of
+    its extremes. As it is written here, its rounding errors are a thousand times those of its
+    least value, and half a million panels did not show them (6 s).
+    """
+    a = 1e-6
+    free = resolved(lambda angle: 0 * angle, [0, TURN])
+    found = speed_variation(free, lambda angle: (2 + a - np.cos(angle) ** 2) - 1, MEAN)
+    low, high = np.sqrt(a), np.sqrt(1 + a)
+    exact = float(mp.agm(low, high)) * (1 / low - 1 / high)
+    assert found.fluctuation == pytest.approx(exact, rel=1e-6)
+    assert len(found.speed.breaks) < 20_000

@@ -84,6 +84,20 @@ def test_the_sheet_says_what_the_frame_feels(four):
     assert re.search(r"^lever +", out, re.M)
 
 
+def test_mounts_that_travel_farther_than_any_are_doubted(tmp_path):
+    """At least as far as the force presses the stiffest of the springs."""
+    path = tmp_path / "undamped.toml"
+    path.write_text(ENGINE + block("loss = 0.0001"), encoding="utf-8")
+    found = run_here("mounts", path, "--speeds", "200:3000:50", "-f", "json")
+    worst = [mount["worst"] for mount in json.loads(found.out)["response"]["mounts"]]
+    force, rpm = max((each["force_N"], each["speed_rpm"]) for each in worst)
+    assert found.err == (
+        f"warning: {path}: the mount 2 would travel by {force / 400:.3g} mm or more at {rpm:.4g} "
+        "rpm, where stops hold others at 10 to 20; are loss and damping right, and does it run at "
+        "that speed, or pass it?\n"
+    )
+
+
 def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
     """The nearest mode was named: lengthways, in which nothing drives this body."""
     places = [(y, z) for y in (300, -300) for z in (300, -300)]

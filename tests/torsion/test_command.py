@@ -315,6 +315,36 @@ def test_loss_factors_of_a_chain_in_percent_are_doubted():
     ]
 
 
+@pytest.mark.parametrize("diameter", ["", "diameter = 60"])
+def test_what_no_shaft_outlasts_is_doubted(diameter):
+    """At resonance 100 N m are magnified by the inverse of the loss, 1e-4: 1 MN m, on 1e4 N m/rad
+    100 rad; with 60 mm 23.6 kN/mm2.
+    """
+    text = f"""
+        fixed = ["wall"]
+        node = [{{ name = "disc", inertia = 1e6 }}, {{ name = "wall" }}]
+        [[shaft]]
+        from = "disc"
+        to = "wall"
+        stiffness = 1e4
+        loss = LOSS
+        {diameter}
+        [[excitation]]
+        node = "disc"
+        order = 1
+        cos = 100
+        """
+    options = ("torsion", "-", "--speeds", "900:1000:1")
+    what = f"disc would swing by {np.degrees(100):.4g} deg at 954.93 rpm, which no shaft outlasts"
+    if diameter:
+        stress = 16 * 1e6 / (np.pi * 0.06**3) / 1e6
+        what = f"disc-wall would bear {stress:.4g} N/mm2 at 954.93 rpm, which no steel does"
+    found = run_here(*options, stdin=text.replace("LOSS", "1e-4"))
+    why = "is the damping (loss, damping) of all that twists right?"
+    assert found.err == f"warning: standard input: {what}; {why}\n"
+    assert run_here(*options, stdin=text.replace("LOSS", "0.05")).err == ""
+
+
 def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
     """Tuned, they hold 300 N m with 2 kg: m R (R + L) W^2 for each rad, 92 deg at 1500 rpm; five
     times as many swing by 18 deg.
@@ -649,3 +679,28 @@ def test_a_barred_speed_that_is_the_file_s_own_is_named(speed, told):
     )
     out = run_here("torsion", "-", "--speeds", "2000:2300:50", stdin=text).out
     assert re.search(r"\nbarred speeds  2086 to 2268\.4 rpm(.*)\n", out)[1] == told
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        (
+            "inertia = 950000",
+            "inertia = 0.95",
+            "node.2.inertia of 'flywheel' is 0.95 kg mm^2; is it in kg mm^2? Another unit is said as "
+            'in "0.95 kg m^2"',
+        ),
+        (
+            "diameter = 45 ",
+            "diameter = 0.045 ",
+            'shaft.2.diameter is 0.045 mm; is it in mm? Another unit is said as in "0.045 m"',
+        ),
+        ("inertia = 950000", 'inertia = "0.95 kg m^2"', ""),
+    ],
+)
+def test_chains_in_metres_are_asked_back(old, new, told):
+    text = read_starting_file()
+    assert old in text
+    result = run_here("torsion", "-", stdin=text.replace(old, new))
+    assert result.status == 0
+    assert result.err == (f"warning: standard input: {told}\n" if told else "")

@@ -241,7 +241,7 @@ def test_a_peak_beside_its_resonance_is_found():
         [0.038, 0.447, 8.2, 1.63]
     )
     dynamic[:, 0, 0] += 4.5j * w - w**2 * 0.11 / (1 + 1j * w * 0.11 / 3.3)
-    angle = np.linalg.solve(dynamic, np.array([[80.0], [0], [0], [0]]))[:, :, 0]
+    angle = np.linalg.solve(dynamic, np.array([[[80.0], [0], [0], [0]]]))[:, :, 0]
     torque = np.abs(stiffness[0] * (angle[:, 0] - angle[:, 1]))
     worst = analyze_torsion(text, np.linspace(1400, 6100, 6)).response.worst
     assert worst.torque[0] == pytest.approx(torque.max(), rel=1e-7)

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 
 from ..enginefile.units import ANGLE, INERTIA, LENGTH, MASS, SPEED, Dimension, convert, wanted
-from ..errors import BalcliError
+from ..errors import BalcliError, warn
 from ..limits import LARGEST_INERTIA, LONGEST_SHOWN
 from ..render.formats import Units
 
@@ -26,7 +27,9 @@ _IMPERIAL_AND_SI = {
 
 def read_length(option: str, text: str, units: Units = Units.SI) -> float:
     """A length in m; BalcliError with the option and its text."""
-    return _read(option, text, LENGTH, units) / 1e3
+    found = _read(option, text, LENGTH, units) / 1e3
+    _doubt_metres(option, text, [_as_bare(text)])
+    return found
 
 
 def read_lengths(
@@ -52,7 +55,15 @@ def read_lengths(
     found = tuple(_read(option, part, LENGTH, units) / 1e3 for part in parts)
     if not all(map(math.isfinite, found)):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    _doubt_metres(option, text, bare)
     return found
+
+
+def _doubt_metres(option: str, text: str, bare: Sequence[float | None]) -> None:
+    """Warn where no bare length is as much as a millimetre."""
+    largest = max((abs(length) for length in bare if length is not None), default=0.0)
+    if 0 < largest < 1:
+        warn(f'{_shown(option, text)}: bare lengths are mm; metres are said as in "{largest:g} m"')
 
 
 def read_mass(option: str, text: str, units: Units = Units.SI) -> float:

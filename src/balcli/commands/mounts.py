@@ -23,6 +23,7 @@ from .speed_range import Speeds, parse_speeds
 if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..enginefile.model import EngineFile
+    from ..mounting.report import MountReport
 
 Orders = Annotated[
     str | None,
@@ -80,17 +81,24 @@ def mounts(
         result = report_mounts(
             model, engine, rpm, asked, scheme, beside, name_file(paths[0]), tell, options
         )
-    if result.response is None and any((speeds, orders, scheme, misfire)):
-        warn(
-            f"{name_file(paths[0])}: nothing shakes this body, so speeds, orders, misfires and "
-            "schemes say nothing of it: add [crank], [rod] and [piston], or name an engine file "
-            "after this one"
-        )
+    _warn(result, name_file(paths[0]), asked=any((speeds, orders, scheme, misfire)))
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import make_mounts  # brings matplotlib
 
         write_figure(make_mounts(result, drawn, SYSTEMS[units]), drawn, plot)
     show([result], renderer, form, output, units)
+
+
+def _warn(result: MountReport, file: str, *, asked: bool) -> None:
+    """What is unlikely of the answer, and where there is none to what was `asked` of an engine."""
+    from .inputs import warn_each
+
+    if asked and result.response is None:
+        warn(
+            f"{file}: nothing shakes this body, so speeds, orders, misfires and schemes say "
+            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
+        )
+    warn_each(result.list_doubts(), file)
 
 
 def _read_files(

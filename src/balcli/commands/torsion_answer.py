@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..enginefile.fields import printable
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, warn
 from ..render.formats import Units
 from ..render.plot.torsion import make_torsion
 from ..render.units import SYSTEMS
-from ..torsion.analysis import WIDE_SWING, TorsionAnalysis, TorsionQuestion, answer_question
+from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..torsion.write_damper import insert_damper
@@ -69,13 +67,7 @@ def find_answer(
         found = answer_question(source, asked, tell)
     for doubt in found.damper.doubts if found.damper is not None else ():
         warn(f"--damper: {doubt}")
-    for node, swing, rpm in found.list_wide_pendulums():
-        warn(
-            f"{name_file(path)}: the pendulums of {printable(node)} swing by "
-            f"{math.degrees(swing):.3g} deg at {rpm:.4g} rpm, and small swings are computed: at "
-            f"{math.degrees(WIDE_SWING):.0f} deg one on a circle is 0.8 % out of tune, farther out "
-            f"more; {swing / WIDE_SWING:.2g} times their mass would swing so far"
-        )
+    warn_each(found.list_doubts(), name_file(path))
     return source, found
 
 

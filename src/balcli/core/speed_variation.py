@@ -19,6 +19,7 @@ from .speeds import RPM
 
 _ROUNDS, _REFINEMENTS = 100, 8
 _ENOUGH = 1e-14  # relative, where a secant has arrived
+_FINEST = 256  # times the panels of the torque: a speed that needs more varies a hundredfold
 
 
 class StallError(ValueError):
@@ -175,7 +176,8 @@ class _Shaft:
             last, constant = constant, self.constant_for(mean_speed, panels)
             speed = self.speed(constant, panels)
             settled = abs(constant - last) <= _ENOUGH * abs(constant)
-            if settled or len(speed.breaks) == len(panels):
+            fine = len(speed.breaks) > _FINEST * len(self.energy.breaks)
+            if settled or fine or len(speed.breaks) == len(panels):
                 break
             panels = speed.breaks
         return constant, speed

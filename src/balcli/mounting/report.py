@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import NamedTuple
@@ -13,6 +13,7 @@ from ..core.singular_values import Real
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
 from ..engine.build import Engine
+from ..enginefile.fields import printable
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.orders import check_orders
@@ -24,6 +25,7 @@ from .build import MountedBody, build_mounted_body
 from .modes import BodyModes, find_mounted_modes
 from .response import BodyLoads, Meeting, MountingResponse, find_loads, find_meetings, respond
 
+TRAVEL_MOST = 0.05  # m, of a mount that vibrates
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
 
@@ -74,6 +76,27 @@ class MountReport(Result):
         if self.fitted is None:
             return self.others
         return (Other(self.fitted.remedy.scheme, self.fitted.response), *self.others)
+
+    def list_doubts(self) -> Iterator[str]:
+        """That a mount would have to travel farther than any does, in words; of the one that
+        travels most.
+        """
+        if self.response is None:
+            return
+        stiffness, loss, damping = self.mounted.dynamic[2:]
+        travels = []
+        for k, worst in enumerate(self.response.worst_force):
+            dashpot = 1j * worst.order * worst.omega * damping[k]
+            travels.append(worst.value / np.abs(stiffness[k] * (1 + 1j * loss[k]) + dashpot).max())
+        farthest = int(np.argmax(travels))
+        if travels[farthest] > TRAVEL_MOST:
+            name = printable(self.mounted.names[farthest])
+            rpm = self.response.worst_force[farthest].speed_rpm
+            yield (
+                f"the mount {name} would travel by {1e3 * travels[farthest]:.3g} mm or more at "
+                f"{rpm:.4g} rpm, where stops hold others at 10 to 20; are loss and damping right, "
+                "and does it run at that speed, or pass it?"
+            )
 
     @property
     def meetings(self) -> tuple[Meeting, ...]:

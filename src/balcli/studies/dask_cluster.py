@@ -14,7 +14,7 @@ from itertools import islice
 from typing import Any, TypeVar
 
 from ..errors import BalcliError
-from ..process import keep_freed_memory
+from ..process import ctrl_c_later, keep_freed_memory
 from .boxes import Box, BoxSize, group_boxes
 from .sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
 
@@ -42,13 +42,14 @@ def connect_cluster(address: str) -> Iterator[Any]:
         try:
             if address == "local":
                 # Its workers, when it ends, complain of the scheduler's absence.
-                own = dask.LocalCluster(
-                    threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
-                )
+                with ctrl_c_later():
+                    own = dask.LocalCluster(
+                        threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
+                    )
                 client = ends.enter_context(dask.Client(ends.enter_context(own)))
             else:
                 client = ends.enter_context(dask.Client(address, timeout=10))
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RuntimeError) as error:
             raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
         yield client
 

@@ -12,6 +12,7 @@ import numpy as np
 from ..core.holzer_table import Holzer, tabulate_holzer
 from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
+from ..enginefile.fields import printable
 from ..result import Result
 from .damper_proposal import DamperAsked
 from .damper_sizing import SizedDamper, size_damper
@@ -21,6 +22,8 @@ from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # times the file's own speed to which criticals are told: engines overspeed
+BREAKING = 1000e6  # Pa of vibratory stress: the best steel yields below
+ASTOUNDING = math.radians(45)  # engines have fractions of a degree, on soft couplings some
 WIDE_SWING = math.radians(20)  # on a circle its frequency is 0.8 % low there, by swing^2/16
 _ASTRAY = 1e-3  # of the largest angle: so far from the mode's shape a table is rounding errors
 
@@ -82,17 +85,36 @@ class TorsionAnalysis(Result):
     barred_rpm: tuple[tuple[float, float], ...] | None
     damper: SizedDamper | None = None
 
-    def list_wide_pendulums(self) -> Iterator[tuple[str, float, float]]:
-        """Pendulums that swing beyond what is small: name of their node, half swing in rad, and at
-        which speed, rpm.
+    def list_doubts(self) -> Iterator[str]:
+        """What is unlikely of the response, in words: swings beyond what is computed here, a stress
+        that breaks the shaft.
         """
         if self.response is None:
             return
-        worst = self.response.worst
-        each = zip(self.system.pendulums, worst.pendulums, worst.pendulum_rpm, strict=True)
+        worst, system = self.response.worst, self.system
+        each = zip(system.pendulums, worst.pendulums, worst.pendulum_rpm, strict=True)
         for pendulums, swing, rpm in each:
             if swing > WIDE_SWING:
-                yield self.system.nodes[pendulums.node], float(swing), float(rpm)
+                yield (
+                    f"the pendulums of {printable(system.nodes[pendulums.node])} swing by "
+                    f"{math.degrees(swing):.3g} deg at {rpm:.4g} rpm, and small swings are "
+                    f"computed: at {math.degrees(WIDE_SWING):.0f} deg one on a circle is 0.8 % out "
+                    f"of tune, farther out more; {swing / WIDE_SWING:.2g} times their mass would "
+                    "swing so far"
+                )
+        least = "is the damping (loss, damping) of all that twists right?"
+        stress = np.nan_to_num(worst.stress)
+        if stress.size and stress.max() > BREAKING:
+            shaft = int(stress.argmax())
+            yield (
+                f"{printable(system.shafts[shaft])} would bear {stress[shaft] / 1e6:.4g} N/mm2 at "
+                f"{worst.speeds_rpm[shaft]:.5g} rpm, which no steel does; {least}"
+            )
+        elif worst.free_end > ASTOUNDING:
+            yield (
+                f"{printable(system.nodes[0])} would swing by {math.degrees(worst.free_end):.4g} "
+                f"deg at {worst.swing_rpm:.5g} rpm, which no shaft outlasts; {least}"
+            )
 
     @property
     def summary(self) -> str:

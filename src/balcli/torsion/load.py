@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
@@ -23,6 +23,9 @@ from .chain_file import ChainFile, Node
 from .read_chain import describes_chain, read_chain_tables
 from .system import Excitation, TorsionalSystem
 
+_LIGHT = 1.0  # kg mm2: a steel disc of 10 mm across and 10 mm thick has 0.08
+_THIN = 1.0  # mm
+
 
 @dataclass(frozen=True)
 class ChainSource:
@@ -35,7 +38,7 @@ class ChainSource:
     @property
     def doubts(self) -> tuple[str, ...]:
         """What it says that is allowed and yet unlikely, in words."""
-        return tuple(doubt_losses(self.model.list_losses()))
+        return (*doubt_losses(self.model.list_losses()), *_doubt_units(self.model))
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what hangs together wrongly."""
@@ -91,6 +94,22 @@ class EngineSource:
             return self
         front, rear = (_put_damper(each, name, damper) for each in (torsion.front, torsion.rear))
         return replace(self, model=self.model.with_table("torsion", front=front, rear=rear))
+
+
+def _doubt_units(model: ChainFile) -> Iterator[str]:
+    """Inertias of kg m2 and diameters of m without their units, most likely."""
+    for number, node in enumerate(model.node, 1):
+        if node.inertia is not None and node.inertia < _LIGHT:
+            yield (
+                f"node.{number}.inertia of '{node.name}' is {node.inertia:.4g} kg mm^2; is it in "
+                f'kg mm^2? Another unit is said as in "{node.inertia:.4g} kg m^2"'
+            )
+    for number, shaft in enumerate(model.shaft, 1):
+        if shaft.diameter is not None and shaft.diameter < _THIN:
+            yield (
+                f"shaft.{number}.diameter is {shaft.diameter:.4g} mm; is it in mm? Another unit is "
+                f'said as in "{shaft.diameter:.4g} m"'
+            )
 
 
 Source = ChainSource | EngineSource
