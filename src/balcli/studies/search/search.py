@@ -24,7 +24,7 @@ from ...forces.orders import merge_orders
 from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
-from ..parameters import find_numbers, parse_parameter
+from ..parameters import Parameter, find_numbers, parse_parameter
 from ..quantities import AnyQuantity, choose_of_engine, refuse_unknown_of_chapters
 from .angles import Span
 from .designs import Design, Found, drop_firing_order
@@ -147,7 +147,8 @@ def search_arrangements(
     fires_at_will = model.gas is None and model.crank.throws is not None and what != "firing_order"
     base = drop_firing_order(model) if fires_at_will or what == "throws" else model
     if what is None:
-        key, ends = _read_range(model, over)
+        number = read_range(model, over)
+        key, ends = number.path, (float(number.values.min()), float(number.values.max()))
         best = _find_best(base, key, Span(*ends), objective, even_firing, tell)
         constant, refused = best.constant, best.refused
         candidates = rank_one_by_one(base, best.designs, objective, tell_nobody)
@@ -167,8 +168,8 @@ def search_arrangements(
     return Search(model, key, objective, found, scale, locked, ends, constant, refused)
 
 
-def _read_range(model: EngineFile, over: str) -> tuple[str, tuple[float, float]]:
-    """Dotted name of a number of the file and the ends of its range: `mount.left.loss=0.1:0.4`.
+def read_range(model: EngineFile, over: str) -> Parameter:
+    """A number of the file and the ends of its range: `mount.left.loss=0.1:0.4`.
 
     Raises:
         BalcliError: what is no number and range.
@@ -179,8 +180,7 @@ def _read_range(model: EngineFile, over: str) -> tuple[str, tuple[float, float]]
             f'--over "{over}": give the ends of a range, such as {path}=from:to; balcli sweep '
             "takes steps and lists"
         )
-    number = parse_parameter(f"{path}={ends.replace(':', ',')}", model)
-    return number.path, (float(number.values.min()), float(number.values.max()))
+    return parse_parameter(f"{path}={ends.replace(':', ',')}", model)
 
 
 def _list_designs(
