@@ -152,8 +152,8 @@ def _inertia(model: EngineFile) -> Iterator[str]:
     if not INERTIA_LOW <= share <= INERTIA_HIGH:
         low, high = INERTIA_LOW * mass * length**2, INERTIA_HIGH * mass * length**2
         yield (
-            f"rod.inertia is {inertia:.4g} kg mm^2, where {low:.3g} to {high:.3g} is usual for "
-            f"{mass:.4g} kg and {length:g} mm; it is taken about the centre of mass, in kg mm^2"
+            f"rod.inertia is {inertia:.4g} kg mm^2, where {_round(low)} to {_round(high)} is usual "
+            f"for {mass:.4g} kg and {length:g} mm; it is taken about the centre of mass, in kg mm^2"
         )
 
 
