@@ -7,7 +7,6 @@ from __future__ import annotations
 import re
 import sys
 import tomllib
-from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -112,33 +111,36 @@ def _explain(text: str | bytes, error: str) -> str:
     with suppress(tomllib.TOMLDecodeError):
         tomllib.loads(f"value = {value}")
         return ""  # it is something before it that is wrong
-    return next(
-        (f": {key} = {value}: {hint.format(key=key, value=value)}" for hint in _guess(value)), ""
-    )
+    hint = _guess(key, value)
+    return f": {key} = {value}: {hint}" if hint else ""
 
 
-def _guess(value: str) -> Iterator[str]:
-    """What is meant by a value without quotes, or a list of such, that TOML does not take."""
+def _guess(key: str, value: str) -> str:
+    """What is meant by a key's value without quotes, or a list of such, that TOML does not take;
+    empty if that cannot be guessed.
+    """
+    hint = ""
     if re.fullmatch(_NUMBER, value):
-        yield f"TOML writes this number {{key}} = {_write_number(value)}"
+        hint = f"TOML writes this number {key} = {_write_number(value)}"
     elif re.fullmatch(r"[+-]?\d+,\d+", value):
-        yield "write a decimal point, not a comma; a list stands in brackets, such as [{value}]"
+        hint = f"write a decimal point, not a comma; a list stands in brackets, such as [{value}]"
     elif re.fullmatch(r"[+-]?[\d.]+(\s*,\s*[+-]?[\d.]+)+,?", value):
-        yield "a list stands in brackets: {key} = [{value}]"
+        hint = f"a list stands in brackets: {key} = [{value}]"
     elif part := re.fullmatch(r"([+-]?\d{1,9})\s*/\s*([1-9]\d{0,8})", value):
-        yield f"TOML knows no fractions; write {{key}} = {int(part[1]) / int(part[2]):.6g}"
+        hint = f"TOML knows no fractions; write {key} = {int(part[1]) / int(part[2]):.6g}"
     elif re.fullmatch(r"[+-]?[\d./]+\s*[A-Za-z°%].*", value):
-        yield 'a value with a unit stands in quotes: {key} = "{value}"'
+        hint = f'a value with a unit stands in quotes: {key} = "{value}"'
     elif re.match(r"\[.*\d[\s;]+[\d.+-]", value):
         listed = ", ".join(re.findall(r"[^\s;,]+", value.strip("[]")))
-        yield f"commas stand between the values of a list: {{key}} = [{listed}]"
+        hint = f"commas stand between the values of a list: {key} = [{listed}]"
     elif re.fullmatch(rf"\[\s*{_NUMBER}(\s*,\s*{_NUMBER})*,?\s*\]", value):
         listed = ", ".join(map(_write_number, re.findall(_NUMBER, value)))
-        yield f"TOML writes these numbers {{key}} = [{listed}]"
+        hint = f"TOML writes these numbers {key} = [{listed}]"
     elif bare := re.fullmatch("[“”„«»‘’](.+)[“”«»‘’]", value):
-        yield f'quotes are straight: {{key}} = "{bare[1]}"'
+        hint = f'quotes are straight: {key} = "{bare[1]}"'
     elif re.fullmatch(r"[A-Za-z].*", value):
-        yield 'words stand in quotes: {key} = "{value}"'
+        hint = f'words stand in quotes: {key} = "{value}"'
+    return hint
 
 
 def _write_number(text: str) -> str:
