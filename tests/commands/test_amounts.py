@@ -148,6 +148,11 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
         ),
         (
             FACTOR,
+            ["--factor", "51,5%"],
+            '--factor "51,5%": decimals take a point, such as 51.5%',
+        ),
+        (
+            FACTOR,
             ["--factor", "51%%"],
             '--factor "51%%": give a share of the reciprocating mass such as 51% or 0.51, or a '
             "range such as 50%:54%:1%",

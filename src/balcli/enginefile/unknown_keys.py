@@ -37,6 +37,7 @@ SYNONYMS = {
     "phase": ("throws", "angle"),
     "phases": ("throws",),
     "bore_spacing": ("spacing",),
+    "bank": ("bank_angle",),
     "vee_angle": ("bank_angle",),
     "v_angle": ("bank_angle",),
     "angle": ("bank_angle", "throws"),
