@@ -132,7 +132,7 @@ def test_ordinary_engines_pass(text):
         (
             changed(("cg = 45", "cg = 45\ninertia = 0.0023")),
             (
-                "rod.inertia is 0.0023 kg mm^2, where 307 to 6.14e+03 is usual for 0.6 kg and 160 "
+                "rod.inertia is 0.0023 kg mm^2, where 310 to 6100 is usual for 0.6 kg and 160 "
                 "mm; it is taken about the centre of mass, in kg mm^2"
             ),
         ),
