@@ -94,11 +94,10 @@ def warn_of_unknown_moments(name: str) -> None:
     warn(f"{name}: {MOMENTS_UNKNOWN}")
 
 
-def warn_each(doubts: Iterable[str], name: str, varied: Sequence[str] = ()) -> None:
-    """Say on standard error what is doubted of this file, unless it is of a key that varies."""
+def warn_each(doubts: Iterable[str], name: str) -> None:
+    """Say on standard error what is doubted of this file."""
     for doubt in doubts:
-        if not any(key in doubt for key in varied):
-            warn(f"{name}: {doubt}")
+        warn(f"{name}: {doubt}")
 
 
 def try_each(paths: Iterable[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:

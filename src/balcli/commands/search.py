@@ -76,10 +76,12 @@ def search(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..engine.load import build_named, parse
+    from ..engine.build import build
+    from ..engine.load import parse
     from ..studies.search.objective import parse_objective
-    from ..studies.search.search import search_arrangements
+    from ..studies.search.search import read_range, search_arrangements
     from ..studies.search.write import write_design
+    from ..studies.unlikely import doubt_unvaried
     from .inputs import warn_each
 
     if require not in ("", "even-firing"):
@@ -87,7 +89,10 @@ def search(
         raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
-    warn_each(build_named(model, name).unlikely, name, varied=[over.partition("=")[0]])
+    with naming_file(name):
+        ranges = [read_range(model, over)] if "=" in over else []
+        doubts = doubt_unvaried(model, ranges, lambda variant: build(variant).unlikely)
+    warn_each((doubt for doubt in doubts if over not in doubt), name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError
+from ..errors import BalcliError, naming_file
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..process import count_cores, keep_freed_memory
@@ -29,8 +29,6 @@ from .progress import exit_if_cut_short, reporting_until_stopped
 if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep
     from .sweep_folder import Share
-
-_MOVES_DEAD_CENTRES = ("crank.throws", "crank.splay", "layout", "cylinder", "piston.offset")
 
 
 def sweep(
@@ -141,16 +139,13 @@ def _doubt(job: Sweep, quantity: str | None) -> None:
     """Say that moments are not known, where the usual quantities would have some, and what is
     unlikely of the file, unless it varies.
     """
-    from ..engine.even_order import doubt_firing_order
-    from ..enginefile.suspicious import find_suspicious
+    from ..studies.unlikely import doubt_unvaried
     from .inputs import warn_each, warn_of_unknown_moments
 
     if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
         warn_of_unknown_moments(job.name)
-    varied = [parameter.path for parameter in job.parameters]
-    warn_each(find_suspicious(job.file), job.name, varied)
-    if not any(path.startswith(_MOVES_DEAD_CENTRES) for path in varied):
-        warn_each(doubt_firing_order(job.file), job.name)
+    with naming_file(job.name):
+        warn_each(doubt_unvaried(job.file, job.parameters), job.name)
 
 
 def _choose_target(

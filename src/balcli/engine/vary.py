@@ -10,6 +10,9 @@ from ..errors import InputError, naming_file, wrong_type
 from .build import Engine, build, take_model
 from .load import parse_dict
 
+# Changes that leave it out.
+NO_FIRING_ORDER: dict[str, Any] = {"layout.firing_order": None, "layout.firing_intervals": None}
+
 
 def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
     """The engine of the same file with other values of some keys, by dotted names; errors as of
@@ -23,11 +26,10 @@ def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
     try:
         return _build(engine, changes)
     except InputError:
-        without = {"layout.firing_order": None, "layout.firing_intervals": None}
         kept = model.crank.throws is None or model.gas is not None
-        if kept or model.layout.firing_order is None or without.keys() & changes.keys():
+        if kept or model.layout.firing_order is None or NO_FIRING_ORDER.keys() & changes.keys():
             raise
-        first = without | changes
+        first = NO_FIRING_ORDER | changes
     try:
         return _build(engine, first)
     except InputError:

@@ -152,8 +152,8 @@ def _inertia(model: EngineFile) -> Iterator[str]:
     if not INERTIA_LOW <= share <= INERTIA_HIGH:
         low, high = INERTIA_LOW * mass * length**2, INERTIA_HIGH * mass * length**2
         yield (
-            f"rod.inertia is {inertia:.4g} kg mm^2, where {low:.3g} to {high:.3g} is usual for "
-            f"{mass:.4g} kg and {length:g} mm; it is taken about the centre of mass, in kg mm^2"
+            f"rod.inertia is {inertia:.4g} kg mm^2, where {_round(low)} to {_round(high)} is usual "
+            f"for {mass:.4g} kg and {length:g} mm; it is taken about the centre of mass, in kg mm^2"
         )
 
 
@@ -302,25 +302,29 @@ def _throw_inertia(torsion: Torsion, model: EngineFile) -> float:
 def _gas(model: EngineFile) -> Iterator[str]:
     if model.gas is None:
         return
-    for key, limit in (
-        ("imep", MEAN_PRESSURE),
-        ("bmep", MEAN_PRESSURE),
-        ("max_pressure", MAX_PRESSURE),
-    ):
-        value = getattr(model.gas, key)
-        if value is not None and value > limit:
-            yield (
-                f"gas.{key} is {value:.4g} bar, where at most {limit:g} is usual; is it in bar? "
-                'Another unit is said as in "130 psi" or "0.9 MPa"'
-            )
-    ranges = dict.fromkeys(("intake", "exhaust", "crankcase"), (*AROUND, " bar, absolute,"))
-    if model.gas.cycle is not None:  # a compressor, which has a diagram, leaves less clearance
-        ranges["compression_ratio"] = (*COMPRESSION, "")
-        ranges["compression_index"] = ranges["expansion_index"] = (1.0, INDEX_MOST, "")
-    for key, (low, high, unit) in ranges.items():
+    mean = 0.0, MEAN_PRESSURE, ""
+    pressures = dict.fromkeys(("intake", "exhaust", "crankcase"), (*AROUND, " absolute"))
+    pressures |= {"imep": mean, "bmep": mean, "max_pressure": (0.0, MAX_PRESSURE, "")}
+    for key, (low, high, absolute) in pressures.items():
         value = getattr(model.gas, key)
         if value is not None and not low <= value <= high:
-            yield f"gas.{key} is {value:.4g}, where {low:g} to {high:.3g}{unit} is usual"
+            usual = f"{low:g} to {high:g}" if low else f"at most {high:g}"
+            yield (
+                f"gas.{key} is {value:.4g} bar{absolute}, where {usual} is usual; is it in bar? "
+                'Another unit is said as in "130 psi" or "0.9 MPa"'
+            )
+    if model.gas.cycle is None:
+        return  # a compressor, which has a diagram, leaves less clearance
+    for key, low, high, meaning in (
+        ("compression_ratio", *COMPRESSION, "the largest volume over the smallest"),
+        ("compression_index", 1.0, INDEX_MOST, "n of p V^n = const"),
+        ("expansion_index", 1.0, INDEX_MOST, "n of p V^n = const"),
+    ):
+        value = getattr(model.gas, key)
+        if value is not None and not low <= value <= high:
+            yield (
+                f"gas.{key} is {value:.4g}, where {low:g} to {high:.3g} is usual; it is {meaning}"
+            )
 
 
 def _torsion(model: EngineFile) -> Iterator[str]:
