@@ -26,6 +26,7 @@ from support.paths import ENGINES, ROOT, SOURCE
 
 from balcli import __version__
 from balcli.cli import COMMANDS
+from balcli.commands import other_words
 from balcli.render.formats import Format
 
 I4 = str(ENGINES / "i4.toml")
@@ -77,6 +78,14 @@ def test_every_command_has_help(balcli, command):
     assert f"Usage: balcli {command}" in out
 
 
+def test_other_words_lead_to_commands_and_options_that_there_are():
+    for words in other_words.INSTEAD.values():
+        named = {*re.findall(r"balcli ([a-z]+)", words)}
+        assert named <= {*COMMANDS}
+        assert named or "--" in words
+    assert not {*other_words.INSTEAD} & {*COMMANDS}
+
+
 def usage(command: str, message: str) -> str:
     form = {"": "[OPTIONS] COMMAND [ARGS]...", "analyze": "[OPTIONS] {FILE...}..."}[command]
     name = f"balcli {command}".strip()
@@ -89,6 +98,13 @@ def usage(command: str, message: str) -> str:
         (["frobnicate"], "", "No such command 'frobnicate'."),
         (["anlyze"], "", "No such command 'anlyze'. Did you mean analyze?"),
         (["mine.toml"], "", "No such command 'mine.toml'. Did you mean balcli analyze mine.toml?"),
+        (["version"], "", "No such command 'version'. That is balcli --version."),
+        (["Flywheel"], "", "No such command 'Flywheel'. That is balcli torque FILE."),
+        (
+            ["bobweights"],
+            "",
+            "No such command 'bobweights'. That is balcli balance FILE --factor 51% --format card.",
+        ),
         (["--frob"], "", "No such option: --frob"),
         (
             ["analyze", V8, "--by", "bank"],
@@ -110,6 +126,11 @@ def test_an_option_given_twice_is_told_so(balcli, good):
     assert (status, out) == (0, once[1])
     assert err == "warning: --only is given 2 times: the last one counts\n"
     assert balcli("analyze", good, "--only", "force", "-q", "--only", "moment")[2] == ""
+    forms = ("--format", "marine", "-f", "csv")
+    assert balcli("analyze", good, *forms)[2] == ""
+    assert balcli("analyze", good, *forms, "-f", "json")[2] == (
+        "warning: --format is given 2 times: the last one counts\n"
+    )
     several = ("sweep", good, "--vary", "rod.length=150", "--vary", "crank.stroke=90")
     assert balcli(*several)[::2] == (0, "")
     assert balcli("analyze", good, "-q", "-q")[::2] == (0, "")

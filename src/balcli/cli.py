@@ -130,12 +130,9 @@ class _OnDemand(TyperGroup):
         try:
             return super().resolve_command(ctx, args)
         except typer.TyperException as error:
-            from difflib import get_close_matches
+            from .commands.other_words import suggest_command
 
-            if near := get_close_matches(args[0].lower()[:100], COMMANDS, 1):
-                error.message += f" Did you mean {near[0]}?"
-            elif args[0].lower().endswith(".toml"):
-                error.message += f" Did you mean balcli analyze {args[0]}?"
+            error.message += suggest_command(args[0], COMMANDS)
             raise
 
 

@@ -309,6 +309,43 @@ def test_units_of_radius_and_trial_weights_are_doubted():
     assert find_doubts(find_corrections(parse_runs(head(2) + far))) == []
 
 
+@pytest.mark.parametrize("known", [False, True], ids=["from trials", "influence"])
+def test_a_correction_in_the_other_sense_is_doubted(known):
+    """Angles count as phases do, but the file says the other way round: with trials at 0 that makes
+    no difference, but the correction is 8j where -8j was needed, and doubles the unbalance.
+    """
+    runs = run([8j]) + ("" if known else run([8j + 2], [("p1", 2)]))
+    runs += run([16j], [("p1", 8j)], 'name = "in"')
+    start = head(1, 'influence = [["1 @ 0"]]' if known else "")
+    (doubt,) = find_doubts(find_corrections(parse_runs('weights = "with"\n' + start + runs)))
+    assert doubt == (
+        "'in' reads 16 @ 90.0 at sensor 1, far from 0 @ 0.0, which the other runs foretell; had "
+        'angles of weights been counted the other way round, weights = "against", it would be near'
+    )
+    assert find_doubts(find_corrections(parse_runs(start + runs))) == []
+
+
+def test_a_run_far_from_what_others_foretell_is_doubted():
+    """In no sense of angles do 3 g more or less than the correction leave more than was there."""
+    runs = run([8]) + run([9], [("p1", 1)])
+    off = 'sensors = ["rear"]\n' + head(1) + runs + run([9], [("p1", -5)])
+    *_, doubt = find_doubts(find_corrections(parse_runs(off)))
+    assert doubt == (
+        "'run 3' reads 9 @ 0.0 at rear, far from 3 @ 0.0, which the other runs foretell; are its "
+        "weights where the file says, and is the machine as it was? Else leave the run out"
+    )
+    near = head(1) + runs + run([5], [("p1", -5)])
+    assert find_doubts(find_corrections(parse_runs(near))) == []
+
+
+def test_as_found_is_the_mean_of_what_was_read_without_weights():
+    """What least squares makes of it: 1 g takes their mean, 10, to 15."""
+    result = find_corrections(parse_runs(head(1) + run([9]) + run([11]) + run([15], [("p1", 1)])))
+    assert result.influence.found == pytest.approx([10], rel=1e-13)
+    assert result.influence.coefficients[0] == pytest.approx([5], rel=1e-13)
+    assert result.planes[0].total == pytest.approx(-2, rel=1e-13)
+
+
 def test_planes_that_are_nearly_alike_are_doubted():
     text = head(2, 'influence = [["1 @ 0", "1 @ 0"], ["1 @ 0", "1.1 @ 0"]]') + run([1, 2])
     (doubt,) = find_doubts(find_corrections(parse_runs(text)))

@@ -165,6 +165,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
     if found is None:
         comma = re.search(r"\d,\d", figure)
         hint = " decimals take a point, thousands no comma;" if comma else ""
+        hint += " a minus sign is a hyphen;" if re.match(r"\s*[−–]", figure) else ""
         raise ValueError(f"is not a number followed by a unit;{hint} {wanted(dimension)}")
     number, names = found
     if not names:

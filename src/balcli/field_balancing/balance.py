@@ -17,10 +17,17 @@ from ..enginefile.exclusive import join_words
 from ..enginefile.fields import counted, nearest, shorten
 from ..errors import BalcliError, InputError, Problem
 from ..result import Result
-from .influence import Influence, find_influence, has_opposite_senses
+from .influence import (
+    Influence,
+    find_influence,
+    find_senses,
+    find_surprise,
+    has_opposite_senses,
+    name_sensor,
+)
 from .model import RunsFile
 from .permitted import find_permitted_eccentricity, find_permitted_unbalance
-from .shop import Piece, find_shop, find_unbalance_per_weight
+from .shop import Piece, find_angle_deg, find_shop, find_unbalance_per_weight
 
 Minimise = Literal["squares", "max"]
 
@@ -201,7 +208,7 @@ def find_doubts(result: FieldBalance) -> list[str]:
         )
     if result.file.influence is None:
         doubts += _doubt_trials(result)
-    return [*doubts, *_doubt_units(result.file)]
+    return [*doubts, *_doubt_runs(result.file, left_out), *_doubt_units(result.file)]
 
 
 # ------------------------------------------------------------------ steps
@@ -306,6 +313,33 @@ def _doubt_trials(result: FieldBalance) -> list[str]:
                 "again, and add that run to the file"
             )
     return doubts
+
+
+def _doubt_runs(file: RunsFile, left_out: Collection[str]) -> Iterator[str]:
+    """A run that reads what no weights on this rotor, counted as the file says, could make."""
+    surprise = find_surprise(file, frozenset(left_out))
+    if surprise is None:
+        return
+    read, foretold = map(_tell_polar, (surprise.read, surprise.foretold))
+    unlike = (
+        f"'{surprise.run}' reads {read} at {name_sensor(file, surprise.sensor)}, far from "
+        f"{foretold}, which the other runs foretell"
+    )
+    if surprise.other_sense:
+        other = "with" if find_senses(file)[1] == "against" else "against"
+        yield (
+            f'{unlike}; had angles of weights been counted the other way round, weights = "{other}"'
+            ", it would be near"
+        )
+    else:
+        yield (
+            f"{unlike}; are its weights where the file says, and is the machine as it was? Else "
+            "leave the run out"
+        )
+
+
+def _tell_polar(value: complex) -> str:
+    return f"{abs(value):.4g} @ {find_angle_deg(value):.1f}"
 
 
 def _doubt_units(file: RunsFile) -> Iterator[str]:

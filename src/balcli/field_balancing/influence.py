@@ -6,6 +6,7 @@ series of runs of its own: a weight that stays on counts in the later runs at th
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ from ..errors import InputError, Problem
 from .model import RunsFile
 
 _ROUNDING = 1e-13  # share of the largest reading below which a change is none
+_UNLIKE = 0.5  # of the largest reading as found: a run so far from what was foretold has a reason
 
 
 class Influence(NamedTuple):
@@ -80,14 +82,10 @@ def find_influence(file: RunsFile, left_out: frozenset[str], name: str = "") -> 
     blocks = []
     trims: dict[int, Complex] = {}  # weights on in the last run with a correction in, by its number
     for k, (speed, runs) in enumerate(zip(speeds, series, strict=True)):
+        trial_count = 1
         if file.influence is None:
             trial_count = _count_trials(file, runs, used, speed, name)
-            coefficients, found = _fit(runs, used)
-        else:
-            trial_count = 1
-            rows = file.influence[k * sensors : (k + 1) * sensors]
-            coefficients = np.array(rows, dtype=complex)
-            found = _find_measured(runs, runs.readings[0] - coefficients @ runs.on[0])
+        coefficients, found = _find_coefficients(file, runs, used, k)
         last = len(runs.numbers) - 1
         now, on = found, np.zeros(len(file.planes), dtype=complex)
         if last >= trial_count:
@@ -106,14 +104,103 @@ def find_influence(file: RunsFile, left_out: frozenset[str], name: str = "") -> 
         found,
         now,
         now_on,
-        (file.run[trim - 1].name or f"run {trim}") if trims else "",
+        _name_run(file, trim) if trims else "",
         trims.get(trim, np.zeros(len(file.planes), dtype=complex)),
     )
 
 
+class Surprise(NamedTuple):
+    """A reading far from what the runs before it foretell.
+
+    Attributes:
+        run: name of its run. sensor: its place in the file's list.
+        read, foretold: the reading, and what was to be expected there.
+        other_sense: whether it is as foretold if angles of weights count the other way round.
+    """
+
+    run: str
+    sensor: int
+    read: complex
+    foretold: complex
+    other_sense: bool
+
+
+def find_surprise(file: RunsFile, left_out: frozenset[str]) -> Surprise | None:
+    """The reading that is farthest from what the runs needed for the coefficients (or those of the
+    file) foretell of it, by more than half of what there was as found; None if there is none.
+
+    Args: of runs from which influence was found.
+    """
+    return max(_find_surprises(file, left_out), key=_find_error, default=None)
+
+
+def _find_surprises(file: RunsFile, left_out: frozenset[str]) -> Iterator[Surprise]:
+    """The worst at every speed at which one is."""
+    used = [k for k, plane in enumerate(file.planes) if plane not in left_out]
+    for k, speed in enumerate(dict.fromkeys(run.speed for run in file.run)):
+        runs = _collect_runs(file, speed)
+        foretold, largest = _foretell(file, runs, used, k)
+        errors = np.abs(runs.readings - foretold)
+        row, sensor = np.unravel_index(int(errors.argmax()), errors.shape)
+        if errors[row, sensor] > _UNLIKE * largest:
+            turned, _ = _foretell(file, runs._replace(on=np.conj(runs.on)), used, k)
+            near = np.abs(runs.readings - turned).max() <= _UNLIKE * largest
+            yield Surprise(
+                _name_run(file, runs.numbers[row]),
+                int(sensor),
+                complex(runs.readings[row, sensor]),
+                complex(foretold[row, sensor]),
+                bool(near),
+            )
+
+
+def _find_error(surprise: Surprise) -> float:
+    return abs(surprise.read - surprise.foretold)
+
+
+def _foretell(file: RunsFile, runs: _Series, used: list[int], k: int) -> tuple[Complex, float]:
+    """Every reading at one speed, the k-th, by the coefficients that were known first, shape
+    (runs, sensors); and the largest as found.
+    """
+    first = runs
+    if file.influence is None:
+        count = _count_needed(_design(runs, used)) or len(runs.on)
+        first = _Series(runs.numbers[:count], runs.readings[:count], runs.on[:count])
+    coefficients, found = _find_coefficients(file, first, used, k)
+    foretold, largest = found + runs.on @ coefficients.T, float(np.abs(found).max())
+    return np.where(np.abs(foretold) <= _ROUNDING * largest, 0, foretold), largest
+
+
 def has_opposite_senses(file: RunsFile) -> bool:
     """Whether angles of weights count the other way round than phases of readings."""
-    return file.weights is not None and (file.weights == "with") != (file.rotation == "lead")
+    phases, weights = find_senses(file)
+    return phases != weights
+
+
+def find_senses(file: RunsFile) -> tuple[str, str]:
+    """Whether phases of readings and angles of weights count "with" or "against" rotation."""
+    phases = "against" if file.rotation == "lag" else "with"
+    return phases, file.weights or phases
+
+
+def name_sensor(file: RunsFile, sensor: int) -> str:
+    """A sensor as the file calls it, or by its number."""
+    return file.sensors[sensor] if file.sensors else f"sensor {sensor + 1}"
+
+
+def _name_run(file: RunsFile, number: int) -> str:
+    return file.run[number - 1].name or f"run {number}"
+
+
+def _find_coefficients(
+    file: RunsFile, runs: _Series, used: list[int], k: int
+) -> tuple[Complex, Complex]:
+    """Coefficients (sensors, planes) at one speed, the k-th, and its readings as found."""
+    if file.influence is None:
+        return _fit(runs, used)
+    sensors = runs.readings.shape[1]
+    coefficients = np.array(file.influence[k * sensors : (k + 1) * sensors], dtype=complex)
+    return coefficients, _find_measured(runs, runs.readings[0] - coefficients @ runs.on[0])
 
 
 def _collect_runs(file: RunsFile, speed: float | None) -> _Series:
@@ -139,10 +226,8 @@ def _count_trials(
         InputError: if not even all of them do.
     """
     design = _design(runs, used)
-    wanted = design.shape[1]
-    for count in range(1, len(design) + 1):
-        if np.linalg.matrix_rank(design[:count]) == wanted:
-            return count
+    if (count := _count_needed(design)) is not None:
+        return count
     at = "" if speed is None else f" at {speed:g} rpm"
     if bool(runs.on.any(axis=1).all()):
         problem = Problem(
@@ -164,10 +249,18 @@ def _count_trials(
         problem = Problem(
             "run",
             f"the trial weights in {join_words(names)} are never apart{at}, so what each does "
-            f"cannot be told; of {len(runs.numbers)} runs here, {wanted} that differ are needed: "
-            "one as found, and one for each plane",
+            f"cannot be told; of {len(runs.numbers)} runs here, {design.shape[1]} that differ are "
+            "needed: one as found, and one for each plane",
         )
     raise InputError([problem], name)
+
+
+def _count_needed(design: Complex) -> int | None:
+    """How many rows, from the first, have the rank of all columns; None: not even all rows do."""
+    for count in range(1, len(design) + 1):
+        if np.linalg.matrix_rank(design[:count]) == design.shape[1]:
+            return count
+    return None
 
 
 def _design(runs: _Series, used: list[int]) -> Complex:
@@ -193,6 +286,6 @@ def _fit(runs: _Series, used: list[int]) -> tuple[Complex, Complex]:
 
 
 def _find_measured(runs: _Series, fitted: Complex) -> Complex:
-    """Readings as found: those of the first run without weights, or fitted if there is none."""
-    bare = np.flatnonzero(~runs.on.any(axis=1))
-    return np.asarray(runs.readings[bare[0]]) if len(bare) else fitted
+    """Readings as found: the mean of the runs without weights, or fitted if there are none."""
+    bare = ~runs.on.any(axis=1)
+    return np.asarray(runs.readings[bare].mean(axis=0)) if bare.any() else fitted

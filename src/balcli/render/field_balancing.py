@@ -7,9 +7,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
+from ..field_balancing.influence import find_senses
 from ..field_balancing.read import is_mass
 from ..field_balancing.shop import Piece, find_angle_deg
-from .field_balancing_document import document, find_senses, name_sensor, rows
+from .field_balancing_document import document, find_sensor_name, rows
 from .sheet import Facts, Grid, Sheet, Text, degrees, number
 from .units import ShownUnit, System
 
@@ -32,7 +33,7 @@ def sheet(result: FieldBalance, system: System) -> Sheet:
 
 
 def _angles(result: FieldBalance) -> Text:
-    phases, weights = find_senses(result)
+    phases, weights = find_senses(result.file)
     same = "as phases do" if phases == weights else "the other way round than phases"
     senses = (
         f"Phases of readings {result.file.rotation}: they count {phases} rotation. Angles of "
@@ -171,7 +172,7 @@ def _permitted(result: FieldBalance, system: System) -> Grid:
 
 def find_label(result: FieldBalance, k: int) -> str:
     """Name of a reading: its sensor, and its speed where there are several."""
-    speeds, name = result.influence.speeds_rpm, name_sensor(result, k)
+    speeds, name = result.influence.speeds_rpm, find_sensor_name(result, k)
     return f"{name}, {speeds[k]:g} rpm" if len(set(speeds)) > 1 else name
 
 
@@ -214,7 +215,7 @@ def _influence(result: FieldBalance) -> Grid:
     ]
     note = (
         f"Change of a reading by 1 {result.file.weight_unit} at 0 deg in the plane; angles count "
-        f"as phases do, {find_senses(result)[0]} rotation."
+        f"as phases do, {find_senses(result.file)[0]} rotation."
     )
     if result.influence.trimmed and result.file.influence is None:
         note += " By least squares over all runs."

@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
+from ..field_balancing.influence import find_senses, name_sensor
 from ..field_balancing.shop import Piece, find_angle_deg
 from .csv import Rows, name_cell
 from .figures import clean, clean_finite
@@ -23,8 +24,8 @@ def document(result: FieldBalance) -> dict[str, Any]:
         "name": file.name,
         "unit": file.unit,
         "weight_unit": file.weight_unit,
-        "phases": find_senses(result)[0],
-        "weights": find_senses(result)[1],
+        "phases": find_senses(file)[0],
+        "weights": find_senses(file)[1],
         "minimise": result.minimise,
         "readings": [_reading(result, k) for k in range(len(result.after))],
         "influence": [
@@ -69,13 +70,15 @@ def _list_permitted(result: FieldBalance) -> Iterator[tuple[str, dict[str, Any]]
 
 def _reading(result: FieldBalance, k: int) -> dict[str, Any]:
     speed = result.influence.speeds_rpm[k]
-    return {"sensor": name_sensor(result, k), "speed_rpm": None if speed is None else clean(speed)}
+    return {
+        "sensor": find_sensor_name(result, k),
+        "speed_rpm": None if speed is None else clean(speed),
+    }
 
 
-def name_sensor(result: FieldBalance, k: int) -> str:
+def find_sensor_name(result: FieldBalance, k: int) -> str:
     """The sensor of a reading, as the file calls it or by its number."""
-    sensor = result.influence.sensors[k]
-    return result.file.sensors[sensor] if result.file.sensors else f"sensor {sensor + 1}"
+    return name_sensor(result.file, result.influence.sensors[k])
 
 
 def _figures(
@@ -169,9 +172,3 @@ def _unit_of(key: str) -> str:
 
 
 _UNITS = {"_deg": "deg", "_g_mm": "g mm", "_mm": "mm"}
-
-
-def find_senses(result: FieldBalance) -> tuple[str, str]:
-    """Whether phases of readings and angles of weights count "with" or "against" rotation."""
-    phases = "against" if result.file.rotation == "lag" else "with"
-    return phases, result.file.weights or phases

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from ...field_balancing.balance import FieldBalance, PlaneCorrection
+from ...field_balancing.influence import find_senses
 from ...field_balancing.shop import find_angle_deg
 from ..field_balancing import find_label
-from ..field_balancing_document import find_senses
 from ..sheet import number
 from .style import BLUE, GREEN, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, put_title
 
@@ -26,7 +26,7 @@ _SIZE = (11.0, 6.2)
 
 def make_field(result: FieldBalance, form: Form) -> Figure:
     """The picture, to be saved in this form."""
-    phases, weights = find_senses(result)
+    phases, weights = find_senses(result.file)
     with open_figure(*_SIZE, form) as fig:
         fig.set_layout_engine("none")
         left, right = (_add_polar(fig, place) for place in (0.06, 0.56))
