@@ -89,7 +89,8 @@ def search(
         raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
-    _doubt(model, over, name)
+    with naming_file(name):
+        _doubt(model, over, name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
@@ -103,13 +104,12 @@ def search(
 
 
 def _doubt(model: EngineFile, over: str, name: str) -> None:
-    """Say what is unlikely of the file, unless it is what is looked for."""
+    """Say what is unlikely of the file, but of what is arranged or varies."""
     from ..engine.build import build
     from ..studies.search.search import read_range
     from ..studies.unlikely import doubt_unvaried
     from .inputs import warn_each
 
-    with naming_file(name):
-        ranges = [read_range(model, over)] if "=" in over else []
-        doubts = doubt_unvaried(model, ranges, lambda variant: build(variant).unlikely)
+    ranges = [read_range(model, over)] if "=" in over else []
+    doubts = doubt_unvaried(model, ranges, lambda variant: build(variant).unlikely)
     warn_each((doubt for doubt in doubts if over not in doubt), name)
