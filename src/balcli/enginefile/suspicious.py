@@ -328,29 +328,42 @@ def _gas(model: EngineFile) -> Iterator[str]:
 
 
 def _torsion(model: EngineFile) -> Iterator[str]:
-    """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
     if model.torsion is None:
         return
     yield from doubt_losses(_list_losses(model.torsion))
     yield from _throw_stiffness(model.torsion, model)
-    throws, whole = _throw_inertia(model.torsion, model), model.crank.inertia
+    yield from _crank_inertia(model.torsion, model)
+    yield from _parts_in_water(model.torsion)
+    yield from _two_flywheels(model.torsion, model)
+
+
+def _crank_inertia(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """What `torque` takes of [crank], less than what `torsion` takes of its own table."""
+    throws, whole = _throw_inertia(torsion, model), model.crank.inertia
     if whole is not None and throws > (1 + SAME_INERTIA) * whole:
         yield (
             f"crank.inertia is {whole / 1e6:.4g} kg m^2, and all throws of torsion.throw_inertia "
             f"together have {throws / 1e6:.4g}: the whole has no less than its parts"
         )
-    parts = (*model.torsion.front, *model.torsion.rear)
-    for part in parts:
+
+
+def _parts_in_water(torsion: Torsion) -> Iterator[str]:
+    """Damping that was meant against ground."""
+    for part in (*torsion.front, *torsion.rear):
         in_water = any(word in part.name.lower() for word in ("propeller", "impeller"))
         if in_water and part.damping and not part.node_damping:
             yield (
                 f"the part '{part.name}' of [torsion]: damping is of a dashpot between the ends of "
                 "its shaft; of the part against ground, as water damps it, it is node_damping"
             )
+
+
+def _two_flywheels(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """One in [flywheel] and another in [torsion]."""
     named = [
         (part.name, part.inertia)
-        for part in parts
-        if part.inertia and "flywheel" in (part.name or "").lower()
+        for part in (*torsion.front, *torsion.rear)
+        if part.inertia and "flywheel" in part.name.lower()
     ]
     flywheel = _flywheel_inertia(model)
     if len(named) == 1 and flywheel:
