@@ -139,6 +139,7 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, which is twice the crank"),
         ({"cylinder": {"2": {"bore": 65}}}, "cylinder.2.bore: unknown key in [cylinder]; all cylinders have piston.bore; of"),
         ({"crank": {"strokes": 4}}, "crank.strokes: unknown key in [crank]; strokes belongs to [layout]"),
+        ({"gas": {"file": "p.csv"}}, "gas.file: unknown key in [gas]; did you mean indicator?"),
         ({"crank": {"phase": [0, 180]}}, "crank.phase: unknown key in [crank]; did you mean throws?"),
         ({"shaft": [{"ratio": 2, "unbalance": 9, "phase": 3}]}, "shaft.1.phase: unknown key in [shaft]; did you mean angle?"),
         ({"bore": 80}, "bore: unknown key in an engine file; bore belongs to [piston]"),

@@ -14,6 +14,7 @@ from . import model
 from .fields import counted, printable, shorten
 
 if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
 
 TEXTS = ("name", "source")
@@ -106,8 +107,13 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTab
 
 def _holds_tables(table: type[model.FileTable], loc: Sequence[str | int]) -> bool:
     """Whether a key has a list of tables."""
-    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    field = _find_field(table, loc)
     return field is not None and find_table(field.annotation) is not None
+
+
+def _find_field(table: type[model.FileTable], loc: Sequence[str | int]) -> FieldInfo | None:
+    """The field at a place, which may be in a table within the table; None: there is none."""
+    return find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
 
 
 def find_inner_table(
@@ -129,17 +135,16 @@ def find_table(annotation: object) -> type[model.FileTable] | None:
 
 def _find_example(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
     """A list that a key may hold."""
-    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    field = _find_field(table, loc)
     listed = [each for each in (field.examples or () if field else ()) if isinstance(each, list)]
     return shorten(listed[0]) if listed else "[0, 180]"
 
 
 def _suggest_missing(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
-    """An example of the key, which may stand in a table within the table."""
-    key = loc[-1]
-    examples = find_inner_table(table, loc).keys()[str(key)].examples
-    example = shorten(examples[0]) if examples else "{ length = 200 }"
-    return f"give it, such as {key} = {example}"
+    """An example of the key."""
+    field = _find_field(table, loc)
+    example = shorten(field.examples[0]) if field and field.examples else "{ length = 200 }"
+    return f"give it, such as {loc[-1]} = {example}"
 
 
 def _describe_length(value: list[object], context: Mapping[str, object]) -> str:

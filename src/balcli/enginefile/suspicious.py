@@ -302,51 +302,68 @@ def _throw_inertia(torsion: Torsion, model: EngineFile) -> float:
 def _gas(model: EngineFile) -> Iterator[str]:
     if model.gas is None:
         return
-    for key, limit in (
-        ("imep", MEAN_PRESSURE),
-        ("bmep", MEAN_PRESSURE),
-        ("max_pressure", MAX_PRESSURE),
-    ):
-        value = getattr(model.gas, key)
-        if value is not None and value > limit:
-            yield (
-                f"gas.{key} is {value:.4g} bar, where at most {limit:g} is usual; is it in bar? "
-                'Another unit is said as in "130 psi" or "0.9 MPa"'
-            )
-    ranges = dict.fromkeys(("intake", "exhaust", "crankcase"), (*AROUND, " bar, absolute,"))
-    if model.gas.cycle is not None:  # a compressor, which has a diagram, leaves less clearance
-        ranges["compression_ratio"] = (*COMPRESSION, "")
-        ranges["compression_index"] = ranges["expansion_index"] = (1.0, INDEX_MOST, "")
-    for key, (low, high, unit) in ranges.items():
+    mean = 0.0, MEAN_PRESSURE, ""
+    pressures = dict.fromkeys(("intake", "exhaust", "crankcase"), (*AROUND, " absolute"))
+    pressures |= {"imep": mean, "bmep": mean, "max_pressure": (0.0, MAX_PRESSURE, "")}
+    for key, (low, high, absolute) in pressures.items():
         value = getattr(model.gas, key)
         if value is not None and not low <= value <= high:
-            yield f"gas.{key} is {value:.4g}, where {low:g} to {high:.3g}{unit} is usual"
+            usual = f"{low:g} to {high:g}" if low else f"at most {high:g}"
+            yield (
+                f"gas.{key} is {value:.4g} bar{absolute}, where {usual} is usual; is it in bar? "
+                'Another unit is said as in "130 psi" or "0.9 MPa"'
+            )
+    if model.gas.cycle is None:
+        return  # a compressor, which has a diagram, leaves less clearance
+    for key, low, high, meaning in (
+        ("compression_ratio", *COMPRESSION, "the largest volume over the smallest"),
+        ("compression_index", 1.0, INDEX_MOST, "n of p V^n = const"),
+        ("expansion_index", 1.0, INDEX_MOST, "n of p V^n = const"),
+    ):
+        value = getattr(model.gas, key)
+        if value is not None and not low <= value <= high:
+            yield (
+                f"gas.{key} is {value:.4g}, where {low:g} to {high:.3g} is usual; it is {meaning}"
+            )
 
 
 def _torsion(model: EngineFile) -> Iterator[str]:
-    """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
     if model.torsion is None:
         return
     yield from doubt_losses(_list_losses(model.torsion))
     yield from _throw_stiffness(model.torsion, model)
-    throws, whole = _throw_inertia(model.torsion, model), model.crank.inertia
+    yield from _crank_inertia(model.torsion, model)
+    yield from _parts_in_water(model.torsion)
+    yield from _two_flywheels(model.torsion, model)
+
+
+def _crank_inertia(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """What `torque` takes of [crank], less than what `torsion` takes of its own table."""
+    throws, whole = _throw_inertia(torsion, model), model.crank.inertia
     if whole is not None and throws > (1 + SAME_INERTIA) * whole:
         yield (
             f"crank.inertia is {whole / 1e6:.4g} kg m^2, and all throws of torsion.throw_inertia "
             f"together have {throws / 1e6:.4g}: the whole has no less than its parts"
         )
-    parts = (*model.torsion.front, *model.torsion.rear)
-    for part in parts:
+
+
+def _parts_in_water(torsion: Torsion) -> Iterator[str]:
+    """Damping that was meant against ground."""
+    for part in (*torsion.front, *torsion.rear):
         in_water = any(word in part.name.lower() for word in ("propeller", "impeller"))
         if in_water and part.damping and not part.node_damping:
             yield (
                 f"the part '{part.name}' of [torsion]: damping is of a dashpot between the ends of "
                 "its shaft; of the part against ground, as water damps it, it is node_damping"
             )
+
+
+def _two_flywheels(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """One in [flywheel] and another in [torsion]."""
     named = [
         (part.name, part.inertia)
-        for part in parts
-        if part.inertia and "flywheel" in (part.name or "").lower()
+        for part in (*torsion.front, *torsion.rear)
+        if part.inertia and "flywheel" in part.name.lower()
     ]
     flywheel = _flywheel_inertia(model)
     if len(named) == 1 and flywheel:

@@ -52,6 +52,7 @@ SYNONYMS = {
     "lambda": ("ratio",),
     "wrist_pin": ("pin",),
     "clips": ("locks",),
+    **dict.fromkeys(("file", "csv", "diagram"), ("indicator",)),
 }
 _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "

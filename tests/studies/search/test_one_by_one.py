@@ -232,6 +232,12 @@ def test_so_it_does_by_the_angles_own_name(over):
     assert found[0]["objective"] <= min(values) + 1e-9 * max(values)
 
 
+def test_ends_of_a_turn_are_one_angle():
+    """Guides of a V6 feel nothing of order 3 at splays of -60, which it has, and 180."""
+    found = search(ENGINES / "v6_60.toml", "--over", "splay", "--minimise", "guide.3.X")
+    assert sorted(one["splay"] for one in found) == [-60, 180]
+
+
 def test_throws_that_fire_evenly_are_tried_whatever_the_files_firing_order():
     """Those of a six are three pairs, so that all their arrangements do."""
     asked = ("--over", "throws", "--minimise", "guide.3.X", "--top", "100")

@@ -224,9 +224,12 @@ def _find_best(
         return BestNumbers([_name_design(key, value) for value in even.tolist()], False, "")
     ends = span.low, span.high
     best = find_best_designs(model, partial(_name_design, key), *ends, objective, tell)
-    if not even_firing:
-        return best
-    return best._replace(designs=[one for one in best.designs if _fires_evenly(model, one)])
+    found = best.designs
+    if key in SPANS and span.ring:
+        first, last = (_name_design(key, end) for end in ends)
+        found = [*dict.fromkeys(last if one == first else one for one in found)]
+    kept = [one for one in found if not even_firing or _fires_evenly(model, one)]
+    return best._replace(designs=kept)
 
 
 def _name_design(key: str, value: float) -> Design:
