@@ -157,6 +157,8 @@ def test_quantities_of_a_sweep_that_stand_alone_are_told_where_they_go(balcli, g
     assert status == 2
     assert err.endswith(": names of quantities stand after -q, with commas between them.\n")
     assert "-q" not in balcli("sweep", good, "--vary", "rod.length", "140:160:5")[2]
+    err = balcli("sweep", good, "--vary", "rod.length=150", "crank.stroke=80,90")[2]
+    assert err.endswith(": each number that varies has a --vary of its own.\n")
 
 
 def test_an_option_of_other_commands_is_told_with_them(balcli):

@@ -324,6 +324,8 @@ def _usage(error: Any) -> str:
     if "unexpected extra argument" not in told:
         return told
     extra = told.rpartition("argument(s) (")[2]
+    if re.match(r"Usage: balcli sweep ", told) and re.match(r"[a-z_]+\.[^=]*=", extra):
+        return f"{told}: each number that varies has a --vary of its own."
     if re.match(r"Usage: balcli (sweep|scatter) ", told) and re.match(r"[a-z_]+\.", extra):
         return told + ": names of quantities stand after -q, with commas between them."
     return told + ': a value or a name with a blank goes in quotes, such as "52 %".'
