@@ -87,7 +87,11 @@ def test_other_words_lead_to_commands_and_options_that_there_are():
 
 
 def usage(command: str, message: str) -> str:
-    form = {"": "[OPTIONS] COMMAND [ARGS]...", "analyze": "[OPTIONS] {FILE...}..."}[command]
+    form = {
+        "": "[OPTIONS] COMMAND [ARGS]...",
+        "analyze": "[OPTIONS] {FILE...}...",
+        "check": "[OPTIONS] {PATH...}...",
+    }[command]
     name = f"balcli {command}".strip()
     return f"Usage: {name} {form}\nTry '{name} -h' for help.\n\nError: {message}\n"
 
@@ -106,6 +110,18 @@ def usage(command: str, message: str) -> str:
             "No such command 'bobweights'. That is balcli balance FILE --factor 51% --format card.",
         ),
         (["--frob"], "", "No such option: --frob"),
+        (["check", I4, "--json"], "check", "No such option: --json"),
+        (
+            ["analyze", V8, "--json"],
+            "analyze",
+            "No such option: --json (Possible options: --only). That is --format json.",
+        ),
+        (
+            ["analyze", V8, "-f", "latex"],
+            "analyze",
+            "Invalid value for '--format' / '-f': 'latex' is not one of 'table', 'json', 'csv', "
+            "'markdown', 'marine'; for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex).",
+        ),
         (
             ["analyze", V8, "--by", "bank"],
             "analyze",

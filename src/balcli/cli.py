@@ -317,7 +317,10 @@ def _usage(error: Any) -> str:
             "give this command FITTED.toml."
         )
     elif unknown := re.search(r"No such option: (--[a-z-]+)", told):
-        told += _name_commands_with(unknown[1])
+        from .commands.other_words import suggest_option
+
+        own = {word for each in error.ctx.command.params for word in each.opts}
+        told += suggest_option(unknown[1], own) or _name_commands_with(unknown[1])
     if "unexpected extra argument" not in told:
         return told
     extra = told.rpartition("argument(s) (")[2]

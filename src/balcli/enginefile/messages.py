@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, get_args
-
-from pydantic import ValidationError
+from typing import TYPE_CHECKING, get_args
 
 from ..errors import Problem
 from ..limits import MOST_LIST_VALUES
@@ -162,43 +160,3 @@ def ordinal(number: int) -> str:
         return f"{number}th"
     suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
     return f"{number}{suffix}"
-
-
-# ------------------------------------------------------------------ keys against each other
-def read_without(
-    table: type[model.FileTable], value: Mapping[str, Any], broken: set[str]
-) -> model.FileTable | None:
-    """The table without its broken keys, with examples of those that have to be there; None where
-    that is none, either.
-    """
-    known = {key: part for key, part in value.items() if key not in broken}
-    needed = {key: field for key, field in table.keys().items() if field.is_required()}
-    examples = {key: (field.examples or [None])[0] for key, field in needed.items()}
-    try:
-        draft = table.model_validate(examples | known, context=broken)
-    except ValidationError:
-        return None
-    draft.model_fields_set.update(broken & value.keys())  # these are given, too
-    return draft
-
-
-def find_conflicts_of_keys(
-    path: str,
-    table: type[model.FileTable],
-    value: Mapping[str, Any],
-    broken: set[str],
-    draft: model.FileTable | None,
-) -> Iterator[Problem]:
-    """What the keys of a table say against each other, and their values, as far as that can be said
-    without the broken ones, which `draft` lacks.
-    """
-
-    def tell(mistakes: Iterable[str], keys: Iterable[str]) -> Iterator[Problem]:
-        missing = tuple(join_path(path, [key]) for key in keys if key not in value)
-        return (Problem(path, mistake, missing) for mistake in mistakes)
-
-    for choice in table.choices:
-        yield from tell(choice.mistakes(value), choice.find_missing(value))
-    for rule in table.rules if draft is not None else ():
-        if rule.needs.isdisjoint(broken):
-            yield from tell(rule.check(draft), {*rule.needs, *rule.wants})

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 
 from ..errors import DISGUISES, InputError, Problem
 from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
+from .conflicts import find_conflicts, read_without
 from .fields import printable, shorten
 from .file_kinds import ENGINE, refuse_other_kind
 from .messages import (
@@ -24,12 +25,10 @@ from .messages import (
     TABLES,
     TEXTS,
     describe_finding,
-    find_conflicts_of_keys,
     find_inner_table,
     import_table,
     is_miscounted,
     join_path,
-    read_without,
 )
 from .model import ONE_BY_ONE, EngineFile, FileTable, Override
 from .toml_text import parse_toml
@@ -262,7 +261,7 @@ class _Reader:
         findings = [found for found in error.errors(include_url=False) if found["loc"]]
         broken = {str(finding["loc"][0]) for finding in findings}
         draft = read_without(table, value, broken)
-        contradictions = list(find_conflicts_of_keys(path, table, value, broken, draft))
+        contradictions = list(find_conflicts(path, table, value, broken, draft))
         self.problems += contradictions
         if path in ONE_BY_ONE and draft is not None and not contradictions:
             self.partial[path] = _Partial(draft, broken)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from .exclusive import join_words
 from .fields import count_lambda_digits
 from .model import Counterweight, EngineFile
+from .units import ask_unit
 
 if TYPE_CHECKING:
     from .torsion_tables import Torsion
@@ -185,8 +186,7 @@ def _neighbours(model: EngineFile) -> Iterator[str]:
         key = "spacing" if model.crank.positions is None else "positions"
         yield (
             f"crank.{key} puts neighbouring cylinders of one bank {gap:g} mm apart, which is less "
-            f"than their bore of {bore:g} mm; is it in mm? Another unit is said as in "
-            '"4.4 in" or "1.02 m"'
+            f"than their bore of {bore:g} mm; {ask_unit('mm', '4.4 in', '1.02 m')}"
         )
 
 
@@ -255,8 +255,8 @@ def _shafts(model: EngineFile) -> Iterator[str]:
         away = max(map(abs, shaft.at))
         if NO_DISTANCE < away < nearest:
             yield (
-                f"shaft.{number}.at is within {away:.3g} mm of the crank's axis; is it in mm? "
-                f'Another unit is said as in "{away:.3g} m"'
+                f"shaft.{number}.at is within {away:.3g} mm of the crank's axis; "
+                f"{ask_unit('mm', f'{away:.3g} m')}"
             )
 
 
@@ -276,8 +276,8 @@ def _turning(model: EngineFile) -> Iterator[str]:
         if 0 < inertia < TURNING_LIGHT * beside:
             yield (
                 f"{what} is {inertia:.4g} kg mm^2, less than {TURNING_LIGHT:g} of what all rods "
-                f"and pistons have at the crank radius ({beside:.4g}); is it in kg mm^2? Another "
-                f'unit is said as in "{inertia:.4g} kg m^2"'
+                f"and pistons have at the crank radius ({beside:.4g}); "
+                f"{ask_unit('kg mm^2', f'{inertia:.4g} kg m^2')}"
             )
 
 
@@ -310,8 +310,8 @@ def _gas(model: EngineFile) -> Iterator[str]:
         if value is not None and not low <= value <= high:
             usual = f"{low:g} to {high:g}" if low else f"at most {high:g}"
             yield (
-                f"gas.{key} is {value:.4g} bar{absolute}, where {usual} is usual; is it in bar? "
-                'Another unit is said as in "130 psi" or "0.9 MPa"'
+                f"gas.{key} is {value:.4g} bar{absolute}, where {usual} is usual; "
+                f"{ask_unit('bar', '130 psi', '0.9 MPa')}"
             )
     if model.gas.cycle is None:
         return  # a compressor, which has a diagram, leaves less clearance
@@ -404,8 +404,8 @@ def _throw_stiffness(torsion: Torsion, model: EngineFile) -> Iterator[str]:
     if twist > TWIST_MOST:
         yield (
             "torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by "
-            f"{twist:.2g} rad, where at most {TWIST_MOST:g} is usual; is it in N m/rad? Another "
-            'unit is said as in "1.2 MN m/rad"'
+            f"{twist:.2g} rad, where at most {TWIST_MOST:g} is usual; "
+            f"{ask_unit('N m/rad', '1.2 MN m/rad')}"
         )
 
 

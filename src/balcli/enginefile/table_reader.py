@@ -12,8 +12,9 @@ from pydantic_core import ErrorDetails
 
 from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN
+from .conflicts import find_conflicts, read_without
 from .fields import nearest, shorten
-from .messages import find_conflicts_of_keys, is_miscounted, join_path, read_without
+from .messages import is_miscounted, join_path
 from .model import FileTable
 
 T = TypeVar("T", bound=FileTable)
@@ -67,7 +68,7 @@ class TableReader:
         paths = {join_path(path, [key]) for key in meant}
         found = [
             problem
-            for problem in find_conflicts_of_keys(path, table, known, broken, draft)
+            for problem in find_conflicts(path, table, known, broken, draft)
             if paths.isdisjoint(problem.missing)
         ]
         for finding in findings:

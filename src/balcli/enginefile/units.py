@@ -265,6 +265,14 @@ def _in_small(name: str) -> str:
     return name.lower() if len(name) > 1 and name.isupper() else name
 
 
+def ask_unit(unit: str, *others: str) -> str:
+    """For messages on an unlikely figure: whether it is in this unit, its bare one, and how figures
+    in others are said, such as "3.5 in".
+    """
+    said = " or ".join(f'"{other}"' for other in others)
+    return f"is it in {unit}? Another unit is said as in {said}"
+
+
 def wanted(dimension: Dimension) -> str:
     """What would be right, with examples."""
     if dimension is PLAIN:
