@@ -26,6 +26,7 @@ from support.paths import ENGINES, ROOT, SOURCE
 
 from balcli import __version__
 from balcli.cli import COMMANDS
+from balcli.commands import other_words
 from balcli.render.formats import Format
 
 I4 = str(ENGINES / "i4.toml")
@@ -77,8 +78,20 @@ def test_every_command_has_help(balcli, command):
     assert f"Usage: balcli {command}" in out
 
 
+def test_other_words_lead_to_commands_and_options_that_there_are():
+    for words in other_words.INSTEAD.values():
+        named = {*re.findall(r"balcli ([a-z]+)", words)}
+        assert named <= {*COMMANDS}
+        assert named or "--" in words
+    assert not {*other_words.INSTEAD} & {*COMMANDS}
+
+
 def usage(command: str, message: str) -> str:
-    form = {"": "[OPTIONS] COMMAND [ARGS]...", "analyze": "[OPTIONS] {FILE...}..."}[command]
+    form = {
+        "": "[OPTIONS] COMMAND [ARGS]...",
+        "analyze": "[OPTIONS] {FILE...}...",
+        "check": "[OPTIONS] {PATH...}...",
+    }[command]
     name = f"balcli {command}".strip()
     return f"Usage: {name} {form}\nTry '{name} -h' for help.\n\nError: {message}\n"
 
@@ -89,7 +102,26 @@ def usage(command: str, message: str) -> str:
         (["frobnicate"], "", "No such command 'frobnicate'."),
         (["anlyze"], "", "No such command 'anlyze'. Did you mean analyze?"),
         (["mine.toml"], "", "No such command 'mine.toml'. Did you mean balcli analyze mine.toml?"),
+        (["version"], "", "No such command 'version'. That is balcli --version."),
+        (["Flywheel"], "", "No such command 'Flywheel'. That is balcli torque FILE."),
+        (
+            ["bobweights"],
+            "",
+            "No such command 'bobweights'. That is balcli balance FILE --factor 51% --format card.",
+        ),
         (["--frob"], "", "No such option: --frob"),
+        (["check", I4, "--json"], "check", "No such option: --json"),
+        (
+            ["analyze", V8, "--json"],
+            "analyze",
+            "No such option: --json (Possible options: --only). That is --format json.",
+        ),
+        (
+            ["analyze", V8, "-f", "latex"],
+            "analyze",
+            "Invalid value for '--format' / '-f': 'latex' is not one of 'table', 'json', 'csv', "
+            "'markdown', 'marine'; for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex).",
+        ),
         (
             ["analyze", V8, "--by", "bank"],
             "analyze",
@@ -110,6 +142,11 @@ def test_an_option_given_twice_is_told_so(balcli, good):
     assert (status, out) == (0, once[1])
     assert err == "warning: --only is given 2 times: the last one counts\n"
     assert balcli("analyze", good, "--only", "force", "-q", "--only", "moment")[2] == ""
+    forms = ("--format", "marine", "-f", "csv")
+    assert balcli("analyze", good, *forms)[2] == ""
+    assert balcli("analyze", good, *forms, "-f", "json")[2] == (
+        "warning: --format is given 2 times: the last one counts\n"
+    )
     several = ("sweep", good, "--vary", "rod.length=150", "--vary", "crank.stroke=90")
     assert balcli(*several)[::2] == (0, "")
     assert balcli("analyze", good, "-q", "-q")[::2] == (0, "")
@@ -120,6 +157,8 @@ def test_quantities_of_a_sweep_that_stand_alone_are_told_where_they_go(balcli, g
     assert status == 2
     assert err.endswith(": names of quantities stand after -q, with commas between them.\n")
     assert "-q" not in balcli("sweep", good, "--vary", "rod.length", "140:160:5")[2]
+    err = balcli("sweep", good, "--vary", "rod.length=150", "crank.stroke=80,90")[2]
+    assert err.endswith(": each number that varies has a --vary of its own.\n")
 
 
 def test_an_option_of_other_commands_is_told_with_them(balcli):
@@ -135,29 +174,25 @@ def test_an_option_of_other_commands_is_told_with_them(balcli):
 
 
 @pytest.mark.parametrize(
-    "args",
+    ("args", "told"),
     [
-        ["analyze"],
-        ["analyze", V8, "--format", "xml"],
-        ["analyze", V8, "--only"],
-        ["new"],
-        ["balance", V8, "--factor", "52", "%"],
+        (["analyze"], "FILE"),
+        (["analyze", V8, "--format", "xml"], "'xml' is not one of"),
+        (["analyze", V8, "--only"], "--only"),
+        (["new"], "KIND"),
+        (
+            ["balance", V8, "--factor", "52", "%"],
+            '(%): a value or a name with a blank goes in quotes, such as "52 %"',
+        ),
     ],
 )
-def test_bad_usage_that_the_parser_words(balcli, args):
+def test_bad_usage_that_the_parser_words(balcli, args, told):
     """Its text changes with its version; what is needed to mend it stands in the last line."""
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
     *_, last = err.splitlines()
     assert last.startswith("Error: ")
-    assert {
-        "xml": "'xml' is not one of",
-        "fast": "--speed",
-        "--only": "--only",
-        "analyze": "FILE",
-        "new": "KIND",
-        "%": '(%): a value or a name with a blank goes in quotes, such as "52 %"',
-    }[args[-1]] in last
+    assert told in last
     assert "Traceback" not in err
 
 

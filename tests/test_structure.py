@@ -140,6 +140,7 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # or kind of engine that it does not need.
 ON_REQUEST = {
     "balcli.__main__": ("balcli.cli",),
+    "balcli.cli": ("balcli.commands.other_words",),
     "balcli.commands.analysis_answer": (
         *("balcli.render.marine", "balcli.results.marine"),
         *("balcli.render.speeds", "balcli.results.speeds"),
@@ -166,7 +167,7 @@ ON_REQUEST = {
     ),
     "balcli.engine.build": ("balcli.engine.vary", "balcli.enginefile.suspicious"),
     "balcli.engine.rules": ("balcli.engine.articulation",),
-    "balcli.enginefile.toml_text": ("balcli.enginefile.examples",),
+    "balcli.enginefile.toml_text": ("balcli.enginefile.examples", "balcli.enginefile.toml_slips"),
     "balcli.forces.spectrum": ("balcli.forces.gas",),
     "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
     "balcli.library.arguments": ("balcli.studies.stated_tolerances",),

@@ -148,6 +148,11 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
         ),
         (
             FACTOR,
+            ["--factor", "51,5%"],
+            '--factor "51,5%": decimals take a point, such as 51.5%',
+        ),
+        (
+            FACTOR,
             ["--factor", "51%%"],
             '--factor "51%%": give a share of the reciprocating mass such as 51% or 0.51, or a '
             "range such as 50%:54%:1%",
@@ -212,3 +217,29 @@ def test_bare_metres_are_asked_back(options, told):
     result = run_here("balance", ENGINES / "i4.toml", "--factor", "50%", *options)
     assert result.status == 0
     assert result.err == (f"warning: {told}\n" if told else "")
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("6.000", "6000"),
+        ("12.500", "12500"),
+        ("6,500", "6500"),
+        ("1.000:6.000", "1000"),
+        ("6000", ""),
+        ("6.5,7.25", ""),
+        ("90,120", ""),
+        ("127.324", ""),
+        ("100.000 rad/s", ""),
+    ],
+)
+def test_speeds_with_the_thousands_parted_are_asked_back(text, meant):
+    result = run_here("analyze", V8, "--only", "force", "--speed", text)
+    told = f'--speed "{text}": a point parts decimals and a comma speeds, not thousands'
+    assert result.status == 0
+    assert result.err == (f"warning: {told}: was {meant} rpm meant?\n" if meant else "")
+
+
+def test_no_speed_is_too_slow_to_be_told_so():
+    told = refusal("analyze", V8, "--speed", "1e-300")
+    assert told == "--speed 1e-300: the crank speed must be a positive number of rpm, below 1e9"

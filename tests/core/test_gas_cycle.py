@@ -182,13 +182,13 @@ REFUSED = {
         {},
         Diesel(),
         ("max_pressure", 60e5),
-        "max_pressure: does not make a diesel cycle: give imep, heat or cut_off",
+        "max_pressure: does not make the diesel cycle: give imep, heat or cut_off",
     ),
     "goal of an Otto cycle": (
         {},
         Otto(),
         ("cut_off", 2),
-        "cut_off: does not make an otto cycle: give imep, heat or max_pressure",
+        "cut_off: does not make the otto cycle: give imep, heat or max_pressure",
     ),
     "ratio": (
         {"compression_ratio": 0.9},

@@ -253,7 +253,43 @@ def test_intervals_in_another_turn_are_told():
     twin = {"bank_angle": 45, "firing_order": [1, 2]}
     found = refused(layout=twin | {"firing_intervals": [315, 405]})
     assert found.endswith("They fit with layout.firing_intervals = [405, 315]")
-    assert refused(layout=twin | {"firing_intervals": [300, 420]}).endswith("crank.splay = 105")
+
+
+def test_a_twin_on_one_pin_is_told_its_intervals_first():
+    """The one pin of a 45-degree vee comes to the second bank 45 degrees after the first, and fires
+    it a turn later, for 360 would take a pin of its own, 45 degrees ahead.
+    """
+    assert refused(layout={"bank_angle": 45, "firing_order": [1, 2]}).endswith(
+        "They fit with layout.firing_intervals = [405, 315]; or evenly with split pins: "
+        "crank.splay = 45"
+    )
+
+
+EXCHANGED = (
+    ", where the first bank is the left one seen from the free end (front), the driver's right"
+)
+
+
+@pytest.mark.parametrize(
+    ("angle", "order", "said", "hint"),
+    [
+        # A cross-plane V8, odd numbers on the driver's left: 2 fires 270 deg after 1, whose pin it
+        # shares if its bank stands 270 deg behind, or 90 deg ahead.
+        (90, [1, 8, 4, 3, 6, 5, 7, 2], {}, f"[[2, 4, 6, 8], [1, 3, 5, 7]]{EXCHANGED}"),
+        # 2 fires 240 deg after 1. With 1 on the left, its pin leads by 90 - 240 = -150 deg; with 1
+        # on the right by -90 - 240 = 30, and the second bank is that of 1: -30.
+        (90, [1, 6, 5, 4, 3, 2], {}, f"[[2, 4, 6], [1, 3, 5]]{EXCHANGED}; and with split pins: crank.splay = -30"),
+        (90, [1, 6, 5, 4, 3, 2], {"splay": -30}, f"[[2, 4, 6], [1, 3, 5]]{EXCHANGED}"),
+        # 3 fires 180 deg after 1: split by 60 - 180 or 60 + 180, which is as much; as the file has it
+        (60, [1, 4, 2, 3], {"numbering": [[1, 2], [3, 4]]}, "with split pins: crank.splay = -120"),
+    ],
+)  # fmt: skip
+def test_banks_are_exchanged_where_that_splits_pins_less(angle, order, said, hint):
+    odd_and_even = [sorted(order)[::2], sorted(order)[1::2]]
+    numbering = {"numbering": said.get("numbering", odd_and_even)}
+    crank = {key: value for key, value in said.items() if key != "numbering"}
+    layout = {"bank_angle": angle, "firing_order": order} | numbering
+    assert refused(crank=crank, layout=layout).endswith(hint)
 
 
 def test_the_order_in_which_a_radial_fires_evenly_is_told():

@@ -179,6 +179,12 @@ def test_rarer_units(text, dimension, expected):
             "is not a number followed by a unit; decimals take a point, thousands no comma; a "
             'length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
         ),
+        (
+            "−30 mm",
+            LENGTH,
+            "is not a number followed by a unit; a minus sign is a hyphen; a length is wanted: a bare "
+            'number in mm, or "90 mm" or "3.5 in"',
+        ),
         ("1 lb 4", MASS, f"is not a number followed by a unit; {A_MASS}"),
         ("1.5 lb 4 oz", MASS, f"is not a number followed by a unit; {A_MASS}"),
         (

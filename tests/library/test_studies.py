@@ -4,12 +4,15 @@ wrong.
 
 from __future__ import annotations
 
+import io
+import sys
 import tomllib
 from collections.abc import Callable
 from ctypes import CDLL
 
 import numpy as np
 import pytest
+from support.paths import ENGINES
 from support.rotors import three_runs
 
 import balcli
@@ -300,6 +303,13 @@ from = "motor"
 to = "pump"
 stiffness = 8000
 """
+
+
+def test_an_engine_with_torsion_is_read_once_from_standard_input(monkeypatch):
+    text = (ENGINES / "i6_diesel.toml").read_bytes()
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(text)))
+    found = balcli.analyze_torsion("-")
+    assert found.modes[0].frequency_hz == balcli.analyze_torsion(DIESEL).modes[0].frequency_hz
 
 
 def test_a_chain_is_a_path_a_text_or_a_dict(tmp_path):

@@ -271,6 +271,21 @@ def test_orders_that_stay_for_the_same_reason_are_named_together():
     )
 
 
+def test_so_are_orders_whose_moment_is_left():
+    """A twelve without any free order below 6, and two pairs of eccentrics that turn against it."""
+    shafts = "".join(
+        f"[[shaft]]\nratio = {ratio}\nunbalance = 500\nangle = {angle}\nposition = {angle}\n"
+        for ratio in (-1, -2)
+        for angle in (0, 180)
+    )
+    twelve = load((ENGINES / "v12_60.toml").read_text() + shafts)
+    note = size(twelve, "single-shaft").note
+    assert note.endswith(
+        "Orders 1 and 2 stay as they are (their moment turning against the crank: eccentrics in "
+        "two planes)."
+    )
+
+
 def test_what_turns_with_the_crank_is_said_with_its_size():
     twin = build(parse(STAGGERED_TWIN))
     remedy = size(twin, "single-shaft", SchemeOptions(order=1))

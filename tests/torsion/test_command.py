@@ -383,8 +383,8 @@ def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
     assert f"The pendulums of crank swing by ±{swing:.4g} deg at 1500 rpm." in found.out
     assert found.err == (
         f"warning: standard input: the pendulums of crank swing by {swing:.3g} deg at 1500 rpm, "
-        "and small swings are computed: at 20 deg one on a circle is 0.8 % out of tune, farther "
-        f"out more; {swing / 20:.2g} times their mass would swing so far\n"
+        "computed as if that were small: at 20 deg one on a circle is 0.8 % out of tune, farther "
+        f"out more; with {swing / 20:.2g} times their mass they would swing by about 20 deg\n"
     )
     assert run_here(*options, stdin=text.replace("MASS", "10")).err == ""
 

@@ -114,6 +114,20 @@ def read_speed(option: str, text: str) -> float:
     return _read(option, text, SPEED, Units.SI)
 
 
+def doubt_thousands(option: str, text: str) -> None:
+    """Warn where speeds are bare numbers with the point or comma with which thousands are parted in
+    some countries: `6.000`, `6,500`.
+    """
+    for part in (text, *re.split("[:,]", text)):
+        if figure := re.fullmatch(r"([1-9]\d?)\.(\d[05]0)|([1-9]),(\d00)", part.strip()):
+            meant = "".join(filter(None, figure.groups()))
+            warn(
+                f"{_shown(option, text)}: a point parts decimals and a comma speeds, not "
+                f"thousands: was {meant} rpm meant?"
+            )
+            return
+
+
 def read_number(option: str, text: str, needed: str) -> float:
     """A plain number; BalcliError with the option, its text and what is needed."""
     value = _as_bare(text)

@@ -103,6 +103,8 @@ def choose_analysis_format(
     """How to write, and whether it is the marine sheet; errors as `file_names.format_of`."""
     given = asked or ()
     plain = [Format(one) for one in given if one is not AnalysisFormat.MARINE]
+    if len(plain) > 1:
+        warn(f"--format is given {len(plain)} times: the last one counts")
     return text_format(output, plain[-1] if plain else None), AnalysisFormat.MARINE in given
 
 

@@ -10,9 +10,9 @@ import typer
 
 from ..errors import BalcliError
 from ..forces.kinds import KINDS, VECTORS
-from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER, LONGEST_SHOWN
+from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER, LONGEST_SHOWN, SMALLEST_POSITIVE
 from ..render.formats import Format, Units
-from .amounts import read_length, read_speed
+from .amounts import doubt_thousands, read_length, read_speed
 from .declare import optional
 from .file_names import parse_output
 from .format_names import format_option
@@ -214,10 +214,11 @@ def parse_speed(text: str | None) -> float | None:
     if text is None:
         return None
     speed = read_speed("--speed", text)
-    if not 0 < speed < 1e9:
+    if not SMALLEST_POSITIVE <= speed < 1e9:
         raise BalcliError(
             f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9"
         )
+    doubt_thousands("--speed", text)
     return speed
 
 

@@ -144,7 +144,7 @@ def _parse_factors(text: str) -> tuple[float, ...]:
     wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
     if ":" not in text:
         listed = tuple(read_share("--factor", part, wanted) for part in text.split(","))
-        if re.fullmatch(r"0,\d+", text) and listed[1] > LARGEST_FACTOR:
+        if re.fullmatch(r"0,\d+|\d+,\d+ *%", text) and max(listed) > LARGEST_FACTOR:
             raise BalcliError(
                 f'--factor "{text}": decimals take a point, such as {text.replace(",", ".")}'
             )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -19,6 +19,9 @@ from .options import EnginePath, FormatOption, Output
 from .output import show, write_file
 from .overwrite_guard import refuse_overwriting
 from .progress import exit_if_cut_short, reporting, reporting_until_stopped
+
+if TYPE_CHECKING:
+    from ..enginefile.model import EngineFile
 
 
 def search(
@@ -76,13 +79,10 @@ def search(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..engine.build import build
     from ..engine.load import parse
     from ..studies.search.objective import parse_objective
-    from ..studies.search.search import read_range, search_arrangements
+    from ..studies.search.search import search_arrangements
     from ..studies.search.write import write_design
-    from ..studies.unlikely import doubt_unvaried
-    from .inputs import warn_each
 
     if require not in ("", "even-firing"):
         message = f'"{require}": only even-firing can be required'
@@ -90,9 +90,7 @@ def search(
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
     with naming_file(name):
-        ranges = [read_range(model, over)] if "=" in over else []
-        doubts = doubt_unvaried(model, ranges, lambda variant: build(variant).unlikely)
-    warn_each((doubt for doubt in doubts if over not in doubt), name)
+        _doubt(model, over, name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
@@ -103,3 +101,15 @@ def search(
     if write is not None:
         write_file(write_design(text, found.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")
+
+
+def _doubt(model: EngineFile, over: str, name: str) -> None:
+    """Say what is unlikely of the file, but of what is arranged or varies."""
+    from ..engine.build import build
+    from ..studies.search.search import read_range
+    from ..studies.unlikely import doubt_unvaried
+    from .inputs import warn_each
+
+    ranges = [read_range(model, over)] if "=" in over else []
+    doubts = doubt_unvaried(model, ranges, lambda variant: build(variant).unlikely)
+    warn_each((doubt for doubt in doubts if over not in doubt), name)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from ..errors import BalcliError
 from ..limits import LONGEST_SHOWN, MOST_SPEEDS, SMALLEST_POSITIVE
-from .amounts import convert_speed
+from .amounts import convert_speed, doubt_thousands
 from .declare import optional
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ def parse_speeds(
     if not all(SMALLEST_POSITIVE <= figure < 1e9 for figure in figures):
         wrong = "speeds and their step are" if ranged else "speeds are"
         raise BalcliError(f"{start}{wrong} above 0 and below 1e9 rpm; {right}")
+    doubt_thousands(option, text)
     if not ranged:
         return np.array(sorted(set(figures)))
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]

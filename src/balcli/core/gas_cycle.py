@@ -127,9 +127,8 @@ def find_cycle_mistakes(
     if goal.name not in burn.goals:
         *most, last = burn.goals
         kind = type(burn).__name__.lower()
-        article = "an" if kind == "otto" else "a"
         hint = f"give {', '.join(most)} or {last}"
-        yield GasError(goal.name, f"does not make {article} {kind} cycle: {hint}")
+        yield GasError(goal.name, f"does not make the {kind} cycle: {hint}")
     if not p.compression_ratio > 1:
         yield GasError("compression_ratio", f"is {p.compression_ratio:g}: give more than 1")
     if not p.intake > 0:

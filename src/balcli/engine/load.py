@@ -37,7 +37,16 @@ def load(source: str | Path | Mapping[str, Any]) -> Engine:
     Example:
         >>> engine = load("v8.toml")
     """
-    tables, name = take_tables("load", source, _WANTED)
+    return build_tables(*take_tables("load", source, _WANTED))
+
+
+def build_tables(tables: Mapping[str, Any], name: str) -> Engine:
+    """The engine that the tables of a file describe; `name` is that of the file, beside which those
+    stand that it names, or empty.
+
+    Raises:
+        InputError: every mistake of the tables.
+    """
     model = _refuse_mistakes(check_tables(tables, Path(name).parent, name), name)
     with naming_file(name):
         return build(model)

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.mechanisms import harmonics
 from ..core.speed_ripple import RippleLine, find_slowest
+from ..enginefile.model import EngineFile
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
 from .assembly import Assembly
@@ -185,6 +186,7 @@ def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
             or _suggest_turned_numbers(parts)
             or _suggest_mirrored_throws(parts)
             or _suggest_turn(parts)
+            or _suggest_one_pin(parts)
             or _suggest_splay(parts)
         )
         yield problem._replace(message=problem.message + hint)
@@ -203,21 +205,36 @@ def _find_dead_centres_missed(parts: Assembly) -> list[Problem]:
 
 
 def _suggest_swapped_banks(parts: Assembly) -> str:
-    """The numbering of a vee with its banks exchanged, if all would fire at top dead centre by it;
-    else empty.
+    """The numbering of a vee with its banks exchanged, if all would fire at top dead centre by it
+    with the throws given; else empty.
     """
-    cells, layout = parts.plan.cells, parts.model.layout
-    if parts.plan.banks != 2 or parts.model.crank.throws is None or parts.rank:
+    swapped = None if parts.model.crank.throws is None else _exchange_banks(parts)
+    if swapped is None or _find_dead_centres_missed(Assembly(swapped)):
         return ""
+    return f". They fit with {_describe_exchange(swapped)}"
+
+
+def _exchange_banks(parts: Assembly) -> EngineFile | None:
+    """The engine with the numbers of its two banks exchanged; None where there are not two alike,
+    or the file is one of many variants.
+    """
+    cells = parts.plan.cells
+    if parts.plan.banks != 2 or parts.rank:
+        return None
     first, second = (tuple(c.number for c in cells if c.bank == bank) for bank in (0, 1))
-    swapped = parts.model.with_table("layout", numbering=(second, first))
-    if len(first) != len(second) or _find_dead_centres_missed(Assembly(swapped)):
-        return ""
-    hint = f". They fit with the banks exchanged: layout.numbering = {[list(second), list(first)]}"
-    if layout.bank_angle is None:
-        return hint
+    if len(first) != len(second):
+        return None
+    return parts.model.with_table("layout", numbering=(second, first))
+
+
+def _describe_exchange(swapped: EngineFile) -> str:
+    """Banks that are exchanged, and which one is the first, in words."""
+    numbering = [list(bank) for bank in swapped.layout.numbering or ()]
+    told = f"the banks exchanged: layout.numbering = {numbering}"
+    if swapped.layout.bank_angle is None:
+        return told
     return (
-        f"{hint}, where the first bank is the left one seen from the free end (front), the "
+        f"{told}, where the first bank is the left one seen from the free end (front), the "
         "driver's right"
     )
 
@@ -252,33 +269,77 @@ def _suggest_mirrored_throws(parts: Assembly) -> str:
 
 
 def _suggest_turn(parts: Assembly) -> str:
-    """The given intervals in another turn, or the order in which all rods of one throw fire evenly,
-    if their dead centres allow it; else empty.
+    """The given intervals in another turn, if the dead centres allow it; else empty."""
+    given = parts.model.layout.firing_intervals
+    if given is None or max(given) - min(given) < TOLERANCE_DEG or not _has_throws(parts):
+        return ""
+    fitting = _find_intervals(parts)
+    pairs = zip(sorted(fitting), sorted(given), strict=True) if fitting else ()
+    if not fitting or any(abs(a - b) > TOLERANCE_DEG for a, b in pairs):
+        return ""
+    return f". They fit with {_describe_intervals(fitting)}"
+
+
+def _suggest_one_pin(parts: Assembly) -> str:
+    """Of rods on one throw that should fire evenly: the order in which they do, or the intervals at
+    which they fire in the order given; else empty.
     """
-    layout, one_throw = parts.model.layout, parts.plan.throws == 1
-    if parts.rank or parts.order is None or not (one_throw or parts.model.crank.throws):
+    given = parts.model.layout.firing_intervals
+    uneven = given is not None and max(given) - min(given) >= TOLERANCE_DEG
+    if uneven or parts.plan.throws != 1 or parts.rank or parts.order is None:
         return ""
-    cycle, given = cycle_deg(layout), layout.firing_intervals
-    if given is None or max(given) - min(given) < TOLERANCE_DEG:
-        even = find_even_order(parts.order[0], parts.dead_centres_deg, cycle) if one_throw else None
-        return "" if even is None else f". They would fire evenly as {'-'.join(map(str, even))}"
+    cycle = cycle_deg(parts.model.layout)
+    even = find_even_order(parts.order[0], parts.dead_centres_deg, cycle)
+    if even is not None:
+        return f". They would fire evenly as {'-'.join(map(str, even))}"
+    fitting = _find_intervals(parts)
+    if given is not None or not fitting:
+        return ""
+    told = f". They fit with {_describe_intervals(fitting)}"
+    splay = find_fitting_splay(parts.model)
+    return told if splay is None else f"{told}; or evenly with {_describe_pins(splay)}"
+
+
+def _has_throws(parts: Assembly) -> bool:
+    """Whether it is known where the pins stand, whatever the firing order."""
+    return not parts.rank and (parts.plan.throws == 1 or parts.model.crank.throws is not None)
+
+
+def _find_intervals(parts: Assembly) -> list[float]:
+    """The intervals at which the cylinders fire in their order; empty if it takes too long."""
+    if parts.order is None:
+        return []
     try:
-        fitting = find_intervals(parts.order, parts.dead_centres_deg, cycle)
+        return find_intervals(parts.order, parts.dead_centres_deg, cycle_deg(parts.model.layout))
     except InputError:
-        return ""
-    pairs = zip(sorted(fitting), sorted(given), strict=True)
-    if any(abs(a - b) > TOLERANCE_DEG for a, b in pairs):
-        return ""
-    return f". They fit with layout.firing_intervals = [{', '.join(f'{x:.6g}' for x in fitting)}]"
+        return []
+
+
+def _describe_intervals(intervals: list[float]) -> str:
+    return f"layout.firing_intervals = [{', '.join(f'{x:.6g}' for x in intervals)}]"
 
 
 def _suggest_splay(parts: Assembly) -> str:
-    """The splay with which all would fire at top dead centre; empty if there is none."""
-    one_pin = parts.model.layout.radial is not None
-    splay = None if parts.rank or one_pin else find_fitting_splay(parts.model)
-    if splay is None:
+    """The splay with which all would fire at top dead centre, in a vee with its banks exchanged
+    where that splits the pins less; empty if there is none.
+
+    Pins whose rods fire f after each other in banks that stand g apart are split by g - f, in
+    exchanged banks by g + f. Both are right; a crank that is forged has the smaller one.
+    """
+    if parts.rank or parts.model.layout.radial is not None:
         return ""
-    return f". They fit with {'split' if splay else 'common'} pins: crank.splay = {splay:g}"
+    splay = find_fitting_splay(parts.model)
+    swapped = _exchange_banks(parts)
+    other = None if swapped is None else find_fitting_splay(swapped)
+    if swapped is None or other is None or (splay is not None and abs(splay) <= abs(other)):
+        return "" if splay is None else f". They fit with {_describe_pins(splay)}"
+    exchange = f". They fit with {_describe_exchange(swapped)}"
+    has_it = abs(other - swapped.crank.splay) <= TOLERANCE_DEG
+    return exchange if has_it else f"{exchange}; and with {_describe_pins(other)}"
+
+
+def _describe_pins(splay: float) -> str:
+    return f"{'split' if splay else 'common'} pins: crank.splay = {splay:g}"
 
 
 def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:

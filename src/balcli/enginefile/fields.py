@@ -45,9 +45,9 @@ def counted(count: int, what: str) -> str:
     return f"{count} {what}{'s' * (count != 1)}"
 
 
-def count_lambda_digits(ratio: float) -> int:
+def count_lambda_digits(ratio: float, usual: int = 4) -> int:
     """Of crank radius / rod length, as it is told: more next to 1, where the crank locks."""
-    return 4 if ratio < 0.999 else 7
+    return usual if ratio < 0.999 else max(usual, 7)
 
 
 def split_hyphens(value: object) -> object:

@@ -11,8 +11,8 @@ from pydantic import Field
 
 from .exclusive import Choice, join_words
 from .fields import FileName, Number, OneOf
-from .model import Angle, FileTable, Heat, Mass, Size, TableRule
-from .units import ANGLE, INERTIA, PLAIN, PRESSURE
+from .model import Angle, FileTable, GivenInertia, Heat, Mass, Size, TableRule
+from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
@@ -23,7 +23,6 @@ CutOff = Annotated[float, Number(PLAIN, least=1, most=1000)]
 Efficiency = Annotated[float, Number(PLAIN, above=0, most=1)]
 Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
 Exponent = Annotated[float, Number(PLAIN, least=0, most=100)]
-Inertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 
 _GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
 DIAGRAM_KEYS = ("zero", "phase", "pressure")
@@ -195,7 +194,9 @@ class Flywheel(FileTable):
         Choice((("inertia",), ("mass", "radius_of_gyration")), required=True, complete=True),
     )
 
-    inertia: Inertia | None = Field(None, description="polar moment of inertia", examples=[250000])
+    inertia: GivenInertia | None = Field(
+        None, description="polar moment of inertia", examples=[250000]
+    )
     mass: Mass | None = Field(
         None, description="with radius_of_gyration, instead of inertia", examples=[12]
     )

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, get_args
-
-from pydantic import ValidationError
+from typing import TYPE_CHECKING, get_args
 
 from ..errors import Problem
 from ..limits import MOST_LIST_VALUES
@@ -14,6 +12,7 @@ from . import model
 from .fields import counted, printable, shorten
 
 if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
 
 TEXTS = ("name", "source")
@@ -75,13 +74,6 @@ def join_path(start: str, parts: Iterable[int | str]) -> str:
     return ".".join([start, *names])
 
 
-def is_miscounted(finding: ErrorDetails) -> bool:
-    """Whether a list is called too short only because members of it, which have findings of their
-    own, were not counted.
-    """
-    return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
-
-
 def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTable]) -> Problem:
     """One finding of pydantic in the table at `path`; a member of a list is named in words (`the
     2nd value`).
@@ -106,8 +98,13 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTab
 
 def _holds_tables(table: type[model.FileTable], loc: Sequence[str | int]) -> bool:
     """Whether a key has a list of tables."""
-    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    field = _find_field(table, loc)
     return field is not None and find_table(field.annotation) is not None
+
+
+def _find_field(table: type[model.FileTable], loc: Sequence[str | int]) -> FieldInfo | None:
+    """The field at a place, which may be in a table within the table; None: there is none."""
+    return find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
 
 
 def find_inner_table(
@@ -129,17 +126,16 @@ def find_table(annotation: object) -> type[model.FileTable] | None:
 
 def _find_example(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
     """A list that a key may hold."""
-    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    field = _find_field(table, loc)
     listed = [each for each in (field.examples or () if field else ()) if isinstance(each, list)]
     return shorten(listed[0]) if listed else "[0, 180]"
 
 
 def _suggest_missing(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
-    """An example of the key, which may stand in a table within the table."""
-    key = loc[-1]
-    examples = find_inner_table(table, loc).keys()[str(key)].examples
-    example = shorten(examples[0]) if examples else "{ length = 200 }"
-    return f"give it, such as {key} = {example}"
+    """An example of the key."""
+    field = _find_field(table, loc)
+    example = shorten(field.examples[0]) if field and field.examples else "{ length = 200 }"
+    return f"give it, such as {loc[-1]} = {example}"
 
 
 def _describe_length(value: list[object], context: Mapping[str, object]) -> str:
@@ -157,43 +153,3 @@ def ordinal(number: int) -> str:
         return f"{number}th"
     suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
     return f"{number}{suffix}"
-
-
-# ------------------------------------------------------------------ keys against each other
-def read_without(
-    table: type[model.FileTable], value: Mapping[str, Any], broken: set[str]
-) -> model.FileTable | None:
-    """The table without its broken keys, with examples of those that have to be there; None where
-    that is none, either.
-    """
-    known = {key: part for key, part in value.items() if key not in broken}
-    needed = {key: field for key, field in table.keys().items() if field.is_required()}
-    examples = {key: (field.examples or [None])[0] for key, field in needed.items()}
-    try:
-        draft = table.model_validate(examples | known, context=broken)
-    except ValidationError:
-        return None
-    draft.model_fields_set.update(broken & value.keys())  # these are given, too
-    return draft
-
-
-def find_conflicts_of_keys(
-    path: str,
-    table: type[model.FileTable],
-    value: Mapping[str, Any],
-    broken: set[str],
-    draft: model.FileTable | None,
-) -> Iterator[Problem]:
-    """What the keys of a table say against each other, and their values, as far as that can be said
-    without the broken ones, which `draft` lacks.
-    """
-
-    def tell(mistakes: Iterable[str], keys: Iterable[str]) -> Iterator[Problem]:
-        missing = tuple(join_path(path, [key]) for key in keys if key not in value)
-        return (Problem(path, mistake, missing) for mistake in mistakes)
-
-    for choice in table.choices:
-        yield from tell(choice.mistakes(value), choice.find_missing(value))
-    for rule in table.rules if draft is not None else ():
-        if rule.needs.isdisjoint(broken):
-            yield from tell(rule.check(draft), {*rule.needs, *rule.wants})

@@ -25,7 +25,7 @@ from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated, join_words
-from .fields import FileName, Flag, Halves, Number, OneOf, Whole, counted, split_hyphens
+from .fields import FileName, Flag, Halves, Label, Number, OneOf, Whole, counted, split_hyphens
 from .units import (
     ANGLE,
     ENERGY,
@@ -82,6 +82,7 @@ Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
 RippleOrder = Annotated[float, Halves(most=HIGHEST_RIPPLE_ORDER)]
 ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
+Name = Annotated[str, Label()]
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 Intervals = Annotated[tuple[Interval, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field
 
 from .exclusive import Choice
-from .fields import Flag, Label, Number
-from .model import Angle, FileTable, TableRule, Triple
+from .fields import Flag, Number
+from .model import Angle, FileTable, Name, TableRule, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
 if TYPE_CHECKING:
@@ -37,7 +37,6 @@ class _AlikeOrEach:
 
 
 _Stiffness, _Damping = (Number(dimension, least=0, most=1e12) for dimension in (STIFFNESS, DAMPING))
-Name = Annotated[str, Label()]
 Tensor = Annotated[
     tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], Field(min_length=6, max_length=6)
 ]

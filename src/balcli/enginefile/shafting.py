@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from .fields import RIGID, Number, OneOf
-from .model import FileTable, Size, TableRule
+from .model import FileTable, GivenInertia, Size, TableRule
 from .units import INERTIA, MASS, PLAIN, SHEAR_MODULUS, TORSIONAL_DAMPING, TORSIONAL_STIFFNESS
 
 
@@ -43,7 +43,6 @@ Stiffness = Annotated[float, _Stiffness()]
 Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
 Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
 Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
-_RingInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 _RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
 _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
@@ -114,7 +113,7 @@ class Damper(FileTable):
         description="viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing "
         "in the field of rotation",
     )
-    inertia: _RingInertia | None = Field(None, examples=[30000], description="of the ring")
+    inertia: GivenInertia | None = Field(None, examples=[30000], description="of the ring")
     damping: _RingDamping | None = Field(None, examples=[12], description="of the oil film")
     stiffness: _RingStiffness | None = Field(None, examples=[40000], description="of the rubber")
     loss: Loss | None = Field(None, examples=[0.15], description="loss factor of the rubber")

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from .exclusive import join_words
 from .fields import count_lambda_digits
 from .model import Counterweight, EngineFile
+from .units import ask_unit
 
 if TYPE_CHECKING:
     from .torsion_tables import Torsion
@@ -45,7 +46,9 @@ MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
 AROUND = 0.15, 12.0
 COMPRESSION = 2.0, 30.0  # engines have 4 (of 1910) to 25
 INDEX_MOST = 5 / 3  # of a gas of single atoms that loses nothing; engines have 1.2 to 1.4
-THROW_HEAVY = 20.0  # unbalanced mass of a throw / its rods and pistons: engines have up to 1.4
+# Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft
+# weighs some 4 to 10 times as much for each throw, with its counterweights.
+THROW_HEAVY = 6.0
 BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
 # Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
 NEIGHBOURS_CLOSE = 0.9
@@ -185,8 +188,7 @@ def _neighbours(model: EngineFile) -> Iterator[str]:
         key = "spacing" if model.crank.positions is None else "positions"
         yield (
             f"crank.{key} puts neighbouring cylinders of one bank {gap:g} mm apart, which is less "
-            f"than their bore of {bore:g} mm; is it in mm? Another unit is said as in "
-            '"4.4 in" or "1.02 m"'
+            f"than their bore of {bore:g} mm; {ask_unit('mm', '4.4 in', '1.02 m')}"
         )
 
 
@@ -214,7 +216,8 @@ def _throw(model: EngineFile) -> Iterator[str]:
     throws, rods = _throws_and_rods(model)
     given, moving = model.crank.throw_mass, rods / throws * _rod_and_piston(model)
     beside = "the rods and pistons of a throw"
-    yield from _too_heavy("crank.throw_mass", given, THROW_HEAVY, beside, moving)
+    for doubt in _too_heavy("crank.throw_mass", given, THROW_HEAVY, beside, moving):
+        yield f"{doubt}. It is what one throw has off the axis, not what the crankshaft weighs"
 
 
 def _bobweight(model: EngineFile) -> Iterator[str]:
@@ -255,8 +258,8 @@ def _shafts(model: EngineFile) -> Iterator[str]:
         away = max(map(abs, shaft.at))
         if NO_DISTANCE < away < nearest:
             yield (
-                f"shaft.{number}.at is within {away:.3g} mm of the crank's axis; is it in mm? "
-                f'Another unit is said as in "{away:.3g} m"'
+                f"shaft.{number}.at is within {away:.3g} mm of the crank's axis; "
+                f"{ask_unit('mm', f'{away:.3g} m')}"
             )
 
 
@@ -276,8 +279,8 @@ def _turning(model: EngineFile) -> Iterator[str]:
         if 0 < inertia < TURNING_LIGHT * beside:
             yield (
                 f"{what} is {inertia:.4g} kg mm^2, less than {TURNING_LIGHT:g} of what all rods "
-                f"and pistons have at the crank radius ({beside:.4g}); is it in kg mm^2? Another "
-                f'unit is said as in "{inertia:.4g} kg m^2"'
+                f"and pistons have at the crank radius ({beside:.4g}); "
+                f"{ask_unit('kg mm^2', f'{inertia:.4g} kg m^2')}"
             )
 
 
@@ -302,51 +305,68 @@ def _throw_inertia(torsion: Torsion, model: EngineFile) -> float:
 def _gas(model: EngineFile) -> Iterator[str]:
     if model.gas is None:
         return
-    for key, limit in (
-        ("imep", MEAN_PRESSURE),
-        ("bmep", MEAN_PRESSURE),
-        ("max_pressure", MAX_PRESSURE),
-    ):
-        value = getattr(model.gas, key)
-        if value is not None and value > limit:
-            yield (
-                f"gas.{key} is {value:.4g} bar, where at most {limit:g} is usual; is it in bar? "
-                'Another unit is said as in "130 psi" or "0.9 MPa"'
-            )
-    ranges = dict.fromkeys(("intake", "exhaust", "crankcase"), (*AROUND, " bar, absolute,"))
-    if model.gas.cycle is not None:  # a compressor, which has a diagram, leaves less clearance
-        ranges["compression_ratio"] = (*COMPRESSION, "")
-        ranges["compression_index"] = ranges["expansion_index"] = (1.0, INDEX_MOST, "")
-    for key, (low, high, unit) in ranges.items():
+    mean = 0.0, MEAN_PRESSURE, ""
+    pressures = dict.fromkeys(("intake", "exhaust", "crankcase"), (*AROUND, " absolute"))
+    pressures |= {"imep": mean, "bmep": mean, "max_pressure": (0.0, MAX_PRESSURE, "")}
+    for key, (low, high, absolute) in pressures.items():
         value = getattr(model.gas, key)
         if value is not None and not low <= value <= high:
-            yield f"gas.{key} is {value:.4g}, where {low:g} to {high:.3g}{unit} is usual"
+            usual = f"{low:g} to {high:g}" if low else f"at most {high:g}"
+            yield (
+                f"gas.{key} is {value:.4g} bar{absolute}, where {usual} is usual; "
+                f"{ask_unit('bar', '130 psi', '0.9 MPa')}"
+            )
+    if model.gas.cycle is None:
+        return  # a compressor, which has a diagram, leaves less clearance
+    for key, low, high, meaning in (
+        ("compression_ratio", *COMPRESSION, "the largest volume over the smallest"),
+        ("compression_index", 1.0, INDEX_MOST, "n of p V^n = const"),
+        ("expansion_index", 1.0, INDEX_MOST, "n of p V^n = const"),
+    ):
+        value = getattr(model.gas, key)
+        if value is not None and not low <= value <= high:
+            yield (
+                f"gas.{key} is {value:.4g}, where {low:g} to {high:.3g} is usual; it is {meaning}"
+            )
 
 
 def _torsion(model: EngineFile) -> Iterator[str]:
-    """What `torque` takes of [crank] and [flywheel], and `torsion` of its own table."""
     if model.torsion is None:
         return
     yield from doubt_losses(_list_losses(model.torsion))
     yield from _throw_stiffness(model.torsion, model)
-    throws, whole = _throw_inertia(model.torsion, model), model.crank.inertia
+    yield from _crank_inertia(model.torsion, model)
+    yield from _parts_in_water(model.torsion)
+    yield from _two_flywheels(model.torsion, model)
+
+
+def _crank_inertia(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """What `torque` takes of [crank], less than what `torsion` takes of its own table."""
+    throws, whole = _throw_inertia(torsion, model), model.crank.inertia
     if whole is not None and throws > (1 + SAME_INERTIA) * whole:
         yield (
             f"crank.inertia is {whole / 1e6:.4g} kg m^2, and all throws of torsion.throw_inertia "
             f"together have {throws / 1e6:.4g}: the whole has no less than its parts"
         )
-    parts = (*model.torsion.front, *model.torsion.rear)
-    for part in parts:
+
+
+def _parts_in_water(torsion: Torsion) -> Iterator[str]:
+    """Damping that was meant against ground."""
+    for part in (*torsion.front, *torsion.rear):
         in_water = any(word in part.name.lower() for word in ("propeller", "impeller"))
         if in_water and part.damping and not part.node_damping:
             yield (
                 f"the part '{part.name}' of [torsion]: damping is of a dashpot between the ends of "
                 "its shaft; of the part against ground, as water damps it, it is node_damping"
             )
+
+
+def _two_flywheels(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """One in [flywheel] and another in [torsion]."""
     named = [
         (part.name, part.inertia)
-        for part in parts
-        if part.inertia and "flywheel" in (part.name or "").lower()
+        for part in (*torsion.front, *torsion.rear)
+        if part.inertia and "flywheel" in part.name.lower()
     ]
     flywheel = _flywheel_inertia(model)
     if len(named) == 1 and flywheel:
@@ -387,8 +407,8 @@ def _throw_stiffness(torsion: Torsion, model: EngineFile) -> Iterator[str]:
     if twist > TWIST_MOST:
         yield (
             "torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by "
-            f"{twist:.2g} rad, where at most {TWIST_MOST:g} is usual; is it in N m/rad? Another "
-            'unit is said as in "1.2 MN m/rad"'
+            f"{twist:.2g} rad, where at most {TWIST_MOST:g} is usual; "
+            f"{ask_unit('N m/rad', '1.2 MN m/rad')}"
         )
 
 

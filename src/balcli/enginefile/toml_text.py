@@ -7,8 +7,6 @@ from __future__ import annotations
 import re
 import sys
 import tomllib
-from collections.abc import Iterator
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +16,6 @@ from .fields import nearest
 
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
-# As people write one: .5, 5., 007, 1 000.
-_NUMBER = r"[+-]?(?:\d{1,3}(?: \d{3})+\.?\d*|\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _MOST_DIGITS = 4300  # of a whole number that Python reads
 _TOO_MANY_DIGITS = re.compile(rf"[0-9][0-9_]{{{_MOST_DIGITS},}}")
 
@@ -91,58 +87,13 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
 
 
 def _explain(text: str | bytes, error: str) -> str:
-    """The line that TOML does not understand, and what is meant, where that can be guessed; or the
-    key that is there twice.
-    """
+    """What is wrong with the line that an error of tomllib names, or else with the last."""
+    from .toml_slips import explain  # after a mistake alone
+
     place = re.search(r"\(at line (\d+), ", error)
     lines = (text.decode("utf-8-sig") if isinstance(text, bytes) else text).splitlines()
     line = lines[int(place[1]) - 1 if place else -1] if lines else ""
-    twice = re.match(r"\s*([\w.-]{1,60})\s*=", line)
-    if twice and error.startswith("Cannot overwrite"):
-        return f": {twice[1]} is given twice; write it once"
-    if misfit := re.fullmatch(r"\s*([\w.-]{1,40})\s*(?::=?|==)\s*([^:=#]{1,60}?)\s*(?:#.*)?", line):
-        return f": a key and its value have = between them: {misfit[1]} = {misfit[2]}"
-    if table := re.fullmatch(r"\s*([\w.-]{1,40})\s*:\s*(?:#.*)?", line):
-        return f": the head of a table stands in brackets: [{table[1]}]"
-    given = r"([^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,-]{1,60}\])"
-    assigned = re.fullmatch(rf"\s*([\w.-]{{1,40}})\s*=\s*{given}\s*(?:#.*)?", line)
-    if assigned is None or not assigned[2].isprintable():
-        return ""
-    key, value = assigned[1], assigned[2]
-    with suppress(tomllib.TOMLDecodeError):
-        tomllib.loads(f"value = {value}")
-        return ""  # it is something before it that is wrong
-    return next(
-        (f": {key} = {value}: {hint.format(key=key, value=value)}" for hint in _guess(value)), ""
-    )
-
-
-def _guess(value: str) -> Iterator[str]:
-    """What is meant by a value without quotes, or a list of such, that TOML does not take."""
-    if re.fullmatch(_NUMBER, value):
-        yield f"TOML writes this number {{key}} = {_write_number(value)}"
-    elif re.fullmatch(r"[+-]?\d+,\d+", value):
-        yield "write a decimal point, not a comma; a list stands in brackets, such as [{value}]"
-    elif re.fullmatch(r"[+-]?[\d.]+(\s*,\s*[+-]?[\d.]+)+,?", value):
-        yield "a list stands in brackets: {key} = [{value}]"
-    elif part := re.fullmatch(r"([+-]?\d{1,9})\s*/\s*([1-9]\d{0,8})", value):
-        yield f"TOML knows no fractions; write {{key}} = {int(part[1]) / int(part[2]):.6g}"
-    elif re.fullmatch(r"[+-]?[\d./]+\s*[A-Za-z°%].*", value):
-        yield 'a value with a unit stands in quotes: {key} = "{value}"'
-    elif re.match(r"\[.*\d[\s;]+[\d.+-]", value):
-        listed = ", ".join(re.findall(r"[^\s;,]+", value.strip("[]")))
-        yield f"commas stand between the values of a list: {{key}} = [{listed}]"
-    elif re.fullmatch(rf"\[\s*{_NUMBER}(\s*,\s*{_NUMBER})*,?\s*\]", value):
-        listed = ", ".join(map(_write_number, re.findall(_NUMBER, value)))
-        yield f"TOML writes these numbers {{key}} = [{listed}]"
-    elif bare := re.fullmatch("[“”„«»‘’](.+)[“”«»‘’]", value):
-        yield f'quotes are straight: {{key}} = "{bare[1]}"'
-    elif re.fullmatch(r"[A-Za-z].*", value):
-        yield 'words stand in quotes: {key} = "{value}"'
-
-
-def _write_number(text: str) -> str:
-    return f"{float(text.replace(' ', '')):.15g}"
+    return explain(line, error)
 
 
 def _load_toml(text: str) -> dict[str, Any]:

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
-from .fields import Label, Number, counted, shorten
-from .model import FileTable, Size, TableRule
+from .fields import Number, counted, shorten
+from .model import FileTable, Name, Size, TableRule
 from .shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
 from .units import ANGLE, INERTIA, PLAIN, STRESS, TORSIONAL_STIFFNESS, Dimension
 
@@ -58,9 +58,7 @@ class Part(ShaftKeys):
     it from the throws.
     """
 
-    name: Annotated[str, Label()] = Field(
-        description="what to call it; each its own", examples=["flywheel"]
-    )
+    name: Name = Field(description="what to call it; each its own", examples=["flywheel"])
     inertia: NodeInertia | None = Field(
         None, description="moment of inertia; left out: a massless node", examples=[2.075e6]
     )
@@ -70,7 +68,7 @@ class Part(ShaftKeys):
         "sits there, and the shaft turns with this part",
         examples=[0.5],
     )
-    of: Annotated[str, Label()] | None = Field(
+    of: Name | None = Field(
         None,
         description="what it hangs on, a part or throw 1, throw 2, ...; left out: the part before "
         "it in the list, the first on the nearest throw",

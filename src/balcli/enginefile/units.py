@@ -140,15 +140,22 @@ def convert(text: str, dimension: Dimension) -> float:
     """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong,
     what would be right.
     """
+    return float(convert_exactly(text, dimension))
+
+
+def convert_exactly(text: str, dimension: Dimension) -> Fraction:
+    """As `convert`, before it is rounded."""
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     figure = re.sub(_INCH_MARK, r"\1 in", text)
     try:
-        return float(_measure(figure, dimension) / read_unit(dimension.unit, dimension).scale)
+        exact = _measure(figure, dimension) / read_unit(dimension.unit, dimension).scale
+        float(exact)
     except ZeroDivisionError:
         raise ValueError("divides by zero") from None
     except OverflowError:
         raise ValueError("is too large a number") from None
+    return exact
 
 
 def _measure(figure: str, dimension: Dimension) -> Fraction:
@@ -165,6 +172,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
     if found is None:
         comma = re.search(r"\d,\d", figure)
         hint = " decimals take a point, thousands no comma;" if comma else ""
+        hint += " a minus sign is a hyphen;" if re.match(r"\s*[−–]", figure) else ""
         raise ValueError(f"is not a number followed by a unit;{hint} {wanted(dimension)}")
     number, names = found
     if not names:
@@ -262,6 +270,14 @@ def _name_pi(angle: str) -> str:
 def _in_small(name: str) -> str:
     """A unit of several letters that is written in capitals throughout, such as RPM."""
     return name.lower() if len(name) > 1 and name.isupper() else name
+
+
+def ask_unit(unit: str, *others: str) -> str:
+    """For messages on an unlikely figure: whether it is in this unit, its bare one, and how figures
+    in others are said, such as "3.5 in".
+    """
+    said = " or ".join(f'"{other}"' for other in others)
+    return f"is it in {unit}? Another unit is said as in {said}"
 
 
 def wanted(dimension: Dimension) -> str:

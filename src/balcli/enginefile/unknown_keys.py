@@ -37,6 +37,7 @@ SYNONYMS = {
     "phase": ("throws", "angle"),
     "phases": ("throws",),
     "bore_spacing": ("spacing",),
+    "bank": ("bank_angle",),
     "vee_angle": ("bank_angle",),
     "v_angle": ("bank_angle",),
     "angle": ("bank_angle", "throws"),
@@ -51,6 +52,7 @@ SYNONYMS = {
     "lambda": ("ratio",),
     "wrist_pin": ("pin",),
     "clips": ("locks",),
+    **dict.fromkeys(("file", "csv", "diagram"), ("indicator",)),
 }
 _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "

@@ -15,6 +15,7 @@ from ..core.phasors import Array, Complex
 from ..core.smallest_largest import Region, Smallest, minimise_largest, minimise_squares
 from ..enginefile.exclusive import join_words
 from ..enginefile.fields import counted, nearest, shorten
+from ..enginefile.units import ask_unit
 from ..errors import BalcliError, InputError, Problem
 from ..result import Result
 from .influence import (
@@ -346,7 +347,7 @@ def _doubt_units(file: RunsFile) -> Iterator[str]:
     """Metres for millimetres, and kilograms for grams in one of the planes."""
     if file.radius is not None and max(file.radius) < _SMALL_RADIUS:
         at = max(file.radius)
-        yield f'radius is {at:g} mm; is it in mm? Another unit is said as in "{at:g} m"'
+        yield f"radius is {at:g} mm; {ask_unit('mm', f'{at:g} m')}"
     trials = {
         plane: max(abs(run.weights[plane]) for run in file.run if plane in run.weights)
         for plane in file.planes

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ..enginefile.fields import Flag, Label, Number, OneOf, shorten
-from ..enginefile.model import FileTable, Size, Speed
+from ..enginefile.model import FileTable, Name, Size, Speed
 from ..enginefile.units import (
     ANGLE,
     BARE_FIGURE,
@@ -160,7 +160,6 @@ def read_amount_unit(name: str) -> Unit:
     return read_unit(name, _AMOUNTS)
 
 
-Name = Annotated[str, Label()]
 Reading = Annotated[complex, Polar("170 @ 112", zero=True, unit="unit")]
 Weight = Annotated[complex, Polar("1.15 @ 0", zero=False, unit="weight_unit")]
 Coefficient = Annotated[complex, Polar("0.0155 @ 113", zero=True)]

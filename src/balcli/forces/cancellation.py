@@ -14,6 +14,8 @@ from fractions import Fraction
 from math import lcm
 from typing import NamedTuple
 
+from ..core.roots_of_unity import vanishes
+
 ANGLES_SHOWN = 6  # of phasors; where there are more, only how many
 PAIRS_SHOWN = 6
 WEIGHT_DENOMINATOR = 1_000_000  # to which the ratio of two weights counts as a fraction
@@ -48,6 +50,11 @@ def tell_cancellation(sets: Iterable[Sequence[Term]]) -> str:
             told[_tell_polygons(others)] = None
     first = [_tell_pairs(sorted(pairs))] if pairs else []
     return "; ".join([*first, *told])
+
+
+def sum_to_nothing(terms: Sequence[Term]) -> bool:
+    """Whether the sum of terms is exactly 0."""
+    return vanishes([term.weight for term in terms], [term.angle for term in terms])
 
 
 def are_in_phase(terms: Sequence[Term]) -> bool:

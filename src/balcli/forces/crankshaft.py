@@ -9,7 +9,7 @@ moment runs straight, so that its largest values stand at loads.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -47,6 +47,10 @@ class AlongCrank:
     def at(self, place: int) -> Phasors:
         """Phasors at one of the places, by its index."""
         return self.phasors.select_place(place)
+
+    def select_orders(self, orders: Array) -> AlongCrank:
+        """The same without all other orders; the peaks remain those of all."""
+        return replace(self, phasors=self.phasors.select_orders(orders))
 
     @property
     def largest(self) -> int:

@@ -7,12 +7,8 @@ that fires at the crank angle f adds `t_h e^{i h (theta - f)/2}`: order n = h/2.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.cylinder_pressure import GasTorque
 from ..core.phases import ANGLE, SUM
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.build import NO_GAS, Engine
@@ -21,13 +17,6 @@ from ..errors import BalcliError
 
 _LEAST = 24  # harmonics that are computed at least, so that the largest is among them
 _QUADRATURE = 8 * EPS  # error of a coefficient, of the largest
-
-
-class _Course(NamedTuple):
-    """Harmonics of one cylinder's torque, N m, shape (orders,), and their error."""
-
-    c: Complex
-    error: float
 
 
 def take_gas(engine: Engine) -> EngineGas:
@@ -78,16 +67,11 @@ def find_courses(gas: EngineGas, orders: Array) -> tuple[Complex, Array]:
     courses = np.empty((len(orders), len(gas.cylinders)), complex)
     errors = np.empty(courses.shape)
     for torque, rows in gas.group_equal():
-        course = _find_course(torque, halves)
-        courses[:, rows] = course.c[:, None]
-        errors[:, rows] = course.error
+        lowest = np.abs(torque.harmonics(np.arange(1, _LEAST + 1)))
+        courses[:, rows] = torque.harmonics(halves)[:, None]
+        errors[:, rows] = _QUADRATURE * float(lowest.max())
     courses *= gas.shares
     return courses, gas.shares * errors
-
-
-def _find_course(torque: GasTorque, halves: NDArray[np.intp]) -> _Course:
-    lowest = np.abs(torque.harmonics(np.arange(1, _LEAST + 1)))
-    return _Course(torque.harmonics(halves), _QUADRATURE * float(lowest.max()))
 
 
 def _turn(cylinder: CylinderGas, orders: Array) -> Complex:

@@ -13,10 +13,10 @@ from fractions import Fraction
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.roots_of_unity import rational, turns, vanishes
+from ..core.roots_of_unity import rational, turns
 from ..engine.build import Engine
 from ..engine.gas import CylinderGas, EngineGas
-from .cancellation import WEIGHT_DENOMINATOR, Term, are_in_phase, tell_cancellation
+from .cancellation import WEIGHT_DENOMINATOR, Term, are_in_phase, sum_to_nothing, tell_cancellation
 from .gas import take_gas
 from .spectrum import compute_each_cylinder, compute_spectra
 
@@ -37,7 +37,7 @@ def measure_gas(engine: Engine, orders: Array) -> Iterator[tuple[bool, float | N
         known = [family for family in families if family]
         if len(known) < len(families):
             yield False, size, ""
-        elif all(vanishes([t.weight for t in one], [t.angle for t in one]) for one in known):
+        elif all(map(sum_to_nothing, known)):
             yield True, size, tell_cancellation(known)
         else:
             together = len(known) == 1 and are_in_phase(known[0])

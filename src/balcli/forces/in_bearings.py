@@ -10,6 +10,7 @@ the block's own devices add. Sections count as there, from the free end.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -126,7 +127,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
         return found
     bent = found.bending.phasors, found.block_bending.phasors
     due = np.any([mark_considerable(phasors) for phasors in bent], axis=0)
-    return LoadsWithGas(*(_select(along, shown[due]) for along in found))
+    return LoadsWithGas(*(along.select_orders(shown[due]) for along in found))
 
 
 def place_main_bearings(engine: Engine) -> Array:
@@ -136,15 +137,15 @@ def place_main_bearings(engine: Engine) -> Array:
         BearingsUnknownError: it is not known where the throws stand, there is one alone, or the
             crank stands still.
     """
-    why, span = "", None
     if engine.rotary:
-        why = "the crank of turning cylinders stands still, clamped at its end"
-    elif not engine.places_known:
-        why = "crank.spacing is missing, so that no bearing is known to stand"
-    elif (span := place_bearings(engine.throws_m)) is None:
-        why = "a crank with one throw does not say where its bearings stand"
+        raise BearingsUnknownError(
+            "the crank of turning cylinders stands still, clamped at its end"
+        )
+    if not engine.places_known:
+        raise BearingsUnknownError("crank.spacing is missing, so that no bearing is known to stand")
+    span = place_bearings(engine.throws_m)
     if span is None:
-        raise BearingsUnknownError(why)
+        raise BearingsUnknownError("a crank with one throw does not say where its bearings stand")
     return span
 
 
@@ -214,6 +215,11 @@ def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Comple
 
 
 # ------------------------------------------------------------------ sums along the crank
+# Of shear force and bending moment: how much a force adds at a section, a bound of that, and what
+# the sum is multiplied by.
+_CUTS = ((find_ahead, find_ahead, 1.0), (find_arms, bound_arms, 1j))
+
+
 def _beside(weights: Array, more: int) -> Array:
     """Weights of the forces on the shaft, and none of so many on the block."""
     return np.pad(weights, ((0, 0), (0, more)))
@@ -224,35 +230,20 @@ def _load_bearings(span: Array, shares: Array, more: int) -> _Sums:
     return _Sums(span, _beside(shares, more), _beside(np.abs(shares), more))
 
 
-def _cut_shaft(
-    sections: Array, z: Array, more: int, span: Array, shares: Array
-) -> tuple[_Sums, _Sums]:
-    """Shear behind, and bending moment at, each section."""
-    sizes = np.abs(shares)
-    shear = find_ahead(z, sections) - find_ahead(span, sections) @ shares
-    size = find_ahead(z, sections) + find_ahead(span, sections) @ sizes
-    arms = find_arms(z, sections) - find_arms(span, sections) @ shares
-    reach = bound_arms(z, sections) + bound_arms(span, sections) @ sizes
-    return (
-        _Sums(sections, _beside(shear, more), _beside(size, more)),
-        _Sums(sections, _beside(arms, more), _beside(reach, more), 1j),
-    )
+def _cut_shaft(sections: Array, z: Array, more: int, span: Array, shares: Array) -> Iterator[_Sums]:
+    """Shear behind, and bending moment at, each section: of its own forces less the bearings'."""
+    for weigh, bound, factor in _CUTS:
+        weights = weigh(z, sections) - weigh(span, sections) @ shares
+        sizes = bound(z, sections) + bound(span, sections) @ np.abs(shares)
+        yield _Sums(sections, _beside(weights, more), _beside(sizes, more), factor)
 
 
-def _cut_block(sections: Array, z: Array, span: Array, shares: Array) -> tuple[_Sums, _Sums]:
-    """Shear behind, and bending moment at, each section."""
-
-    def join(on_span: Array, own: Array, sharing: Array) -> Array:
-        return np.concatenate([on_span @ sharing, own], axis=1)
-
-    sizes = np.abs(shares)
-    ahead = find_ahead(span, sections), find_ahead(z, sections)
-    arms = find_arms(span, sections), find_arms(z, sections)
-    reach = bound_arms(span, sections), bound_arms(z, sections)
-    return (
-        _Sums(sections, join(*ahead, shares), join(*ahead, sizes)),
-        _Sums(sections, join(*arms, shares), join(*reach, sizes), 1j),
-    )
+def _cut_block(sections: Array, z: Array, span: Array, shares: Array) -> Iterator[_Sums]:
+    """Shear behind, and bending moment at, each section: of the bearings' forces and its own."""
+    for weigh, bound, factor in _CUTS:
+        weights = np.hstack([weigh(span, sections) @ shares, weigh(z, sections)])
+        sizes = np.hstack([bound(span, sections) @ np.abs(shares), bound(z, sections)])
+        yield _Sums(sections, weights, sizes, factor)
 
 
 def _follow(sums: _Sums, samples: Complex, panels: Panels, orders: Array) -> AlongCrank:
@@ -266,7 +257,3 @@ def _follow(sums: _Sums, samples: Complex, panels: Panels, orders: Array) -> Alo
         for peak, least in zip(map(panels.find_largest, values), noise, strict=True)
     )
     return AlongCrank(sums.z, phasors.drop_noise(), tuple(peaks))
-
-
-def _select(along: AlongCrank, orders: Array) -> AlongCrank:
-    return AlongCrank(along.z_m, along.phasors.select_orders(orders), along.peaks)

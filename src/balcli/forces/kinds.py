@@ -31,8 +31,8 @@ class Kind(NamedTuple):
     label: str
     symbol: str
     key: str
-    vector: bool
-    dimension: Dimension
+    vector: bool = False
+    dimension: Dimension = "moment"
     plus: tuple[str, ...] = ()
     minus: tuple[str, ...] = ()
 
@@ -53,18 +53,20 @@ class Kind(NamedTuple):
 
 
 FORCE = Kind("force", "free force", "F", "force_N", vector=True, dimension="force")
-MOMENT = Kind("moment", "free moment", "M", "moment_Nm", vector=True, dimension="moment")
-COUPLE = Kind("couple", "couple C", "C", "couple_Nm", vector=False, dimension="moment")
-TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm", False, "moment")
-ROLL = Kind("roll", "roll C − T", "C − T", "roll_Nm", False, "moment", ("couple",), ("torque",))
+MOMENT = Kind("moment", "free moment", "M", "moment_Nm", vector=True)
+COUPLE = Kind("couple", "couple C", "C", "couple_Nm")
+TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm")
+ROLL = Kind("roll", "roll C − T", "C − T", "roll_Nm", plus=("couple",), minus=("torque",))
 
-GAS = Kind("gas", "gas torque", "Tg", "gas_torque_Nm", False, "moment")
-TORQUE_TOTAL = Kind(
-    "torque_total", "total torque", "T + Tg", "torque_Nm", False, "moment", ("torque", "gas")
-)
+GAS = Kind("gas", "gas torque", "Tg", "gas_torque_Nm")
+TORQUE_TOTAL = Kind("torque_total", "total torque", "T + Tg", "torque_Nm", plus=("torque", "gas"))
 ROLL_TOTAL = Kind(
-    *("roll_total", "total roll", "C − T − Tg", "roll_total_Nm", False, "moment"),
-    *(("couple",), ("torque", "gas")),
+    "roll_total",
+    "total roll",
+    "C − T − Tg",
+    "roll_total_Nm",
+    plus=("couple",),
+    minus=("torque", "gas"),
 )
 
 KINDS = {kind.name: kind for kind in (FORCE, MOMENT, COUPLE, TORQUE, ROLL)}

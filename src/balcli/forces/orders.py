@@ -60,9 +60,10 @@ def _list_numbers(orders: object) -> list[float]:
     is_number = isinstance(orders, np.ndarray) and orders.ndim == 0
     if isinstance(orders, Iterable) and not (is_number or isinstance(orders, (str, bytes))):
         given = list(orders)
-        if all(isinstance(one, (int, float, np.number)) for one in given):
+        strangers = [one for one in given if not isinstance(one, (int, float, np.number))]
+        if not strangers:
             return given
-        strange = next(one for one in given if not isinstance(one, (int, float, np.number)))
+        strange = strangers[0]
     raise wrong_type("orders", strange, "give numbers, such as [1, 2, 4]")
 
 

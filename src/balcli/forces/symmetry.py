@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.phasors import Array
-from ..core.roots_of_unity import even, rational, turns, vanishes
+from ..core.roots_of_unity import even, rational, turns
 from ..engine.build import Engine
-from .cancellation import WEIGHT_DENOMINATOR, Term, are_in_phase, tell_cancellation
+from .cancellation import WEIGHT_DENOMINATOR, Term, are_in_phase, sum_to_nothing, tell_cancellation
 from .kinds import KINDS
 from .orders import merge_orders
 from .spectrum import compute_each_cylinder
@@ -322,7 +322,7 @@ def _count_from_lowest(terms: list[Term]) -> list[Term]:
 
 def _vanishes(sets: list[list[Term]]) -> bool:
     """Whether a sum does, each set of commensurable terms for itself."""
-    return all(vanishes([t.weight for t in one], [t.angle for t in one]) for one in sets)
+    return all(map(sum_to_nothing, sets))
 
 
 def _tell_why(sums: list[tuple[int, list[list[Term]]]], *, alike: bool) -> str:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
 from ..engine.build import Engine, take_model
-from ..engine.load import load
+from ..engine.load import build_tables
 from ..enginefile.plain_tables import take_tables
 from ..errors import BalcliError, check_type
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
@@ -87,5 +87,5 @@ def _read_source(source: Any, orders: Array | None) -> Source:
     if describes_chain(tables):
         name = name or _UNNAMED
         return ChainSource(name, b"", read_chain_tables(tables, name))
-    engine = load(source)
+    engine = build_tables(tables, name)
     return make_source(take_model(engine), engine, name or engine.name, orders)

@@ -16,7 +16,7 @@ from ..enginefile.mounting_tables import Body, Mount, Point
 from ..enginefile.read import REQUIRED, Draft, read_tables
 from ..enginefile.suspicious import doubt_losses
 from ..enginefile.toml_text import name_file, read_bytes
-from ..enginefile.units import STANDARD_GRAVITY
+from ..enginefile.units import STANDARD_GRAVITY, ask_unit
 from .build import find_mounting_faults
 
 SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber gives way by 1 to 20
@@ -66,8 +66,7 @@ def _doubt_sag(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
     if not SAG_LEAST <= sag <= SAG_MOST:
         yield (
             f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
-            f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; is it in N/mm? Another unit is said as in "
-            '"250 kN/m"'
+            f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
         )
 
 
@@ -81,8 +80,8 @@ def _doubt_places(model: EngineFile) -> Iterator[str]:
         away = max(map(abs, each.at))
         if 0 < away < NEAR_THE_ORIGIN:
             yield (
-                f"{path}.at of '{each.name}' is within {away:.3g} mm of the origin; is it in mm? "
-                f'Another unit is said as in "{away:.3g} m"'
+                f"{path}.at of '{each.name}' is within {away:.3g} mm of the origin; "
+                f"{ask_unit('mm', f'{away:.3g} m')}"
             )
 
 
@@ -93,8 +92,7 @@ def _doubt_size(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
     if across < SMALL_BODY * farthest:
         yield (
             f"body.inertia: {largest:g} kg mm^2 is that of {mass:g} kg within {across:.2g} mm, and "
-            f"a mount stands {farthest:.3g} mm away; is it in kg mm^2? Another unit is said as in "
-            f'"{largest:g} kg m^2"'
+            f"a mount stands {farthest:.3g} mm away; {ask_unit('kg mm^2', f'{largest:g} kg m^2')}"
         )
 
 

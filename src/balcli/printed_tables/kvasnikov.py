@@ -14,7 +14,7 @@ import numpy as np
 from ..core.mechanisms import closed_form
 from ..core.mechanisms import power_series as series
 from ..core.phasors import Array
-from .printed import Print, as_cells
+from .printed import Print, head_rows
 from .ranges import Ranges, as_numbers
 from .recomputed import Explanation, Row, Table
 
@@ -39,15 +39,12 @@ def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Tab
     orders = [int(label.partition("_")[2]) for label in stub]
     columns = (printed.columns[0], *headings)
 
-    def rows(body: Array) -> tuple[Row, ...]:
-        return tuple((label, *as_cells(line)) for label, line in zip(stub, body, strict=True))
-
     def first(count: int) -> tuple[Row, ...]:
-        return rows(np.array([_sum(terms(n, n + 2 * count), lam, count) for n in orders]))
+        return head_rows(stub, [_sum(terms(n, n + 2 * count), lam, count) for n in orders])
 
     return printed.compare(
         columns,
-        rows(exact(orders, lam)),
+        head_rows(stub, exact(orders, lam)),
         printed.align_cells(stub, columns),
         [
             Explanation("author's approximation: first term of the series alone", first(1)),

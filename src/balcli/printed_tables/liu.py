@@ -8,15 +8,16 @@ at radii b''' and b'' in the same proportion; sliders cancel the components Z_x 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from decimal import Decimal
 from math import cos, radians
 from typing import TypeAlias
 
 import numpy as np
 
 from ..core.phasors import Array, unit
-from .printed import Print, as_cells
+from .printed import Print, as_cells, head_rows
 from .ranges import Ranges, as_numbers
-from .recomputed import Explanation, Row, Table, parse_decimal
+from .recomputed import Explanation, Row, Table, parse_decimals
 
 Cosine: TypeAlias = Callable[[Array], Array]  # of degrees
 ROUGH = "author's approximation: cos 45° taken as 0.706"
@@ -101,24 +102,19 @@ def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> 
 
 def _quotients(printed: Print) -> tuple[Row, ...]:
     """Lines 3 and 6 of Table 1 from the lines before them as printed."""
-
-    def quotient(above: Sequence[str | None], below: Sequence[str | None]) -> Row:
-        pairs = [
-            (parse_decimal(a or ""), parse_decimal(b or ""))
-            for a, b in zip(above, below, strict=True)
-        ]
-        return tuple(float(a / b) if a is not None and b else None for a, b in pairs)
-
     nothing = (None,) * len(printed.columns)
-    a, b, _, c, d, _ = printed.rows
-    return (nothing, nothing, quotient(a, b), nothing, nothing, quotient(c, d))
+    a, b, _, c, d, _ = map(parse_decimals, printed.rows)
+    return (nothing, nothing, _divide(a, b), nothing, nothing, _divide(c, d))
+
+
+def _divide(above: Sequence[Decimal | None], below: Sequence[Decimal | None]) -> Row:
+    """Cell by cell; None where there is nothing to divide, or to divide by."""
+    pairs = zip(above, below, strict=True)
+    return tuple(float(a / b) if a is not None and b else None for a, b in pairs)
 
 
 def _labelled(printed: Print, body: Array) -> tuple[Row, ...]:
-    return tuple(
-        (label, *as_cells(line))
-        for label, line in zip(printed.column(printed.columns[0]), body, strict=True)
-    )
+    return head_rows(printed.column(printed.columns[0]), body)
 
 
 def _laid_out(printed: Print, body: Array, explanations: Sequence[Explanation] = ()) -> Table:

@@ -107,3 +107,8 @@ def identify(text: str) -> Key:
 def as_cells(values: Iterable[float]) -> list[Cell]:
     """Numbers of any kind as plain floats; minus zero as zero."""
     return [float(v) + 0.0 for v in values]
+
+
+def head_rows(stub: Iterable[Cell], body: Iterable[Iterable[float]]) -> tuple[Row, ...]:
+    """Rows of numbers, each headed by its cell of the stub."""
+    return tuple((head, *as_cells(line)) for head, line in zip(stub, body, strict=True))

@@ -109,6 +109,11 @@ def parse_decimal(text: str) -> Decimal | None:
     return value if value.is_finite() else None
 
 
+def parse_decimals(words: Words) -> tuple[Decimal | None, ...]:
+    """The printed decimals of a row, None where it has none."""
+    return tuple(parse_decimal(text or "") for text in words)
+
+
 def parse_fraction(cell: Cell) -> Fraction | None:
     """`15/128` as a fraction, None for any other text."""
     try:

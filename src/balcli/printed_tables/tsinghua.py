@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from decimal import Decimal
 from math import pi
 from typing import TypeAlias
 
@@ -10,9 +11,9 @@ import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
 from ..core.phasors import Array
-from .printed import Print, as_cells
+from .printed import Print, as_cells, head_rows
 from .ranges import Ranges, as_numbers
-from .recomputed import Cell, Explanation, Row, Table, parse_decimal
+from .recomputed import Cell, Explanation, Row, Table, Words, parse_decimal, parse_decimals
 
 ByAngle: TypeAlias = Callable[[Array, Array], Array]  # degrees, lambda
 
@@ -20,13 +21,13 @@ ByAngle: TypeAlias = Callable[[Array, Array], Array]  # degrees, lambda
 def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
     """Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r from the dimensions given."""
 
-    def row(words: tuple[str | None, ...], **computed: float) -> Row:
+    def row(words: Words, **computed: float) -> Row:
         return tuple(
             computed.get(head, _given(text))
             for head, text in zip(printed.columns, words, strict=True)
         )
 
-    def number(head: str, words: tuple[str | None, ...]) -> float:
+    def number(head: str, words: Words) -> float:
         return float(words[printed.columns.index(head)] or "")
 
     rows, supposed = [], []
@@ -70,13 +71,9 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
         _extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest)
     )
     stub = printed.column(printed.columns[0])
-    rows = [
-        (name, *as_cells(a), *as_cells(b))
-        for name, a, b in zip(stub, approximate, exact, strict=True)
-    ]
     return printed.compare(
         columns,
-        rows,
+        head_rows(stub, np.hstack([approximate, exact])),
         printed.align_cells([s or "" for s in stub], columns),
         [Explanation("sum of the rounded lines above", _sums(printed, columns))],
     )
@@ -107,9 +104,7 @@ def _margins(angle: float, line: list[Cell], signs: bool) -> Row:
     return (angle, "+-"[not down], *line, "-+"[not down], 360 - angle)
 
 
-def _extreme(
-    lam: Array, psi: Array, value: Array
-) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+def _extreme(lam: Array, psi: Array, value: Array) -> Array:
     """The seven lines of Table 1-4, angles in degrees; the mean piston speed is (2/pi) r omega."""
     alpha = np.degrees(psi)
     beta = np.degrees(np.arctan2(*sc.rod_angle(psi, lam)))
@@ -119,19 +114,15 @@ def _extreme(
 
 def _sums(printed: Print, columns: tuple[str, ...]) -> tuple[Row, ...]:
     """Lines 4 and 5 of Table 1-4 from lines 1 to 3 as printed."""
-    first, second, beta = printed.align_cells(
-        [text or "" for text in printed.column(printed.columns[0])[:3]], columns
-    )
+    stub = [text or "" for text in printed.column(printed.columns[0])[:3]]
+    first, second, beta = map(parse_decimals, printed.align_cells(stub, columns))
     nothing = (None,) * len(columns)
 
-    def add(words: tuple[str | None, ...], sign: int) -> Row:
-        figures = [
-            (parse_decimal(a or ""), parse_decimal(b or ""))
-            for a, b in zip(words, beta, strict=True)
-        ]
-        return tuple(None if a is None or b is None else float(a + sign * b) for a, b in figures)
+    def add_beta(angles: Sequence[Decimal | None], sign: int) -> Row:
+        pairs = zip(angles, beta, strict=True)
+        return tuple(None if a is None or b is None else float(a + sign * b) for a, b in pairs)
 
-    return (nothing, nothing, nothing, add(first, 1), add(second, -1), nothing, nothing)
+    return (nothing, nothing, nothing, add_beta(first, 1), add_beta(second, -1), nothing, nothing)
 
 
 def _given(text: str | None) -> Cell:

@@ -12,6 +12,7 @@ from ..engine.build import Engine, SilentCylinders
 from ..enginefile.fields import count_lambda_digits
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
+from .formats import get_digits
 from .sheet import Facts, given, number
 from .units import System
 
@@ -143,10 +144,7 @@ def _crank(engine: Engine, system: System) -> str:
     first = engine.numbers.index(1)
     radius, lam = float(c.radius), float(c.lam[first if len(c.lam) > 1 else 0])
     radius_shown, rod_shown = number(unit.of(radius)), number(unit.of(radius / lam))
-    needed = count_lambda_digits(
-        lam
-    )  # more where a fewer would make 1 of it, at which a crank locks
-    ratio = number(lam, needed) if lam < 0.999 else given(lam, needed)
+    ratio = given(lam, count_lambda_digits(lam, get_digits(4)))
     return (
         f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}, λ = {ratio}"
         f"{_unequal(engine)}"

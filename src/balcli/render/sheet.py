@@ -76,13 +76,17 @@ def number(value: float, digits: int | None = None) -> str:
     """A figure for people, with as many significant digits as were asked for; `digits` are usual
     there. No exponent between 0.0001 and a million, a plain 0.
     """
-    return given(value, get_digits(digits or USUAL_DIGITS))
+    return _write(value, get_digits(digits or USUAL_DIGITS))
 
 
 def given(value: float, digits: int = 6) -> str:
-    """A number that somebody gave, such as a speed: like a figure (`number`), but whole, however
-    few digits were asked for.
+    """A number that somebody gave, such as a speed: like a figure (`number`), but with its own
+    digits, however few were asked for.
     """
+    return _write(value, digits)
+
+
+def _write(value: float, digits: int) -> str:
     if math.isnan(value):
         return UNKNOWN
     if value == 0:

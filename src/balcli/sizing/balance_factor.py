@@ -24,6 +24,7 @@ from ..forces.spectrum import compute_spectra
 from ..limits import LARGEST_FACTOR
 from .bobweight_card import DEFINITION, NO_THROW, fill_card
 from .details import Detail
+from .device_tables import find_unbalance
 from .effects import LEFT, Slot
 from .fitting import Fitting
 from .options import SchemeOptions
@@ -147,8 +148,7 @@ def find_factor_peaks(
         across=_find_largest_component(force, 1j * along),
         moment=find_peak(moment).value,
         bobweight_g=fill_card(engine, factor)[0].bobweight_g,
-        counterweight=max((w.unbalance or 0.0 for w in fitting.remedy.counterweights), default=0.0)
-        / 1e6,
+        counterweight=max(map(find_unbalance, fitting.remedy.counterweights), default=0.0),
         by_moment=engine.places_known and _do_pins_balance(engine),
     )
 

@@ -185,7 +185,8 @@ def _tell_left_alone(rests: Mapping[str, Sequence[int]]) -> str:
             told += f" Order {orders[0]} stays as it is ({rest})."
         else:
             each = join_words([f"{order}" for order in orders])
-            told += f" Orders {each} stay as they are ({rest.replace('it has', 'they have')})."
+            of_several = rest.replace("it has", "they have").replace("its ", "their ")
+            told += f" Orders {each} stay as they are ({of_several})."
     return told
 
 

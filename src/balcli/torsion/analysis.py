@@ -97,18 +97,18 @@ class TorsionAnalysis(Result):
             if swing > WIDE_SWING:
                 yield (
                     f"the pendulums of {printable(system.nodes[pendulums.node])} swing by "
-                    f"{math.degrees(swing):.3g} deg at {rpm:.4g} rpm, and small swings are "
-                    f"computed: at {math.degrees(WIDE_SWING):.0f} deg one on a circle is 0.8 % out "
-                    f"of tune, farther out more; {swing / WIDE_SWING:.2g} times their mass would "
-                    "swing so far"
+                    f"{math.degrees(swing):.3g} deg at {rpm:.4g} rpm, computed as if that were "
+                    f"small: at {math.degrees(WIDE_SWING):.0f} deg one on a circle is 0.8 % out of "
+                    f"tune, farther out more; with {swing / WIDE_SWING:.2g} times their mass they "
+                    f"would swing by about {math.degrees(WIDE_SWING):.0f} deg"
                 )
-        least = "is the damping (loss, damping) of all that twists right?"
+        question = "is the damping (loss, damping) of all that twists right?"
         stress = np.nan_to_num(worst.stress)
         if stress.size and stress.max() > BREAKING:
             shaft = int(stress.argmax())
             yield (
                 f"{printable(system.shafts[shaft])} would bear {stress[shaft] / 1e6:.4g} N/mm2 at "
-                f"{worst.speeds_rpm[shaft]:.5g} rpm, which no steel does; {least}"
+                f"{worst.speeds_rpm[shaft]:.5g} rpm, which no steel does; {question}"
             )
         elif worst.free_end > ASTOUNDING:
             swings = (
@@ -122,7 +122,7 @@ class TorsionAnalysis(Result):
                     "the speed too low?"
                 )
             else:
-                yield f"{swings}, which no shaft outlasts; {least}"
+                yield f"{swings}, which no shaft outlasts; {question}"
 
     @property
     def summary(self) -> str:

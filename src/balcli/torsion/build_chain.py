@@ -15,6 +15,7 @@ from ..core.torsional_chain import (
     find_pieces,
     find_still,
     rigid_motions,
+    tabulate_chain,
 )
 from ..enginefile.fields import shorten
 from ..enginefile.shafting import find_stiffness
@@ -93,11 +94,8 @@ def _find_faults(
     the angle of the first node is.
     """
     names = [node.name for node in nodes]
-    table = np.array([each.shaft for each in shafts], float).reshape(-1, 4)
-    ends = table[:, :2].astype(np.intp)
-    inertia = np.array([n.inertia for n in nodes])
-    held = np.array([k in clamped for k in range(len(nodes))], bool)
-    chain = Chain(inertia, ends[:, 0], ends[:, 1], table[:, 3], table[:, 2], held)
+    inertia = [node.inertia for node in nodes]
+    chain = tabulate_chain(inertia, [each.shaft for each in shafts], clamped)
     apart = sort_distinct(find_pieces(chain).first)[1:].tolist()
     for node in apart:
         text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"

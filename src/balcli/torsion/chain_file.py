@@ -9,14 +9,13 @@ from typing import Annotated
 
 from pydantic import Field
 
-from ..enginefile.fields import Label, Number
-from ..enginefile.model import FileTable
+from ..enginefile.fields import Number
+from ..enginefile.model import FileTable, Name
 from ..enginefile.shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
 from ..enginefile.torsion_tables import AngleLimit, SpeedRatio, StressLimit
 from ..enginefile.units import PLAIN, TORQUE
 from ..limits import HIGHEST_TORSION_ORDER, MOST_TORSION_NODES
 
-Name = Annotated[str, Label()]
 Torque = Annotated[float, Number(TORQUE, most=1e18)]
 
 

@@ -84,9 +84,9 @@ def size_damper(
         return _excite(source.with_damper(node, damper).system(), orders)
 
     bare = build(None)
-    weights = (
-        np.nan_to_num(stress_by_torque(bare)) if any(bare.sections) else np.ones(len(bare.shafts))
-    )
+    measure, weights = "torque", np.ones(len(bare.shafts))
+    if any(bare.sections):
+        measure, weights = "stress", np.nan_to_num(stress_by_torque(bare))
     place = bare.nodes.index(node)
     mode, order = find_mode_to_damp(bare, speeds, weights, place)
     first = propose_damper(asked, own, bare, place, mode, order, source.crank_radius)
@@ -113,16 +113,16 @@ def size_damper(
     found = SizedDamper(
         node,
         damper,
-        start,
-        best,
-        figure,
-        mode.number,
-        "stress" if any(bare.sections) else "torque",
-        _bound(judge, None),
-        judge(damper),
-        heat,
-        heat_rpm,
-        (),
+        start=start,
+        sized=best,
+        figure=figure,
+        mode=mode.number,
+        measure=measure,
+        before=_bound(judge, None),
+        after=judge(damper),
+        heat=heat,
+        heat_rpm=heat_rpm,
+        doubts=(),
     )
     of_file = own is not None and own.kind == asked.kind
     doubts = _doubt(found, bare, of_file or asked.inertia is not None)

@@ -67,8 +67,7 @@ class _Curves(NamedTuple):
     """Torques of shafts over the cycle, at any speed.
 
     Attributes:
-        columns: (curves,) numbers of shafts; behind the last shaft one more is the angle of the
-            first node, and then those of pendulums, rad.
+        columns: (curves,) which of `ChainMotion.curves`: the first are those of the shafts.
         weights: (curves,) by which each is multiplied.
         together: whether the highest of all is wanted, not that of each.
     """
@@ -85,17 +84,7 @@ class _Curves(NamedTuple):
 
     def at(self, rpm: Real) -> Complex:
         """By order, (orders, speeds, curves)."""
-        motion, shafts = move(self.system, rpm), len(self.system.shafts)
-        found = np.empty((len(self.columns), *motion.torque.shape[:2]), complex)
-        for curve, column, weight in zip(found, self.columns, self.weights, strict=True):
-            if column < shafts:
-                curve[:] = motion.torque[:, :, column]
-            elif column == shafts:
-                curve[:] = motion.angle[:, :, 0]
-            else:
-                curve[:] = motion.pendulums[:, :, column - shafts - 1]
-            curve *= weight
-        return np.moveaxis(found, 0, -1)
+        return move(self.system, rpm).curves[:, :, list(self.columns)] * self.weights
 
     def pick(self, rpm: Real, curve: NDArray[np.intp]) -> Complex:
         """By order, (orders, *speeds), one curve at each speed; `curve` broadcasts to these."""

@@ -15,6 +15,7 @@ from ..enginefile.shafting import Damper
 from ..enginefile.suspicious import doubt_losses
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
 from ..enginefile.torsion_tables import Part
+from ..enginefile.units import ask_unit
 from ..errors import BalcliError
 from ..torque.course import silence
 from .build_chain import build_chain
@@ -101,14 +102,14 @@ def _doubt_units(model: ChainFile) -> Iterator[str]:
     for number, node in enumerate(model.node, 1):
         if node.inertia is not None and node.inertia < _LIGHT:
             yield (
-                f"node.{number}.inertia of '{node.name}' is {node.inertia:.4g} kg mm^2; is it in "
-                f'kg mm^2? Another unit is said as in "{node.inertia:.4g} kg m^2"'
+                f"node.{number}.inertia of '{node.name}' is {node.inertia:.4g} kg mm^2; "
+                f"{ask_unit('kg mm^2', f'{node.inertia:.4g} kg m^2')}"
             )
     for number, shaft in enumerate(model.shaft, 1):
         if shaft.diameter is not None and shaft.diameter < _THIN:
             yield (
-                f"shaft.{number}.diameter is {shaft.diameter:.4g} mm; is it in mm? Another unit is "
-                f'said as in "{shaft.diameter:.4g} m"'
+                f"shaft.{number}.diameter is {shaft.diameter:.4g} mm; "
+                f"{ask_unit('mm', f'{shaft.diameter:.4g} m')}"
             )
 
 

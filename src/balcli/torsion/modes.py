@@ -71,19 +71,20 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
     """The elastic modes, lowest first."""
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
-    elastic = range(modes.rigid, len(modes.omega))
-    shapes = scale_shapes(modes.shapes[modes.rigid :]) if elastic else modes.shapes[:0]
+    elastic = slice(modes.rigid, None)
+    shapes = scale_shapes(modes.shapes[elastic])
+    figures = zip(modes.omega[elastic].tolist(), shapes, loss[elastic].tolist(), strict=True)
     return tuple(
         NaturalMode(
-            k - modes.rigid + 1,
-            float(modes.omega[k]),
-            shapes[k - modes.rigid],
-            count_nodes(system.chain, shapes[k - modes.rigid]),
-            find_still_shafts(system, shapes[k - modes.rigid]),
-            find_nodes_at_rest(system, shapes[k - modes.rigid]),
-            float(loss[k]),
+            number,
+            omega,
+            shape,
+            count_nodes(system.chain, shape),
+            find_still_shafts(system, shape),
+            find_nodes_at_rest(system, shape),
+            lost,
         )
-        for k in elastic
+        for number, (omega, shape, lost) in enumerate(figures, 1)
     )
 
 

@@ -32,6 +32,13 @@ class ChainMotion(NamedTuple):
     pendulums: Complex
     heat: Real
 
+    @property
+    def curves(self) -> Complex:
+        """What swings, by order (orders, speeds, curves): torques of all shafts, angle of the first
+        node, angles of pendulums.
+        """
+        return np.concatenate([self.torque, self.angle[:, :, :1], self.pendulums], axis=-1)
+
 
 def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
     """Motion order by order at these speeds (rpm)."""

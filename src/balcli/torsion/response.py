@@ -100,16 +100,14 @@ _AXES = (0, 0, 0, 0, 1, 1, 0)  # the axis of speeds in what is summed up
 
 def _summarise(system: TorsionalSystem, orders: Real, rpm: Real) -> tuple[Real, ...]:
     motion = move(system, rpm)
-    first, shafts = motion.angle[:, :, :1], motion.torque.shape[-1]
-    curves = np.concatenate([motion.torque, first, motion.pendulums], axis=-1)
-    swing = find_swing(orders, curves).half
+    swing, shafts = find_swing(orders, motion.curves).half, len(system.shafts)
     return (
         swing[:, :shafts],
         sum_amplitudes(motion.torque),
         swing[:, shafts],
         swing[:, shafts + 1 :],
         np.abs(motion.torque),
-        np.abs(first[:, :, 0]),
+        np.abs(motion.angle[:, :, 0]),
         motion.heat.sum(axis=0),
     )
 
@@ -160,9 +158,7 @@ def _pass_limits(system: TorsionalSystem, rpm: Real) -> NDArray[np.bool_]:
     passed, weights = np.zeros(len(rpm), bool), _weigh_limits(system)
     orders = system.require_excitation().orders
     for some in split_speeds(system, rpm):
-        motion = move(system, rpm[some])
-        every = np.concatenate([motion.torque, motion.angle[:, :, :1]], axis=-1)
-        curves = np.asarray(every * weights, complex)
+        curves = move(system, rpm[some]).curves[:, :, : len(weights)] * weights
         most, here = sum_amplitudes(curves), passed[some]
         first = most.argmax(axis=1)[:, None] == np.arange(most.shape[1])
         for which in (first, ~first):  # one curve mostly tells

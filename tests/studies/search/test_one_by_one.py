@@ -222,6 +222,30 @@ def test_a_firing_order_of_no_account_leaves_room_for_a_bank_angle():
     assert found[0]["layout.bank_angle"] == pytest.approx(90, abs=1e-4)
 
 
+@pytest.mark.parametrize("over", ["bank_angle", "layout.bank_angle=0:180"])
+def test_so_it_does_by_the_angles_own_name(over):
+    """No worse than all of a sweep, in which the firing order counts for nothing, either."""
+    path, quantity = ENGINES / "v12_60.toml", "guide.3.X"
+    done = run_here("sweep", path, "--vary", "layout.bank_angle=0:180:5", "-q", quantity)
+    values = [float(row[quantity]) for row in csv.DictReader(StringIO(done.out))]
+    found = search(path, "--over", over, "--minimise", quantity)
+    assert found[0]["objective"] <= min(values) + 1e-9 * max(values)
+
+
+def test_ends_of_a_turn_are_one_angle():
+    """Guides of a V6 feel nothing of order 3 at splays of -60, which it has, and 180."""
+    found = search(ENGINES / "v6_60.toml", "--over", "splay", "--minimise", "guide.3.X")
+    assert sorted(one["splay"] for one in found) == [-60, 180]
+
+
+def test_throws_that_fire_evenly_are_tried_whatever_the_files_firing_order():
+    """Those of a six are three pairs, so that all their arrangements do."""
+    asked = ("--over", "throws", "--minimise", "guide.3.X", "--top", "100")
+    every = search(ENGINES / "i6.toml", *asked)
+    assert search(ENGINES / "i6.toml", *asked, "--require", "even-firing") == every
+    assert len(every) > 5
+
+
 def test_where_no_value_makes_an_engine_the_reason_is_told():
     """With gas the order in which it fires has to fit."""
     asked = ("--over", "layout.bank_angle=80:85", "--minimise", "torque.4.amplitude")

@@ -11,7 +11,6 @@ from itertools import islice
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.telling import Tell, tell_nobody
 from ...engine.build import Engine, build
@@ -32,8 +31,8 @@ from .designs import Design, Found, drop_firing_order
 from .even_firing import find_even_angles, fires_evenly
 from .mirror_images import drop_mirror_images
 from .objective import Objective, choose_sums
-from .one_by_one import find_best_designs, list_throws, rank_one_by_one
-from .over_angle import SPANS, Angle, check_angle, find_locked, search_angle
+from .one_by_one import BestNumbers, find_best_designs, list_throws, rank_one_by_one
+from .over_angle import SPANS, check_angle, find_locked, search_angle
 from .over_firing_order import find_slots, search_firing_order
 from .over_throws import give_throws, search_throws
 from .task import Task
@@ -150,27 +149,20 @@ def search_arrangements(
     if what is None:
         number = read_range(model, over)
         key, ends = number.path, (float(number.values.min()), float(number.values.max()))
-        even = _find_even_numbers(base, key, ends) if even_firing else None
-        if even is None:
-            best = find_best_designs(base, partial(_design_number, key), *ends, objective, tell)
-            constant, refused = best.constant, best.refused
-            designs = iter(best.designs)
-            if even_firing:
-                designs = (one for one in designs if _fires_evenly(base, one))
-        else:
-            designs = (_design_number(key, value) for value in even.tolist())
-        candidates = rank_one_by_one(base, designs, objective, tell_nobody)
+        best = _find_best(base, key, Span(*ends), objective, even_firing, tell)
+        constant, refused = best.constant, best.refused
+        candidates = rank_one_by_one(base, best.designs, objective, tell_nobody)
     elif sums is None:
-        designs = _list_designs(model, what, objective, even_firing, tell)
+        designs = _list_designs(model, base, what, objective, even_firing, tell)
         candidates = rank_one_by_one(base, designs, objective, tell)
     else:
         locked = find_locked(model, what)
         candidates = _SEARCHES[what](Task(model, sums, count, even_firing, locked, tell))
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
-        also = " and fire evenly" if even_firing else ""
+        wanted = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         named = key if is_number else key.replace("_", " ")
-        raise BalcliError(f"no {named} can keep these limits{also}")
+        raise BalcliError(f"no {named} can {' and '.join(wanted or ['be computed'])}")
     orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
     scale = find_textbook_units(engine, orders)
     return Search(model, key, objective, found, scale, locked, ends, constant, refused)
@@ -192,9 +184,16 @@ def read_range(model: EngineFile, over: str) -> Parameter:
 
 
 def _list_designs(
-    model: EngineFile, what: What, objective: Objective[AnyQuantity], even_firing: bool, tell: Tell
+    model: EngineFile,
+    free: EngineFile,
+    what: What,
+    objective: Objective[AnyQuantity],
+    even_firing: bool,
+    tell: Tell,
 ) -> Iterator[Design]:
-    """What there is to arrange, for figures that take each arrangement by itself."""
+    """What there is to arrange in a file, for figures that take each arrangement by itself; `free`
+    is the file with what may be changed for it.
+    """
     if what == "firing_order":
         slots, cranks = find_slots(model)
         return (
@@ -204,35 +203,46 @@ def _list_designs(
         )
     if what == "throws":
         designs = list_throws(give_throws(model))
-        return (one for one in designs if not even_firing or _fires_evenly(model, one))
+        return (one for one in designs if not even_firing or _fires_evenly(free, one))
     check_angle(model, what)
-    even = find_even_angles(model, what, SPANS[what]) if even_firing else None
-    if even is not None:
-        return (_design_angle(what, angle) for angle in even.tolist())
-    low, high = SPANS[what].low, SPANS[what].high
-    name = partial(_design_angle, what)
-    return iter(find_best_designs(model, name, low, high, objective, tell).designs)
+    return iter(_find_best(free, what, SPANS[what], objective, even_firing, tell).designs)
 
 
-def _design_number(path: str, value: float) -> Design:
-    return Design(number=(path, value))
-
-
-def _design_angle(key: Angle, angle: float) -> Design:
-    return Design(bank_angle=angle) if key == "bank_angle" else Design(splay=angle)
-
-
-def _find_even_numbers(
-    model: EngineFile, path: str, ends: tuple[float, float]
-) -> NDArray[np.float64] | None:
-    """Values in a range with which an engine fires evenly, of an angle of its crank or cylinders;
-    None: of another number, or all of them.
+def _find_best(
+    model: EngineFile,
+    key: str,
+    span: Span,
+    objective: Objective[AnyQuantity],
+    even_firing: bool,
+    tell: Tell,
+) -> BestNumbers:
+    """Designs with the best values of a number of the file (bank_angle, splay, or its dotted name)
+    in a span; of those with which the cylinders fire evenly, if that is asked for.
     """
-    if not path.startswith(("crank.throws.", "crank.splay", "layout.bank", "cylinder.")):
-        return None
-    if path.startswith("cylinder.") and not path.endswith((".throw", ".bank")):
-        return None
-    return find_even_angles(model, path, Span(*ends))
+    even = find_even_angles(model, key, span) if even_firing and _moves_dead_centres(key) else None
+    if even is not None:
+        return BestNumbers([_name_design(key, value) for value in even.tolist()], False, "")
+    ends = span.low, span.high
+    best = find_best_designs(model, partial(_name_design, key), *ends, objective, tell)
+    found = best.designs
+    if key in SPANS and span.ring:
+        first, last = (_name_design(key, end) for end in ends)
+        found = [*dict.fromkeys(last if one == first else one for one in found)]
+    kept = [one for one in found if not even_firing or _fires_evenly(model, one)]
+    return best._replace(designs=kept)
+
+
+def _name_design(key: str, value: float) -> Design:
+    if key == "bank_angle":
+        return Design(bank_angle=value)
+    return Design(splay=value) if key == "splay" else Design(number=(key, value))
+
+
+def _moves_dead_centres(key: str) -> bool:
+    """Whether it is an angle of the crank or of cylinders."""
+    if key.startswith("cylinder."):
+        return key.endswith((".throw", ".bank"))
+    return key in SPANS or key.startswith(("crank.throws.", "crank.splay", "layout.bank"))
 
 
 def _fires_evenly(model: EngineFile, design: Design) -> bool:
