@@ -113,6 +113,23 @@ def test_a_record_whose_engine_is_gone_is_a_difference(check, file, tmp_path):
     assert check("--update", tmp_path) == (1, f"{told}1 engine recorded\n", "")
 
 
+def test_engines_of_one_name_are_told_apart_by_their_folders(check, file, tmp_path):
+    """Two generations of an engine: whose figures moved is what a maintainer asks."""
+    second = tmp_path / "second" / file.name
+    second.parent.mkdir()
+    second.write_bytes(file.read_bytes())
+    told = f"no result is recorded in expected/{file.stem}.json; check --update records it\n"
+    assert check(tmp_path)[1] == f"{second}: {told}2 engines, 1 difference\n"
+    assert check(second)[1] == f"{file.stem}: {told}1 engine, 1 difference\n"
+    check("--update", tmp_path)
+    second.unlink()
+    gone = (
+        f"its result is recorded in expected/{file.stem}.json, but there is no {file.name}; bring "
+        "it back, or delete the record\n"
+    )
+    assert check(tmp_path)[1] == f"{second}: {gone}1 engine, 1 difference\n"
+
+
 def test_the_only_engine_of_a_folder_within_is_gone(check, file, tmp_path):
     inner = tmp_path / "inner" / "expected"
     inner.mkdir(parents=True)

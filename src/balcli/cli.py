@@ -317,10 +317,15 @@ def _usage(error: Any) -> str:
             "give this command FITTED.toml."
         )
     elif unknown := re.search(r"No such option: (--[a-z-]+)", told):
-        told += _name_commands_with(unknown[1])
+        from .commands.other_words import suggest_option
+
+        own = {word for each in error.ctx.command.params for word in each.opts}
+        told += suggest_option(unknown[1], own) or _name_commands_with(unknown[1])
     if "unexpected extra argument" not in told:
         return told
     extra = told.rpartition("argument(s) (")[2]
+    if re.match(r"Usage: balcli sweep ", told) and re.match(r"[a-z_]+\.[^=]*=", extra):
+        return f"{told}: each number that varies has a --vary of its own."
     if re.match(r"Usage: balcli (sweep|scatter) ", told) and re.match(r"[a-z_]+\.", extra):
         return told + ": names of quantities stand after -q, with commas between them."
     return told + ': a value or a name with a blank goes in quotes, such as "52 %".'

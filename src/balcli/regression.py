@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -73,16 +74,31 @@ def find_record(engine_file: Path) -> Path:
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
-def find_abandoned(files: Iterable[Path]) -> list[Difference]:
-    """Recorded results (of `find_record`) among files, whose engine file is not there."""
+def find_engine_file(record: Path) -> Path:
+    """The engine file whose result stands in this record (of `find_record`), there or not."""
+    return record.parent.with_name(f"{record.stem}.toml")
+
+
+def tell_engines_apart(files: Iterable[Path]) -> dict[Path, str]:
+    """What messages call engine files: `i4`, or the path where several of them are called so."""
+    named = list(dict.fromkeys(files))
+    called = Counter(file.stem for file in named)
+    return {file: file.stem if called[file.stem] == 1 else str(file) for file in named}
+
+
+def find_abandoned(files: Iterable[Path], names: Mapping[Path, str]) -> list[Difference]:
+    """Recorded results (of `find_record`) among files, whose engine file is not there; `names`: in
+    messages, by engine file.
+    """
+    gone = {record: find_engine_file(record) for record in files}
     return [
         Difference(
-            record.stem,
+            names[engine_file],
             f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
-            f"{record.stem}.toml; bring it back, or delete the record",
+            f"{engine_file.name}; bring it back, or delete the record",
         )
-        for record in files
-        if not record.parent.with_name(f"{record.stem}.toml").exists() and _is_record(record)
+        for record, engine_file in gone.items()
+        if not engine_file.exists() and _is_record(record)
     ]
 
 

@@ -78,10 +78,3 @@ def test_a_firing_order_is_doubted_unless_it_is_searched_for(args, doubted):
     told = "warning: standard input: layout.firing_order: 1-2-3 fires after 120, 120, 480 deg"
     assert (status, err.startswith(told)) == (0, doubted)
     assert bool(err) == doubted
-
-
-def test_a_speed_on_the_command_line_is_doubted_as_one_in_the_file(tmp_path):
-    file = tmp_path / "one.toml"
-    file.write_text(HEAVY, encoding="utf-8")
-    done = run_here("analyze", file, "--speed", "3.000", "--only", "force")
-    assert "operation.speed is 3 rpm; a point parts decimals, not thousands" in done.err

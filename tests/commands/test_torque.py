@@ -723,31 +723,36 @@ def test_curves_that_cannot_be(tmp_path, content, told):
     assert told in err
 
 
-@pytest.mark.parametrize("mark", [";", "\t"])
-def test_semicolons_or_tabs_part_columns_and_commas_decimals(tmp_path, mark):
-    path = tmp_path / "t.csv"
-    path.write_text("angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
-    english = torque("--curve", path)
-    path.write_text("angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n".replace(";", mark))
-    assert torque("--curve", path) == english
-
-
-def test_columns_parted_by_commas_may_stand_below_each_other_by_tabs(tmp_path):
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param(
+            "angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n",
+            id="semicolons part columns, and commas decimals",
+        ),
+        pytest.param(
+            "angle_deg\ttorque_Nm\n0\t1,5\n90,5\t-2,25\n360\t1.5\n",
+            id="so do tabs",
+        ),
+        pytest.param(
+            "angle_deg,\t\ttorque_Nm\n0,\t\t1.5\n90.5,\t\t-2.25\n360,\t\t1.5\n",
+            id="tabs after commas are room",
+        ),
+        pytest.param(
+            "angle_deg,torque_Nm\n0,1.5,first\n90.5,-2.25,,idle\n360,1.5,\n",
+            id="words without a heading count for nothing",
+        ),
+        pytest.param(
+            "angle_deg;torque_Nm\n0;1,5;7\n90,5;-2,25;8,5\n360;1,5;ok\n",
+            id="nor do numbers, where semicolons part columns",
+        ),
+    ],
+)
+def test_one_curve_in_other_words(tmp_path, text):
     path = tmp_path / "t.csv"
     path.write_text("angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
     plain = torque("--curve", path)
-    path.write_text("angle_deg,\t\ttorque_Nm\n0,\t\t1.5\n90.5,\t\t-2.25\n360,\t\t1.5\n")
-    assert torque("--curve", path) == plain
-
-
-def test_columns_without_a_heading_count_for_nothing(tmp_path):
-    """Words after the last headed column, and where semicolons part columns, numbers, too."""
-    path = tmp_path / "t.csv"
-    path.write_text("angle_deg,torque_Nm\n0,1.5\n90,-2.25\n360,1.5\n")
-    plain = torque("--curve", path)
-    path.write_text("angle_deg,torque_Nm\n0,1.5,first\n90,-2.25,,idle\n360,1.5,\n")
-    assert torque("--curve", path) == plain
-    path.write_text("angle_deg;torque_Nm\n0;1,5;7\n90;-2,25;8,5\n360;1,5;ok\n")
+    path.write_text(text)
     assert torque("--curve", path) == plain
 
 

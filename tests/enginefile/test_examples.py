@@ -106,6 +106,22 @@ def test_a_misspelt_name_gets_a_hint():
         examples.text("v8_crosplane")
 
 
+def test_the_beginning_of_a_name_or_a_class_gets_one_too():
+    with pytest.raises(BalcliError, match=r"Did you mean v6_60 or v6_90_common or v6_90_split\?$"):
+        examples.text("v6")
+    with pytest.raises(BalcliError, match=r"It is a class: balcli engines --class marine\.$"):
+        examples.text("Marine")
+
+
+def test_examples_with_a_chapter_are_found_by_its_table():
+    for chapter in ("torsion", "gas", "mount"):
+        found = {example.name for example in examples.find(chapter)}
+        having = {path.stem for path in ENGINE_FILES if f"\n[{chapter}]" in path.read_text("utf-8")}
+        having |= {p.stem for p in ENGINE_FILES if f"\n[[{chapter}]]" in p.read_text("utf-8")}
+        assert having
+        assert having <= found
+
+
 @pytest.mark.stress
 def test_a_wheel_has_the_examples_and_the_page(tmp_path):
     pytest.importorskip("hatchling", reason="hatchling, which builds the wheel, is not installed")

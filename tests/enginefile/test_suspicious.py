@@ -202,8 +202,15 @@ def test_ordinary_engines_pass(text):
         ),
         (
             changed(("throw_mass = 0.8", "throw_mass = 800")),
-            "crank.throw_mass is 800 kg, more than 20 times the rods and pistons of a throw (1.1 "
-            'kg); is it in kg? Grams are said as in "800 g"',
+            "crank.throw_mass is 800 kg, more than 6 times the rods and pistons of a throw (1.1 "
+            'kg); is it in kg? Grams are said as in "800 g". It is what one throw has off the axis, '
+            "not what the crankshaft weighs",
+        ),
+        (  # all of a forged two-litre crankshaft
+            changed(("throw_mass = 0.8", "throw_mass = 16")),
+            "crank.throw_mass is 16 kg, more than 6 times the rods and pistons of a throw (1.1 "
+            'kg); is it in kg? Grams are said as in "16 g". It is what one throw has off the axis, '
+            "not what the crankshaft weighs",
         ),
         (
             changed(more="[bobweight]\nrod_bearing = 47\noil = 0.004\n"),

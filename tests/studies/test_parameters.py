@@ -49,6 +49,21 @@ def test_range_includes_its_end_and_has_no_accumulated_error() -> None:
     assert found == [0.1, 0.2, 0.3, 0.4]  # repeated addition gives 0.30000000000000004
 
 
+@pytest.mark.parametrize(
+    ("asked", "wanted"),
+    [
+        ("piston.mass=500 g:700 g:100 g", [0.5, 0.6, 0.7]),
+        ("crank.spacing=3in:5in:0.1in", [float(Fraction(254 * k, 100)) for k in range(30, 51)]),
+        ("piston.mass=1 oz:20 oz:1 oz", [float(k * Fraction("0.028349523125")) for k in range(1, 21)]),
+        ("operation.speed=10 Hz:100 Hz:10 Hz", [600.0 * k for k in range(1, 11)]),
+        ("crank.splay=0:1/7 turn:1/70 turn", [float(Fraction(360 * k, 70)) for k in range(11)]),
+    ],
+)  # fmt: skip
+def test_a_range_with_units_includes_its_end_too(asked: str, wanted: list[float]) -> None:
+    """An inch is 25.4 mm, an ounce 28.349523125 g, both exactly: not one of them is rounded."""
+    assert values(asked) == wanted
+
+
 def test_long_range_is_correctly_rounded_everywhere() -> None:
     found = ladder(Fraction("0.1"), Fraction("0.001"), 100_000)
     assert found[::7919].tolist() == [

@@ -45,14 +45,15 @@ def check(
     def compare_or_record(path: Path) -> list[regression.Difference]:
         engine, target = read_engine(str(path)).engine, regression.find_record(path)
         if not update:
-            return regression.find_differences(path.stem, engine, target)
+            return regression.find_differences(names[path], engine, target)
         write_file(regression.record_result(engine), make_folder_of(target))
         return []
 
-    files = find_engine_files(paths)
+    files, expected = find_engine_files(paths), find_expected(paths)
+    names = regression.tell_engines_apart([*files, *map(regression.find_engine_file, expected)])
     with reporting_until_stopped("engines", len(files)) as progress:
         results, errors = try_each(each_until_stopped(files, progress), compare_or_record)
-    abandoned = regression.find_abandoned(find_expected(paths))
+    abandoned = regression.find_abandoned(expected, names)
     moved = [difference for found in (*results, abandoned) for difference in found]
     done = " recorded" if update else f", {counted(len(moved), 'difference')}"
     emit(legible("\n".join([*map(str, moved), counted(len(results), "engine") + done])))

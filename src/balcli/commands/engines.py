@@ -33,7 +33,9 @@ def engines(
     find: Annotated[
         str,
         typer.Option(
-            metavar="WORDS", help="List those whose name, title, source or lesson has the words."
+            metavar="WORDS",
+            help="List those whose name, title, source, lesson or tables (gas, torsion) have the "
+            "words.",
         ),
     ] = "",
     group: Annotated[

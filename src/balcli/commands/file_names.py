@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from ..errors import BalcliError
 from ..render.formats import Format
 from . import defaults
+from .format_names import LATEX
 
 if TYPE_CHECKING:
     from ..render.plot.style import Form
@@ -129,7 +130,8 @@ def format_of(
         return usual
     can = _listed(list(endings))
     said = f"{ending} cannot be written here" if ending else "has no ending that says its format"
-    raise BalcliError(f"{option} {output}: {said}; give a name that ends in {can}")
+    latex = f"; {LATEX}" if ending == ".tex" and ".md" in endings else ""
+    raise BalcliError(f"{option} {output}: {said}; give a name that ends in {can}{latex}")
 
 
 def picture_form(output: Path, option: str = "--output") -> Form:

@@ -12,6 +12,8 @@ from .declare import optional
 
 SHORT = MappingProxyType({"md": "markdown", "txt": "table", "text": "table"})
 
+LATEX = "for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex)"
+
 
 def format_option(formats: type[StrEnum], text: str) -> Any:
     """An option `--format`, `-f` that takes one of these formats.
@@ -38,4 +40,5 @@ def _find_format(formats: type[StrEnum], name: str) -> StrEnum:
         return formats(SHORT.get(small, small))
     except ValueError:
         known = ", ".join(f"'{one}'" for one in formats)
-        raise typer.BadParameter(f"'{name}' is not one of {known}.") from None
+        latex = f"; {LATEX}" if small in ("latex", "tex") and "markdown" in [*formats] else ""
+        raise typer.BadParameter(f"'{name}' is not one of {known}{latex}.") from None

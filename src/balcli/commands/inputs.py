@@ -56,8 +56,6 @@ def read_engine(
         )
     text = read_bytes(path)
     model = parse(text, name_file(path))
-    if speed_rpm is not None:
-        model = model.with_table("operation", speed=speed_rpm)
     engine = build_named(model, path)
     if is_verbose():
         _tell_what_was_read(name_file(path), text, model)
@@ -66,6 +64,8 @@ def read_engine(
     if "gas" in (asked or ()):
         require_gas(engine, path)
     warn_each(engine.unlikely, name_file(path))
+    if speed_rpm is not None:
+        engine = replace(engine, speed_rpm=speed_rpm, model=None)
     return LoadedEngine(text, model, engine)
 
 

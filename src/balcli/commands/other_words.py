@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 
 _CARD = "balcli balance FILE --factor 51% --format card"
@@ -32,6 +32,24 @@ INSTEAD = {
     "version": "balcli --version",
     "completion": "balcli --install-completion",
 }
+
+OPTIONS = {
+    **{f"--{name}": f"--format {name}" for name in ("json", "csv", "markdown", "md")},
+    **dict.fromkeys(("--imperial", "--inch", "--inches"), "--units imperial"),
+    **dict.fromkeys(("--metric", "--si"), "--units si"),
+    **dict.fromkeys(("--save", "--outfile", "--to"), "--output FILE"),
+    **dict.fromkeys(("--silent", "--no-warnings"), "--quiet"),
+    **dict.fromkeys(("--precision", "--decimals"), "--digits N"),
+    **dict.fromkeys(("--revs", "--revolutions"), "--speed RPM"),
+}
+
+
+def suggest_option(word: str, options: Collection[str]) -> str:
+    """The option of a command (of those it has) that was probably meant by a word that is none, in
+    a sentence that begins with a point; empty if there is none.
+    """
+    instead = OPTIONS.get(word, "")
+    return f". That is {instead}." if instead.partition(" ")[0] in options else ""
 
 
 def suggest_command(word: str, commands: Iterable[str]) -> str:

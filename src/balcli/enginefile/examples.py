@@ -7,6 +7,7 @@ engine teaches.
 
 from __future__ import annotations
 
+import re
 from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
@@ -16,6 +17,7 @@ from ..errors import BalcliError
 # In the installed package; in a checkout the repository's own folder, so that there is only one
 # copy.
 _PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
+_USUAL_TABLES = {"crank", "rod", "piston", "layout", "operation", "cylinder"}
 LAYOUT = "layout"  # class of the files in the folder itself
 
 
@@ -35,9 +37,12 @@ class Example(NamedTuple):
     text: str
 
     def mentions(self, words: str) -> bool:
-        """Whether each of the words, in any case, occurs in name, class, lesson, title, source."""
+        """Whether each of the words, in any case, occurs in name, class, lesson, title, source, or
+        is a table of the file, such as gas.
+        """
         head, _, _ = self.text.partition("\n[")
-        told = f"{self.name} {self.group} {head}".lower()
+        tables = {*re.findall(r"^\[+([a-z]+)", self.text, re.MULTILINE)} - _USUAL_TABLES
+        told = f"{self.name} {self.group} {head} {' '.join(tables)}".lower()
         return all(word in told for word in words.lower().split())
 
 
@@ -76,10 +81,20 @@ def text(name: str) -> str:
     """The engine file of an example. BalcliError for an unknown name, with the nearest ones."""
     known = {path.stem: path for path in _paths()}
     if name not in known:
-        near = get_close_matches(name.lower()[:100], sorted(known), 3)
+        near = _find_near(name.lower()[:100], sorted(known))
         hint = f" Did you mean {' or '.join(near)}?" if near else ""
+        if name.lower() in groups():
+            hint = f" It is a class: balcli engines --class {name.lower()}."
         raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
     return known[name].read_text(encoding="utf-8")
+
+
+def _find_near(name: str, known: list[str]) -> list[str]:
+    """At most three of the known names that were probably meant: those that begin so, then those
+    that are spelt nearly so.
+    """
+    begun = [each for each in known if name and each.startswith(name)]
+    return list(dict.fromkeys([*begun, *get_close_matches(name, known, 3)]))[:3]
 
 
 def folder() -> Path:

@@ -74,13 +74,6 @@ def join_path(start: str, parts: Iterable[int | str]) -> str:
     return ".".join([start, *names])
 
 
-def is_miscounted(finding: ErrorDetails) -> bool:
-    """Whether a list is called too short only because members of it, which have findings of their
-    own, were not counted.
-    """
-    return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
-
-
 def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTable]) -> Problem:
     """One finding of pydantic in the table at `path`; a member of a list is named in words (`the
     2nd value`).

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from ..errors import DISGUISES, InputError, Problem
 from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
-from .conflicts import find_conflicts, read_without
+from .conflicts import examine_refused
 from .fields import printable, shorten
 from .file_kinds import ENGINE, refuse_other_kind
 from .messages import (
@@ -27,7 +27,6 @@ from .messages import (
     describe_finding,
     find_inner_table,
     import_table,
-    is_miscounted,
     join_path,
 )
 from .model import ONE_BY_ONE, EngineFile, FileTable, Override
@@ -258,19 +257,16 @@ class _Reader:
         """Collect what the keys say against each other, as far as they can be read, and pydantic's
         findings in them.
         """
-        findings = [found for found in error.errors(include_url=False) if found["loc"]]
-        broken = {str(finding["loc"][0]) for finding in findings}
-        draft = read_without(table, value, broken)
-        contradictions = list(find_conflicts(path, table, value, broken, draft))
-        self.problems += contradictions
-        if path in ONE_BY_ONE and draft is not None and not contradictions:
-            self.partial[path] = _Partial(draft, broken)
-        for finding in findings:
+        refused = examine_refused(path, table, value, error)
+        self.problems += refused.conflicts
+        if path in ONE_BY_ONE and refused.draft is not None and not refused.conflicts:
+            self.partial[path] = _Partial(refused.draft, refused.broken)
+        for finding in refused.findings:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
                 inner = find_inner_table(table, finding["loc"])
                 self.unknown.append(UnknownKey(join_path(path, parents), str(last), inner))
-            elif not is_miscounted(finding):
+            else:
                 self.problems.append(describe_finding(path, finding, table))
 
 

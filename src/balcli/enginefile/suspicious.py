@@ -46,7 +46,9 @@ MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
 AROUND = 0.15, 12.0
 COMPRESSION = 2.0, 30.0  # engines have 4 (of 1910) to 25
 INDEX_MOST = 5 / 3  # of a gas of single atoms that loses nothing; engines have 1.2 to 1.4
-THROW_HEAVY = 20.0  # unbalanced mass of a throw / its rods and pistons: engines have up to 1.4
+# Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft
+# weighs some 4 to 10 times as much for each throw, with its counterweights.
+THROW_HEAVY = 6.0
 BEARING_HEAVY = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
 # Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
 NEIGHBOURS_CLOSE = 0.9
@@ -214,7 +216,8 @@ def _throw(model: EngineFile) -> Iterator[str]:
     throws, rods = _throws_and_rods(model)
     given, moving = model.crank.throw_mass, rods / throws * _rod_and_piston(model)
     beside = "the rods and pistons of a throw"
-    yield from _too_heavy("crank.throw_mass", given, THROW_HEAVY, beside, moving)
+    for doubt in _too_heavy("crank.throw_mass", given, THROW_HEAVY, beside, moving):
+        yield f"{doubt}. It is what one throw has off the axis, not what the crankshaft weighs"
 
 
 def _bobweight(model: EngineFile) -> Iterator[str]:

@@ -12,9 +12,9 @@ from pydantic_core import ErrorDetails
 
 from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN
-from .conflicts import find_conflicts, read_without
+from .conflicts import examine_refused
 from .fields import nearest, shorten
-from .messages import is_miscounted, join_path
+from .messages import join_path
 from .model import FileTable
 
 T = TypeVar("T", bound=FileTable)
@@ -62,18 +62,11 @@ class TableReader:
         try:
             return table.model_validate(known)
         except ValidationError as error:
-            findings = [found for found in error.errors(include_url=False) if found["loc"]]
-        broken = {str(finding["loc"][0]) for finding in findings}
-        draft = read_without(table, known, broken)
+            refused = examine_refused(path, table, known, error)
         paths = {join_path(path, [key]) for key in meant}
-        found = [
-            problem
-            for problem in find_conflicts(path, table, known, broken, draft)
-            if paths.isdisjoint(problem.missing)
-        ]
-        for finding in findings:
-            is_meant = finding["type"] == "missing" and finding["loc"][-1] in meant
-            if not (is_meant or is_miscounted(finding)):
+        found = [one for one in refused.conflicts if paths.isdisjoint(one.missing)]
+        for finding in refused.findings:
+            if finding["type"] != "missing" or finding["loc"][-1] not in meant:
                 found.append(self._describe(path, finding, table))
         self.problems += (problem._replace(path=problem.path.lstrip(".")) for problem in found)
         return None

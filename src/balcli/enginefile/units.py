@@ -140,15 +140,22 @@ def convert(text: str, dimension: Dimension) -> float:
     """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong,
     what would be right.
     """
+    return float(convert_exactly(text, dimension))
+
+
+def convert_exactly(text: str, dimension: Dimension) -> Fraction:
+    """As `convert`, before it is rounded."""
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     figure = re.sub(_INCH_MARK, r"\1 in", text)
     try:
-        return float(_measure(figure, dimension) / read_unit(dimension.unit, dimension).scale)
+        exact = _measure(figure, dimension) / read_unit(dimension.unit, dimension).scale
+        float(exact)
     except ZeroDivisionError:
         raise ValueError("divides by zero") from None
     except OverflowError:
         raise ValueError("is too large a number") from None
+    return exact
 
 
 def _measure(figure: str, dimension: Dimension) -> Fraction:

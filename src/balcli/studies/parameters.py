@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..engine.layout import plan_cylinders
 from ..enginefile.fields import Number, nearest, shorten
 from ..enginefile.model import EngineFile, FileTable, Override
-from ..enginefile.units import BARE_FIGURE, convert
+from ..enginefile.units import BARE_FIGURE, convert_exactly
 from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES
@@ -262,11 +262,13 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
 
 
 def _read_exactly(text: str, number: Number) -> Fraction:
-    """The figure in the bare unit of its field."""
+    """The figure in the bare unit of its field, not rounded: three of a range that were would miss
+    its end.
+    """
     figure = text.strip()
     if len(figure) <= LONGEST_FIGURE and re.fullmatch(BARE_FIGURE, figure, re.ASCII):
         return Fraction(figure)
     try:
-        return Fraction(convert(figure, number.dimension))
+        return convert_exactly(figure, number.dimension)
     except ValueError as error:
         raise ValueError(f"{shorten(figure)} {error}") from None
