@@ -345,6 +345,24 @@ def test_what_no_shaft_outlasts_is_doubted(diameter):
     assert run_here(*options, stdin=text.replace("LOSS", "0.05")).err == ""
 
 
+def test_what_swings_as_one_is_told_so():
+    """100 N m on 1 kg m2 that turns at 10 rad/s swings it by 1 rad; the shaft has to give the half
+    of it 50 N m, which is 5e-6 rad.
+    """
+    text = """
+        loss = 0.02
+        node = [{ name = "a", inertia = "0.5 kg m^2" }, { name = "b", inertia = "0.5 kg m^2" }]
+        shaft = [{ from = "a", to = "b", stiffness = 1e7 }]
+        excitation = [{ node = "a", order = 1, cos = 100 }]
+        """
+    found = run_here("torsion", "-", "--speeds", "95.493,200", stdin=text)
+    assert found.err == (
+        "warning: standard input: a would swing by 57.3 deg at 95.493 rpm, and everything with it, "
+        "for the shafts twist by less: it turns too unevenly for what is computed here, small "
+        "swings; is an inertia missing, or the speed too low?\n"
+    )
+
+
 def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
     """Tuned, they hold 300 N m with 2 kg: m R (R + L) W^2 for each rad, 92 deg at 1500 rpm; five
     times as many swing by 18 deg.

@@ -215,6 +215,26 @@ def test_a_damper_is_for_a_mode_in_which_its_carrier_moves(inertia, carrier):
     assert damper["after_Nm"] < 1.01 * damper["before_Nm"]
 
 
+def test_a_damper_is_for_the_mode_that_the_range_meets_where_its_carrier_moves_a_little():
+    """Shapes (3, 2) and (2, -3), of squared frequencies 1e5 and 7.5e5: order 1 meets the first at
+    3020 rpm and the second at 8270. At b the first has 13/4 kg m2, more than there is.
+    """
+    text = """
+        loss = 0.02
+        fixed = ["wall"]
+        node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 1e6 }, { name = "wall" }]
+        shaft = [
+            { from = "a", to = "b", stiffness = 3e5 }, { from = "b", to = "wall", stiffness = 2.5e5 }
+        ]
+        excitation = [{ node = "a", order = 1, cos = 100 }]
+        """
+    options = ("--speeds", "2000:4000:10", "--damper", "viscous", "--damper-at", "b")
+    damper = ask_torsion(text, *options)["damper"]
+    assert damper["mode"] == 1
+    assert damper["inertia_kg_m2"] == pytest.approx(0.3 * 13 / 4, rel=1e-3)
+    assert damper["after_Nm"] < 0.25 * damper["before_Nm"]
+
+
 def test_a_damper_of_the_file_is_the_one_that_is_sized():
     own = 'damper = { kind = "rubber", inertia = 12345, stiffness = 1, loss = 0.2 }\n'
     text = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}')

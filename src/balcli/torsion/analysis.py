@@ -111,16 +111,32 @@ class TorsionAnalysis(Result):
                 f"{worst.speeds_rpm[shaft]:.5g} rpm, which no steel does; {question}"
             )
         elif worst.free_end > ASTOUNDING:
-            yield (
+            swings = (
                 f"{printable(system.nodes[0])} would swing by {math.degrees(worst.free_end):.4g} "
-                f"deg at {worst.swing_rpm:.5g} rpm, which no shaft outlasts; {question}"
+                f"deg at {worst.swing_rpm:.5g} rpm"
             )
+            if worst.free_end > 2 * _add_twists(system, worst.torque):
+                yield (
+                    f"{swings}, and everything with it, for the shafts twist by less: it turns too "
+                    "unevenly for what is computed here, small swings; is an inertia missing, or "
+                    "the speed too low?"
+                )
+            else:
+                yield f"{swings}, which no shaft outlasts; {question}"
 
     @property
     def summary(self) -> str:
         """Of what, and its natural frequencies."""
         modes = ", ".join(f"{mode.frequency_hz:.4g}" for mode in self.modes[:6])
         return f"of {self.system.name or 'a chain'}: modes at {modes} Hz"
+
+
+def _add_twists(system: TorsionalSystem, torque: Real) -> float:
+    """How far shafts under these torques (N m) twist altogether, rad of the first node: no node
+    swings farther against it.
+    """
+    chain, gears = system.chain, system.gears
+    return float(np.abs(torque / chain.stiffness * gears[0] / gears[chain.end]).sum())
 
 
 def answer_question(

@@ -30,6 +30,7 @@ _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 _LOSS = 0.01  # of shafts, where nothing damps a resonance: modes are compared with it
 _MOVES = 1.001  # times the whole inertia: with more at a node in a mode it hardly moves there,
 # unless in every other mode there is more still
+_LITTLE = 2.0  # times that: it moves a little, and a damper helps where nothing else resonates
 
 
 class DamperAsked(NamedTuple):
@@ -55,7 +56,8 @@ def find_mode_to_damp(
     coupling would be it, which hardly twists the crankshaft.
 
     Where the node hardly moves in that one, it is of those in which it does the one on which most
-    work is done, or else the nearest.
+    work is done. If the range meets none of them, it is that one after all, in which the node
+    moves a little, or else the nearest.
     """
     modes = find_natural_modes(system)
     if not modes:
@@ -77,6 +79,8 @@ def find_mode_to_damp(
     for met in find_criticals(system.require_excitation(), modes, span):
         if met.mode in numbers:
             return modes[met.mode - 1], met.order
+    if heavy[worst.number - 1] <= _LITTLE * most:
+        return worst, order
     return find_nearest(moved), order
 
 
