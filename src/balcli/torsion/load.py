@@ -104,8 +104,8 @@ def _doubt_torques(model: ChainFile) -> Iterator[str]:
     for number, torque in enumerate(model.excitation, 1):
         if not {"cos", "sin"} & torque.model_fields_set:
             yield (
-                f"excitation.{number} on '{torque.node}' has neither cos nor sin, and so no torque; "
-                "give one of them, such as cos = 150 (N m)"
+                f"excitation.{number} on '{torque.node}' has neither cos nor sin, and so no "
+                "torque; give one of them, such as cos = 150 (N m)"
             )
 
 
