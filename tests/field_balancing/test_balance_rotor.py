@@ -308,6 +308,21 @@ def test_units_of_radius_and_trial_weights_are_doubted():
     assert find_corrections(parse_runs(head(2) + far)).doubts == ()
 
 
+def test_phases_in_radians_are_doubted():
+    """Those of the three runs, as a program gives them that has no degrees; near 0 by nature: no."""
+    degrees = (112, 78, 94, 68, 115, 104)
+    radians = three_runs()
+    for phase in degrees:
+        radians = radians.replace(f" @ {phase}", f" @ {math.radians(phase):.3f}")
+    assert (
+        "all phases of readings are within 2.01 deg of 0; are they in radians? One of 2.01 rad is "
+        "115.0 deg"
+    ) in find_doubts(find_corrections(parse_runs(radians)))
+    alike = head(2) + run([10, 10]) + run([15, 10], [("p1", 2)]) + run([10, 14], [("p2", 2)])
+    assert not any("radians" in doubt for doubt in find_doubts(find_corrections(parse_runs(alike))))
+    assert find_doubts(find_corrections(parse_runs(three_runs()))) == []
+
+
 @pytest.mark.parametrize("known", [False, True], ids=["from trials", "influence"])
 def test_a_correction_in_the_other_sense_is_doubted(known):
     """Angles count as phases do, but the file says the other way round: with trials at 0 that makes
