@@ -211,7 +211,7 @@ def test_harmonics_are_those_asked_for_in_their_order():
 
 
 def test_one_wide_panel_among_thousands_of_narrow_ones_costs_them_nothing(monkeypatch):
-    """Each had as many nodes as the waves in the widest need: half a minute for order 400."""
+    """With as many nodes as the waves in the widest need, order 400 takes half a minute."""
     used = []
     monkeypatch.setattr(piecewise, "gauss", lambda count: used.append(count) or gauss(count))
     angle = np.append(np.linspace(0, np.pi, 2001), TURN)

@@ -180,7 +180,7 @@ def test_a_shaft_stalls_where_it_is_slowest():
 def test_of_an_inertia_that_nearly_vanishes_rounding_errors_are_not_resolved():
     """I = a + sin^2 and no torque: the mean of I^-1/2 is 1 over the arithmetic-geometric mean of
     its extremes. As it is written here, its rounding errors are a thousand times those of its
-    least value, and half a million panels did not show them (6 s).
+    least value, which half a million panels do not resolve.
     """
     a = 1e-6
     free = resolved(lambda angle: 0 * angle, [0, TURN])

@@ -72,9 +72,9 @@ def test_more_heat_than_the_air_of_the_charge_burns_is_doubted(intake, strokes):
 
     assert doubts(39 * charge) == ()
     assert doubts(50 * charge) == (
-        f"gas.heat takes {50 * charge:.4g} J in each cycle, 50 times pressure times volume of its "
-        f"charge, where fuel that uses up the air gives some 34; is gas.intake = {intake:g} bar "
-        "right? It is absolute, and more where the engine is supercharged",
+        f"gas.heat takes {50 * charge:.4g} J of heat in each cycle, 50 times the pressure times "
+        "the volume of its charge; fuel for all of that air gives some 34 times; is gas.intake = "
+        f"{intake:g} bar right? It is absolute, and more where the engine is supercharged",
     )
 
 

@@ -92,7 +92,16 @@ CASES = [
         three_runs("rotaton = 'lag'"),
         "rotaton: unknown key in a file of runs; did you mean rotation?",
     ),
-    (three_runs("rotation = 'left'"), 'rotation: "left" is not "lag" or "lead"'),
+    (
+        three_runs("rotation = 'left'"),
+        'rotation: "left" is not "lag" or "lead"; lag: phases count against rotation, as most '
+        "instruments do; lead: with it",
+    ),
+    (
+        three_runs("weights = 'cw'"),
+        'weights: "cw" is not "with" or "against"; with: their angles go the way the rotor turns; '
+        "against: the other way",
+    ),
     (
         three_runs("weight_unit = 'Åg'"),  # a gram with something before it
         'weight_unit: "Åg" is no unit of weights; write g, kg, oz or lb, or of unbalances g mm or oz in',

@@ -250,7 +250,7 @@ def test_a_peak_beside_its_resonance_is_found():
 
 @pytest.mark.parametrize("loss", [0.0, 1e-11, 1e-9])
 def test_what_hardly_anything_damps_has_no_bound(loss):
-    """A loss factor of 1e-11 gave a largest torque a thousandth of that at the resonance."""
+    """So narrow a resonance no search between the speeds climbs: of 1e-11 to a thousandth."""
     text = f"""
         fixed = ["wall"]
         node = [{{ name = "disc", inertia = 1e6 }}, {{ name = "wall" }}]

@@ -282,10 +282,10 @@ class _Builder:
         self._overfed = True
         path = self._locate(GasError(goal.name, ""), number).path
         yield (
-            f"{path} takes {cycle.heat:.4g} J in each cycle, {cycle.heat / charge:.2g} times "
-            f"pressure times volume of its charge, where fuel that uses up the air gives some "
-            f"{HEAT_OF_AIR:g}; is gas.intake = {process.intake / BAR:.4g} bar right? It is "
-            "absolute, and more where the engine is supercharged"
+            f"{path} takes {cycle.heat:.4g} J of heat in each cycle, {cycle.heat / charge:.2g} "
+            f"times the pressure times the volume of its charge; fuel for all of that air gives "
+            f"some {HEAT_OF_AIR:g} times; is gas.intake = {process.intake / BAR:.4g} bar right? It "
+            "is absolute, and more where the engine is supercharged"
         )
 
     def _locate(self, error: GasError, number: int) -> Problem:

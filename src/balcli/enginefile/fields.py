@@ -239,17 +239,17 @@ class FileName(_Field):
 
 
 class OneOf(_Field):
-    """One of a few words or numbers."""
+    """One of a few words or numbers; `meaning`: of these, for who writes another."""
 
-    def __init__(self, *options: str | int) -> None:
-        self.options = options
+    def __init__(self, *options: str | int, meaning: str = "") -> None:
+        self.options, self.meaning = options, meaning
 
     def read(self, value: object) -> str | int:
         for option in self.options:
             if type(value) is not bool and value == option:
                 return option
         near = nearest(value, [str(o) for o in self.options]) if isinstance(value, str) else ""
-        hint = f"; did you mean {near}?" if near else ""
+        hint = f"; did you mean {near}?" if near else f"; {self.meaning}" if self.meaning else ""
         raise ValueError(f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}{hint}")
 
     def json(self) -> dict[str, Any]:

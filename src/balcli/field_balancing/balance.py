@@ -4,6 +4,8 @@ permitted unbalance is reached.
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
@@ -37,6 +39,8 @@ _SMALL_CHANGE = 0.1  # of the largest reading: less tells little about a plane
 _SMALL_RADIUS = 1.0  # mm; the smallest rotors that are balanced have more
 _UNLIKE = 100.0  # times the lightest trial weight of a plane: planes of one rotor are more alike
 _FAR_BEYOND = 5.0  # times the largest trial weight: far from where the coefficients were measured
+_SEVERAL_PHASES = 4  # two runs of two sensors; fewer may be as near to 0 by chance
+_PHASES_ALIKE = 0.5  # deg; they differ by less where all that shakes is in phase
 _ROUNDING = 1e-14
 _NOTHING = 1e-9  # share of the weight that would do as much as all unbalance
 _AT_EDGE = 1e3  # times that: so near its limit a weight counts as at it
@@ -123,6 +127,11 @@ class FieldBalance(Result):
         """Whether places or largest weights keep any plane from what would be best."""
         return any(p.limited for p in self.planes)
 
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is valid but suspicious of runs and weights, each with its figure and a remedy."""
+        return tuple(_find_doubts(self))
+
 
 def find_corrections(
     file: RunsFile, minimise: Minimise = "squares", without: Collection[str] = (), name: str = ""
@@ -187,8 +196,7 @@ def find_corrections(
     )
 
 
-def find_doubts(result: FieldBalance) -> list[str]:
-    """What is valid but suspicious, each with its figure and a remedy."""
+def _find_doubts(result: FieldBalance) -> list[str]:
     doubts = []
     alike = [p for p in result.planes if p.own < _NEARLY_ALIKE]
     if len(alike) > 1:
@@ -209,7 +217,12 @@ def find_doubts(result: FieldBalance) -> list[str]:
         )
     if result.file.influence is None:
         doubts += _doubt_trials(result)
-    return [*doubts, *_doubt_runs(result.file, left_out), *_doubt_units(result.file)]
+    return [
+        *doubts,
+        *_doubt_runs(result.file, left_out),
+        *_doubt_units(result.file),
+        *_doubt_phases(result.file),
+    ]
 
 
 # ------------------------------------------------------------------ steps
@@ -361,6 +374,20 @@ def _doubt_units(file: RunsFile) -> Iterator[str]:
                 f"the weights tried are {trials[light]:.3g} {unit} in {light} and "
                 f"{trials[heavy]:.3g} {unit} in {heavy}; are both in {unit}?"
             )
+
+
+def _doubt_phases(file: RunsFile) -> Iterator[str]:
+    """Phases in radians: all of them within a turn of those, and yet not alike."""
+    phases = [
+        math.degrees(cmath.phase(value)) for run in file.run for value in run.readings if value
+    ]
+    most = max(map(abs, phases), default=0.0)
+    several = len(phases) >= _SEVERAL_PHASES and max(phases) - min(phases) > _PHASES_ALIKE
+    if several and most <= 2 * math.pi:
+        yield (
+            f"all phases of readings are within {most:.3g} deg of 0; are they in radians? One of "
+            f"{most:.3g} rad is {math.degrees(most):.1f} deg"
+        )
 
 
 def _find_change(result: FieldBalance, plane: str, speed: float | None) -> tuple[float, float]:

@@ -207,12 +207,29 @@ class RunsFile(FileTable):
     sensors: Annotated[tuple[Name, ...], Field(min_length=1, max_length=MOST_SENSORS)] | None = (
         Field(None, examples=[["front x", "rear x"]], description="names of the sensors")
     )
-    rotation: Annotated[str, OneOf("lag", "lead")] = Field(
+    rotation: Annotated[
+        str,
+        OneOf(
+            "lag",
+            "lead",
+            meaning="lag: phases count against rotation, as most instruments do; lead: with it",
+        ),
+    ] = Field(
         "lag",
         examples=["lag"],
         description="phases of readings count against rotation (lag) or with it (lead)",
     )
-    weights: Annotated[str, OneOf("with", "against")] | None = Field(
+    weights: (
+        Annotated[
+            str,
+            OneOf(
+                "with",
+                "against",
+                meaning="with: their angles go the way the rotor turns; against: the other way",
+            ),
+        ]
+        | None
+    ) = Field(
         None,
         examples=["with"],
         description="angles of weights count with or against rotation; left out: the same way as "
