@@ -317,10 +317,10 @@ def test_phases_in_radians_are_doubted():
     assert (
         "all phases of readings are within 2.01 deg of 0; are they in radians? One of 2.01 rad is "
         "115.0 deg"
-    ) in find_doubts(find_corrections(parse_runs(radians)))
+    ) in find_corrections(parse_runs(radians)).doubts
     alike = head(2) + run([10, 10]) + run([15, 10], [("p1", 2)]) + run([10, 14], [("p2", 2)])
-    assert not any("radians" in doubt for doubt in find_doubts(find_corrections(parse_runs(alike))))
-    assert find_doubts(find_corrections(parse_runs(three_runs()))) == []
+    assert not any("radians" in doubt for doubt in find_corrections(parse_runs(alike)).doubts)
+    assert find_corrections(parse_runs(three_runs())).doubts == ()
 
 
 @pytest.mark.parametrize("known", [False, True], ids=["from trials", "influence"])
