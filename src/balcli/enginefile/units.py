@@ -100,12 +100,12 @@ TORSIONAL_DAMPING = Dimension(
 SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", _PRESSURE, ("79.3 GPa", "11.5e6 psi"))
 STRESS = Dimension("N/mm^2", "a stress", _PRESSURE, ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number", Powers(), ())
-_NAMES = {
-    **{
-        each.powers: each.name
-        for each in (LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, STIFFNESS, DAMPING)
-    },
-    **{each.powers: each.name for each in (TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, PLAIN)},
+_UNSHARED = (  # dimensions whose powers no other has
+    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, STIFFNESS, DAMPING),
+    *(TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, PLAIN),
+)
+_NAMES = {  # how one speaks of what has these powers
+    **{each.powers: each.name for each in _UNSHARED},
     _ENERGY: "a torque or an energy",
     _PRESSURE: "a pressure",
     Powers(1, 1, -2): "a force",

@@ -127,6 +127,11 @@ class FieldBalance(Result):
         """Whether places or largest weights keep any plane from what would be best."""
         return any(p.limited for p in self.planes)
 
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is valid but suspicious of runs and weights, each with its figure and a remedy."""
+        return tuple(_find_doubts(self))
+
 
 def find_corrections(
     file: RunsFile, minimise: Minimise = "squares", without: Collection[str] = (), name: str = ""
@@ -191,8 +196,7 @@ def find_corrections(
     )
 
 
-def find_doubts(result: FieldBalance) -> list[str]:
-    """What is valid but suspicious, each with its figure and a remedy."""
+def _find_doubts(result: FieldBalance) -> list[str]:
     doubts = []
     alike = [p for p in result.planes if p.own < _NEARLY_ALIKE]
     if len(alike) > 1:

@@ -46,12 +46,17 @@ def locate_force(residual: Residual, sense: int) -> float:
     return residual.reference.z + (residual.moment(sense) / residual.force(sense)).real
 
 
+def _locate_within(residual: Residual, sense: int, bounds: tuple[float, float]) -> float:
+    """The same, or the nearest z within these bounds (m)."""
+    low, high = bounds
+    return min(max(locate_force(residual, sense), low), high)
+
+
 def find_single_plane(residual: Residual, sense: int, within: tuple[float, float]) -> float | None:
     """z at which one device takes force and moment; None: nowhere within these bounds (m)."""
     if residual.force(sense) == 0:
         return None
-    low, high = within
-    near = min(max(locate_force(residual, sense), low), high)
+    near = _locate_within(residual, sense, within)
     legible = round(near, 12)  # m: to a thousandth of a nanometre, figures that people can read
     for z in (legible, near):
         if takes_moment(residual, sense, z):
@@ -71,9 +76,9 @@ def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sen
     """
     if options.position is not None:
         return options.position
-    low, high = find_length(engine)
-    z = find_single_plane(residual, sense, (low, high))
-    return round(min(max(locate_force(residual, sense), low), high), 9) if z is None else z
+    length = find_length(engine)
+    z = find_single_plane(residual, sense, length)
+    return round(_locate_within(residual, sense, length), 9) if z is None else z
 
 
 def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -55,8 +55,10 @@ def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
         for label, gear in zip(called[len(file.shaft) :], file.gear, strict=True)
     ]
     clamped = [index[each] for each in file.fixed]
+    paths = [f"shaft.{k}" for k in range(1, len(file.shaft) + 1)]
+    paths += [f"gear.{k}" for k in range(1, len(file.gear) + 1)]
     limited = file.angle_limit is not None
-    if problems := list(_find_faults(nodes, shafts, clamped, len(file.shaft), limited)):
+    if problems := list(_find_faults(nodes, shafts, paths, clamped, limited)):
         raise InputError(problems, name)
     limits = Limits(file.limit, file.angle_limit)
     excitation = _excite(file, index)
@@ -86,12 +88,12 @@ def _excite(file: ChainFile, index: dict[str, int]) -> Excitation | None:
 def _find_faults(
     nodes: Sequence[PlannedNode],
     shafts: Sequence[PlannedShaft],
+    paths: Sequence[str],
     clamped: Sequence[int],
-    first_gear: int,
     limited: bool,
 ) -> Iterator[Problem]:
-    """What hangs together wrongly; gears are the shafts from `first_gear` on; `limited`: whether
-    the angle of the first node is.
+    """What hangs together wrongly; `paths`: of the shafts, gears among them, in the file;
+    `limited`: whether the angle of the first node is.
     """
     names = [node.name for node in nodes]
     inertia = [node.inertia for node in nodes]
@@ -103,14 +105,13 @@ def _find_faults(
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     for shaft in np.flatnonzero(np.isinf(chain.stiffness)).tolist():
         if meshes.locked[chain.start[shaft]]:
-            path = _find_path(shaft, first_gear)
-            yield Problem(path, "is in a loop of gears whose ratios lock each other")
+            yield Problem(paths[shaft], "is in a loop of gears whose ratios lock each other")
             return
     still = find_still(chain)
     if np.all(still):
         yield Problem("fixed", "clamps every node; leave one free")
         return
-    yield from _find_loops(chain, lambda k: _find_path(k, first_gear))
+    yield from _find_loops(chain, paths)
     if limited and still[0]:
         how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
         text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
@@ -124,13 +125,7 @@ def _find_faults(
             yield Problem.of_missing(f"node.{node + 1}.inertia", "nothing that turns has any")
 
 
-def _find_path(shaft: int, first_gear: int) -> str:
-    """Place in the file of a shaft or gear by its number among all."""
-    gear = shaft - first_gear
-    return f"gear.{gear + 1}" if gear >= 0 else f"shaft.{shaft + 1}"
-
-
-def _find_loops(chain: Chain, path: Callable[[int], str]) -> Iterator[Problem]:
+def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
     """Loops of meshes alone, in which nothing says what each carries; and of shafts, which a chain
     that turns would wind up without end.
     """
@@ -140,7 +135,7 @@ def _find_loops(chain: Chain, path: Callable[[int], str]) -> Iterator[Problem]:
         if start == end:
             text = "closes a loop of gears and rigid shafts, fixed nodes counted as one"
             hint = "nothing says how they share the torque; leave it out, or give a stiffness"
-            yield Problem(path(mesh), f"{text}: {hint}")
+            yield Problem(paths[mesh], f"{text}: {hint}")
         group[group == end] = start
     pieces = find_pieces(chain)
     if not pieces.locked[0] or np.any(chain.clamped):
@@ -149,4 +144,4 @@ def _find_loops(chain: Chain, path: Callable[[int], str]) -> Iterator[Problem]:
     shaft = int(np.argmax(np.abs(ahead - behind) > SAME_RATIO * np.abs(behind)))
     text = f"closes a loop whose ratios contradict each other, {ahead[shaft]:.9g} one way round"
     hint = "a chain that turns would wind up its shafts without end; give ratios with all digits"
-    yield Problem(path(shaft), f"{text} and {behind[shaft]:.9g} the other: {hint}")
+    yield Problem(paths[shaft], f"{text} and {behind[shaft]:.9g} the other: {hint}")

@@ -142,15 +142,12 @@ def _find_largest(
     system: TorsionalSystem, speeds: Real, quantities: list[TargetQuantity]
 ) -> dict[TargetQuantity, float]:
     """Torque and stress of shafts."""
-    shafts = sorted({system.shafts.index(q.target) for q in quantities})
+    places = {q: system.shafts.index(q.target) for q in quantities}
+    shafts = sorted(set(places.values()))
     _, torques = find_largest_torques(system, speeds, shafts)
     largest = dict(zip(shafts, map(float, torques), strict=True))
     by_torque = {"torque": np.ones(len(system.shafts)), "stress": stress_by_torque(system)}
-    return {
-        q: largest[shaft] * float(by_torque[q.part][shaft])
-        for q in quantities
-        for shaft in [system.shafts.index(q.target)]
-    }
+    return {q: largest[shaft] * float(by_torque[q.part][shaft]) for q, shaft in places.items()}
 
 
 def choose_torsion_speeds(engine: Engine) -> Real:

@@ -73,10 +73,7 @@ def find_response(
     for some in split_speeds(system, speeds_rpm, samples=16 * (orders.max() + 1)):
         parts.append(_summarise(system, orders, speeds_rpm[some]))
         tell(some.stop / len(speeds_rpm))
-    joined = [
-        np.concatenate(each, axis=axis)
-        for each, axis in zip(zip(*parts, strict=True), _AXES, strict=True)
-    ]
+    joined = map(np.concatenate, zip(*parts, strict=True))
     torque, sums, free_end, pendulums, amplitudes, swings, heat = joined
     known = np.column_stack([torque, free_end, pendulums])
     return TorsionResponse(
@@ -87,18 +84,16 @@ def find_response(
         torque * stress_by_torque(system),
         free_end,
         pendulums,
-        amplitudes,
-        swings,
+        np.swapaxes(amplitudes, 0, 1),
+        swings.T,
         heat,
         system.dampers,
         find_largest_vibration(system, speeds_rpm, known, heat),
     )
 
 
-_AXES = (0, 0, 0, 0, 1, 1, 0)  # the axis of speeds in what is summed up
-
-
 def _summarise(system: TorsionalSystem, orders: Real, rpm: Real) -> tuple[Real, ...]:
+    """What `find_response` puts together, each with the speeds first."""
     motion = move(system, rpm)
     swing, shafts = find_swing(orders, motion.curves).half, len(system.shafts)
     return (
@@ -106,8 +101,8 @@ def _summarise(system: TorsionalSystem, orders: Real, rpm: Real) -> tuple[Real, 
         sum_amplitudes(motion.torque),
         swing[:, shafts],
         swing[:, shafts + 1 :],
-        np.abs(motion.torque),
-        np.abs(motion.angle[:, :, 0]),
+        np.abs(motion.torque.swapaxes(0, 1)),
+        np.abs(motion.angle[:, :, 0].T),
         motion.heat.sum(axis=0),
     )
 
