@@ -24,6 +24,13 @@ class Result:
         """What it is, in a few words."""
         return ""
 
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What it has that can be and yet is unlikely, in words, as the commands say it on standard
+        error; of what a file says, its engine tells.
+        """
+        return ()
+
     def __repr__(self) -> str:
         return f"<{' '.join(filter(None, (type(self).__name__, self.summary)))}>"
 

@@ -85,3 +85,21 @@ def test_names_of_pages():
     told = refusal("plot", FOUR, "--what", "torque,torqe", "-o", "x.svg")
     assert told == f'--what "torqe": choose from {there}; did you mean torque?'
     assert refusal("plot", FOUR, "--what", ",", "-o", "x.svg") == f'--what "": choose from {there}'
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--speeds", "1000:2000"], "--speeds counts for pages of torsion alone"),
+        (["--what", "modes", "--speed", "1500"], "--speed counts for nothing here"),
+        (["--what", "modes", "--speeds", "1000:2000"], None),
+        (["--what", "modes,polar", "--speeds", "1000:2000", "--speed", "1500"], None),
+    ],
+)
+def test_a_speed_that_no_page_heeds_is_told(tmp_path, monkeypatch, options, told):
+    monkeypatch.setattr("balcli.commands.plot_figures.make_figures_of_torsion", lambda *_: [None])
+    monkeypatch.setattr("balcli.commands.plot_figures._make_pages", lambda *_: [None])
+    monkeypatch.setattr("balcli.commands.plot.write_pages", lambda *_: None)
+    status, _, err = run_here("plot", DIESEL, *options, "-o", tmp_path / "x.pdf")
+    assert status == 0
+    assert err.startswith(f"warning: {told}") if told else err == ""

@@ -268,3 +268,11 @@ def test_files_that_stay_do_not_hold_up_the_end(forbidden, monkeypatch):
         discard("folder")
     (left,) = (name for name in os.listdir() if name != "good.toml")
     assert sorted(os.listdir(left)) == sorted(kept)
+
+
+def test_force_without_a_folder_is_told_to_count_for_nothing():
+    told = run_here("sweep", "good.toml", *ASKED, "--force")
+    assert (told.status, told.err) == (
+        0,
+        "warning: --force is for a folder of parts (-o variants/); a file is replaced without it\n",
+    )

@@ -12,7 +12,7 @@ from support.rotors import head, names, polar, random_rotor, run, table, three_r
 
 from balcli.core.drilled_hole import STEEL
 from balcli.errors import BalcliError
-from balcli.field_balancing.balance import find_corrections, find_doubts
+from balcli.field_balancing.balance import find_corrections
 from balcli.field_balancing.read import parse_runs
 
 RELATIVE = 1e-12
@@ -267,10 +267,26 @@ def test_ounces():
     assert ounces.planes[0].unbalance == pytest.approx(28.349523125 * 100 * 1.97946764, rel=1e-8)
 
 
+def test_what_stays_on_in_a_plane_left_out_counts_at_every_speed():
+    """An exact rotor, read again at one speed with weights in both planes: at the other the weight
+    of the plane that is left out counts, too.
+    """
+    alpha, excess = random_rotor(11, 4, 2)
+    on, text = np.array([0.3 + 0.1j, -0.2 + 0.4j]), head(2)
+    for rows, speed in ((alpha[:2], "speed = 1000"), (alpha[2:], "speed = 2000")):
+        text += run(rows @ excess, (), speed)
+        for k, name in enumerate(names(2)):
+            text += run(rows @ (excess + np.eye(2)[k]), [(name, 1.0)], speed)
+    text += run(alpha[:2] @ (excess + on), list(zip(names(2), on, strict=True)), "speed = 1000")
+    result = find_corrections(parse_runs(text), without=["p2"])
+    left = alpha @ (excess + [result.planes[0].total, on[1]])
+    assert result.after == pytest.approx(left, rel=1e-10)
+
+
 # ------------------------------------------------------------------ doubts and refusals
 def test_doubts():
     text = head(2) + run([10, 10]) + run([10.5, 10], [("p1", 1)]) + run([10.5, 10.1], [("p2", 1)])
-    small, far, *_ = find_doubts(find_corrections(parse_runs(text)))[-4:]
+    small, far, *_ = find_corrections(parse_runs(text)).doubts[-4:]
     assert small == (
         "the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; a heavier "
         "one tells more"
@@ -279,7 +295,7 @@ def test_doubts():
         "the correction of 80 g in p1 is 80 times the largest weight tried there; put it on, read "
         "again, and add that run to the file"
     )
-    assert find_doubts(find_corrections(parse_runs(three_runs()))) == []
+    assert find_corrections(parse_runs(three_runs())).doubts == ()
 
 
 def test_a_trial_weight_is_doubted_at_each_speed():
@@ -288,7 +304,7 @@ def test_a_trial_weight_is_doubted_at_each_speed():
     for speed, weight, after in ((1500, 0.01, 10.011), (3000, 50, 14)):
         own = f"speed = {speed}"
         text += run([10], [], own) + run([after], [("p1", weight)], own)
-    (doubt,) = find_doubts(find_corrections(parse_runs(text)))
+    (doubt,) = find_corrections(parse_runs(text)).doubts
     assert doubt == (
         "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0.11% of the "
         "largest; a heavier one tells more"
@@ -297,16 +313,15 @@ def test_a_trial_weight_is_doubted_at_each_speed():
 
 def test_units_of_radius_and_trial_weights_are_doubted():
     metres = three_runs("radius = [0.1, 0.45]")
-    assert find_doubts(find_corrections(parse_runs(metres))) == [
-        'radius is 0.45 mm; is it in mm? Another unit is said as in "0.45 m"'
-    ]
+    (doubt,) = find_corrections(parse_runs(metres)).doubts
+    assert doubt == 'radius is 0.45 mm; is it in mm? Another unit is said as in "0.45 m"'
     kilograms = (
         head(2) + run([10, 10]) + run([15, 10], [("p1", 0.02)]) + run([10, 14], [("p2", 15)])
     )
-    *_, doubt = find_doubts(find_corrections(parse_runs(kilograms)))
+    *_, doubt = find_corrections(parse_runs(kilograms)).doubts
     assert doubt == "the weights tried are 0.02 g in p1 and 15 g in p2; are both in g?"
     far = run([10, 10]) + run([15, 10], [("p1", 0.2)]) + run([10, 14], [("p2", 15)])
-    assert find_doubts(find_corrections(parse_runs(head(2) + far))) == []
+    assert find_corrections(parse_runs(head(2) + far)).doubts == ()
 
 
 def test_phases_in_radians_are_doubted():
@@ -318,10 +333,10 @@ def test_phases_in_radians_are_doubted():
     assert (
         "all phases of readings are within 2.01 deg of 0; are they in radians? One of 2.01 rad is "
         "115.0 deg"
-    ) in find_doubts(find_corrections(parse_runs(radians)))
+    ) in find_corrections(parse_runs(radians)).doubts
     alike = head(2) + run([10, 10]) + run([15, 10], [("p1", 2)]) + run([10, 14], [("p2", 2)])
-    assert not any("radians" in doubt for doubt in find_doubts(find_corrections(parse_runs(alike))))
-    assert find_doubts(find_corrections(parse_runs(three_runs()))) == []
+    assert not any("radians" in doubt for doubt in find_corrections(parse_runs(alike)).doubts)
+    assert find_corrections(parse_runs(three_runs())).doubts == ()
 
 
 @pytest.mark.parametrize("known", [False, True], ids=["from trials", "influence"])
@@ -332,25 +347,25 @@ def test_a_correction_in_the_other_sense_is_doubted(known):
     runs = run([8j]) + ("" if known else run([8j + 2], [("p1", 2)]))
     runs += run([16j], [("p1", 8j)], 'name = "in"')
     start = head(1, 'influence = [["1 @ 0"]]' if known else "")
-    (doubt,) = find_doubts(find_corrections(parse_runs('weights = "with"\n' + start + runs)))
+    (doubt,) = find_corrections(parse_runs('weights = "with"\n' + start + runs)).doubts
     assert doubt == (
         "'in' reads 16 @ 90.0 at sensor 1, far from 0 @ 0.0, which the other runs foretell; had "
         'angles of weights been counted the other way round, weights = "against", it would be near'
     )
-    assert find_doubts(find_corrections(parse_runs(start + runs))) == []
+    assert find_corrections(parse_runs(start + runs)).doubts == ()
 
 
 def test_a_run_far_from_what_others_foretell_is_doubted():
     """In no sense of angles do 3 g more or less than the correction leave more than was there."""
     runs = run([8]) + run([9], [("p1", 1)])
     off = 'sensors = ["rear"]\n' + head(1) + runs + run([9], [("p1", -5)])
-    *_, doubt = find_doubts(find_corrections(parse_runs(off)))
+    *_, doubt = find_corrections(parse_runs(off)).doubts
     assert doubt == (
         "'run 3' reads 9 @ 0.0 at rear, far from 3 @ 0.0, which the other runs foretell; are its "
         "weights where the file says, and is the machine as it was? Else leave the run out"
     )
     near = head(1) + runs + run([5], [("p1", -5)])
-    assert find_doubts(find_corrections(parse_runs(near))) == []
+    assert find_corrections(parse_runs(near)).doubts == ()
 
 
 def test_as_found_is_the_mean_of_what_was_read_without_weights():
@@ -363,7 +378,7 @@ def test_as_found_is_the_mean_of_what_was_read_without_weights():
 
 def test_planes_that_are_nearly_alike_are_doubted():
     text = head(2, 'influence = [["1 @ 0", "1 @ 0"], ["1 @ 0", "1.1 @ 0"]]') + run([1, 2])
-    (doubt,) = find_doubts(find_corrections(parse_runs(text)))
+    (doubt,) = find_corrections(parse_runs(text)).doubts
     assert doubt.startswith(
         "what planes p1 and p2 do, other planes do nearly as well: only 4.8% of what one does is its"
     )
@@ -377,7 +392,7 @@ def test_planes_that_are_alike_together_are_not_said_to_be_alike_each():
         'influence = [["1 @ 0", "0 @ 0", "1 @ 0"], ["0 @ 0", "1 @ 0", "1 @ 0"], '
         '["0 @ 0", "0 @ 0", "0.1 @ 0"]]',
     ) + run([1, 2, 3])
-    (doubt,) = find_doubts(find_corrections(parse_runs(text)))
+    (doubt,) = find_corrections(parse_runs(text)).doubts
     assert doubt.startswith(
         "what planes p1, p2 and p3 do, other planes do nearly as well: only 7.1%"
     )
@@ -386,9 +401,9 @@ def test_planes_that_are_alike_together_are_not_said_to_be_alike_each():
 def test_what_is_permitted_is_not_judged_in_a_plane_left_out():
     grade = "radius = [100, 100]\ngrade = 2.5\nmass = 30\nspeed = 1800"
     text = three_runs(grade)
-    assert find_doubts(find_corrections(parse_runs(text))) == []
+    assert find_corrections(parse_runs(text)).doubts == ()
     found = find_corrections(parse_runs(text), without=["rear"])
-    assert find_doubts(found)[0] == (
+    assert found.doubts[0] == (
         "the permitted unbalance is judged without rear: what is there is not known, and readings "
         f"of up to {found.largest:.4g} stay"
     )

@@ -211,6 +211,16 @@ def test_several_mistakes_are_told_at_once():
     ]
 
 
+def test_a_run_without_readings_hides_no_wrong_plane():
+    found = mistakes(
+        'planes = ["front"]\nrun = [{ readings = ["5 @ 3"] }, { weights.fornt = "3 @ 0" }]'
+    )
+    assert found == [
+        'run.2.readings: is missing; give it, such as readings = ["170 @ 112", "53 @ 78"]',
+        "run.2.weights.fornt: is no plane; did you mean front?",
+    ]
+
+
 def test_only_the_first_twenty_are_shown():
     text = 'planes = ["a"]\n' + '[[run]]\nreadings = ["x"]\n' * 30
     with pytest.raises(InputError) as caught:

@@ -312,6 +312,21 @@ def test_an_engine_with_torsion_is_read_once_from_standard_input(monkeypatch):
     assert found.modes[0].frequency_hz == balcli.analyze_torsion(DIESEL).modes[0].frequency_hz
 
 
+def test_answers_tell_what_is_doubtful_of_them():
+    """At its resonance of 17.4 Hz 10 N m twist what hardly anything damps by turns."""
+    excited = f'{CHAIN}loss = LOSS\n[[excitation]]\nnode = "motor"\norder = 1\ncos = 10\n'
+    weak, usual = (
+        balcli.analyze_torsion(excited.replace("LOSS", loss), range(1000, 1100, 10))
+        for loss in ("1e-5", "0.1")
+    )
+    (told,) = weak.doubts
+    assert told.startswith("motor would swing by ")
+    assert "<b>Doubtful</b>" in weak._repr_html_()
+    assert usual.doubts == balcli.analyze_mounts(MOUNTS).doubts == ()
+    assert balcli.balance_rotor(three_runs()).doubts == balcli.analyze(FOUR).doubts == ()
+    assert "Doubtful" not in usual._repr_html_()
+
+
 def test_a_chain_is_a_path_a_text_or_a_dict(tmp_path):
     (tmp_path / "chain.toml").write_text(CHAIN)
     found = [

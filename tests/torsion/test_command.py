@@ -302,6 +302,19 @@ def test_a_tuned_pendulum_holds_its_node_still():
     assert ask_torsion(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
 
 
+def test_an_excitation_without_torque_is_doubted():
+    text = """
+        loss = 0.02
+        node = [{ name = "a", inertia = 2e5 }, { name = "b", inertia = 3e5 }]
+        shaft = [{ from = "a", to = "b", stiffness = 1e6 }]
+        excitation = [{ node = "a", order = 2 }, { node = "b", order = 2, sin = 3 }]
+        """
+    assert run_here("torsion", "-", stdin=text).err == (
+        "warning: standard input: excitation.1 on 'a' has neither cos nor sin, and so no torque; "
+        "give one of them, such as cos = 150 (N m)\n"
+    )
+
+
 def test_loss_factors_of_a_chain_in_percent_are_doubted():
     text = """
         loss = 2

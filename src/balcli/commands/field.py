@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError, Exit, warn
+from ..errors import BalcliError, Exit
 from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, text_format
@@ -77,16 +77,16 @@ def field(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from ..field_balancing.balance import find_corrections, find_doubts
+    from ..field_balancing.balance import find_corrections
     from ..field_balancing.read import read_runs
     from ..render import field_balancing as renderer
+    from .inputs import warn_each
 
     file, name = read_runs(path), name_file(path)
     if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
     result = find_corrections(file, minimise.value, without or (), name)
-    for doubt in find_doubts(result):
-        warn(f"{name}: {doubt}")
+    warn_each(result.doubts, name)
     if plot is not None and drawn is not None:
         from ..render.plot.field_balancing import make_field  # brings matplotlib
 

@@ -98,7 +98,7 @@ def _warn(result: MountReport, file: str, *, asked: bool) -> None:
             f"{file}: nothing shakes this body, so speeds, orders, misfires and schemes say "
             "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
         )
-    warn_each(result.list_doubts(), file)
+    warn_each(result.doubts, file)
 
 
 def _read_files(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from ..errors import warn
 from ..render.formats import Units
 from ..render.plot.pages import PageSubject, make_page
 from ..render.units import SYSTEMS
@@ -41,14 +42,20 @@ def make_figures(path: str, pages: Sequence[What], asked: Asked, form: Form) -> 
         BalcliError: what a page refuses, or does not find in the file.
     """
     found: dict[What, Figure] = {}
-    if of_torsion := [page for page in pages if page in OF_TORSION]:
+    of_torsion = [page for page in pages if page in OF_TORSION]
+    others = [page for page in pages if page not in OF_TORSION]
+    if asked.speeds is not None and not of_torsion:
+        warn("--speeds counts for pages of torsion alone; the speed of the others is --speed")
+    if asked.speed is not None and not others:
+        warn("--speed counts for nothing here; pages of torsion take a range, --speeds A:B")
+    if of_torsion:
         for page in of_torsion:
             refuse_scheme(_choose_scheme(page, asked), page)
         drawn = make_figures_of_torsion(
             path, of_torsion, asked.speeds, asked.orders, form, asked.units
         )
         found |= zip(of_torsion, drawn, strict=True)
-    if others := [page for page in pages if page not in OF_TORSION]:
+    if others:
         found |= zip(others, _make_pages(path, others, asked, form), strict=True)
     return [found[page] for page in pages]
 

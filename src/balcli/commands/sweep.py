@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError, naming_file
+from ..errors import BalcliError, naming_file, warn
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..process import count_cores, keep_freed_memory
@@ -112,6 +112,8 @@ def sweep(
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     file, kind = _choose_target(output, form, plot)
+    if force and not (output and output.is_folder):
+        warn("--force is for a folder of parts (-o variants/); a file is replaced without it")
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out

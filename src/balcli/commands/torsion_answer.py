@@ -67,7 +67,7 @@ def find_answer(
         found = answer_question(source, asked, tell)
     for doubt in found.damper.doubts if found.damper is not None else ():
         warn(f"--damper: {doubt}")
-    warn_each(found.list_doubts(), name_file(path))
+    warn_each(found.doubts, name_file(path))
     return source, found
 
 

@@ -127,6 +127,11 @@ class FieldBalance(Result):
         """Whether places or largest weights keep any plane from what would be best."""
         return any(p.limited for p in self.planes)
 
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is valid but suspicious of runs and weights, each with its figure and a remedy."""
+        return tuple(_find_doubts(self))
+
 
 def find_corrections(
     file: RunsFile, minimise: Minimise = "squares", without: Collection[str] = (), name: str = ""
@@ -145,8 +150,7 @@ def find_corrections(
     influence = find_influence(file, frozenset(without), name)
     matrix = influence.coefficients[:, used]
     _refuse_dependent(file, matrix, used, name)
-    on = influence.on
-    now = influence.now + np.sum(influence.coefficients * (on - influence.now_on), axis=1)
+    on, now = influence.on, influence.start
     weights = np.ones(len(now))
     if file.reading_weights:
         weights = np.tile(np.array(file.reading_weights), len(set(influence.speeds_rpm)))
@@ -191,8 +195,7 @@ def find_corrections(
     )
 
 
-def find_doubts(result: FieldBalance) -> list[str]:
-    """What is valid but suspicious, each with its figure and a remedy."""
+def _find_doubts(result: FieldBalance) -> list[str]:
     doubts = []
     alike = [p for p in result.planes if p.own < _NEARLY_ALIKE]
     if len(alike) > 1:

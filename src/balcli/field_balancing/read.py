@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -59,9 +59,18 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
     if model is not None:
         numbered = [(k, run) for k, run in enumerate(runs, 1) if run is not None]
         reader.problems += _find_misfits(model, numbered, len(numbered) == len(runs))
+        for k, run in enumerate(runs, 1):  # what could not be read may name no planes, too
+            weights = _find_weights(data["run"][k - 1]) if run is None else ()
+            reader.problems += _check_planes(model, k, weights)
     if reader.problems or model is None:
         raise reader.refusal(file)
     return model
+
+
+def _find_weights(table: object) -> Iterable[object]:
+    """Names under `weights` in a table as TOML is read; none where there is no such table."""
+    weights = table.get("weights") if isinstance(table, Mapping) else None
+    return weights if isinstance(weights, Mapping) else ()
 
 
 def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
@@ -164,15 +173,20 @@ def _check_runs(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem
                 f"has {counted(len(run.readings), 'reading')}, but {whose} {wanted}; give one for "
                 "each sensor, in the same order in every run",
             )
-        for name in run.weights:
-            if name not in file.planes:
-                near = nearest(name, file.planes)
-                hint = f"did you mean {near}?" if near else f"there are {', '.join(file.planes)}"
-                yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")
+        yield from _check_planes(file, k, run.weights)
         if spoken and run.speed is None:
             hint = f"run.{spoken[0]} gives its speed, so every run must"
             yield Problem.of_missing(f"run.{k}.speed", hint)
     yield from _check_factors(file, wanted)
+
+
+def _check_planes(file: RunsFile, k: int, names: Iterable[object]) -> Iterator[Problem]:
+    """What takes a weight in the k-th run, and is no plane."""
+    for name in names:
+        if isinstance(name, str) and name not in file.planes:
+            near = nearest(name, file.planes)
+            hint = f"did you mean {near}?" if near else f"there are {', '.join(file.planes)}"
+            yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")
 
 
 def _check_factors(file: RunsFile, sensors: int) -> Iterator[Problem]:

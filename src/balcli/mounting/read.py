@@ -14,7 +14,7 @@ from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
 from ..enginefile.mounting_tables import Body, Mount, Point
 from ..enginefile.read import REQUIRED, Draft, read_tables
-from ..enginefile.suspicious import doubt_losses
+from ..enginefile.suspicious import NO_DISTANCE, doubt_losses
 from ..enginefile.toml_text import name_file, read_bytes
 from ..enginefile.units import STANDARD_GRAVITY, ask_unit
 from .build import find_mounting_faults
@@ -78,7 +78,7 @@ def _doubt_places(model: EngineFile) -> Iterator[str]:
     ]
     for path, each in named:
         away = max(map(abs, each.at))
-        if 0 < away < NEAR_THE_ORIGIN:
+        if NO_DISTANCE < away < NEAR_THE_ORIGIN:
             yield (
                 f"{path}.at of '{each.name}' is within {away:.3g} mm of the origin; "
                 f"{ask_unit('mm', f'{away:.3g} m')}"

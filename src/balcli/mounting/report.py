@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import NamedTuple
@@ -77,26 +77,29 @@ class MountReport(Result):
             return self.others
         return (Other(self.fitted.remedy.scheme, self.fitted.response), *self.others)
 
-    def list_doubts(self) -> Iterator[str]:
+    @property
+    def doubts(self) -> tuple[str, ...]:
         """That a mount would have to travel farther than any does, in words; of the one that
         travels most.
         """
         if self.response is None:
-            return
+            return ()
         stiffness, loss, damping = self.mounted.dynamic[2:]
         travels = []
         for k, worst in enumerate(self.response.worst_force):
             dashpot = 1j * worst.order * worst.omega * damping[k]
             travels.append(worst.value / np.abs(stiffness[k] * (1 + 1j * loss[k]) + dashpot).max())
         farthest = int(np.argmax(travels))
-        if travels[farthest] > TRAVEL_MOST:
-            name = printable(self.mounted.names[farthest])
-            rpm = self.response.worst_force[farthest].speed_rpm
-            yield (
-                f"the mount {name} would travel by {1e3 * travels[farthest]:.3g} mm or more at "
-                f"{rpm:.4g} rpm, where stops hold others at 10 to 20; are loss and damping right, "
-                "and does it run at that speed, or pass it?"
-            )
+        if travels[farthest] <= TRAVEL_MOST:
+            return ()
+        name = printable(self.mounted.names[farthest])
+        rpm = self.response.worst_force[farthest].speed_rpm
+        told = (
+            f"the mount {name} would travel by {1e3 * travels[farthest]:.3g} mm or more at "
+            f"{rpm:.4g} rpm, where stops hold others at 10 to 20; are loss and damping right, "
+            "and does it run at that speed, or pass it?"
+        )
+        return (told,)
 
     @property
     def meetings(self) -> tuple[Meeting, ...]:

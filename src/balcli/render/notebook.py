@@ -20,17 +20,23 @@ ENDS = 5  # rows of a long table that are shown, at its head and at its foot
 
 
 def show_in_notebook(result: Engine | Result) -> str:
-    """An engine or an answer as a person reads it, in SI units."""
+    """An engine or an answer as a person reads it, in SI units, and what is doubtful of it."""
+    sheet = _make_sheet(result)
+    doubts = (Text("Doubtful", result.doubts),) if result.doubts else ()
+    return html_text(Sheet(sheet.title, (*sheet.parts, *doubts)))
+
+
+def _make_sheet(result: Engine | Result) -> Sheet:
     if isinstance(result, Engine):
         facts = engine_facts(result, SI, higher=False, whole=False)
-        doubts = (Text("Doubtful", result.doubts),) if result.doubts else ()
-        return html_text(Sheet(result.name or NAMELESS, (facts, *doubts)))
+        return Sheet(result.name or NAMELESS, (facts,))
     if isinstance(result, Analysis):
-        return html_text(analysis.sheet(result, SI))
+        return analysis.sheet(result, SI)
     renderer, shown = find_renderer(result)
     if not hasattr(renderer, "sheet"):
-        return html_text(Sheet(repr(result)[1:-1], (outline(list_columns(result)),)))
-    return html_text(renderer.sheet(shown, SI))
+        return Sheet(repr(result)[1:-1], (outline(list_columns(result)),))
+    sheet: Sheet = renderer.sheet(shown, SI)
+    return sheet
 
 
 def outline(columns: Columns) -> Grid:

@@ -85,10 +85,14 @@ class TorsionAnalysis(Result):
     barred_rpm: tuple[tuple[float, float], ...] | None
     damper: SizedDamper | None = None
 
-    def list_doubts(self) -> Iterator[str]:
+    @property
+    def doubts(self) -> tuple[str, ...]:
         """What is unlikely of the response, in words: swings beyond what is computed here, a stress
         that breaks the shaft.
         """
+        return tuple(self._find_doubts())
+
+    def _find_doubts(self) -> Iterator[str]:
         if self.response is None:
             return
         worst, system = self.response.worst, self.system

@@ -39,7 +39,9 @@ class ChainSource:
     @property
     def doubts(self) -> tuple[str, ...]:
         """What it says that is allowed and yet unlikely, in words."""
-        return (*doubt_losses(self.model.list_losses()), *_doubt_units(self.model))
+        model = self.model
+        losses = doubt_losses(model.list_losses())
+        return (*losses, *_doubt_units(model), *_doubt_torques(model))
 
     def system(self) -> TorsionalSystem:
         """What it describes. Raises InputError: what hangs together wrongly."""
@@ -95,6 +97,16 @@ class EngineSource:
             return self
         front, rear = (_put_damper(each, name, damper) for each in (torsion.front, torsion.rear))
         return replace(self, model=self.model.with_table("torsion", front=front, rear=rear))
+
+
+def _doubt_torques(model: ChainFile) -> Iterator[str]:
+    """Excitations of which only node and order are given."""
+    for number, torque in enumerate(model.excitation, 1):
+        if not {"cos", "sin"} & torque.model_fields_set:
+            yield (
+                f"excitation.{number} on '{torque.node}' has neither cos nor sin, and so no "
+                "torque; give one of them, such as cos = 150 (N m)"
+            )
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
