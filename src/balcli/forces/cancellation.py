@@ -14,7 +14,7 @@ from fractions import Fraction
 from math import lcm
 from typing import NamedTuple
 
-from ..core.roots_of_unity import vanishes
+from ..core.roots_of_unity import even, vanishes
 
 ANGLES_SHOWN = 6  # of phasors; where there are more, only how many
 PAIRS_SHOWN = 6
@@ -99,7 +99,7 @@ def _tell_polygons(terms: Sequence[Term]) -> str:
     """Terms that are left: all at even angles, or in groups of such."""
     sizes = _collect(terms)
     corners = sorted(sizes)
-    if len(set(sizes.values())) == 1 and _are_even(corners):
+    if len(set(sizes.values())) == 1 and even(corners, Fraction(1)):
         return f"{_tell_corners(corners, len(terms))} sum to nothing"
     polygons = _take_apart(sizes)
     if polygons is None:
@@ -114,10 +114,6 @@ def _collect(terms: Iterable[Term]) -> dict[Fraction, Fraction]:
     for _, weight, angle in terms:
         total[(angle + (_HALF if weight < 0 else 0)) % 1] += abs(weight)
     return total
-
-
-def _are_even(corners: Sequence[Fraction]) -> bool:
-    return all(corner - corners[0] == Fraction(k, len(corners)) for k, corner in enumerate(corners))
 
 
 def _tell_corners(corners: Sequence[Fraction], count: int) -> str:
