@@ -154,8 +154,8 @@ def test_with_fewer_readings_than_unknowns_none_is_determined():
     assert find_dependent_columns(random(16, 1, 3)) == [0, 1, 2]
 
 
-def test_nearly_dependent_columns_by_tolerance():
+@pytest.mark.parametrize(("apart", "dependent"), [(1e-6, []), (1e-14, [0, 1])])
+def test_columns_that_differ_by_more_than_rounding_are_told_apart(apart, dependent):
     columns = random(17, 8, 2)
-    columns[:, 1] = columns[:, 0] + 1e-6 * columns[:, 1]
-    assert find_dependent_columns(columns) == []
-    assert find_dependent_columns(columns, tolerance=1e-4) == [0, 1]
+    columns[:, 1] = columns[:, 0] + apart * columns[:, 1]
+    assert find_dependent_columns(columns) == dependent

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 Number = TypeVar("Number", np.float64, np.complex128)
 
 _LOST = 1e-14  # singular values below this share of the largest are rounding errors
+_DEPENDENT = 1e-12  # the same of columns of size 1: what they cannot tell apart
 _REFINEMENTS = 2
 _TAKES_PART = 1e-6  # a smaller share of a column in a combination is a rounding error
 
@@ -66,7 +67,7 @@ def solve(
     return Solution(x, residual, left, condition, int(np.count_nonzero(kept)))
 
 
-def find_dependent_columns(matrix: NDArray[Number], tolerance: float = 1e-12) -> list[int]:
+def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
     """The unknowns that the readings cannot tell apart: columns that are combinations of others.
 
     Columns count by their direction, whatever their size. A column of zeros is found, too. Empty
@@ -74,12 +75,11 @@ def find_dependent_columns(matrix: NDArray[Number], tolerance: float = 1e-12) ->
 
     Args:
         matrix: shape (readings, unknowns).
-        tolerance: share of the largest singular value below which another is none.
     """
     sizes = np.linalg.norm(matrix, axis=0)
     directions = matrix / np.where(sizes > 0, sizes, 1.0)
     _, s, vh = np.linalg.svd(directions)
-    rank = np.count_nonzero(s > tolerance * s[0])
+    rank = np.count_nonzero(s > _DEPENDENT * s[0])
     combinations = np.abs(vh[rank:])  # of columns, each of which gives nothing
     taking_part = np.any(combinations > _TAKES_PART, axis=0)
     return [int(k) for k in np.flatnonzero(taking_part)]
