@@ -279,7 +279,7 @@ def test_what_stays_on_in_a_plane_left_out_counts_at_every_speed():
             text += run(rows @ (excess + np.eye(2)[k]), [(name, 1.0)], speed)
     text += run(alpha[:2] @ (excess + on), list(zip(names(2), on, strict=True)), "speed = 1000")
     result = find_corrections(parse_runs(text), without=["p2"])
-    left = alpha @ (excess + [result.planes[0].total, on[1]])
+    left = alpha @ (excess + np.array([result.planes[0].total, on[1]]))
     assert result.after == pytest.approx(left, rel=1e-10)
 
 
