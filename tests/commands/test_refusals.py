@@ -18,6 +18,7 @@ FILES = {
         "firing_order = [1, 3, 4, 2]", ""
     ),
     "diagram.toml": FOUR + '[gas]\nindicator = "latin.csv"\n',
+    "workbook.toml": FOUR + '[gas]\nindicator = "p.xlsx"\n',
     "blank.toml": FOUR + '[gas]\nindicator = "  "\n',
     "exchange.toml": TWO_STROKE.replace("[layout]", "[layout]\nstrokes = 2")
     + '[gas]\nindicator = "latin.csv"\nzero = "gas-exchange"\n',
@@ -37,13 +38,27 @@ def files(tmp_path, monkeypatch):
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     (tmp_path / "latin.csv").write_bytes(b"angle_deg,pressure_bar\n\xff\xfe")
+    (tmp_path / "p.xlsx").write_bytes(b"PK\x03\x04\x14\x00\xff\xfe")
     monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.parametrize(
     ("command", "message"),
     [
-        ("analyze diagram.toml", "diagram.toml: gas.indicator: latin.csv: is not UTF-8 text"),
+        (
+            "analyze diagram.toml",
+            "diagram.toml: gas.indicator: latin.csv: is not UTF-8 text; save it as UTF-8",
+        ),
+        (
+            "analyze workbook.toml",
+            "workbook.toml: gas.indicator: p.xlsx: is a workbook or another packed file; save the "
+            "sheet as CSV",
+        ),
+        (
+            "analyze p.xlsx",
+            "p.xlsx: is a workbook or another packed file, no text; write TOML, as `balcli new` "
+            "does",
+        ),
         (
             "analyze blank.toml",
             'blank.toml: gas.indicator: "  " is no name of a file; give the name of a file, such as '

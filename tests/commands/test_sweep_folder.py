@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from support.commands import run_here
+from support.commands import refusal, run_here
 from support.engines import GOOD, changed
 
 from balcli.commands.progress import Progress
@@ -42,10 +42,7 @@ def here(tmp_path, monkeypatch):
     Path("good.toml").write_text(GOOD)
 
 
-def refusal(*argv):
-    status, out, err = run_here("sweep", "good.toml", *argv)
-    assert (status, out) == (2, "")
-    return err.removeprefix("balcli: ").strip()
+refuse_sweep = partial(refusal, "sweep", "good.toml")
 
 
 @pytest.mark.parametrize("jobs", [(), ("-j", "1"), ("-j", "3")])
@@ -84,7 +81,7 @@ def test_an_earlier_sweep_is_replaced_by_force_alone_and_whole():
     assert run_here("sweep", "good.toml", *ASKED, "-o", "out/")[0] == 0
     before = sorted(os.listdir("out"))
     few = ("--vary", "rod.ratio=0.2,0.3", "-q", "force.2.major")
-    assert refusal(*few, "-o", "out/") == (
+    assert refuse_sweep(*few, "-o", "out/") == (
         "out/: holds an earlier sweep; choose another folder, or --force to replace it"
     )
     assert sorted(os.listdir("out")) == before
@@ -99,26 +96,26 @@ def test_an_empty_folder_is_taken_and_another_mans_is_not():
     assert run_here("sweep", "good.toml", *ASKED, "-o", "out/")[0] == 0
     Path("out/notes.txt").write_text("mine")
     for force in ((), ("--force",)):
-        assert refusal(*ASKED, "-o", "out/", *force) == (
+        assert refuse_sweep(*ASKED, "-o", "out/", *force) == (
             "out/: holds notes.txt, which is no part of a sweep; choose a folder that is empty or "
             "not there"
         )
-    assert refusal(*ASKED, "-o", "good.toml/").endswith("choose another name")
+    assert refuse_sweep(*ASKED, "-o", "good.toml/").endswith("choose another name")
     Path("file").write_text("mine")
-    assert refusal(*ASKED, "-o", "file/") == (
+    assert refuse_sweep(*ASKED, "-o", "file/") == (
         "file/: is a file; choose another name for the folder"
     )
 
 
 def test_what_does_not_go_into_a_folder_is_refused():
-    assert refusal(*ASKED, "-o", "out/", "-f", "csv") == (
+    assert refuse_sweep(*ASKED, "-o", "out/", "-f", "csv") == (
         "--output out/: a folder takes Parquet files, but --format says csv; leave one of them out"
     )
-    assert refusal(*ASKED, "-o", "out/", "--plot", "a.svg") == (
+    assert refuse_sweep(*ASKED, "-o", "out/", "--plot", "a.svg") == (
         "--plot a.svg: figures that go into a folder are not kept for a picture; write one file, "
         "or leave --plot out"
     )
-    assert refusal(*ASKED, "-o", "nowhere/out/") == (
+    assert refuse_sweep(*ASKED, "-o", "nowhere/out/") == (
         "nowhere/out: cannot be written (there is no folder nowhere)"
     )
     assert run_here("sweep", "good.toml", *ASKED, "-o", "out/", "-f", "parquet")[0] == 0
@@ -126,7 +123,7 @@ def test_what_does_not_go_into_a_folder_is_refused():
 
 def test_a_sweep_that_fails_leaves_nothing():
     Path("good.toml").write_text(changed(more=RIPPLE))
-    assert "the crank would" in refusal(*TURN_BACK, "-o", "out/")
+    assert "the crank would" in refuse_sweep(*TURN_BACK, "-o", "out/")
     assert os.listdir() == ["good.toml"]
 
 
@@ -194,7 +191,7 @@ def test_a_folder_that_cannot_be_written_is_named(monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("balcli.commands.sweep_folder.write_sweep_parquet", full)
-    assert refusal(*ASKED, "-o", "out/") == "out/: cannot be written (No space left on device)"
+    assert refuse_sweep(*ASKED, "-o", "out/") == "out/: cannot be written (No space left on device)"
     assert os.listdir() == ["good.toml"]
 
 
@@ -211,7 +208,7 @@ def test_an_earlier_sweep_stays_where_the_new_one_cannot_take_its_place(monkeypa
 
     monkeypatch.setattr(Path, "rename", busy)
     few = ("--vary", "rod.ratio=0.2,0.3", "-q", "force.2.major")
-    assert refusal(*few, "-o", "out/", "--force") == (
+    assert refuse_sweep(*few, "-o", "out/", "--force") == (
         "out/: cannot be written (Device or resource busy)"
     )
     assert sorted(os.listdir("out")) == before

@@ -352,7 +352,8 @@ def test_missing_tables_come_with_an_example():
     [
         (
             "name = 'x'\n[crank]\nstroke = 90\nthrows = [0, 180\n[rod]\n",
-            "is not valid TOML: Unclosed array (at line 5, column 1): [rod]",
+            "is not valid TOML: Unclosed array (at line 5, column 1): a list above has no ] at its "
+            "end",
         ),
         (
             "[crank]\nstroke = 90\nstroke = 91\n",

@@ -40,7 +40,7 @@ def told(tmp_path, *changes, args=()):
         ("mass = 0.5", "mass = .5  # kg", ": mass = .5: TOML writes this number mass = 0.5"),
         ("speed = 3000", "speed = 3 000", ": speed = 3 000: TOML writes this number speed = 3000"),
         ("speed = 3000", "speed = 03000", ": speed = 03000: TOML writes this number speed = 3000"),
-        ("throws = [0, 180, 180, 0]", "throws = [0, 180", ""),
+        ("throws = [0, 180, 180, 0]", "throws = [0, 180", ": a list above has no ] at its end"),
         ("stroke = 90", "stroke = “90 mm”", ': stroke = “90 mm”: quotes are straight: stroke = "90 mm"'),
         ("stroke = 90", "stroke = ‘3.5 in’  # inch", ': stroke = ‘3.5 in’: quotes are straight: stroke = "3.5 in"'),
         ("stroke = 90", "stroke: 90", ": a key and its value have = between them: stroke = 90"),
@@ -69,6 +69,14 @@ def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(tmp_path, old, n
     err = told(tmp_path, (old, new)).err
     assert NOT_TOML in err
     assert err.endswith(f"{answer}\n")
+
+
+def test_a_list_that_the_file_ends_in(tmp_path):
+    file = tmp_path / "slip.toml"
+    file.write_text("[crank]\nthrows = [0, 180")
+    assert run_here("analyze", file).err.endswith(
+        "(at end of document): this list has no ] at its end\n"
+    )
 
 
 @pytest.mark.parametrize("given", ["[0-180]", "[012]", "[0..180]"])

@@ -267,6 +267,22 @@ def test_ounces():
     assert ounces.planes[0].unbalance == pytest.approx(28.349523125 * 100 * 1.97946764, rel=1e-8)
 
 
+def test_what_stays_on_in_a_plane_left_out_counts_at_every_speed():
+    """An exact rotor, read again at one speed with weights in both planes: at the other the weight
+    of the plane that is left out counts, too.
+    """
+    alpha, excess = random_rotor(11, 4, 2)
+    on, text = np.array([0.3 + 0.1j, -0.2 + 0.4j]), head(2)
+    for rows, speed in ((alpha[:2], "speed = 1000"), (alpha[2:], "speed = 2000")):
+        text += run(rows @ excess, (), speed)
+        for k, name in enumerate(names(2)):
+            text += run(rows @ (excess + np.eye(2)[k]), [(name, 1.0)], speed)
+    text += run(alpha[:2] @ (excess + on), list(zip(names(2), on, strict=True)), "speed = 1000")
+    result = find_corrections(parse_runs(text), without=["p2"])
+    left = alpha @ (excess + np.array([result.planes[0].total, on[1]]))
+    assert result.after == pytest.approx(left, rel=1e-10)
+
+
 # ------------------------------------------------------------------ doubts and refusals
 def test_doubts():
     text = head(2) + run([10, 10]) + run([10.5, 10], [("p1", 1)]) + run([10.5, 10.1], [("p2", 1)])

@@ -206,6 +206,18 @@ def test_a_trim_is_shown_beside_the_total(tmp_path):
     assert said["corrections"][0]["add"]["weight"] < 1
 
 
+@pytest.mark.parametrize("head", ["", 'weights = "with"'], ids=["one sense", "opposite senses"])
+def test_what_stays_on_in_a_plane_left_out_is_told(tmp_path, head):
+    """The readings of the last run are with it, and so is all that is computed from them."""
+    path = tmp_path / "runs.toml"
+    last = '[[run]]\nname = "in"\nweights = { front = "2 @ 236", rear = "1 @ 122" }\nreadings = ["9 @ 40", "6 @ 310"]'
+    path.write_text(three_runs(head, last=last), encoding="utf-8")
+    told = "Left out: rear. What was on in 'in' stays on in rear: 1 g at 122.0 deg."
+    assert told in run_here("field", path, "--without", "rear").out
+    path.write_text(three_runs(head), encoding="utf-8")
+    assert "stays on" not in run_here("field", path, "--without", "rear").out
+
+
 def test_check(runs, tmp_path):
     assert run_here("field", runs, "--check").status == 0
     strict = tmp_path / "strict.toml"

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
-from support.commands import run_here
+from support.commands import ask_torsion, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
@@ -76,16 +74,12 @@ def test_the_largest_of_an_answer_lies_between_its_speeds():
     """Torque, stress and swing of hardly damped shafts, 50 rpm apart and next to each other."""
     text = write_engine(0.005)
 
-    def ask(speeds):
-        out = run_here("torsion", "-", "--speeds", speeds, "-f", "json", stdin=text).out
-        return json.loads(out)["response"]
-
-    coarse = ask("1000:3000:50")
+    coarse = ask_torsion(text, "--speeds", "1000:3000:50")["response"]
     by_name = {shaft["name"]: shaft["worst"] for shaft in coarse["shafts"]}
     worst = by_name["flywheel"]
     assert worst["half_peak_to_peak_Nm"] == pytest.approx(search_finely(text, -1), rel=1e-6)
     low, high = worst["speed_rpm"] - 1, worst["speed_rpm"] + 1
-    fine = ask(f"{low}:{high}:0.01")
+    fine = ask_torsion(text, "--speeds", f"{low}:{high}:0.01")["response"]
     for shaft in fine["shafts"]:
         told, highest = by_name[shaft["name"]], max(shaft["half_peak_to_peak_Nm"])
         if low + 0.1 < told["speed_rpm"] < high - 0.1:
@@ -94,7 +88,7 @@ def test_the_largest_of_an_answer_lies_between_its_speeds():
             each = shaft["stress_Pa"][0] / shaft["half_peak_to_peak_Nm"][0]
             assert told["stress_Pa"] == pytest.approx(told["half_peak_to_peak_Nm"] * each)
     low, high = (coarse["free_end_worst"]["speed_rpm"] + reach for reach in (-1, 1))
-    fine = ask(f"{low}:{high}:0.01")
+    fine = ask_torsion(text, "--speeds", f"{low}:{high}:0.01")["response"]
     told = coarse["free_end_worst"]["half_swing_deg"]
     assert told == pytest.approx(max(fine["free_end_deg"]), rel=1e-5)
     assert told > 1.5 * max(coarse["free_end_deg"])
@@ -105,8 +99,7 @@ def test_no_barred_range_is_too_narrow_to_be_found():
     damper = 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'
     text = write_engine(0.005, damper).replace("[torsion]\n", "[torsion]\nlimit = 300\n")
     coarse, fine = (
-        json.loads(run_here("torsion", "-", "--speeds", speeds, "-f", "json", stdin=text).out)
-        for speeds in ("1000:3000:100", "1780:1800:1")
+        ask_torsion(text, "--speeds", speeds) for speeds in ("1000:3000:100", "1780:1800:1")
     )
     (span,) = fine["barred_rpm"]
     assert coarse["barred_rpm"] == [pytest.approx(span, rel=1e-8)]
@@ -122,8 +115,7 @@ def test_between_two_barred_resonances_runs_are_allowed():
         text += "stiffness = 100000\ndiameter = 30\n"
     text += '[[excitation]]\nnode = "a"\norder = 1\ncos = 3\n'
     fine, coarse = (
-        json.loads(run_here("torsion", "-", "--speeds", speeds, "-f", "json", stdin=text).out)
-        for speeds in ("5000:20000:10", "5000,20000")
+        ask_torsion(text, "--speeds", speeds) for speeds in ("5000:20000:10", "5000,20000")
     )
     assert len(fine["barred_rpm"]) == 2
     assert np.ravel(coarse["barred_rpm"]) == pytest.approx(np.ravel(fine["barred_rpm"]), rel=1e-6)
@@ -133,8 +125,7 @@ def test_beside_a_single_speed_nothing_is_looked_for(monkeypatch):
     """A chain of two hundred took eight seconds."""
     monkeypatch.delattr("balcli.core.close_peaks.find_peaks_between")
     text = write_engine(0.005)
-    told = json.loads(run_here("torsion", "-", "--speeds", "1790", "-f", "json", stdin=text).out)
-    for shaft in told["response"]["shafts"]:
+    for shaft in ask_torsion(text, "--speeds", "1790")["response"]["shafts"]:
         assert shaft["worst"]["speed_rpm"] == 1790
         assert [shaft["worst"]["half_peak_to_peak_Nm"]] == shaft["half_peak_to_peak_Nm"]
 
@@ -145,9 +136,9 @@ def test_a_limit_that_the_largest_stress_alone_passes_bars_its_speed():
 
     def ask(limit):
         text = plain.replace("limit = 50 ", f"limit = {limit!r} ")
-        told = run_here("torsion", "-", "--speeds", "1000:2500:25", "-f", "json", stdin=text).out
-        shafts = (s["worst"] for s in json.loads(told)["response"]["shafts"])
-        return json.loads(told)["barred_rpm"], max(shafts, key=lambda w: w.get("stress_Pa", 0))
+        told = ask_torsion(text, "--speeds", "1000:2500:25")
+        shafts = (s["worst"] for s in told["response"]["shafts"])
+        return told["barred_rpm"], max(shafts, key=lambda w: w.get("stress_Pa", 0))
 
     _, worst = ask(50)
     (span,), _ = ask(worst["stress_Pa"] / 1e6 * (1 - 1e-5))
@@ -161,20 +152,15 @@ def test_the_top_of_a_wide_resonance_between_the_speeds_is_barred():
     damper = 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'
     plain = write_engine(0.05, damper)
 
-    def ask(text, speeds):
-        return json.loads(
-            run_here("torsion", "-", "--speeds", speeds, "-f", "json", stdin=text).out
-        )
-
-    shafts = ask(plain, "1700:1900:200")["response"]["shafts"]
+    shafts = ask_torsion(plain, "--speeds", "1700:1900:200")["response"]["shafts"]
     top = max((shaft["worst"] for shaft in shafts), key=lambda worst: worst.get("stress_Pa", 0.0))
     limit, middle = 0.9995 * top["stress_Pa"] / 1e6, top["speed_rpm"]
     text = plain.replace("[torsion]\n", f"[torsion]\nlimit = {limit!r}\n")
-    around = [
-        ask(text, f"{middle - 12 - 24 * n}:{middle + 12 + 24 * n}:{s}")
-        for n, s in ((3, 24), (0, 1))
-    ]
-    coarse, fine = (said["barred_rpm"] for said in around)
+    spans = ((middle - 84, middle + 84, 24), (middle - 12, middle + 12, 1))
+    coarse, fine = (
+        ask_torsion(text, "--speeds", f"{low}:{high}:{step}")["barred_rpm"]
+        for low, high, step in spans
+    )
     assert len(fine) == 1
     assert np.ravel(coarse) == pytest.approx(np.ravel(fine), rel=1e-8)
 
@@ -193,8 +179,7 @@ def test_of_two_peaks_within_one_step_the_higher_is_found():
     for node, order, cos, sin in torques:
         text += f'[[excitation]]\nnode = "{"abc"[node]}"\norder = {order}\n'
         text += f"cos = {cos}\nsin = {sin}\n"
-    out = run_here("torsion", "-", "--speeds", "600:3000:100", "-f", "json", stdin=text).out
-    told = json.loads(out)["response"]["shafts"][0]["worst"]
+    told = ask_torsion(text, "--speeds", "600:3000:100")["response"]["shafts"][0]["worst"]
     twist, angle = np.array([[1, -1, 0], [0, 1, -1]]), np.arange(20000) * 4 * np.pi / 20000
 
     def swing(rpm):

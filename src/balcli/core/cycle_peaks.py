@@ -61,14 +61,13 @@ def find_swing(orders: ArrayLike, phasors: Complex) -> Swing:
     slack = half * (1 / np.cos(np.pi / _SAMPLES) - 1)
     size = np.sum(np.abs(curves), axis=-1)
 
-    def evaluate(which: NDArray[np.intp], angle: Real) -> Slopes:
-        return _evaluate(harmonics, curves[which], angle)
+    def find_tops(sign: int) -> tuple[Real, Real]:
+        def evaluate(which: NDArray[np.intp], angle: Real) -> Slopes:
+            return _evaluate(harmonics, sign * curves[which], angle)
 
-    def lower(which: NDArray[np.intp], angle: Real) -> Slopes:
-        return _evaluate(harmonics, -curves[which], angle)
+        return _find_tops(sign * samples, slack, size, evaluate)
 
-    top, at_top = _find_tops(samples, slack, size, evaluate)
-    bottom, at_bottom = _find_tops(-samples, slack, size, lower)
+    (top, at_top), (bottom, at_bottom) = find_tops(1), find_tops(-1)
     shape = phasors.shape[1:]
     return Swing(
         CyclePeak(top.reshape(shape), at_top.reshape(shape) / unit),

@@ -16,6 +16,7 @@ from .piecewise import PiecewiseCurve, polyline
 ATMOSPHERE = 101325.0  # Pa, what gauge pressures lack
 WIDEST_GAP = 30.0  # deg between two rows; beyond, straight lines say nothing about an engine
 FLAT_GAP = 45.0  # deg; the same while the gas is exchanged, where the pressure hardly changes
+_CLOSE = f"give rows at most {WIDEST_GAP:g}° apart"
 _FLAT = 0.01  # of the highest pressure
 _SAME = 1e-6  # deg; rows so near to one period apart are the two ends of it
 
@@ -117,6 +118,3 @@ def _widest_gaps(values: Array) -> Array:
     """How far each row may lie behind the one before it (the first behind the last), deg."""
     step = np.abs(values - np.roll(values, 1))
     return np.where(step <= _FLAT * values.max(), FLAT_GAP, WIDEST_GAP)
-
-
-_CLOSE = f"give rows at most {WIDEST_GAP:g}° apart"

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ..errors import BalcliError
 from ..limits import LARGEST_FILE_BYTES, MOST_ROWS
 from .fields import shorten
-from .toml_text import read_bytes
+from .toml_text import name_other_kind, read_bytes
 
 
 class NumberColumns(NamedTuple):
@@ -68,7 +68,11 @@ def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> NumberColumns:
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise BalcliError(f"{path}: is not UTF-8 text") from None
+        kind = name_other_kind(content)
+        told = (
+            f"is {kind}; save the sheet as CSV" if kind else "is not UTF-8 text; save it as UTF-8"
+        )
+        raise BalcliError(f"{path}: {told}") from None
     try:
         return _parse(text, wanted)
     except (ValueError, csv.Error) as error:

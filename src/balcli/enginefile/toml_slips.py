@@ -28,6 +28,8 @@ def explain(line: str, error: str) -> str:
         return f": {twice[1]} is given twice; write it once"
     if (head := re.fullmatch(_HEAD, line)) and error.startswith("Cannot declare"):
         return f": [{head[1]}] stands twice; put all its keys below the first one"
+    if error.startswith("Unclosed array") and "]" not in (value := line.partition("=")[2]):
+        return f": {'this list' if '[' in value else 'a list above'} has no ] at its end"
     if misfit := re.fullmatch(_WITHOUT_EQUALS, line):
         return f": a key and its value have = between them: {misfit[1]} = {misfit[2]}"
     if table := re.fullmatch(_OPEN_HEAD, line):

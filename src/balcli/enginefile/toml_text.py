@@ -16,6 +16,11 @@ from .fields import nearest
 
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
+_OTHER_KINDS = {
+    b"PK\x03\x04": "a workbook or another packed file",
+    b"\xd0\xcf\x11\xe0": "a workbook or document of an old kind",
+    b"%PDF": "a PDF",
+}
 _MOST_DIGITS = 4300  # of a whole number that Python reads
 _TOO_MANY_DIGITS = re.compile(rf"[0-9][0-9_]{{{_MOST_DIGITS},}}")
 
@@ -83,7 +88,15 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         message = f"is not UTF-8 text (line {line}); save it as UTF-8"
+        if kind := name_other_kind(error.object):
+            message = f"is {kind}, no text; write TOML, as `balcli new` does"
     raise InputError([Problem("", message)], file)
+
+
+def name_other_kind(content: bytes) -> str:
+    """What a file is that people hand over for text, in words; empty if it is none of these."""
+    kinds = (kind for start, kind in _OTHER_KINDS.items() if content.startswith(start))
+    return next(kinds, "")
 
 
 def _explain(text: str | bytes, error: str) -> str:

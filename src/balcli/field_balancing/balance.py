@@ -150,8 +150,7 @@ def find_corrections(
     influence = find_influence(file, frozenset(without), name)
     matrix = influence.coefficients[:, used]
     _refuse_dependent(file, matrix, used, name)
-    on = influence.on
-    now = influence.now + np.sum(influence.coefficients * (on - influence.now_on), axis=1)
+    on, now = influence.on, influence.start
     weights = np.ones(len(now))
     if file.reading_weights:
         weights = np.tile(np.array(file.reading_weights), len(set(influence.speeds_rpm)))

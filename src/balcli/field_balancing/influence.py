@@ -31,7 +31,8 @@ class Influence(NamedTuple):
             planes that are left out.
         found: readings of the rotor without weights.
         now: readings of the last run with a correction in; as found where there is none.
-        now_on: weights that were on at each of these readings, shape (readings, planes).
+        start: readings from which balancing goes on: those with `on`, computed from `now` where
+            something else was on; also of weights in planes that are left out.
         trimmed: name of the last run with a correction in, at whatever speed; empty if there is
             none.
         on: weights that were on in that run, shape (planes,); else 0.
@@ -42,7 +43,7 @@ class Influence(NamedTuple):
     coefficients: Complex
     found: Complex
     now: Complex
-    now_on: Complex
+    start: Complex
     trimmed: str
     on: Complex
 
@@ -97,15 +98,16 @@ def find_influence(file: RunsFile, left_out: frozenset[str], name: str = "") -> 
     )
     keep = np.isin(np.arange(len(file.planes)), used)
     trim = max(trims, default=0)
+    goes_on = trims.get(trim, np.zeros(len(file.planes), dtype=complex))
     return Influence(
         tuple(speed for speed in speeds for _ in range(sensors)),
         tuple(range(sensors)) * len(speeds),
         coefficients * keep,
         found,
         now,
-        now_on,
+        now + np.sum(coefficients * (goes_on - now_on), axis=1),
         _name_run(file, trim) if trims else "",
-        trims.get(trim, np.zeros(len(file.planes), dtype=complex)),
+        goes_on,
     )
 
 

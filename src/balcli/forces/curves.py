@@ -16,6 +16,7 @@ from fractions import Fraction
 import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
+from ..core.mechanisms.motion import Motion
 from ..core.phasors import EPS, Array, Complex, unit
 from ..core.strokes import find_travel
 from ..engine.build import Engine, find_row
@@ -217,16 +218,13 @@ class EngineMotion:
         self.axis = unit(axes)
         self.pin_deg = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + as_rows(c.pin_deg)
         self.psi = np.radians(np.remainder(self.pin_deg - axes + 180, 360) - 180)
-        if c.linkage is None:
-            mechanism = self.psi, self.lam, self.eps
-            self.linked = None
-            self.v, self.a = sc.velocity(*mechanism), sc.acceleration(*mechanism)
-            self.spin, self.spin_rate = -sc.rod_rate(*mechanism), -sc.rod_acceleration(*mechanism)
-        else:
-            self.linked = m = c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
+        self.linked = None
+        if c.linkage is not None:
+            self.linked = c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
             self.mass = as_rows(c.linkage.mass)
-            self.v, self.a = -m.velocity, -m.acceleration
-            self.spin, self.spin_rate = m.spin, m.spin_rate
+        m: Motion = self.linked or sc.SliderCrank(self.psi, self.lam, self.eps)
+        self.v, self.a = -m.velocity, -m.acceleration
+        self.spin, self.spin_rate = m.spin, m.spin_rate
 
     def travel(self) -> Array:
         """Of the pistons, from their top dead centres, in crank radii."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
-from ..field_balancing.influence import find_senses
+from ..field_balancing.influence import find_senses, has_opposite_senses
 from ..field_balancing.read import is_mass
 from ..field_balancing.shop import Piece, find_angle_deg
 from .field_balancing_document import document, find_sensor_name, rows
@@ -82,6 +82,17 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
     left_out = [plane for plane in file.planes if plane not in {p.plane for p in result.planes}]
     if left_out:
         yield f"Left out: {', '.join(left_out)}."
+    for plane in left_out:
+        if weight := _find_weight_on(result, plane):
+            amount, angle = _polar(weight)
+            kept = f"{amount} {file.weight_unit} at {angle} deg"
+            yield f"What was on in '{trimmed}' stays on in {plane}: {kept}."
+
+
+def _find_weight_on(result: FieldBalance, plane: str) -> complex:
+    """What was on in the last run with a correction in, angles as the file counts them."""
+    weight = complex(result.influence.on[result.file.planes.index(plane)])
+    return weight.conjugate() if has_opposite_senses(result.file) else weight
 
 
 def _polar(value: complex, size: int = 4) -> tuple[str, str]:
