@@ -132,7 +132,9 @@ def usage(command: str, message: str) -> str:
 def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message):
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
-    assert re.sub(r"\{?FILE\.\.\.\}?(\.\.\.)?", "{FILE...}...", err) == usage(command, message)
+    assert re.sub(r"\{?(FILE|PATH)\.\.\.\}?(\.\.\.)?", r"{\1...}...", err) == usage(
+        command, message
+    )
 
 
 def test_an_option_given_twice_is_told_so(balcli, good):
@@ -811,7 +813,7 @@ IMPORTED = {
     "core.mechanisms": "closed_form distinct fourier harmonics",
     "engine": "arrays assembly build devices even_order figures firing layout load positions rods rules "
     "split_pins",
-    "enginefile": "exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
+    "enginefile": "conflicts exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
     "units unknown_keys",
     "forces": "kinds orders spectrum",
     "render": "analyses analysis_document csv devices figures formats json sheet units view",

@@ -57,6 +57,21 @@ def test_folders_within_a_folder_are_checked_hidden_ones_and_settings_are_not(ch
     assert check(tmp_path) == (0, "2 engines, 0 differences\n", "")
 
 
+def test_files_of_other_kinds_in_a_folder_are_passed_over(check, file, tmp_path):
+    """A rotor's runs and the drive line stand beside the engine; named, they are refused."""
+    runs, line = tmp_path / "rotor.toml", tmp_path / "line.toml"
+    runs.write_text("planes = ['a']\n[[run]]\nreadings = ['3 @ 0']\n")
+    line.write_text("node = [{ name = 'a', inertia = 1 }]\n")
+    assert check(tmp_path) == (0, "1 engine, 0 differences\n", "")
+    status, out, err = check(tmp_path, runs)
+    assert (status, out) == (2, "1 engine, 0 differences\n")
+    assert "rotor.toml: is a file of runs, which balcli field reads; give an engine file" in err
+    file.unlink()
+    find_record(file).unlink()
+    status, _, err = check(tmp_path)
+    assert (status, err) == (2, f"balcli: {tmp_path}: has no engine files (*.toml)\n")
+
+
 def test_recorded_results_are_the_product_of_todays_program(tmp_path, check):
     """check --update writes the same file again: keys, digits and layout."""
     for suffix in (".toml", ".json"):

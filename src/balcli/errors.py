@@ -149,7 +149,7 @@ def naming_file(file: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError(error.problems, file, error.more) from None
+        raise type(error)(error.problems, file, error.more) from None
 
 
 def check_type(function: str, value: object, kind: type | tuple[type, ...], wanted: str) -> None:

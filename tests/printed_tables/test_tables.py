@@ -311,4 +311,6 @@ def test_layouts_at_a_glance():
     # Yamaha's cross-plane four fires after 270, 180, 90 and 180 degrees
     cross = next(line for line in out.splitlines() if line.startswith("in-line four, cross"))
     assert cross.split()[-1] == "90/180/270"
+    single = next(line for line in out.splitlines() if line.startswith("single"))
+    assert single.split()[-1] == "720"  # every other turn, and in no order
     assert run_here("layouts", "--format", "json").out == run("layouts", "--format", "json").out

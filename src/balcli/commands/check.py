@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ..enginefile.fields import counted
-from ..errors import Exit, legible
+from ..errors import BalcliError, Exit, legible
 from .output import emit, make_folder_of, write_file
 from .progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
 
@@ -32,7 +32,7 @@ def check(
 
     Recorded is what `analyze` tells: orders of force, moment, couple, torque, roll and gas torque,
     and the peaks; nothing of mounts, torsion and the flywheel. A record in a folder whose engine is
-    gone is a difference, too.
+    gone is a difference, too; files of runs and chain files in a folder are passed over.
 
     \b
     Examples:
@@ -52,12 +52,15 @@ def check(
     files, expected = find_engine_files(paths), find_expected(paths)
     names = regression.tell_engines_apart([*files, *map(regression.find_engine_file, expected)])
     with reporting_until_stopped("engines", len(files)) as progress:
-        results, errors = try_each(each_until_stopped(files, progress), compare_or_record)
+        each, found = each_until_stopped(files, progress), {*files} - {*paths}
+        results, errors = try_each(each, compare_or_record, found)
     abandoned = regression.find_abandoned(expected, names)
-    moved = [difference for found in (*results, abandoned) for difference in found]
+    moved = [difference for listed in (*results, abandoned) for difference in listed]
     done = " recorded" if update else f", {counted(len(moved), 'difference')}"
     emit(legible("\n".join([*map(str, moved), counted(len(results), "engine") + done])))
     exit_on_errors(errors)
     exit_if_cut_short(progress)
+    if not results and not moved:
+        raise BalcliError(f"{paths[0]}: has no engine files (*.toml)")
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)

@@ -14,6 +14,7 @@ import typer
 from ..engine.build import NO_GAS, Engine
 from ..engine.load import build_named, parse
 from ..engine.positions import MOMENTS_UNKNOWN
+from ..enginefile.file_kinds import OtherKindError
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import find_near_file, name_file, read_bytes
 from ..errors import BalcliError, Exit, is_verbose, legible, note, say, warn
@@ -100,14 +101,21 @@ def warn_each(doubts: Iterable[str], name: str) -> None:
         warn(f"{name}: {doubt}")
 
 
-def try_each(paths: Iterable[P], work: Callable[[P], T]) -> tuple[list[T], list[str]]:
-    """Results of all good files, in order, and the messages of the bad ones."""
+def try_each(
+    paths: Iterable[P], work: Callable[[P], T], found: Collection[P] = ()
+) -> tuple[list[T], list[str]]:
+    """Results of all good files, in order, and the messages of the bad ones. Those that were found
+    in a folder are passed over, with a note, where they are of another kind.
+    """
     results, errors = [], []
     for path in paths:
         try:
             results.append(work(path))
         except BalcliError as error:
-            errors.append(str(error))
+            if path in found and isinstance(error, OtherKindError):
+                note(f"{path}: passed over, a file of another kind")
+            else:
+                errors.append(str(error))
     return results, errors
 
 

@@ -11,6 +11,10 @@ from .messages import KNOWN
 SHARED = {"name", "source", "shaft"}  # keys of an engine file that others have, or might have
 
 
+class OtherKindError(InputError):
+    """A file of one kind where another is wanted."""
+
+
 class FileKind(NamedTuple):
     """What a file is in words, who reads it, and the keys of which it alone has any."""
 
@@ -29,10 +33,10 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
     kind that is wanted: then its mistakes, key by key, would say nothing.
 
     Raises:
-        InputError: with what it is, and who reads it.
+        OtherKindError: with what it is, and who reads it.
     """
     found = [kind for kind in (ENGINE, RUNS, CHAIN) if any(key in head for key in kind.keys)]
     if len(found) == 1 and found[0] not in wanted:
         names = " or ".join(kind.name for kind in wanted)
         message = f"is {found[0].name}, which {found[0].reader}; give {names}"
-        raise InputError([Problem("", message)], file)
+        raise OtherKindError([Problem("", message)], file)

@@ -18,7 +18,10 @@ from ..errors import InputError, Problem
 from .model import RunsFile
 
 _ROUNDING = 1e-13  # share of the largest reading below which a change is none
-_UNLIKE = 0.5  # of the largest reading as found: a run so far from what was foretold has a reason
+_UNLIKE = (
+    0.5  # of the largest reading as found, or change of one by weights: a run so far from what
+)
+# was foretold has a reason
 
 
 class Influence(NamedTuple):
@@ -129,7 +132,8 @@ class Surprise(NamedTuple):
 
 def find_surprise(file: RunsFile, left_out: frozenset[str]) -> Surprise | None:
     """The reading that is farthest from what the runs needed for the coefficients (or those of the
-    file) foretell of it, by more than half of what there was as found; None if there is none.
+    file) foretell of it, by more than half of what there was as found or weights changed; None if
+    there is none.
 
     Args: of runs from which influence was found.
     """
@@ -162,14 +166,15 @@ def _find_error(surprise: Surprise) -> float:
 
 def _foretell(file: RunsFile, runs: _Series, used: list[int], k: int) -> tuple[Complex, float]:
     """Every reading at one speed, the k-th, by the coefficients that were known first, shape
-    (runs, sensors); and the largest as found.
+    (runs, sensors); and the largest as found, or change of one by the weights.
     """
     first = runs
     if file.influence is None:
         count = _count_needed(_design(runs, used)) or len(runs.on)
         first = _Series(runs.numbers[:count], runs.readings[:count], runs.on[:count])
     coefficients, found = _find_coefficients(file, first, used, k)
-    foretold, largest = found + runs.on @ coefficients.T, float(np.abs(found).max())
+    changes = runs.on @ coefficients.T
+    foretold, largest = found + changes, float(max(np.abs(found).max(), np.abs(changes).max()))
     return np.where(np.abs(foretold) <= _ROUNDING * largest, 0, foretold), largest
 
 

@@ -35,7 +35,7 @@ def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
 
 class Layouts(NamedTuple):
     """The table, and the different intervals between firings of each engine, deg, ascending; none
-    where its file gives no firing order.
+    where the file of several cylinders gives no firing order.
     """
 
     table: Table
@@ -49,9 +49,9 @@ def add_firing(table: Table) -> Layouts:
 
 
 def _find_gaps(engine: Engine) -> tuple[float, ...]:
-    if not engine.fires_deg:
-        return ()
-    instants = [*map(float, engine.fires_deg.values()), 180.0 * engine.strokes]
+    alone = len(engine.numbers) == 1  # and has no order
+    fires = [0.0] if alone else [*map(float, engine.fires_deg.values())]
+    instants = [*fires, 180.0 * engine.strokes]
     return tuple(sorted({round(b - a, 1) for a, b in pairwise(instants)}))
 
 
