@@ -9,6 +9,7 @@ import io
 import json
 import math
 import re
+import subprocess
 import sys
 from contextlib import nullcontext
 from types import ModuleType
@@ -21,6 +22,7 @@ from support.paths import ENGINES
 from balcli.bench import bench, stopwatch
 from balcli.bench.bench import Bench, Case, Ratio, Row
 from balcli.errors import BalcliError, InputError
+from balcli.process import WINDOWS
 from balcli.sizing.schemes import SCHEMES
 
 MEASURED = Bench(
@@ -224,6 +226,34 @@ def test_two_times_are_taken_in_turn_and_compared_by_their_medians(monkeypatch):
     monkeypatch.setattr(stopwatch.timeit, "timeit", timed)
     assert stopwatch.compare_times(lambda: "one", lambda: "other") == pytest.approx(3)
     assert taken == ["other", *["one", "other"] * 9]
+
+
+def test_programs_are_compared_by_processor_time_and_by_the_clock(monkeypatch):
+    """By clocks of ours: the one computes twice as long as the other, and waits as well."""
+    clocks = {"processor": 0.0, "clock": 0.0}
+    monkeypatch.setattr(stopwatch, "_read_children_time", lambda: clocks["processor"])
+    monkeypatch.setattr(stopwatch.time, "perf_counter", lambda: clocks["clock"])
+    started = []
+
+    def start(name, computing, waiting):
+        disturbed = 50 if len(started) in (4, 9, 12, 15) else 1
+        started.append(name)
+        clocks["processor"] += computing * disturbed
+        clocks["clock"] += (computing + waiting) * disturbed
+
+    spent = stopwatch.compare_programs(
+        lambda: start("one", 0.4, 0.6), lambda: start("other", 0.2, 0.0)
+    )
+    assert spent == pytest.approx((2, 5))
+    assert started == ["one", "other"] * 9
+
+
+def test_processor_time_of_programs_is_that_of_the_system():
+    """A program that computes for a fifth of a second by its own clock, and one that sleeps."""
+    busy = "import time\nwhile time.process_time() < 0.2: pass"
+    before = stopwatch._read_children_time()
+    subprocess.run([sys.executable, "-c", busy], check=True)
+    assert math.isnan(before) if WINDOWS else stopwatch._read_children_time() - before >= 0.19
 
 
 def test_the_quickest_of_several_runs_counts(monkeypatch):
