@@ -108,7 +108,7 @@ def reporting(
     progress = Progress(what, total, at_once, shown)
     process.last_words.append(progress.last_word)
     try:
-        with _giving_way(progress):
+        with _long_computation(progress):
             yield progress
     finally:
         process.last_words.pop()
@@ -130,15 +130,18 @@ def reporting_until_stopped(
     before = signal.getsignal(signal.SIGINT)
     signal.signal(signal.SIGINT, before if before is signal.SIG_IGN else note)
     try:
-        with _giving_way(progress):
+        with _long_computation(progress):
             yield progress
     finally:
         signal.signal(signal.SIGINT, before)
 
 
 @contextmanager
-def _giving_way(progress: Progress) -> Iterator[None]:
-    """Messages take its line away before they are written; so does the end."""
+def _long_computation(progress: Progress) -> Iterator[None]:
+    """It keeps what memory it frees. Messages take the line away before they are written; so does
+    the end.
+    """
+    process.keep_freed_memory()
     errors.before_messages.append(progress.clear)
     try:
         yield

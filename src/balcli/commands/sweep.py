@@ -13,7 +13,7 @@ import typer
 from ..errors import BalcliError, naming_file, warn
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
-from ..process import count_cores, keep_freed_memory
+from ..process import count_cores
 from ..render.sweep_plot import check_drawable, make_sweep
 from ..studies.quantity_names import describe_names
 from ..studies.threads import share_work
@@ -185,7 +185,6 @@ def _computing(job: Sweep, jobs: int | None, dask: str) -> Iterator[Iterator[Chu
     if not dask:
         from ..studies.sweep import evaluate_chunks
 
-        keep_freed_memory()
         yield evaluate_chunks(job, _count_threads(jobs))
         return
     from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster

@@ -99,6 +99,17 @@ def test_eight_distinct_throws_are_all_tried() -> None:
 NINE = [0, 31, 67, 95, 140, 170, 222, 260, 301]
 
 
+def test_the_best_of_nine_distinct_throws_by_a_plain_sum() -> None:
+    """In line, both parts of the first-order moment go with |Σ z exp(iφ)|: 9 x 8! arrangements."""
+    others = np.array(list(permutations(range(1, 9))))
+    every = [np.roll(NINE, -first)[np.insert(others, 0, 0, axis=1)] for first in range(9)]
+    sizes = [np.abs(np.exp(1j * np.deg2rad(rows)) @ (np.arange(9) - 4.0)) for rows in every]
+    best = np.concatenate(every)[np.concatenate(sizes).argmin()]
+    file, wanted = engine(NINE), parse_objective("moment.1.major")
+    (found,) = search_arrangements(file, "throws", wanted, 1).results
+    assert found.objective == pytest.approx(evaluate_alone(file, best), rel=1e-9)
+
+
 def test_who_is_told_hears_of_all_arrangements_and_changes_nothing() -> None:
     file, wanted = engine(NINE), parse_objective("moment.1.major")
     shares: list[float] = []

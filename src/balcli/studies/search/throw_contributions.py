@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.cached_property import cached_property
 from ...core.phasors import Array, Complex, Phasors
 from ...engine.build import build
 from ...engine.layout import plan_cylinders
@@ -33,7 +34,7 @@ class Contributions:
     backward: Complex
     devices: tuple[complex, complex]
 
-    @property
+    @cached_property
     def reach(self) -> Array:
         """The most by which each throw can change a vector, shape (throws,)."""
         most: Array = np.maximum(np.abs(self.forward), np.abs(self.backward)).max(axis=1)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -26,13 +26,15 @@ from ...forces.quantity import Quantity
 from ...limits import MOST_ARRANGEMENTS
 from .angles import neaten
 from .objective import Objective
-from .throw_contributions import Key, tabulate_contributions
+from .throw_contributions import Contributions, Key, tabulate_contributions
 
 Arrangements = NDArray[np.int8]  # (arrangements, throws): indices of angles
 Allowed = Callable[[Array], NDArray[np.bool_]]
 Left = tuple[int, ...]  # how often each angle is still to be given
+Sums = dict[Key, tuple[Complex, Complex]]  # forward and backward vectors, (candidates,) each
 _DECIMALS = 9  # of angles that are equal, deg
 BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
+_KEPT = 2**22  # sums of such arrangements that are kept, 32 bytes each
 
 
 def find_best_throws(
@@ -167,17 +169,20 @@ class _Tree:
         self._table = tabulate_contributions(
             model, places.levels, places.fixed, objective.quantities
         )
-        self._start: dict[Key, tuple[Complex, Complex]] = {}  # of the fixed throw and the devices
+        self._start: Sums = {}  # of the fixed throw and the devices
         for key, own in self._table.items():
             ahead, astern = own.add_throws([places.fixed], np.zeros((1, 1), np.int8))
             self._start[key] = ahead + own.devices[0], astern + own.devices[1]
+        # What ends a crank adds the same, whatever it begins with: few orders of a beginning apart.
+        most = _KEPT // (math.factorial(BLOCK) * len(self._table))
+        self._add_endings = lru_cache(most)(partial(_sum_endings, self._table, places.free))
 
     def grow(self, prefix: tuple[int, ...], left: Left) -> bool:
         """Try everything that begins so; False: who is told has heard enough, and there is some."""
         hopeless = prefix and self._find_bound(prefix) >= self._best.worst
         if hopeless or sum(left) <= BLOCK:
             if not hopeless:
-                self._try(_prepend(prefix, _list_arrangements(left)))
+                self._try(prefix, left)
             return self._decided.add(_count_sequences(left)) or not len(self._best.rows)
         levels = (level for level, times in enumerate(left) if times)
         return all(self.grow((*prefix, level), _take_one(left, level)) for level in levels)
@@ -186,17 +191,14 @@ class _Tree:
         """Angles of all throws by the indices of the free ones, deg, shape (candidates, throws)."""
         return np.insert(self._places.levels[rows], self._places.fixed, 0.0, axis=1)
 
-    def _add(self, rows: Arrangements) -> dict[Key, tuple[Complex, Complex]]:
-        """Forward and backward vectors of cranks that begin with these rows, (candidates,) each."""
-        sums = {}
-        for key, own in self._table.items():
-            ahead, astern = own.add_throws(self._places.free[: rows.shape[1]], rows)
-            sums[key] = self._start[key][0] + ahead, self._start[key][1] + astern
-        return sums
+    def _add_beginning(self, prefix: tuple[int, ...]) -> Sums:
+        """Vectors of a crank that begins so, with the fixed throw and the devices, (1,) each."""
+        throws, row = self._places.free[: len(prefix)], np.array([prefix], np.int8)
+        return _add(self._start, {k: own.add_throws(throws, row) for k, own in self._table.items()})
 
     def _find_bound(self, prefix: tuple[int, ...]) -> float:
         """What the objective is at least: what is to come may cancel as much as its size."""
-        sums = self._add(np.array([prefix], np.int8))
+        sums = self._add_beginning(prefix)
         to_come = self._places.free[len(prefix) :]
 
         def bound(q: Quantity) -> float:
@@ -209,9 +211,9 @@ class _Tree:
 
         return float(self._objective.evaluate(bound))
 
-    def _try(self, rows: Arrangements) -> None:
-        """Keep what is good enough of whole cranks, shape (candidates, free throws)."""
-        sums = self._add(rows)
+    def _try(self, prefix: tuple[int, ...], left: Left) -> None:
+        """Keep what is good enough of all cranks that begin so and end with what is left."""
+        sums = _add(self._add_beginning(prefix), self._add_endings(left))
 
         def read(q: Quantity) -> Array:
             key = q.kind, q.order
@@ -219,11 +221,31 @@ class _Tree:
 
         values = ranked(self._objective.evaluate(read))  # of equal arrangements the first are kept
         good = np.flatnonzero(values < self._best.worst)
-        if self._allowed is not None and len(good):
-            good = good[self._allowed(self._find_angles(rows[good]))]
-        if len(good):
-            good = good[np.argsort(values[good], kind="stable")[: self._best.count]]
-            self._best.take(self._find_angles(rows[good]), values[good])
+        if not len(good):
+            return
+        angles = self._find_angles(_prepend(prefix, _list_arrangements(left)[good]))
+        values = values[good]
+        if self._allowed is not None:
+            may = self._allowed(angles)
+            angles, values = angles[may], values[may]
+        first = np.argsort(values, kind="stable")[: self._best.count]
+        self._best.take(angles[first], values[first])
+
+
+def _sum_endings(table: dict[Key, Contributions], free: list[int], left: Left) -> Sums:
+    """What all arrangements of what is left add as the last of the free throws, (arrangements,)
+    each.
+    """
+    rows = _list_arrangements(left)
+    throws = free[len(free) - rows.shape[1] :]
+    return {key: own.add_throws(throws, rows) for key, own in table.items()}
+
+
+def _add(one: Sums, other: Sums) -> Sums:
+    """Vectors of all that both have."""
+    return {
+        key: (ahead + other[key][0], astern + other[key][1]) for key, (ahead, astern) in one.items()
+    }
 
 
 def _take_one(left: Left, level: int) -> Left:
