@@ -230,8 +230,8 @@ def test_bad_usage_that_the_parser_words(balcli, args, told):
         ),
         (
             ["analyze", V8, "--only", "force,noise"],
-            "there is no quantity noise: choose from force, moment, couple, torque, roll, peak, "
-            "sizing, gas, inner, guide",
+            "--only noise: choose from force, moment, couple, torque, roll, peak, sizing, gas, inner, "
+            "guide, xy, textbook, verdict",
         ),
         (
             ["analyze", V8, "-o", "/nowhere/x.txt"],

@@ -104,7 +104,7 @@ OnlyParts = Annotated[
     str | None,
     optional(
         "WHAT,...",
-        f"Only some of {', '.join(KINDS)}, peak, sizing; inner (shear, bending, bearing "
+        f"Only some of {', '.join(KINDS)}, peak, sizing, gas; inner (shear, bending, bearing "
         "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
         "--only",
         autocompletion=complete_parts,
@@ -194,10 +194,16 @@ def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
 
     A word that names a table alone (`PARTS`) is computed from force and moment, unless quantities
     are named beside it.
+
+    Raises:
+        BalcliError: words that are none of these.
     """
     words = parse_only(text)
     if words is None:
         return None, frozenset()
+    if strangers := sorted({*words}.difference(WORDS_OF_ONLY)):
+        named = ", ".join(stranger or '""' for stranger in strangers)
+        raise BalcliError(f"--only {named}: choose from {', '.join(WORDS_OF_ONLY)}")
     quantities = [word for word in words if word not in PARTS]
     vectors = {kind.name for kind in VECTORS}
     if len(quantities) < len(words) and not vectors.intersection(quantities):
