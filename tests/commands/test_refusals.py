@@ -152,6 +152,11 @@ def test_balance(options, message):
             "crank.throws and splay alone",
         ),
         (
+            "own.toml --over throws --minimise force.1.major",
+            "cylinders with throws of their own take no part in an arrangement of crank.throws: "
+            "give crank.throws and splay alone",
+        ),
+        (
             "odd.toml --over firing_order --minimise force.1.major",
             "these throws allow no even firing order",
         ),

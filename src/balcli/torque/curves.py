@@ -70,10 +70,14 @@ def _settle(values: Array) -> Array:
 
 
 def _find_rod_forces(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
+    """Those across count to the side to which the crank pin moves after top dead centre, which seen
+    from a cylinder that turns lies behind it.
+    """
     found = compute_rod_forces(engine, crank_deg)
+    side = -1 if engine.rotary else 1
     return {
-        "side_thrust_N": found.thrust[row],
+        "side_thrust_N": side * found.thrust[row],
         "rod_force_N": found.rod[row],
         "pin_x_N": found.pin[row].real,
-        "pin_y_N": found.pin[row].imag,
+        "pin_y_N": side * found.pin[row].imag,
     }

@@ -96,6 +96,20 @@ def test_a_limit_below_which_no_angle_of_the_grid_lies() -> None:
     assert hole(33.3217)(found)[0] < limit
 
 
+def test_an_edge_is_found_though_a_curve_is_rounded_otherwise_beside_more_angles() -> None:
+    """Here by a part in 1e17 for each. The best is at the edge of the limit, at 40.2; the grid has
+    40 and 40.5.
+    """
+
+    def rounded(x: Array) -> Array:
+        return (1 + 1e-17 * len(x)) * hole(0.0)(x)
+
+    limit = float(hole(0.0)(np.array(40.2)))
+    found = find_minima(cosine, [(rounded, limit)], Span(0, 180), 1)
+    assert found == pytest.approx([40.2], abs=1e-6)
+    assert rounded(found)[0] < limit
+
+
 def test_two_limits_that_leave_a_sliver() -> None:
     wide, wider = (float(hole(0.0)(np.array(half))) for half in (5.1, 5.10001))
     limits = [(hole(20.0), wide), (hole(30.2), wider)]

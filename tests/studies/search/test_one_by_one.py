@@ -18,7 +18,7 @@ from balcli.core.telling import tell_nobody
 from balcli.engine.load import parse
 from balcli.studies.search import one_by_one
 from balcli.studies.search.designs import Design
-from balcli.studies.search.objective import parse_objective
+from balcli.studies.search.objective import Merit, parse_objective
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 SIX = write_diesel(extra=GAS)
@@ -27,6 +27,11 @@ ORDER = "firing_order = [1, 5, 3, 6, 2, 4]"
 
 def search(path, *args):
     return ask_json("search", path, *args)["results"]
+
+
+def find_best(function, low, high, *tell) -> list[float]:
+    """Where a function without limits is least."""
+    return one_by_one.find_best_numbers(lambda x: Merit(0.0, function(x)), low, high, *tell)
 
 
 def find_torque(text: str) -> float:
@@ -116,11 +121,48 @@ def test_a_number_in_a_range(tmp_path):
 
 def test_a_minimum_inside_and_a_limit():
     """A parabola of known place, and the end of a range that a limit cuts off."""
-    found = list(one_by_one.find_best_numbers(lambda x: (x - 3.21) ** 2, 0.0, 10.0))
+    found = list(find_best(lambda x: (x - 3.21) ** 2, 0.0, 10.0))
     assert found == [pytest.approx(3.21, abs=1e-4)]
-    cut = list(one_by_one.find_best_numbers(lambda x: x if x > 4.7 else float("inf"), 0.0, 10.0))
+    cut = list(find_best(lambda x: x if x > 4.7 else float("inf"), 0.0, 10.0))
     assert cut == [pytest.approx(4.7, abs=1e-4)]
-    assert list(one_by_one.find_best_numbers(lambda _: float("inf"), 0.0, 10.0)) == []
+    assert list(find_best(lambda _: float("inf"), 0.0, 10.0)) == []
+
+
+def test_a_limit_that_no_point_of_the_grid_keeps():
+    """|x - 5.3| < 0.01 leaves a sliver between 5 and 5.3125, in which sin x is least at the lower
+    end; without the limit that is at 3 pi/2.
+    """
+
+    def judge(x):
+        share = abs(x - 5.3) / 0.01
+        return Merit(share if share >= 1 else 0.0, math.sin(x))
+
+    (found,) = one_by_one.find_best_numbers(judge, 0.0, 10.0)
+    assert abs(found - 5.3) < 0.01
+    assert found == pytest.approx(5.29, abs=1e-8)
+
+
+def test_two_limits_are_kept_where_both_can_be():
+    """That which is broken most leads: each alone is kept at 2 and at 3, both about 2.5."""
+
+    def judge(x):
+        share = max(abs(x - 2) / 0.501, abs(x - 3) / 0.501)
+        return Merit(share if share >= 1 else 0.0, x)
+
+    (found,) = one_by_one.find_best_numbers(judge, 0.0, 10.0)
+    assert found == pytest.approx(2.499, abs=1e-8)
+    impossible = one_by_one.find_best_numbers(lambda x: Merit(1 + x, x), 0.0, 10.0)
+    assert impossible == []
+
+
+def test_a_throw_that_balances_the_others_is_found_by_a_limit():
+    """A three with its second throw somewhere: within 300 N of balance it is at 240 degrees, to one
+    degree; the nearest points of the grid are at 236.25 and 247.5.
+    """
+    asked = ("--minimise", "couple.1.amplitude", "--limit", "force.1.major<300")
+    found = search(ENGINES / "i3.toml", "--over", "crank.throws.2=0:360", *asked)
+    assert [one["crank.throws.2"] for one in found] == [pytest.approx(240, abs=1)]
+    assert found[0]["quantities"]["force.1.major"] < 300
 
 
 def test_numbers_are_shown_and_not_written(tmp_path):
@@ -179,8 +221,8 @@ def test_a_stretch_of_equal_values_is_one_minimum_at_its_first_point():
     def bowl(x):
         return max(abs(x - 5.0), 2.0)
 
-    assert one_by_one.find_best_numbers(lambda _: 0.0, 2.0, 10.0) == [2.0]
-    assert one_by_one.find_best_numbers(bowl, 0.0, 16.0) == [3.0]
+    assert find_best(lambda _: 0.0, 2.0, 10.0) == [2.0]
+    assert find_best(bowl, 0.0, 16.0) == [3.0]
 
 
 def test_a_search_over_a_number_tells_how_far_it_is_and_may_be_ended():
@@ -190,12 +232,12 @@ def test_a_search_over_a_number_tells_how_far_it_is_and_may_be_ended():
         told.append(share)
         return len(told) == 20
 
-    found = one_by_one.find_best_numbers(lambda x: (x - 1.0) ** 2, 0.0, 32.0, stop_after_twenty)
+    found = find_best(lambda x: (x - 1.0) ** 2, 0.0, 32.0, stop_after_twenty)
     assert found == [1.0]
     assert len(told) == 20
     assert told == sorted(told)
     told.clear()
-    one_by_one.find_best_numbers(lambda x: (x - 1.1) ** 2, 0.0, 32.0, lambda s: told.append(s))
+    find_best(lambda x: (x - 1.1) ** 2, 0.0, 32.0, lambda s: told.append(s))
     assert told[-1] > 0.9
     assert max(told) <= 1
 
@@ -263,20 +305,18 @@ def test_where_no_value_makes_an_engine_the_reason_is_told():
     ],
 )
 def test_the_place_of_a_minimum_is_the_round_number_that_it_is(function, place):
-    assert one_by_one.find_best_numbers(function, 13.0, 160.0)[0] == place
+    assert find_best(function, 13.0, 160.0)[0] == place
 
 
 def test_a_pole_elsewhere_in_the_range_makes_no_number_as_good():
-    (place,) = one_by_one.find_best_numbers(
-        lambda x: 1e20 if x < 0.02 else (x - math.pi) ** 2, 0.0, 10.0
-    )
+    (place,) = find_best(lambda x: 1e20 if x < 0.02 else (x - math.pi) ** 2, 0.0, 10.0)
     assert place == pytest.approx(math.pi, abs=1e-6)
 
 
 def test_where_no_round_number_is_as_good_the_place_is_as_exact_as_the_function():
-    (kink,) = one_by_one.find_best_numbers(lambda x: abs(x - math.e), 0.0, 10.0)
+    (kink,) = find_best(lambda x: abs(x - math.e), 0.0, 10.0)
     assert kink == pytest.approx(math.e, abs=1e-9)
-    (smooth,) = one_by_one.find_best_numbers(lambda x: 1 + (x - math.e) ** 2, 0.0, 10.0)
+    (smooth,) = find_best(lambda x: 1 + (x - math.e) ** 2, 0.0, 10.0)
     assert smooth == pytest.approx(math.e, abs=3e-6)
-    (edge,) = one_by_one.find_best_numbers(lambda x: x if x > math.e else math.inf, 0.0, 10.0)
+    (edge,) = find_best(lambda x: x if x > math.e else math.inf, 0.0, 10.0)
     assert 0 < edge - math.e < 1e-9

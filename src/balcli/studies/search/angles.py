@@ -29,6 +29,7 @@ ROUNDS_TO_MINIMUM = 9  # each makes the bracket (POINTS - 1)/2 times shorter
 ROUNDS_TO_EDGE = 11  # each makes it POINTS - 1 times shorter, down to neighbouring numbers
 ROUND = (1.0, 0.1, 0.01, 0.001, 1e-4)  # deg: the roundest angle that is as good is taken
 AS_GOOD = 1e-9  # of the function's largest value
+BELOW = 1e-10  # a limit, of itself: nearer to it, rounding says whether it is kept
 _DECIMALS = 9  # of a short angle in degrees
 _NEAR = 1e-11  # deg, from a short one
 
@@ -71,7 +72,8 @@ def find_minima(
     grid = span.divide(step)
     limited = [c for c, _ in limits]
     nodes = _join(span, grid, *(_find_valleys(c, grid, span) for c in (curve, *limited)))
-    nodes = _join(span, nodes, *(_find_edges(c, limit, nodes, span) for c, limit in limits))
+    edges = [_find_edges(c, limit * (1 - BELOW), nodes, span) for c, limit in limits]
+    nodes = _join(span, nodes, *edges)
 
     def keep_limits(x: Array) -> Array:
         values = curve(x)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Generic, TypeGuard, TypeVar
+from typing import Generic, NamedTuple, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -16,6 +16,18 @@ from ..quantities import AnyQuantity, parse_quantities
 
 Asked = TypeVar("Asked", bound=AnyQuantity)
 _SIGNED = ("torque.mean", "torque.min")
+
+
+class Merit(NamedTuple):
+    """How good one arrangement is: the less the better, what keeps its limits before all else.
+
+    Attributes:
+        excess: the largest share of its limit that a quantity has, if that is 1 or more; else 0.
+        value: the weighted sum.
+    """
+
+    excess: float
+    value: float
 
 
 @dataclass(frozen=True)
@@ -36,10 +48,20 @@ class Objective(Generic[Asked]):
         Args:
             value: gives a quantity for all candidates.
         """
-        total = np.asarray(sum(weight * value(q) for q, weight in self.weights.items()), float)
+        total = self._add_up(value)
         for q, limit in self.limits.items():
             total = np.where(value(q) < limit, total, np.inf)
         return total
+
+    def judge(self, value: Callable[[Asked], float]) -> Merit:
+        """How good one candidate is, whose quantities `value` gives."""
+        shares = [value(q) / limit for q, limit in self.limits.items()]
+        broken = [share for share in shares if not share < 1]
+        return Merit(max(broken, default=0.0), float(self._add_up(value)))
+
+    def _add_up(self, value: Callable[[Asked], float | Array]) -> Array:
+        """The weighted sum, limits left aside."""
+        return np.asarray(sum(weight * value(q) for q, weight in self.weights.items()), float)
 
 
 def parse_objective(

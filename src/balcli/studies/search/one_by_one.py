@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.golden_section import find_least
-from ...core.phasors import Array
 from ...core.telling import Tell, tell_nobody
 from ...engine.arrays import ranked
 from ...engine.build import build
@@ -24,7 +23,7 @@ from ...forces.quantity import evaluate_quantities
 from ...limits import MOST_DESIGNS_ONE_BY_ONE
 from ..quantities import AnyQuantity, choose_of_engine, group_by_chapter, load_chapter
 from .designs import Design, Found
-from .objective import Objective
+from .objective import Merit, Objective
 from .throws import count_from
 
 _GRID = 32  # parts of a range, in which minima are looked for
@@ -32,6 +31,7 @@ _MINIMA = 3  # of these, the lowest, are followed
 _ROUNDS = 44  # of golden section: to 1e-9 of a part of the range, where there is a kink
 _AS_GOOD = 1e-13  # of the largest value thereabouts: a smooth minimum is flat to this
 _DECIMALS = 11  # fewer than a part of the range is large, and more
+_IMPOSSIBLE = Merit(math.inf, math.inf)
 
 
 def rank_one_by_one(
@@ -61,21 +61,23 @@ def rank_one_by_one(
 
 
 def _try(model: EngineFile, design: Design, objective: Objective[AnyQuantity]) -> Found:
-    changed = parse_dict(change_tables(model, design.changes()), model.folder)
-    figures = _evaluate(changed, objective.quantities)
+    figures = _evaluate(model, design, objective.quantities)
     by_name = {q.name: value for q, value in figures.items()}
     return Found(design, float(objective.evaluate(figures.__getitem__)), by_name)
 
 
-def _evaluate(model: EngineFile, quantities: tuple[AnyQuantity, ...]) -> dict[AnyQuantity, float]:
-    """Each quantity of an engine file."""
+def _evaluate(
+    model: EngineFile, design: Design, quantities: tuple[AnyQuantity, ...]
+) -> dict[AnyQuantity, float]:
+    """Each quantity of an engine file with this design."""
+    changed = parse_dict(change_tables(model, design.changes()), model.folder)
     of_engine = choose_of_engine(quantities)
     found: dict[AnyQuantity, float] = {}
     if of_engine:
-        values = evaluate_quantities(build(model), of_engine)
+        values = evaluate_quantities(build(changed), of_engine)
         found |= {q: float(value) for q, value in zip(of_engine, values, strict=True)}
     for chapter, members in group_by_chapter(quantities).items():
-        figures = load_chapter(chapter).Variants(model, members).evaluate({})
+        figures = load_chapter(chapter).Variants(changed, members).evaluate({})
         found |= dict(zip(members, figures, strict=True))
     return found
 
@@ -101,72 +103,81 @@ def list_throws(model: EngineFile) -> Iterator[Design]:
 
 
 def find_best_numbers(
-    evaluate: Callable[[float], float], low: float, high: float, tell: Tell = tell_nobody
+    judge: Callable[[float], Merit], low: float, high: float, tell: Tell = tell_nobody
 ) -> list[float]:
-    """Where a function of a number is least in a range: local minima, found on a grid and followed
-    as far as the function tells them from their neighbours, lowest first; there the roundest number
-    that is as good, and of a stretch of equal values the first point of the grid.
+    """Where a function of a number is least in a range and keeps its limits: local minima, found on
+    a grid and followed as far as the function tells them from their neighbours, lowest first; there
+    the roundest number that is as good, and of a stretch of equal values the first point of the
+    grid. Where the grid breaks limits, it is followed to where they are broken least: what keeps
+    them may lie between two of its points.
 
     Args:
-        evaluate: infinite where it cannot be or may not be.
+        judge: infinite where it cannot be.
         tell: which share is done; it may say that what is found by then is enough.
     """
     if low == high:
-        return [low] if math.isfinite(evaluate(low)) else []
-    grid = np.linspace(low, high, _GRID + 1)
-    values = np.full(len(grid), np.inf)
+        return [low] if _keeps_limits(judge(low)) else []
+    grid = np.linspace(low, high, _GRID + 1).tolist()
+    judged: list[Merit] = []
     share = 1 / (len(grid) + _MINIMA)
     for k, x in enumerate(grid):
-        values[k] = evaluate(float(x))
+        judged.append(judge(x))
         enough = tell((k + 1) * share)
         if enough:
             break
-    followed = _find_bottoms(values)
-    found = [(float(values[k]), float(grid[k])) for k in followed]
+    followed = _find_bottoms(judged)
+    found = [(judged[k], grid[k]) for k in followed]
     for n, k in enumerate(followed):
         if enough:
             break
         around = slice(max(k - 1, 0), k + 2)
-        ends = float(grid[around][0]), float(grid[around][-1])
-        slack = _AS_GOOD * np.abs(values[around][np.isfinite(values[around])]).max()
-        near = find_least(evaluate, *ends, _ROUNDS)
-        value = evaluate(near)
-        if value < found[n][0]:
-            found[n] = _round_off(evaluate, near, value + slack, ends)
+        ends = grid[around][0], grid[around][-1]
+        slack = _AS_GOOD * max(abs(one.value) for one in judged[around] if math.isfinite(one.value))
+        near = find_least(judge, *ends, _ROUNDS)
+        there = judge(near)
+        if there < found[n][0]:
+            found[n] = _round_off(judge, near, there._replace(value=there.value + slack), ends)
         enough = tell((len(grid) + n + 1) * share)
-    return [x for _, x in sorted(found)]
+    return [x for one, x in sorted(found) if _keeps_limits(one)]
+
+
+def _keeps_limits(one: Merit) -> bool:
+    return one.excess == 0 and math.isfinite(one.value)
 
 
 def _round_off(
-    evaluate: Callable[[float], float], x: float, enough: float, ends: tuple[float, float]
-) -> tuple[float, float]:
-    """The value and the place of the roundest number between the ends that is good enough."""
+    judge: Callable[[float], Merit], x: float, enough: Merit, ends: tuple[float, float]
+) -> tuple[Merit, float]:
+    """The merit and the place of the roundest number between the ends that is good enough."""
     low, high = ends
     coarsest = -math.floor(math.log10(high - low))
     for digits in range(coarsest, coarsest + _DECIMALS):
         rounder = round(x, digits)
-        if low <= rounder <= high and (value := evaluate(rounder)) <= enough:
-            return value, rounder
-    return evaluate(x), x
+        if low <= rounder <= high and (there := judge(rounder)) <= enough:
+            return there, rounder
+    return judge(x), x
 
 
-def _find_bottoms(values: Array) -> list[int]:
-    """Which of a row of values lie below their neighbours, the lowest three; one of each stretch of
-    equal ones.
+def _find_bottoms(judged: list[Merit]) -> list[int]:
+    """Which of a row are better than their neighbours, the best three; one of each stretch of equal
+    ones.
     """
-    starts = np.flatnonzero(np.append(True, values[1:] != values[:-1]))
-    steps = values[starts]
-    before, after = np.append(np.inf, steps[:-1]), np.append(steps[1:], np.inf)
-    bottoms = np.flatnonzero((steps <= before) & (steps <= after) & np.isfinite(steps))
-    lowest = bottoms[np.argsort(steps[bottoms], kind="stable")][:_MINIMA]
-    return [int(k) for k in starts[lowest]]
+    starts = [k for k, one in enumerate(judged) if k == 0 or one != judged[k - 1]]
+    steps = [judged[k] for k in starts]
+    before, after = [_IMPOSSIBLE, *steps[:-1]], [*steps[1:], _IMPOSSIBLE]
+    bottoms = [
+        k
+        for k, one in enumerate(steps)
+        if one <= before[k] and one <= after[k] and math.isfinite(sum(one))
+    ]
+    return [starts[k] for k in sorted(bottoms, key=steps.__getitem__)[:_MINIMA]]
 
 
 class BestNumbers(NamedTuple):
     """Designs with the best values of a number in a range.
 
     Attributes:
-        constant: whether the objective is the same for all values that were tried.
+        constant: whether the objective, limits left aside, is the same for all values tried.
         refused: a value that makes no engine, and why: `rod.length = 20: …`; empty if all do.
     """
 
@@ -195,15 +206,17 @@ def find_best_designs(
     mistakes: list[tuple[float, InputError]] = []
     found: list[float] = []
 
-    def evaluate(value: float) -> float:
+    def judge(value: float) -> Merit:
         try:
-            found.append(_try(model, name(value), objective).objective)
+            figures = _evaluate(model, name(value), objective.quantities)
         except InputError as error:
             mistakes.append((value, error))
-            return np.inf
-        return found[-1]
+            return _IMPOSSIBLE
+        one = objective.judge(figures.__getitem__)
+        found.append(one.value)
+        return one
 
-    best = find_best_numbers(evaluate, low, high, tell)
+    best = find_best_numbers(judge, low, high, tell)
     if not found:
         raise mistakes[0][1]
     span = max(found) - min(found)

@@ -41,8 +41,13 @@ def give_throws(model: EngineFile) -> EngineFile:
     """The same with the throws that its firing order asks for, where it gives none.
 
     Raises:
-        BalcliError: the crank has one throw.
+        BalcliError: the crank has one throw, or cylinders have throws of their own.
     """
+    if any(own.throw is not None for own in model.cylinder.values()):
+        raise BalcliError(
+            "cylinders with throws of their own take no part in an arrangement of crank.throws: "
+            "give crank.throws and splay alone"
+        )
     if model.crank.throws is None and model.layout.firing_order:
         found = assemble(model).throws_deg
         throws = [float(found[throw]) for throw in range(len(found))]
