@@ -20,7 +20,7 @@ from pathlib import Path
 
 import pytest
 import typer
-from support.commands import run_command, run_in_terminal, run_python
+from support.commands import ask_json, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
 from support.paths import ENGINES, ROOT, SOURCE
 
@@ -289,9 +289,7 @@ def test_a_format_is_what_its_name_says(balcli, good, form):
     assert (status, err) == (0, "")
     assert out.endswith("\n")
     assert not out.endswith("\n\n")
-    force = json.loads(balcli("analyze", good, "--format", "json")[1])["orders"][1]["force_N"][
-        "major"
-    ]
+    force = ask_json("analyze", good)["orders"][1]["force_N"]["major"]
     match form:
         case Format.JSON:
             assert json.loads(out)["format"] == "balcli.analysis/1"
@@ -320,8 +318,8 @@ def test_a_format_is_what_its_name_says(balcli, good, form):
             assert re.search(rf"(?m)^2 +{force:.5g} ", out)
 
 
-def test_json_of_analyze_has_the_keys_of_the_contract(balcli):
-    document = json.loads(balcli("analyze", V8, "--format", "json", "--orders", "1-4")[1])
+def test_json_of_analyze_has_the_keys_of_the_contract():
+    document = ask_json("analyze", V8, "--orders", "1-4")
     vector = {"forward", "backward", "major", "minor", "axis_deg", "balanced", "x", "y"}
     scalar = {"cos", "sin", "amplitude", "peak_deg", "balanced"}
     assert list(document) == [
@@ -372,8 +370,8 @@ def test_json_of_analyze_has_the_keys_of_the_contract(balcli):
         ("sizing", {"order"}, {"sizing"}),
     ],
 )
-def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
-    document = json.loads(balcli("analyze", V8, "--format", "json", "--only", only)[1])
+def test_what_is_left_out_is_no_key(only, keys, whole):
+    document = ask_json("analyze", V8, "--only", only)
     assert set(document["orders"][0]) == keys
     assert (
         set(document) - {"format", "version", "engine", "speed_rpm", "reference_mm", "orders"}
@@ -382,20 +380,15 @@ def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
 
 
 def test_shares_of_the_cylinders_add_up(balcli, good):
-    document = json.loads(
-        balcli("analyze", good, "--format", "json", "--by", "cylinder", "--orders", "2")[1]
-    )
+    document = ask_json("analyze", good, "--by", "cylinder", "--orders", "2")
     assert [c["cylinder"] for c in document["cylinders"]] == [1, 2, 3, 4]
     total = sum(c["orders"][0]["force_N"]["forward"][0] for c in document["cylinders"])
     assert total == pytest.approx(document["orders"][0]["force_N"]["forward"][0], rel=1e-14)
     assert "Cylinder 3 alone" in balcli("analyze", good, "--by", "cylinder")[1]
 
 
-def test_speed_displaces_the_files(balcli, good):
-    one, two = (
-        json.loads(balcli("analyze", good, "--format", "json", *more)[1])
-        for more in ([], ["--speed", "6000"])
-    )
+def test_speed_displaces_the_files(good):
+    one, two = (ask_json("analyze", good, *more) for more in ([], ["--speed", "6000"]))
     assert (one["speed_rpm"], two["speed_rpm"]) == (3000, 6000)
     assert two["orders"][1]["force_N"]["major"] == 4 * one["orders"][1]["force_N"]["major"]
 

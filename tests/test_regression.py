@@ -8,11 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.engines import GOOD, changed
+from support.engines import GOOD, build_text, changed
 from support.paths import ENGINE_FILES, ENGINES
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.regression import TOLERANCE, find_differences, find_record, record_result
 from balcli.results.analysis import analyze
 
@@ -29,7 +27,7 @@ def file(tmp_path):
     engine_file.write_text(GOOD)
     target = find_record(engine_file)
     target.parent.mkdir()
-    target.write_text(record_result(build(parse(GOOD))))
+    target.write_text(record_result(build_text(GOOD)))
     return engine_file
 
 
@@ -204,7 +202,7 @@ def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
         document["orders"][3]["force_N"]["forward"][0] += share * TOLERANCE * max(largest, peak)
 
     edited(file, edit)
-    found = find_differences("four", build(parse(GOOD)), find_record(file))
+    found = find_differences("four", build_text(GOOD), find_record(file))
     assert len(found) == moved
     assert all(str(d).startswith("four: force order ") for d in found)
 
@@ -217,7 +215,7 @@ def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path, round
     engine_file = Path(shutil.copy(ENGINES / "rotary9.toml", tmp_path))
     find_record(engine_file).parent.mkdir()
     shutil.copy(find_record(ENGINES / "rotary9.toml"), find_record(engine_file))
-    engine = build(parse(engine_file.read_text()))
+    engine = build_text(engine_file.read_text())
     force = analyze(engine).spectra.force
     noise = float(np.broadcast_to(force.noise, force.forward.shape)[force.orders == 9][0])
     assert noise > TOLERANCE * force.major.max() > 0

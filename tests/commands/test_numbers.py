@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.paths import ENGINES
 
 
 def listed(file: str) -> dict:
-    return json.loads(run_here("numbers", ENGINES / file, "-f", "json").out)
+    return ask_json("numbers", ENGINES / file)
 
 
 @pytest.mark.parametrize("file", ["v8_wiebe.toml", "i4_shafts.toml", "i4_mounts.toml"])

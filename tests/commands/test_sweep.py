@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.commands import HANGS, run_command, run_here, start_command
+from support.commands import HANGS, ask_json, run_command, run_here, start_command
 from support.engines import GOOD
 
 from balcli.commands import sweep_output
@@ -311,7 +311,7 @@ def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: P
     assert "bound: no combination within the tolerances exceeds it (exact" in texts["normal"]
     told = " ".join(texts["normal"].split())
     assert "normal deviations go beyond a tolerance, three times their standard deviation" in told
-    document = json.loads(run_here(*command, "--distribution=normal", "-f", "json").out)
+    document = ask_json(*command, "--distribution=normal")
     figures = document["quantities"]["force.1.major"]
     assert document["distribution"] == "normal"
     assert figures["max"] > figures["bound"]

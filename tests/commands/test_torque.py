@@ -12,7 +12,7 @@ import tomllib
 
 import numpy as np
 import pytest
-from support.commands import run_here
+from support.commands import ask_json, run_here
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
 
@@ -59,7 +59,7 @@ def test_the_table_says_why_nothing_is_told_of_the_speed(four, tmp_path):
 
 
 def test_json_has_what_the_file_allows(four):
-    found = json.loads(torque(four, "--format", "json", "--fluctuation", "1/300"))
+    found = ask_json("torque", four, "--fluctuation", "1/300")
     assert set(found) == WHOLE | {"bmep_Pa", "flywheel"}
     assert found["format"] == "balcli.torque/1"
     assert found["imep_Pa"] == pytest.approx(9e5)
@@ -80,14 +80,14 @@ def test_json_has_what_the_file_allows(four):
 def test_what_the_file_does_not_allow_is_left_out(four, tmp_path):
     bare = tmp_path / "bare.toml"
     bare.write_text(FOUR + WIEBE)
-    assert set(json.loads(torque(str(bare), "--format", "json"))) == WHOLE
+    assert set(ask_json("torque", bare)) == WHOLE
 
 
 def test_a_misfire_is_told_wherever_its_figures_are(four):
     for command in ("torque", "analyze"):
         asked = (command, four, "--misfire", "3")
-        assert json.loads(run_here(*asked, "--format", "json").out)["no_gas_in"] == [3]
-        assert "no_gas_in" not in json.loads(run_here(command, four, "--format", "json").out)
+        assert ask_json(*asked)["no_gas_in"] == [3]
+        assert "no_gas_in" not in ask_json(command, four)
     assert "no gas in" in run_here("analyze", four, "--misfire", "3", "--only", "gas").out
 
 
@@ -117,8 +117,8 @@ def test_what_is_written_turns_as_unevenly(four, tmp_path):
     status, text, _ = run_here("analyze", str(out), "--format", "json", "--only", "force")
     assert status == 0
     assert json.loads(text)["orders"][0]["order"] == 0, "an uneven speed has a mean force"
-    again = json.loads(torque(str(out), "--format", "json"))
-    assert again == json.loads(torque(four, "--format", "json")), "torque is that of the mean speed"
+    again = ask_json("torque", out)
+    assert again == ask_json("torque", four), "torque is that of the mean speed"
 
 
 def test_what_is_written_misfires_as_it_did(four, tmp_path):
@@ -153,7 +153,7 @@ def test_lines_that_no_engine_file_may_have_are_not_written(tmp_path):
 def test_what_a_crank_needs_that_stalls(four, tmp_path):
     arguments = (four, "--speed", "100", "--fluctuation", "1/50")
     assert "speed    the shaft stalls at" in torque(*arguments)
-    found = json.loads(torque(*arguments, "-f", "json"))["flywheel"]
+    found = ask_json("torque", *arguments)["flywheel"]
     assert set(found) == {"inertia_kg_m2", "moving_parts_kg_m2", "needed_kg_m2", "stall"}
     assert found["stall"].startswith("the shaft stalls at")
     status, _, err = run_here("torque", *arguments, "--write", str(tmp_path / "out.toml"))
@@ -179,7 +179,7 @@ def test_a_crank_that_stalls_is_an_error_with_the_angle_beside_all_else(four, cu
 
 
 def test_a_curve_needs_no_engine(curve):
-    found = json.loads(torque("--curve", curve, "--format", "json"))
+    found = ask_json("torque", "--curve", curve)
     assert set(found) == {
         "format",
         "version",
@@ -203,7 +203,7 @@ def test_a_curve_needs_no_engine(curve):
 
 def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
     (tmp_path / "t.csv").write_text("angle_deg,torque_Nm\n0,1\n300,5\n1080,1\n")
-    orders = json.loads(torque("--curve", str(tmp_path / "t.csv"), "-f", "json"))["orders"]
+    orders = ask_json("torque", "--curve", str(tmp_path / "t.csv"))["orders"]
     assert [entry["order"] for entry in orders[:3]] == pytest.approx([1 / 3, 2 / 3, 1])
 
 
@@ -234,7 +234,7 @@ def test_a_curve_of_a_thousand_turns_ends_soon(tmp_path):
     """All its orders to 12 are 12 000 lines, and those to 4096 four million."""
     path = tmp_path / "t.csv"
     path.write_text("angle_deg,torque_Nm\n0,1\n180,5\n360000,1\n")
-    shown = json.loads(torque("--curve", str(path), "-f", "json"))["orders"]
+    shown = ask_json("torque", "--curve", path)["orders"]
     assert [entry["order"] for entry in shown] == [k / 1000 for k in range(1, 513)]
     assert run_here("torque", "--curve", path, "--orders", "65,66").err == (
         "balcli: order 66: of a period of 1000 turns there are orders to 65.54\n"
@@ -264,13 +264,13 @@ def test_angles_of_a_curve_have_an_end(tmp_path):
 
 def test_a_short_period_has_two_orders_at_least(tmp_path):
     (tmp_path / "t.csv").write_text("angle_deg,torque_Nm\n0,1\n5,5\n20,1\n")
-    orders = json.loads(torque("--curve", str(tmp_path / "t.csv"), "-f", "json"))["orders"]
+    orders = ask_json("torque", "--curve", str(tmp_path / "t.csv"))["orders"]
     assert [entry["order"] for entry in orders] == [18, 36]
 
 
 def test_the_load_takes_its_share(curve, tmp_path):
     """A load that is the torque itself leaves nothing over."""
-    found = json.loads(torque("--curve", curve, "--load", curve, "-f", "json"))
+    found = ask_json("torque", "--curve", curve, "--load", curve)
     assert found["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
     assert found["energy"]["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
     other = tmp_path / "l.csv"
@@ -313,7 +313,7 @@ def test_a_curve_may_begin_at_any_angle(tmp_path):
     paths = {name: tmp_path / name for name in rows}
     for name, text in rows.items():
         paths[name].write_text(f"angle_deg,torque_Nm\n{text}\n")
-    found = [json.loads(torque("--curve", str(p), "-f", "json")) for p in paths.values()]
+    found = [ask_json("torque", "--curve", p) for p in paths.values()]
     for one in found:
         assert one["torque"]["max_deg"] == pytest.approx(30)
         assert one["orders"][0]["torque_Nm"]["peak_deg"] == pytest.approx(30)
@@ -442,7 +442,7 @@ def test_loads_are_told_when_they_are_asked_for(tmp_path):
     path = tmp_path / "four.toml"
     bearing = "[bearing]\npin_diameter = 48\npin_width = 20\n"
     path.write_text(FOUR + WIEBE + bearing)
-    loads = json.loads(torque(str(path), "--loads", "pin,main", "-f", "json"))["loads"]
+    loads = ask_json("torque", path, "--loads", "pin,main")["loads"]
     assert [pin["cylinder"] for pin in loads["pin"]] == [1, 2, 3, 4]
     assert [main["bearing"] for main in loads["main"]] == [1, 2, 3, 4, 5]
     for pin in loads["pin"]:
@@ -463,7 +463,7 @@ def test_knuckle_pins_are_told_beside_the_crank_pin(tmp_path):
     radial = (ENGINES / "radial7_articulated.toml").read_text()
     bearing = "[bearing]\npin_diameter = 70\npin_width = 60\n"
     path.write_text(f"{radial}\n{WIEBE}\n{bearing}")
-    loads = json.loads(torque(str(path), "--loads", "pin", "-f", "json"))["loads"]
+    loads = ask_json("torque", path, "--loads", "pin")["loads"]
     assert [pin["cylinder"] for pin in loads["pin"]] == [1]
     assert loads["pin"][0]["pressure_Pa"] == pytest.approx(loads["pin"][0]["max_N"] / 4.2e-3)
     assert [pin["cylinder"] for pin in loads["knuckle"]] == [2, 3, 4, 5, 6, 7]
@@ -499,7 +499,7 @@ def test_curves_of_a_cylinder_go_over_its_cycle(four):
 
 # ------------------------------------------------------------------ sweeps and pictures
 def test_curves_of_an_engine_have_the_gas_torque_over_the_cycle(four, tmp_path):
-    found = json.loads(run_here("curves", four, "--step", "4", "-f", "json").out)
+    found = ask_json("curves", four, "--step", "4")
     curves = found["curves"]
     assert len(found["crank_deg"]) == 180
     text = torque(four, "--orders", "0-80", "-f", "json")
@@ -535,7 +535,7 @@ def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     with open(four) as file:
         text = file.read().replace("imep = 9", "imep = 6") + "[cylinder.3]\ngas = 0\n"
     other.write_text(text)
-    found = json.loads(torque(str(other), "-f", "json", "--orders", "0.5-2"))
+    found = ask_json("torque", other, "--orders", "0.5-2")
     by_order = {entry["order"]: entry for entry in found["orders"]}
     row = [float(cell) for cell in rows[0].split(",")]
     assert row[:2] == [6, 0]
@@ -609,7 +609,7 @@ def test_pictures_that_cannot_be(tmp_path):
     assert err == "balcli: the file has harmonics of the torque, and no pressures\n"
     err = run_here("plot", str(bare), "--what", "pin", "-o", target).err
     assert err == "balcli: loads of pins need pressures; harmonics of the torque have none\n"
-    found = json.loads(torque(str(bare), "-f", "json"))
+    found = ask_json("torque", bare)
     assert not {"max_pressure_Pa", "max_pressure_deg"} & set(found)
 
 
@@ -660,7 +660,7 @@ def test_throws_that_fit_no_firing_order_are_not_written_beside_gas(four, tmp_pa
 
 
 def test_engines_with_gas_are_compared_by_what_it_does(four, tmp_path):
-    found = json.loads(run_here("compare", four, four, "-f", "json", "--orders", "2").out)
+    found = ask_json("compare", four, four, "--orders", "2")
     assert "torque_Nm" in json.dumps(found)
     bare = tmp_path / "bare.toml"
     bare.write_text(FOUR)
@@ -686,7 +686,7 @@ def test_guide_moments_include_the_gas(four, tmp_path):
     arguments = ("--only", "guide", "--orders", "0.5-4", "-f", "json")
     found = json.loads(run_here("analyze", four, *arguments).out)["guide"]
     assert found["includes"] == "inertia and gas"
-    roll = json.loads(run_here("analyze", four, "--orders", "2", "--only", "gas", "-f", "json").out)
+    roll = ask_json("analyze", four, "--orders", "2", "--only", "gas")
     by_order = {entry["order"]: entry for entry in found["orders"]}
     assert by_order[2]["h_Nm"]["amplitude"] == pytest.approx(
         roll["orders"][0]["roll_total_Nm"]["amplitude"], rel=1e-12
@@ -811,7 +811,7 @@ def test_power_and_torque_say_whether_they_are_indicated(four, curve, tmp_path):
     volume = 4 * np.pi / 4 * 0.086**2 * 0.09
     mean = 9e5 * volume / (4 * np.pi)
     told = " ".join(torque(four).split())
-    speed = json.loads(torque(four, "--format", "json"))["speed_rpm"] * np.pi / 30
+    speed = ask_json("torque", four)["speed_rpm"] * np.pi / 30
     assert f"mean torque {mean:.5g} N·m indicated, {0.8 * mean:.5g} N·m brake" in told
     kilowatts = mean * speed / 1e3
     assert f"power {kilowatts:.5g} kW indicated, {0.8 * kilowatts:.5g} kW brake" in told
@@ -821,7 +821,7 @@ def test_power_and_torque_say_whether_they_are_indicated(four, curve, tmp_path):
     silent = torque(four, "--misfire", "3")
     assert "indicated" in silent
     assert "brake" not in silent  # a cylinder without gas keeps its friction
-    assert "bmep_Pa" not in json.loads(torque(four, "--misfire", "3", "--format", "json"))
+    assert "bmep_Pa" not in ask_json("torque", four, "--misfire", "3")
     assert "indicated" not in torque("--curve", curve, "--speed", "300")
 
 
@@ -832,7 +832,7 @@ def test_what_a_flywheel_needs_is_told_without_the_crankshaft(tmp_path):
     def told(text: str) -> tuple[dict, str]:
         path = tmp_path / "x.toml"
         path.write_text(text)
-        found = json.loads(torque(str(path), *asked, "--format", "json"))["flywheel"]
+        found = ask_json("torque", path, *asked)["flywheel"]
         return found, " ".join(torque(str(path), *asked).split())
 
     found, words = told(FOUR + WIEBE)

@@ -12,7 +12,7 @@ import tomllib
 from io import StringIO
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.rotors import three_runs
 
 from balcli.field_balancing.read import parse_runs
@@ -71,7 +71,7 @@ def test_a_hole_is_told_by_what_it_does_at_the_rim(tmp_path):
         '[[run]]\nreadings = ["20 @ 0"]\nweights = { rim = "10 @ 0" }\n'
     )
     path.write_text(text, encoding="utf-8")
-    (plane,) = json.loads(run_here("field", path, "-f", "json").out)["corrections"]
+    (plane,) = ask_json("field", path)["corrections"]
     (hole,) = plane["pieces"]
     grams = 7.85e-3 * math.pi / 4 * 12**2 * hole["depth_mm"]
     assert grams * (100 - hole["depth_mm"] / 2) == pytest.approx(30 * 100)
@@ -130,7 +130,7 @@ def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     assert "All readings are cancelled" not in out
     assert re.search(r"^front +– +– +–$", out, re.MULTILINE)
     assert "Without its limit, front would take 1.979 g at 236.2 deg." in " ".join(out.split())
-    said = json.loads(run_here("field", path, "--minimise", minimise, "-f", "json").out)
+    said = ask_json("field", path, "--minimise", minimise)
     front, rear = said["corrections"]
     assert (front["weight"], front["pieces"], front["at_limit"]) == (0, [], True)
     assert front["wanted"]["weight"] == pytest.approx(1.979467642, rel=1e-9)
@@ -159,7 +159,7 @@ def test_senses_are_said_the_other_way_round_too(tmp_path):
 
 
 def test_json_is_what_it_promises(runs):
-    said = json.loads(run_here("field", runs, "-f", "json").out)
+    said = ask_json("field", runs)
     assert said["format"] == "balcli.field/1"
     front, rear = said["corrections"]
     assert (front["plane"], front["weight"]) == ("front", pytest.approx(1.979467642, rel=1e-9))
@@ -175,12 +175,12 @@ def test_json_is_what_it_promises(runs):
     assert said["permitted"]["unbalance_g_mm"] == pytest.approx(2406.42, rel=1e-5)
     assert said["permitted"]["reached"] is True
     assert "bound" not in said
-    best = json.loads(run_here("field", runs, "-f", "json", "--minimise", "max").out)
+    best = ask_json("field", runs, "--minimise", "max")
     assert best["bound"] == 0
 
 
 def test_csv_has_every_figure_of_json(runs):
-    said = json.loads(run_here("field", runs, "-f", "json").out)
+    said = ask_json("field", runs)
     lines = list(csv.DictReader(StringIO(run_here("field", runs, "-f", "csv").out)))
     found = {(r["part"], r["name"], r["figure"]): (r["value"], r["unit"]) for r in lines}
     front = said["corrections"][0]
@@ -201,7 +201,7 @@ def test_a_trim_is_shown_beside_the_total(tmp_path):
     out = run_here("field", path, "-f", "markdown").out
     assert "add now, g" in out
     assert "on top of what was on in 'in'" in out
-    said = json.loads(run_here("field", path, "-f", "json").out)
+    said = ask_json("field", path)
     assert said["trimmed"] == "in"
     assert said["corrections"][0]["add"]["weight"] < 1
 

@@ -9,7 +9,7 @@ from io import StringIO
 
 import numpy as np
 import pytest
-from support.commands import refusal, run_here, run_in_terminal
+from support.commands import ask_json, refusal, run_here, run_in_terminal
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
 
@@ -27,7 +27,7 @@ def four(tmp_path):
 
 
 def test_json_is_what_it_promises(four):
-    said = json.loads(run_here("mounts", four, "--speeds", "600:3000:100", "-f", "json").out)
+    said = ask_json("mounts", four, "--speeds", "600:3000:100")
     assert said["format"] == "balcli.mounts/1"
     assert len(said["modes"]) == 6
     first = said["modes"][0]
@@ -54,12 +54,12 @@ def test_json_is_what_it_promises(four):
 
 def test_speeds_are_told_as_they_were_asked_for(four):
     """What is computed in rad/s came back as 700.6000000000001 rpm."""
-    said = json.loads(run_here("mounts", four, "--speeds", "700:702:0.1", "-f", "json").out)
+    said = ask_json("mounts", four, "--speeds", "700:702:0.1")
     assert said["response"]["speeds_rpm"] == [k / 10 for k in range(7000, 7021)]
 
 
 def test_csv_has_the_figures_of_json(four):
-    said = json.loads(run_here("mounts", four, "--speeds", "900,3000", "-f", "json").out)
+    said = ask_json("mounts", four, "--speeds", "900,3000")
     text = run_here("mounts", four, "--speeds", "900,3000", "-f", "csv").out
     lines = list(csv.DictReader(StringIO(text)))
     found = {
@@ -156,7 +156,7 @@ def test_a_scheme_is_shown_beside(four):
     out = run_here("mounts", four, "--scheme", "two-shaft").out
     assert "With two-shaft the largest force of any mount is " in out
     assert "with two-shaft" in out
-    said = json.loads(run_here("mounts", four, "--scheme", "two-shaft", "-f", "json").out)
+    said = ask_json("mounts", four, "--scheme", "two-shaft")
     assert said["fitted"]["scheme"] == "two-shaft"
     assert len(said["fitted"]["response"]["mounts"]) == 4
     assert refusal("mounts", four, "--scheme", "nonsense").startswith(f"{four}: there is no scheme")
@@ -165,7 +165,7 @@ def test_a_scheme_is_shown_beside(four):
 def test_the_point_that_moves_most_is_told_with_a_scheme_and_without(four):
     """A shaft that spares the mounts may shake a handlebar."""
     asked = ("mounts", four, "--scheme", "two-shaft", "--at=0,300")
-    said = json.loads(run_here(*asked, "-f", "json").out)
+    said = ask_json(*asked)
     before = said["response"]["points"][0]["worst"]
     after = said["fitted"]["response"]["points"][0]["worst"]
     change = after["motion_mm"] / before["motion_mm"] - 1
@@ -205,15 +205,15 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
     fired = run_here("mounts", four, light).out
     assert re.search(r"^With light four .*, its gas included\.$", fired, re.M)
     light.write_text(text, encoding="utf-8")
-    said = json.loads(run_here("mounts", four, light, "-f", "json").out)
+    said = ask_json("mounts", four, light)
     (other,) = said["others"]
     alone = tmp_path / "alone.toml"
     alone.write_text(DAMPED.replace(ENGINE, text), encoding="utf-8")
-    own = json.loads(run_here("mounts", alone, "-f", "json").out)
+    own = ask_json("mounts", alone)
     assert (other["name"], other["response"]) == ("light four", own["response"])
     bare = tmp_path / "bare.toml"
     bare.write_text(DAMPED.replace(ENGINE, ""), encoding="utf-8")
-    on_bare = json.loads(run_here("mounts", bare, light, "-f", "json").out)
+    on_bare = ask_json("mounts", bare, light)
     assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
     parts = {
         row["part"]
@@ -236,7 +236,7 @@ def test_cylinders_that_do_not_fire_are_named(tmp_path):
     path.write_text(ENGINE + weak + WIEBE + block("loss = 0.1"), encoding="utf-8")
     told = "the same diagram at every speed; no gas in 3; no burning in 4."
     assert told in " ".join(run_here("mounts", path).out.split())
-    said = json.loads(run_here("mounts", path, "-f", "json").out)["response"]
+    said = ask_json("mounts", path)["response"]
     assert (said["no_gas_in"], said["no_burning_in"]) == ([3], [4])
     listed = run_here("mounts", path, "-f", "csv").out.splitlines()
     assert "engine,,,,no_gas_in,3," in listed
@@ -279,7 +279,7 @@ def test_without_an_engine_modes_and_rest_are_told(tmp_path):
     assert "Natural modes" in out
     assert "At rest" in out
     assert "feels" not in out
-    said = json.loads(run_here("mounts", path, "-f", "json").out)
+    said = ask_json("mounts", path)
     assert "response" not in said
 
 
@@ -292,7 +292,7 @@ def test_rounding_is_no_share_of_a_mode_and_turns_no_shape(tmp_path):
     for stiff in range(150, 250, 5):
         text = block("angles = [0, 0, 45]").replace("-200]", "0]")
         path.write_text(text.replace("[200, 150", f"[200.7, {stiff}.3"), encoding="utf-8")
-        found += json.loads(run_here("mounts", path, "-f", "json").out)["modes"]
+        found += ask_json("mounts", path)["modes"]
     diagonal = [mode for mode in found if mode["energy_percent"]["x"] > 49]
     assert len(diagonal) == 40
     assert all(mode["shape"][0] > 0 for mode in diagonal)
@@ -364,7 +364,7 @@ def test_the_page_rocks_the_body(four):
     assert "On its mounts" in page
     assert "feels most" in page
     data = rocking_of(page)
-    said = json.loads(run_here("mounts", four, "-f", "json").out)["response"]
+    said = ask_json("mounts", four)["response"]
     k = 20
     place = int(np.argmin(np.abs(np.array(said["speeds_rpm"]) - data["speeds"][k])))
     angles = np.linspace(0, 4 * np.pi, 7201)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 from io import StringIO
 
 import numpy as np
@@ -34,7 +33,7 @@ def sweep(path, *args):
 
 def said_by(path, text):
     path.write_text(text, encoding="utf-8")
-    return json.loads(run_here("mounts", path, "-f", "json").out)
+    return ask_json("mounts", path)
 
 
 def test_each_variant_is_the_file_that_says_so(four, tmp_path):

@@ -11,12 +11,11 @@ from pathlib import Path
 
 import pytest
 from support.commands import refusal, run_here
-from support.engines import GOOD, SINGLE, changed
+from support.engines import GOOD, SINGLE, build_text, changed
 from support.paths import ENGINES
 
 from balcli.core.drilled_hole import STEEL, find_drill_depth
-from balcli.engine.build import build
-from balcli.engine.load import load, parse
+from balcli.engine.load import load
 from balcli.enginefile.model import Counterweight, Slider
 from balcli.errors import BalcliError
 from balcli.results.balance import balance
@@ -280,7 +279,7 @@ def test_a_folder_that_is_not_there(file, tmp_path):
 
 # ------------------------------------------------------------------ the workshop
 def engine():
-    return build(parse(SINGLE))
+    return build_text(SINGLE)
 
 
 def test_practical_figures_follow_from_their_definitions():

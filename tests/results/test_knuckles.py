@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.engines import RADIAL
 from support.paths import ENGINES
 
@@ -128,7 +128,7 @@ def test_with_gas_the_roll_is_that_of_both(tmp_path):
     file.write_text((ENGINES / "radial7_articulated.toml").read_text() + gas)
     found = json.loads(run(file, "--write", out, "-f", "json").out)
     for state, path in (("before", file), ("after", out)):
-        told = json.loads(run_here("analyze", path, "--orders", "1-4", "-f", "json").out)
+        told = ask_json("analyze", path, "--orders", "1-4")
         rolls = {entry["order"]: entry["roll_total_Nm"] for entry in found[state]["orders"]}
         assert [rolls[entry["order"]] for entry in told["orders"]] == [
             entry["roll_total_Nm"] for entry in told["orders"]

@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.engines import build_text
 from support.paths import ENGINES
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.results.marine import find_marine_sheet
 
 RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
@@ -66,7 +65,7 @@ def sampled(rpm: float) -> dict[str, np.ndarray]:
 
 
 def test_every_column_is_that_of_the_motion() -> None:
-    found = find_marine_sheet(build(parse(TEXT)), RPM, [1, 2, 3, 4])
+    found = find_marine_sheet(build_text(TEXT), RPM, [1, 2, 3, 4])
     for i, rpm in enumerate(RPM):
         for name, curve in sampled(rpm).items():
             largest = max(amplitude(curve, n) for n in (1, 2, 3, 4))
@@ -76,7 +75,7 @@ def test_every_column_is_that_of_the_motion() -> None:
 
 
 def test_the_guide_height_divides_x_alone() -> None:
-    engine = build(parse(TEXT))
+    engine = build_text(TEXT)
     usual, given = (find_marine_sheet(engine, (), [1, 2], height) for height in (None, 3.0))
     assert given.guide_x == pytest.approx(usual.guide_x * ROD / 3.0, rel=1e-12)
     assert given.guide_h == pytest.approx(usual.guide_h, rel=1e-12)

@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 import pytest
-from support.commands import run_here
+from support.commands import ask_json, run_here
 
 from balcli.enginefile import examples
 
@@ -61,7 +61,7 @@ def test_shafts_that_cancel_the_roll_of_inertia_may_leave_more_with_gas(four):
     """Balance said that nothing was left, where the roll of the frame grew."""
     inertia, gas = find_second_order()
     asked = ("balance", four, "--scheme", "two-shaft", "--roll", "zero")
-    found = json.loads(run_here(*asked, "-f", "json").out)
+    found = ask_json(*asked)
     told = found["details"]["order_2"]
     assert told["roll_left_Nm"] == 0
     assert told["roll_before_Nm"] == pytest.approx(abs(inertia), rel=1e-12)
@@ -117,7 +117,7 @@ def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):
     """Shafts at 120, 80 and 60, -40 mm: their forces along x make a roll about the crank axis."""
     inertia, gas = find_second_order()
     asked = ("balance", four, "--scheme", "two-shaft", "--at=120,80", "--at=60,-40")
-    told = json.loads(run_here(*asked, "-f", "json").out)["details"]["order_2"]
+    told = ask_json(*asked)["details"]["order_2"]
     theta = np.arange(256) * 2 * np.pi / 256
     travel = R * np.cos(theta) + np.sqrt(L**2 - (R * np.sin(theta)) ** 2)
     each = 4 * MASS * OMEGA**2 * 4 * np.fft.fft(travel)[2].real / 256  # a shaft's force, N
@@ -134,7 +134,7 @@ def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):
 @pytest.mark.parametrize(("at", "grows"), [("0,-80", True), ("0,80", False)])
 def test_a_slider_beside_the_crank_is_told_where_it_adds_roll(four, at, grows):
     asked = ("balance", four, "--scheme", "slider", f"--at={at}")
-    told = json.loads(run_here(*asked, "-f", "json").out)["details"]
+    told = ask_json(*asked)["details"]
     grown = told["roll_with_gas_left_Nm"] - told["roll_with_gas_before_Nm"]
     assert (grown > 0) == grows
     said = f"The roll of order 2 with gas grows by {grown:.4g} N·m: "

@@ -7,11 +7,11 @@ import json
 import numpy as np
 import pytest
 from support.commands import refusal, run_here
+from support.engines import build_text
 from support.gas_engines import PETROL_FOUR
 from support.paths import ENGINES
 
 import balcli
-from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.guide_moments import compute_guide_moments
 from balcli.studies.deviations import DeviatingEngine, Tolerances
@@ -49,7 +49,7 @@ def test_a_deviating_engine_is_that_of_its_own_file(length):
     named = {
         source.name: value for source, value in zip(engines.sources, drawn.tolist(), strict=True)
     }
-    one, other = engines.deviate_one(drawn), build(parse(deviated(named)))
+    one, other = engines.deviate_one(drawn), build_text(deviated(named))
     found, expected = analyze_torque(one, [1, 2]), analyze_torque(other, [1, 2])
     size = expected.curves.total.extremes()[1].value
     for mine, theirs in zip(
@@ -105,7 +105,7 @@ def test_samples_and_shares_are_those_of_single_engines(tmp_path):
     heavier = PLAIN.replace("[cylinder]", "[cylinder]\n2 = {piston_mass = 0.505}")
     lighter = PLAIN.replace("[cylinder]", "[cylinder]\n2 = {piston_mass = 0.495}")
     ends = [
-        analyze_torque(build(parse(text)), [1]).curves.total.extremes()[1].value
+        analyze_torque(build_text(text), [1]).curves.total.extremes()[1].value
         for text in (heavier, lighter)
     ]
     share = found["torque.max"]["sensitivity"]["piston mass 2"]

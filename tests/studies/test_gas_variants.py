@@ -10,6 +10,7 @@ from itertools import product
 import numpy as np
 import pytest
 from support.commands import refusal, run_here
+from support.engines import build_text
 from support.gas_engines import PETROL_FOUR
 
 from balcli.engine.build import build
@@ -34,7 +35,7 @@ NAMES = (
 def analyse(text: str) -> list[float]:
     """The same figures of one engine, by its spectra."""
     found = compute_spectra(
-        build(parse(text)), [0.5, 1.5, 2, 3, 4], ["gas", "torque_total", "roll_total"]
+        build_text(text), [0.5, 1.5, 2, 3, 4], ["gas", "torque_total", "roll_total"]
     )
     total, gas, roll = found["torque_total"], found["gas"], found["roll_total"]
     return [

@@ -10,7 +10,7 @@ from io import StringIO
 import numpy as np
 import pytest
 from support import chains
-from support.commands import ask_torsion, refusal, run_here, run_in_terminal
+from support.commands import ask_json, ask_torsion, refusal, run_here, run_in_terminal
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
@@ -693,7 +693,7 @@ def test_criticals_say_of_which_orders_and_speeds_they_are():
 def test_what_a_table_of_an_engine_leaves_to_json_and_what_gas_does():
     file = ENGINES / "i6_diesel.toml"
     out = run_here("torsion", file, "--holzer", "2").out
-    found = json.loads(run_here("torsion", file, "--format", "json").out)
+    found = ask_json("torsion", file)
     rows = re.search(r"\nCritical speeds\n.*\n.*\n((?:\d.*\n)+)", out)[1].count("\n")
     assert f" JSON has {len(found['criticals']) - rows} more.\n" in out
     assert "Left over at the end: 0 N·m." in out

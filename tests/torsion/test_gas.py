@@ -105,7 +105,7 @@ def test_cylinders_that_burn_nothing_are_named(tmp_path):
     assert "\nno burning in  5\n" in run_here("torsion", diesel).out
     assert "engine,,,,,no_burning_in,5," in run_here("torsion", diesel, "-f", "csv").out
     for command in ("torque", "analyze"):
-        said = json.loads(run_here(command, diesel, "-f", "json").out)
+        said = ask_json(command, diesel)
         assert said["no_burning_in"] == [5]
     assert "no burning in     5\n" in run_here("torque", diesel).out
 

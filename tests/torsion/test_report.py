@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import re
 
 import pytest
-from support.commands import run_here
+from support.commands import ask_json, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
@@ -51,10 +50,7 @@ def test_large_torques_are_in_kilonewton_metres():
     assert re.search(r"shaft +± kN·m +at rpm +sum, kN·m", out)
     row = re.search(r"(?m)^flywheel +([\d.]+) +[\d.]+ +([\d.]+) ", out[out.index("Vibratory") :])
     assert row is not None
-    shafts = {
-        each["name"]: each
-        for each in json.loads(run_here(*asked, "-f", "json").out)["response"]["shafts"]
-    }
+    shafts = {each["name"]: each for each in ask_json(*asked)["response"]["shafts"]}
     largest = shafts["flywheel"]["worst"]["half_peak_to_peak_Nm"]
     assert float(row[1]) == pytest.approx(largest / 1e3, rel=1e-4)
 
