@@ -22,7 +22,7 @@ import pytest
 import typer
 from support.commands import ask_json, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
-from support.paths import ENGINES, ROOT, SOURCE
+from support.paths import ENGINES, ROOT, SOURCE, write
 
 from balcli import __version__
 from balcli.cli import COMMANDS
@@ -38,16 +38,12 @@ ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 @pytest.fixture
 def good(tmp_path):
-    file = tmp_path / "good.toml"
-    file.write_text(GOOD)
-    return file
+    return write(tmp_path / "good.toml", GOOD)
 
 
 @pytest.fixture
 def bad(tmp_path):
-    file = tmp_path / "bad.toml"
-    file.write_text(changed(("stroke = 90", "strok = 90")))
-    return file
+    return write(tmp_path / "bad.toml", changed(("stroke = 90", "strok = 90")))
 
 
 # ------------------------------------------------------------------ exit statuses and messages
@@ -271,8 +267,7 @@ def test_mistakes_of_a_file(balcli, bad):
 
 
 def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
-    file = tmp_path / "heavy.toml"
-    file.write_text(changed(("mass = 0.5", "mass = 65")))
+    file = write(tmp_path / "heavy.toml", changed(("mass = 0.5", "mass = 65")))
     status, out, err = balcli("analyze", file, "--format", "json")
     assert status == 0
     assert json.loads(out)["engine"]["cylinders"] == 4
@@ -471,8 +466,7 @@ LOCKED = changed(("length = 160", "length = 40"), ("cg = 45", "cg = 15"))
     ],
 )
 def test_what_cannot_be_an_engine_goes_by_its_file(balcli, tmp_path, command):
-    file = tmp_path / "locked.toml"
-    file.write_text(LOCKED)
+    file = write(tmp_path / "locked.toml", LOCKED)
     for name, called in ((str(file), str(file)), ("-", "standard input")):
         status, out, err = balcli(command[0], name, *command[1:], stdin=LOCKED)
         assert (status, out) == (2, "")
@@ -524,8 +518,7 @@ def test_into_a_file(balcli, good, tmp_path, form):
 
 @pytest.mark.parametrize("files", [["bad"], ["good", "bad"]])
 def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, files):
-    target = tmp_path / "out.json"
-    target.write_text("what was there before")
+    target = write(tmp_path / "out.json", "what was there before")
     assert balcli("analyze", *({"good": good, "bad": bad}[f] for f in files), "-o", target)[0] == 2
     assert target.read_text() == "what was there before"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["bad.toml", "good.toml", "out.json"]
@@ -534,8 +527,7 @@ def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, file
 def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(
     balcli, good, tmp_path, monkeypatch
 ):
-    target = tmp_path / "out.txt"
-    target.write_text("old")
+    target = write(tmp_path / "out.txt", "old")
     target.chmod(0o640)
     assert balcli("analyze", good, "-o", target)[0] == 0
     assert target.stat().st_mode & 0o777 == 0o640

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.engines import GOOD, build_text, changed
-from support.paths import ENGINE_FILES, ENGINES
+from support.paths import ENGINE_FILES, ENGINES, write
 
 from balcli.regression import TOLERANCE, find_differences, find_record, record_result
 from balcli.results.analysis import analyze
@@ -23,8 +23,7 @@ def check(balcli):
 @pytest.fixture
 def file(tmp_path):
     """An engine file with its recorded result."""
-    engine_file = tmp_path / "four.toml"
-    engine_file.write_text(GOOD)
+    engine_file = write(tmp_path / "four.toml", GOOD)
     target = find_record(engine_file)
     target.parent.mkdir()
     target.write_text(record_result(build_text(GOOD)))
@@ -94,8 +93,7 @@ def test_nothing_moved(check, file):
 
 
 def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
-    lonely = tmp_path / "lonely.toml"
-    lonely.write_text(GOOD)
+    lonely = write(tmp_path / "lonely.toml", GOOD)
     assert check(lonely) == (
         1,
         "lonely: no result is recorded in expected/lonely.json; check --update records it\n"
@@ -109,8 +107,7 @@ def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
 
 def test_a_record_whose_engine_is_gone_is_a_difference(check, file, tmp_path):
     """In a folder that is checked; where a file is checked, its neighbours are nobody's matter."""
-    lost = tmp_path / "lost.toml"
-    lost.write_text(GOOD)
+    lost = write(tmp_path / "lost.toml", GOOD)
     assert check("--update", tmp_path) == (0, "2 engines recorded\n", "")
     hidden = tmp_path / ".old" / "expected"
     hidden.mkdir(parents=True)

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from support.commands import ask_json, run_here
 from support.gas_engines import FOUR, WIEBE
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
 WHOLE = {
@@ -31,15 +31,16 @@ WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
 
 @pytest.fixture
 def four(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR + WIEBE + "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n")
+    path = write(
+        tmp_path / "four.toml",
+        FOUR + WIEBE + "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n",
+    )
     return str(path)
 
 
 @pytest.fixture
 def curve(tmp_path):
-    path = tmp_path / "press.csv"
-    path.write_text(TORQUE)
+    path = write(tmp_path / "press.csv", TORQUE)
     return str(path)
 
 
@@ -52,8 +53,7 @@ def torque(*arguments):
 def test_the_table_says_why_nothing_is_told_of_the_speed(four, tmp_path):
     missing = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
     assert missing not in torque(four)
-    light = tmp_path / "light.toml"
-    light.write_text(FOUR + WIEBE, encoding="utf-8")
+    light = write(tmp_path / "light.toml", FOUR + WIEBE)
     assert f"Flywheel\n{missing}\n" in torque(light)
     assert missing not in torque(light, "--fluctuation", "1/200")
 
@@ -78,8 +78,7 @@ def test_json_has_what_the_file_allows(four):
 
 
 def test_what_the_file_does_not_allow_is_left_out(four, tmp_path):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR + WIEBE)
+    bare = write(tmp_path / "bare.toml", FOUR + WIEBE)
     assert set(ask_json("torque", bare)) == WHOLE
 
 
@@ -221,8 +220,7 @@ def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
 )
 def test_a_period_that_nothing_has_is_doubted(tmp_path, last, doubted):
     """A curve sampled from 0 to 359 deg lacks the row that closes it."""
-    path = tmp_path / "t.csv"
-    path.write_text(f"angle_deg,torque_Nm\n0,1\n5,5\n{last},1\n")
+    path = write(tmp_path / "t.csv", f"angle_deg,torque_Nm\n0,1\n5,5\n{last},1\n")
     told = (
         f"warning: {path}: its period is {last} deg, neither whole turns nor an even share of two; "
         "the last row closes the period: is it there?\n"
@@ -232,8 +230,7 @@ def test_a_period_that_nothing_has_is_doubted(tmp_path, last, doubted):
 
 def test_a_curve_of_a_thousand_turns_ends_soon(tmp_path):
     """All its orders to 12 are 12 000 lines, and those to 4096 four million."""
-    path = tmp_path / "t.csv"
-    path.write_text("angle_deg,torque_Nm\n0,1\n180,5\n360000,1\n")
+    path = write(tmp_path / "t.csv", "angle_deg,torque_Nm\n0,1\n180,5\n360000,1\n")
     shown = ask_json("torque", "--curve", path)["orders"]
     assert [entry["order"] for entry in shown] == [k / 1000 for k in range(1, 513)]
     assert run_here("torque", "--curve", path, "--orders", "65,66").err == (
@@ -255,8 +252,7 @@ def test_a_curve_in_place_of_an_engine_is_told_where_it_belongs(curve):
 
 
 def test_angles_of_a_curve_have_an_end(tmp_path):
-    path = tmp_path / "t.csv"
-    path.write_text("angle_deg,torque_Nm\n0,1\n180,5\n36e12,1\n")
+    path = write(tmp_path / "t.csv", "angle_deg,torque_Nm\n0,1\n180,5\n36e12,1\n")
     assert (
         run_here("torque", "--curve", path).err == f"balcli: {path}: has angles beyond 1e+06 deg\n"
     )
@@ -273,8 +269,7 @@ def test_the_load_takes_its_share(curve, tmp_path):
     found = ask_json("torque", "--curve", curve, "--load", curve)
     assert found["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
     assert found["energy"]["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
-    other = tmp_path / "l.csv"
-    other.write_text("angle_deg,torque_Nm\n0,250\n720,250\n")
+    other = write(tmp_path / "l.csv", "angle_deg,torque_Nm\n0,250\n720,250\n")
     status, _, err = run_here("torque", "--curve", curve, "--load", str(other))
     assert status == 2
     assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in err
@@ -407,8 +402,7 @@ def test_what_is_refused(four, curve, arguments, told):
 
 
 def test_writing_needs_inertia(tmp_path):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR + WIEBE)
+    bare = write(tmp_path / "bare.toml", FOUR + WIEBE)
     status, _, err = run_here("torque", str(bare), "--write", str(tmp_path / "out.toml"))
     assert status == 2
     assert "--write: the speed is not known; give inertia in [crank] or [flywheel]" in err
@@ -514,8 +508,7 @@ def test_curves_of_an_engine_have_the_gas_torque_over_the_cycle(four, tmp_path):
         assert sum(waves) == pytest.approx(curves[name], abs=5e-3 * size)
     rolled = np.array(curves["couple_Nm"]) - curves["torque_Nm"]
     assert curves["roll_total_Nm"] == pytest.approx(rolled, abs=1e-9 * np.abs(rolled).max())
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR)
+    bare = write(tmp_path / "bare.toml", FOUR)
     assert "gas" not in run_here("curves", str(bare)).out
     assert len(run_here("curves", str(bare), "--step", "4").out.splitlines()) == 91
 
@@ -548,8 +541,7 @@ def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
 
 
 def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR)
+    bare = write(tmp_path / "bare.toml", FOUR)
     status, out, _ = run_here(
         "sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "torque.2.amplitude"
     )
@@ -598,8 +590,7 @@ def test_the_page_runs_pressure_in_the_units_asked_for(four, tmp_path):
 
 
 def test_pictures_that_cannot_be(tmp_path):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR)
+    bare = write(tmp_path / "bare.toml", FOUR)
     target = str(tmp_path / "x.svg")
     err = run_here("plot", str(bare), "--what", "pressure", "-o", target).err
     assert "has no [gas]" in err
@@ -662,8 +653,7 @@ def test_throws_that_fit_no_firing_order_are_not_written_beside_gas(four, tmp_pa
 def test_engines_with_gas_are_compared_by_what_it_does(four, tmp_path):
     found = ask_json("compare", four, four, "--orders", "2")
     assert "torque_Nm" in json.dumps(found)
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR)
+    bare = write(tmp_path / "bare.toml", FOUR)
     mixed = run_here("compare", four, str(bare), "-f", "json", "--orders", "2")
     assert (mixed.status, mixed.err) == (0, "")
     assert "gas_torque_Nm" not in mixed.out
@@ -716,8 +706,7 @@ def test_guide_moments_include_the_gas(four, tmp_path):
     ],
 )
 def test_curves_that_cannot_be(tmp_path, content, told):
-    path = tmp_path / "t.csv"
-    path.write_text(content)
+    path = write(tmp_path / "t.csv", content)
     status, out, err = run_here("torque", "--curve", str(path))
     assert (status, out) == (2, "")
     assert told in err
@@ -749,8 +738,7 @@ def test_curves_that_cannot_be(tmp_path, content, told):
     ],
 )
 def test_one_curve_in_other_words(tmp_path, text):
-    path = tmp_path / "t.csv"
-    path.write_text("angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
+    path = write(tmp_path / "t.csv", "angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
     plain = torque("--curve", path)
     path.write_text(text)
     assert torque("--curve", path) == plain
@@ -784,8 +772,7 @@ def test_quantities_that_are_none(four, text, message):
 
 
 def test_a_fluctuation_needs_inertia(tmp_path):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR + WIEBE)
+    bare = write(tmp_path / "bare.toml", FOUR + WIEBE)
     arguments = ("--vary", "gas.imep=6,9", "--quantity", "fluctuation")
     assert "fluctuation: the file gives no inertia" in run_here("sweep", str(bare), *arguments).err
 
@@ -815,8 +802,7 @@ def test_power_and_torque_say_whether_they_are_indicated(four, curve, tmp_path):
     assert f"mean torque {mean:.5g} N·m indicated, {0.8 * mean:.5g} N·m brake" in told
     kilowatts = mean * speed / 1e3
     assert f"power {kilowatts:.5g} kW indicated, {0.8 * kilowatts:.5g} kW brake" in told
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR + WIEBE)
+    bare = write(tmp_path / "bare.toml", FOUR + WIEBE)
     assert f"power {kilowatts:.5g} kW indicated Torque" in " ".join(torque(str(bare)).split())
     silent = torque(four, "--misfire", "3")
     assert "indicated" in silent
@@ -830,8 +816,7 @@ def test_what_a_flywheel_needs_is_told_without_the_crankshaft(tmp_path):
     asked = ("--fluctuation", "1/300")
 
     def told(text: str) -> tuple[dict, str]:
-        path = tmp_path / "x.toml"
-        path.write_text(text)
+        path = write(tmp_path / "x.toml", text)
         found = ask_json("torque", path, *asked)["flywheel"]
         return found, " ".join(torque(str(path), *asked).split())
 

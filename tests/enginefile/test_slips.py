@@ -9,6 +9,7 @@ import pytest
 from support.commands import run_here
 from support.engines import GOOD, changed
 from support.gas_engines import PETROL_FOUR
+from support.paths import write
 
 from balcli import load
 from balcli.engine.load import parse
@@ -20,8 +21,7 @@ NOT_TOML = "is not valid TOML: "
 
 
 def told(tmp_path, *changes, args=()):
-    file = tmp_path / "slip.toml"
-    file.write_text(changed(*changes), encoding="utf-8")
+    file = write(tmp_path / "slip.toml", changed(*changes))
     return run_here("analyze", file, "--only", "verdict", *args)
 
 
@@ -72,8 +72,7 @@ def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(tmp_path, old, n
 
 
 def test_a_list_that_the_file_ends_in(tmp_path):
-    file = tmp_path / "slip.toml"
-    file.write_text("[crank]\nthrows = [0, 180")
+    file = write(tmp_path / "slip.toml", "[crank]\nthrows = [0, 180")
     assert run_here("analyze", file).err.endswith(
         "(at end of document): this list has no ] at its end\n"
     )
@@ -122,8 +121,7 @@ def test_an_example_of_a_list_is_of_its_key(tmp_path):
 )  # fmt: skip
 def test_other_words_for_a_key_lead_to_it(tmp_path, old, new, meant):
     text = changed() if old in GOOD else f"{GOOD}\n[operation]\n"
-    file = tmp_path / "words.toml"
-    file.write_text(text.replace(old, new, 1))
+    file = write(tmp_path / "words.toml", text.replace(old, new, 1))
     assert meant in run_here("analyze", file).err
 
 
@@ -227,8 +225,9 @@ def test_the_head_says_two_or_four_strokes_where_the_file_does(tmp_path):
         ("stroke = 90", "stroke = 90", "four-stroke"),
         ("[layout]", "[layout]\nstrokes = 2", "two-stroke"),
     ):
-        file = tmp_path / "strokes.toml"
-        file.write_text(changed((old, new), ("throws = [0, 180, 180, 0]", "")))
+        file = write(
+            tmp_path / "strokes.toml", changed((old, new), ("throws = [0, 180, 180, 0]", ""))
+        )
         assert f"deg, {word}\n" in run_here("analyze", file).out
     file.write_text(changed(("firing_order = [1, 3, 4, 2]", "")))
     assert "stroke\n" not in run_here("analyze", file).out
@@ -237,8 +236,7 @@ def test_the_head_says_two_or_four_strokes_where_the_file_does(tmp_path):
 
 
 def test_short_names_of_numbers_are_understood_where_one_number_has_them(tmp_path):
-    file = tmp_path / "i4.toml"
-    file.write_text(GOOD)
+    file = write(tmp_path / "i4.toml", GOOD)
 
     def swept(name):
         return run_here("sweep", file, "--vary", f"{name}=80,90", "-q", "force.2.major")
@@ -270,8 +268,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
 
 
 def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
-    file = tmp_path / "i4.toml"
-    file.write_text(GOOD)
+    file = write(tmp_path / "i4.toml", GOOD)
     search = ("search", file, "--minimise", "force.2.major", "--over")
     assert (
         "The best rod.length is an end of the range" in run_here(*search, "rod.length=140:180").out
@@ -288,8 +285,7 @@ def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
 
 def test_a_search_says_that_a_number_changes_nothing(tmp_path):
     """What turns with the crank has no second order."""
-    file = tmp_path / "i4.toml"
-    file.write_text(GOOD)
+    file = write(tmp_path / "i4.toml", GOOD)
     search = ("search", file, "--over", "crank.throw_mass=0:6", "--minimise", "force.2.major")
     told = run_here(*search).out
     nothing = "changes nothing of what is minimised: it is the same at every value."
@@ -304,12 +300,12 @@ def test_a_search_says_that_a_number_changes_nothing(tmp_path):
 
 def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
     """A firing order fits one splay alone: of a 60-degree V6 that fires evenly, -60."""
-    file = tmp_path / "v6.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "v6.toml",
         changed(
             ("throws = [0, 180, 180, 0]", "splay = -60"),
             ("firing_order = [1, 3, 4, 2]", "firing_order = [1, 4, 2, 5, 3, 6]\nbank_angle = 60"),
-        )
+        ),
     )
     search = ("search", file, "--minimise", "moment.1.backward", "--over", "crank.splay=-80:80")
     told = run_here(*search).out
@@ -319,11 +315,11 @@ def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
 
 
 def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
-    file = tmp_path / "twin.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "twin.toml",
         changed(
             ("throws = [0, 180, 180, 0]", "throws = [0, 90]"), ("firing_order = [1, 3, 4, 2]", "")
-        )
+        ),
     )
     near, far = (
         run_here("balance", file, "--scheme", "single-shaft", f"--at={at}").out

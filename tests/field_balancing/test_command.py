@@ -13,6 +13,7 @@ from io import StringIO
 
 import pytest
 from support.commands import ask_json, refusal, run_here
+from support.paths import write
 from support.rotors import three_runs
 
 from balcli.field_balancing.read import parse_runs
@@ -34,9 +35,7 @@ speed = 3000
 
 @pytest.fixture
 def runs(tmp_path):
-    path = tmp_path / "runs.toml"
-    path.write_text(three_runs(SHOP), encoding="utf-8")
-    return path
+    return write(tmp_path / "runs.toml", three_runs(SHOP))
 
 
 def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
@@ -124,8 +123,7 @@ def test_a_grade_may_be_written_with_its_letter(runs):
 @pytest.mark.parametrize("minimise", ["squares", "max"])
 def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     """No form says that readings are cancelled; all have what is left, and what would be best."""
-    path = tmp_path / "runs.toml"
-    path.write_text(three_runs('name = "fan"\nplaces = [[0, 40, 80], "free"]'), encoding="utf-8")
+    path = write(tmp_path / "runs.toml", three_runs('name = "fan"\nplaces = [[0, 40, 80], "free"]'))
     out = run_here("field", path, "--minimise", minimise).out
     assert "All readings are cancelled" not in out
     assert re.search(r"^front +– +– +–$", out, re.MULTILINE)
@@ -150,8 +148,7 @@ def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
 
 
 def test_senses_are_said_the_other_way_round_too(tmp_path):
-    path = tmp_path / "runs.toml"
-    path.write_text(three_runs('weights = "against"'), encoding="utf-8")
+    path = write(tmp_path / "runs.toml", three_runs('weights = "against"'))
     assert (
         "30 deg on from the 0 mark, going against the way the rotor turns."
         in run_here("field", path).out
@@ -220,13 +217,11 @@ def test_what_stays_on_in_a_plane_left_out_is_told(tmp_path, head):
 
 def test_check(runs, tmp_path):
     assert run_here("field", runs, "--check").status == 0
-    strict = tmp_path / "strict.toml"
-    strict.write_text(three_runs(SHOP).replace("6.3", "0.4"), encoding="utf-8")
+    strict = write(tmp_path / "strict.toml", three_runs(SHOP).replace("6.3", "0.4"))
     status, out, _ = run_here("field", strict, "--check")
     assert status == 1
     assert "not reached" in out
-    plain = tmp_path / "plain.toml"
-    plain.write_text(three_runs(), encoding="utf-8")
+    plain = write(tmp_path / "plain.toml", three_runs())
     assert refusal("field", plain, "--check") == (
         f"{plain}: --check needs a grade, such as grade = 6.3, and mass and speed"
     )
@@ -265,8 +260,10 @@ def test_mistakes_of_the_file_and_standard_input(runs, tmp_path):
 
 
 def test_doubts_are_warnings(tmp_path):
-    path = tmp_path / "runs.toml"
-    path.write_text(three_runs().replace("235 @ 94", "171 @ 112").replace("58 @ 68", "53 @ 78"))
+    path = write(
+        tmp_path / "runs.toml",
+        three_runs().replace("235 @ 94", "171 @ 112").replace("58 @ 68", "53 @ 78"),
+    )
     status, _, err = run_here("field", path)
     assert status == 0
     assert err.startswith(f"warning: {path}: the trial weight in front changes no reading")

@@ -10,7 +10,7 @@ import pytest
 from support.commands import run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError
@@ -222,8 +222,7 @@ def test_where_it_is_not_known_the_reason_stands_there(tmp_path, change, why):
     text = FOUR + WIEBE
     if "throws" in change[0]:
         text = text.replace("firing_order = [1, 3, 4, 2]\n", "")
-    path = tmp_path / "engine.toml"
-    path.write_text(text.replace(*change))
+    path = write(tmp_path / "engine.toml", text.replace(*change))
     (tmp_path / "h.csv").write_text("order,cos,sin\n0,2,0\n0.5,1,3\n")
     out = analyze(path)
     assert f"Inside, it is not known: {why}" in " ".join(out.split())

@@ -12,6 +12,7 @@ import pytest
 from support.commands import ask_json, refusal, run_here, run_in_terminal
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
+from support.paths import write
 
 from balcli.mounting.response import LargestAmplitude
 from balcli.render.mounts import _less
@@ -21,9 +22,7 @@ DAMPED = ENGINE + block("loss = 0.1") + '[[point]]\nname = "lever"\nat = [100, 0
 
 @pytest.fixture
 def four(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(DAMPED, encoding="utf-8")
-    return path
+    return write(tmp_path / "four.toml", DAMPED)
 
 
 def test_json_is_what_it_promises(four):
@@ -86,8 +85,7 @@ def test_the_sheet_says_what_the_frame_feels(four):
 
 def test_mounts_that_travel_farther_than_any_are_doubted(tmp_path):
     """At least as far as the force presses the stiffest of the springs."""
-    path = tmp_path / "undamped.toml"
-    path.write_text(ENGINE + block("loss = 0.0001"), encoding="utf-8")
+    path = write(tmp_path / "undamped.toml", ENGINE + block("loss = 0.0001"))
     found = run_here("mounts", path, "--speeds", "200:3000:50", "-f", "json")
     worst = [mount["worst"] for mount in json.loads(found.out)["response"]["mounts"]]
     force, rpm = max((each["force_N"], each["speed_rpm"]) for each in worst)
@@ -134,8 +132,7 @@ def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
 
 def test_a_dashpot_beside_which_all_else_is_rounding_is_told(tmp_path):
     """It was an internal error."""
-    path = tmp_path / "stiff.toml"
-    path.write_text(ENGINE + block("damping = [1e12, 1, 1]"), encoding="utf-8")
+    path = write(tmp_path / "stiff.toml", ENGINE + block("damping = [1e12, 1, 1]"))
     told = refusal("mounts", path)
     assert re.search(r"at [\d.]+ Hz the motion of the body is lost in rounding errors", told)
     assert told.endswith("is damping in N s/mm?")
@@ -144,8 +141,7 @@ def test_a_dashpot_beside_which_all_else_is_rounding_is_told(tmp_path):
 def test_orders_that_do_not_fit_are_counted(tmp_path):
     """Half orders from 1/2 to 3 stood there, and nothing of those above."""
     text = DAMPED + "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0.5\n" + WIEBE
-    path = tmp_path / "uneven.toml"
-    path.write_text(text, encoding="utf-8")
+    path = write(tmp_path / "uneven.toml", text)
     out = run_here("mounts", path, "--speeds", "200:3000:50", "--orders", "0.5-4").out
     table = out.split("Where orders meet modes, rpm\n")[1].split("\n\n")[0]
     assert table.splitlines()[0].split()[-2:] == ["order", "3"]
@@ -207,12 +203,10 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
     light.write_text(text, encoding="utf-8")
     said = ask_json("mounts", four, light)
     (other,) = said["others"]
-    alone = tmp_path / "alone.toml"
-    alone.write_text(DAMPED.replace(ENGINE, text), encoding="utf-8")
+    alone = write(tmp_path / "alone.toml", DAMPED.replace(ENGINE, text))
     own = ask_json("mounts", alone)
     assert (other["name"], other["response"]) == ("light four", own["response"])
-    bare = tmp_path / "bare.toml"
-    bare.write_text(DAMPED.replace(ENGINE, ""), encoding="utf-8")
+    bare = write(tmp_path / "bare.toml", DAMPED.replace(ENGINE, ""))
     on_bare = ask_json("mounts", bare, light)
     assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
     parts = {
@@ -241,8 +235,7 @@ def test_cylinders_that_do_not_fire_are_named(tmp_path):
     listed = run_here("mounts", path, "-f", "csv").out.splitlines()
     assert "engine,,,,no_gas_in,3," in listed
     assert "engine,,,,no_burning_in,4," in listed
-    beside = tmp_path / "beside.toml"
-    beside.write_text(path.read_text("utf-8").replace("gas = 0", "gas = 1"), "utf-8")
+    beside = write(tmp_path / "beside.toml", path.read_text("utf-8").replace("gas = 0", "gas = 1"))
     told = " ".join(run_here("mounts", path, beside).out.split())
     assert "; no gas in 3; no burning in 4. With " in told
     assert "% more; no burning in 4. " in told
@@ -272,8 +265,7 @@ def test_what_cannot_misfire_is_told(four, tmp_path):
 
 
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):
-    path = tmp_path / "block.toml"
-    path.write_text(block(), encoding="utf-8")
+    path = write(tmp_path / "block.toml", block())
     status, out, _ = run_here("mounts", path)
     assert status == 0
     assert "Natural modes" in out
@@ -333,8 +325,7 @@ def test_picture(four, tmp_path, form):
     "asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto"), ("--misfire", "1")]
 )
 def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path, asked):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(block("loss = 0.1"), encoding="utf-8")
+    bare = write(tmp_path / "bare.toml", block("loss = 0.1"))
     status, out, err = run_here("mounts", bare, *asked)
     assert (status, out) == (0, run_here("mounts", bare).out)
     assert err == (
@@ -381,8 +372,9 @@ def test_the_page_rocks_the_body(four):
 
 @pytest.mark.stress
 def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
-    path = tmp_path / "undamped.toml"
-    path.write_text(ENGINE.replace("speed = 3000", "speed = 1200") + block(), encoding="utf-8")
+    path = write(
+        tmp_path / "undamped.toml", ENGINE.replace("speed = 3000", "speed = 1200") + block()
+    )
     status, page, err = run_here("report", path, "-o", "-")
     assert status == 0
     assert "rocking" not in page
@@ -392,8 +384,7 @@ def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
 def test_a_page_where_nothing_is_fitted_compares_nothing(tmp_path):
     """Of a six, orders 1 and 2 are balanced: a column with the scheme would say the same twice."""
     six = ENGINE.replace("[0, 180, 180, 0]", "[0, 240, 120, 120, 240, 0]")
-    path = tmp_path / "six.toml"
-    path.write_text(six.replace("0.55", "0.5") + block("loss = 0.1"), encoding="utf-8")
+    path = write(tmp_path / "six.toml", six.replace("0.55", "0.5") + block("loss = 0.1"))
     status, page, err = run_here("report", path, "-o", "-")
     assert (status, err) == (0, "")
     assert "Nothing is fitted" in page
@@ -474,8 +465,7 @@ def test_too_much_is_refused(tmp_path):
         f'[[mount]]\nname = "{k}"\nat = [{k + 9}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
         for k in range(100)
     )
-    path = tmp_path / "many.toml"
-    path.write_text(ENGINE + block("loss = 1", count=0) + mounts, encoding="utf-8")
+    path = write(tmp_path / "many.toml", ENGINE + block("loss = 1", count=0) + mounts)
     message = refusal("mounts", path, "--speeds", "1:19000:1", "--orders", "1-3")
     assert "3 orders at 19000 speeds of 100 mounts and 0 points are 5700000 results" in message
 

@@ -9,6 +9,7 @@ import pytest
 from oracle import momentum
 from support.engines import build_text
 from support.mounts import ENGINE, RandomBody, block
+from support.paths import write
 
 from balcli.errors import BalcliError
 from balcli.forces.in_time import compute_spectra_in_time
@@ -23,8 +24,7 @@ SPEEDS = np.array([700.0, 1100, 1900, 3000, 5200])
 @pytest.fixture
 def report(tmp_path):
     def of(text, speeds=SPEEDS, orders=None, scheme=None):
-        path = tmp_path / "engine.toml"
-        path.write_text(text, encoding="utf-8")
+        path = write(tmp_path / "engine.toml", text)
         file = read_mounted(path)
         return report_mounts(file.model, file.engine, speeds, orders, scheme, name="engine.toml")
 

@@ -12,7 +12,7 @@ import pytest
 from support.browser import CHROMIUM, Browser
 from support.commands import run_here
 from support.engines import GOOD, build_text, changed
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.forces.kinds import KINDS
 from balcli.render.html import page
@@ -181,8 +181,7 @@ def browser(tmp_path_factory):
 @pytest.fixture
 def show(browser, tmp_path):
     def opened(text: str = GOOD, **how):
-        file = tmp_path / "page.html"
-        file.write_text(report(text), encoding="utf-8")
+        file = write(tmp_path / "page.html", report(text))
         browser.open(file, **how)
         return browser
 

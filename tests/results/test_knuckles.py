@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from support.commands import ask_json, refusal, run_here
 from support.engines import RADIAL
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
@@ -110,8 +110,7 @@ def test_an_articulation_in_one_line_stays_in_its_line(tmp_path):
 
 
 def test_a_table_says_which_angles_are_even_and_what_is_left(tmp_path):
-    file = tmp_path / "radial.toml"
-    file.write_text(RADIAL)
+    file = write(tmp_path / "radial.toml", RADIAL)
     text = run(file, "--even", "strokes", "--speed", "2000").out
     assert "What is changed, and why" in text
     assert "strokes equal to the master's" in text
@@ -146,14 +145,12 @@ def test_with_gas_the_roll_is_that_of_both(tmp_path):
     ],
 )
 def test_options_that_knuckles_do_not_take_are_refused(tmp_path, options, message):
-    file = tmp_path / "radial.toml"
-    file.write_text(RADIAL)
+    file = write(tmp_path / "radial.toml", RADIAL)
     assert refusal("balance", file, "--scheme", "knuckles", *options) == message
 
 
 def test_even_without_the_scheme(tmp_path):
-    file = tmp_path / "radial.toml"
-    file.write_text(RADIAL)
+    file = write(tmp_path / "radial.toml", RADIAL)
     assert refusal("balance", file, "--even", "strokes") == (
         "--even belongs to --scheme knuckles; scheme auto has no such option"
     )

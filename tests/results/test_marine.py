@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.engines import build_text
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.results.marine import find_marine_sheet
 
@@ -82,8 +82,7 @@ def test_the_guide_height_divides_x_alone() -> None:
 
 
 def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
-    file = tmp_path / "nowhere.toml"
-    file.write_text(TEXT.replace(f"spacing = {1e3 * SPACING}", ""))
+    file = write(tmp_path / "nowhere.toml", TEXT.replace(f"spacing = {1e3 * SPACING}", ""))
     status, out, err = balcli("analyze", file, "--format", "marine", "-o", tmp_path / "s.json")
     assert (status, out) == (0, "")
     assert err == (
@@ -97,8 +96,9 @@ def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
 
 
 def test_over_speed_a_table_without_orders_is_a_sentence(balcli, tmp_path) -> None:
-    file = tmp_path / "nowhere.toml"
-    file.write_text((ENGINES / "i4.toml").read_text().replace("spacing ", "# "))
+    file = write(
+        tmp_path / "nowhere.toml", (ENGINES / "i4.toml").read_text().replace("spacing ", "# ")
+    )
     for engine, told in ((file, "not known"), (ENGINES / "i4.toml", "balanced")):
         out = balcli("analyze", engine, "--format", "marine", "--speed", "1000,2000")[1]
         assert f"\nExternal moments: {told}.\n" in out
@@ -130,8 +130,7 @@ def test_json_says_whether_gas_is_in_it(balcli, engine, includes) -> None:
 
 
 def test_names_of_orders_head_the_columns_over_speed(balcli, tmp_path) -> None:
-    file = tmp_path / "four.toml"
-    file.write_text(TEXT)
+    file = write(tmp_path / "four.toml", TEXT)
     _, at_one, _ = balcli("analyze", file, "--format", "marine")
     assert re.search("order +FnV, kN +FnH, kN +MnV, kN·m +MnH, kN·m\n", at_one)
     assert "V is along the cylinders (x), H across them (y)." in at_one
@@ -173,8 +172,7 @@ def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
     ],
 )
 def test_where_vertical_is_told_by_the_banks(balcli, tmp_path, banks, told) -> None:
-    file = tmp_path / "leaning.toml"
-    file.write_text(f"{TEXT}[layout]\n{banks}\n")
+    file = write(tmp_path / "leaning.toml", f"{TEXT}[layout]\n{banks}\n")
     _, out, _ = balcli("analyze", file, "--format", "marine")
     assert told in out
 
@@ -182,8 +180,7 @@ def test_where_vertical_is_told_by_the_banks(balcli, tmp_path, banks, told) -> N
 def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli, tmp_path):
     """As `gas = 0` in the file does."""
     text = MARINE.read_text(encoding="utf-8")
-    silent = tmp_path / "silent.toml"
-    silent.write_text(f"{text}\n[cylinder.3]\ngas = 0\n", encoding="utf-8")
+    silent = write(tmp_path / "silent.toml", f"{text}\n[cylinder.3]\ngas = 0\n")
     sheet = ("--format", "marine", "--format", "csv")
     found = balcli("analyze", MARINE, *sheet, "--misfire", "3").out
     assert found == balcli("analyze", silent, *sheet).out

@@ -7,6 +7,7 @@ import json
 import numpy as np
 import pytest
 from support.commands import ask_json, run_here
+from support.paths import write
 
 from balcli.enginefile import examples
 
@@ -36,8 +37,7 @@ harmonics = "tangential.csv"
 @pytest.fixture
 def four(tmp_path):
     (tmp_path / "tangential.csv").write_text(f"order,cos,sin\n0,2,0\n0.5,1,3\n2,{COS},{SIN}\n")
-    path = tmp_path / "four.toml"
-    path.write_text(FILE)
+    path = write(tmp_path / "four.toml", FILE)
     return str(path)
 
 
@@ -124,8 +124,7 @@ def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):
     added = -each * ((0.12 - 0.06) * 1j - (0.08 - 0.04))  # x Fy - y Fx of both
     assert told["roll_left_Nm"] == pytest.approx(abs(inertia + added), rel=1e-9)
     assert told["roll_with_gas_left_Nm"] == pytest.approx(abs(inertia + gas + added), rel=1e-9)
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FILE.partition("[gas]")[0])
+    bare = write(tmp_path / "bare.toml", FILE.partition("[gas]")[0])
     said = run_here("balance", str(bare), *asked[2:]).out
     assert "roll, N·m      after\n" in said
     assert "with gas" not in said
@@ -146,7 +145,6 @@ def test_a_slider_beside_the_crank_is_told_where_it_adds_roll(four, at, grows):
     [("", "the crankshaft"), ("[frame]\nreference = [0, 90, 0]\n", "the point of reference")],
 )
 def test_about_what_the_devices_have_levers(tmp_path, frame, pivot):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FILE.partition("[gas]")[0] + frame)
+    bare = write(tmp_path / "bare.toml", FILE.partition("[gas]")[0] + frame)
     said = run_here("balance", str(bare), "--scheme", "slider", "--at=0,-200").out
     assert f"where they stand, the devices' forces have levers about {pivot}." in said

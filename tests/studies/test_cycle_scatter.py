@@ -9,7 +9,7 @@ import pytest
 from support.commands import refusal, run_here
 from support.engines import build_text
 from support.gas_engines import PETROL_FOUR
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 import balcli
 from balcli.engine.load import parse
@@ -81,8 +81,7 @@ def test_throw_masses_are_in_the_inertia_of_a_crank_that_is_given():
 
 
 def test_samples_and_shares_are_those_of_single_engines(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(PLAIN, encoding="utf-8")
+    path = write(tmp_path / "four.toml", PLAIN)
     names = "torque.max,torque.min,torque.mean,fluctuation"
     told = json.loads(
         run_here(
@@ -138,8 +137,7 @@ def test_what_is_not_drawn_so(tmp_path):
     assert told == "nothing deviates; give a tolerance, such as --mass-scatter 0.5%"
     told = refusal("scatter", ENGINES / "i4.toml", "-q", "torque.max")
     assert told == "torque.max: the engine file has no [gas]"
-    bare = tmp_path / "bare.toml"
-    bare.write_text(PLAIN.replace("inertia = 90000\n", ""), encoding="utf-8")
+    bare = write(tmp_path / "bare.toml", PLAIN.replace("inertia = 90000\n", ""))
     told = refusal("scatter", bare, "-q", "fluctuation")
     assert told.startswith("fluctuation: the file gives no inertia")
 

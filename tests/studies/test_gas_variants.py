@@ -12,6 +12,7 @@ import pytest
 from support.commands import refusal, run_here
 from support.engines import build_text
 from support.gas_engines import PETROL_FOUR
+from support.paths import write
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -48,8 +49,7 @@ def analyse(text: str) -> list[float]:
 
 
 def test_a_grid_of_masses_lengths_and_pressures(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     grid = {"gas.imep": (9, 12), "piston.mass": (0.4, 0.5, 0.7), "rod.length": (140, 150)}
     vary = [
         part
@@ -70,8 +70,7 @@ def test_a_grid_of_masses_lengths_and_pressures(tmp_path):
 
 
 def test_cycles_that_cannot_be_are_told_with_their_figures(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     told = refusal("sweep", path, "--vary", "gas.burn_duration=50,200", "-q", "gas.2.amplitude")
     assert told.startswith(f"{path}: gas.burn_duration = 200: 2 mistakes\n")
 
@@ -139,8 +138,10 @@ def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
     [("heat = 900\n", {"imep", "bmep", "max_pressure", "cut_off", "heat"}), ("gas = 0.5\n", set())],
 )
 def test_what_all_cylinders_have_of_their_own_is_no_number_of_the_gas(own, idle, tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(PETROL_FOUR + "".join(f"[cylinder.{n}]\n{own}" for n in (1, 2, 3, 4)), "utf-8")
+    path = write(
+        tmp_path / "four.toml",
+        PETROL_FOUR + "".join(f"[cylinder.{n}]\n{own}" for n in (1, 2, 3, 4)),
+    )
     told = json.loads(run_here("numbers", path, "-f", "json").out)["numbers"]
     known = {number["path"].removeprefix("gas.") for number in told}
     assert known.isdisjoint(idle)
@@ -172,16 +173,14 @@ def test_where_all_cylinders_have_diagrams_no_number_is_of_the_cycle(tmp_path):
 )
 def test_goals_that_contradict_each_other_are_refused(vary, told, tmp_path):
     """The first alone counted; nothing counted, and cells stayed empty."""
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     varied = (word for one in vary for word in ("--vary", one))
     assert refusal("sweep", path, *varied, "-q", "torque.mean") == told.format(path)
 
 
 def test_a_search_puts_one_goal_in_place_of_another(tmp_path):
     """The file says imep; a search for the heat said that it has both."""
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     over, minimise = ("--over", "gas.heat=900:1000"), ("--minimise", "torque.max")
     done = run_here("search", path, *over, *minimise, "-f", "json")
     row = run_here("sweep", path, "--vary", "gas.heat=900", "-q", "torque.max").out.split()[1]
@@ -189,8 +188,7 @@ def test_a_search_puts_one_goal_in_place_of_another(tmp_path):
 
 
 def test_what_no_gas_is_asked_of_does_not_build_it(tmp_path, monkeypatch):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     counted = []
     monkeypatch.setattr("balcli.engine.build_gas.build_gas", counted.append)
     done = run_here("sweep", path, "--vary", "rod.length=140,150", "-q", "force.2.major")
@@ -232,8 +230,7 @@ def test_deviating_engines_have_the_gas_of_their_own_rods_and_throws(text):
 
 
 def test_scatter_counts_the_gas(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     asked = ("-q", "torque.2.amplitude,gas.2.amplitude", "--samples", "2000", "--seed", "1")
     said = json.loads(run_here("scatter", path, *asked, "-f", "json").out)["quantities"]
     assert said["torque.2.amplitude"]["nominal"] == pytest.approx(analyse(FOUR)[0], rel=1e-12)
@@ -241,7 +238,6 @@ def test_scatter_counts_the_gas(tmp_path):
     assert gas["mean"] == pytest.approx(gas["nominal"], rel=1e-12), "masses leave it alone"
     assert gas["max"] == pytest.approx(gas["nominal"], rel=1e-12)
     assert said["torque.2.amplitude"]["p95"] > said["torque.2.amplitude"]["p05"]
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR.partition("[gas]")[0], encoding="utf-8")
+    bare = write(tmp_path / "bare.toml", FOUR.partition("[gas]")[0])
     told = refusal("scatter", bare, "-q", "gas.2.amplitude")
     assert told == "gas.2.amplitude: the engine file has no [gas]"

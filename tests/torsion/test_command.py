@@ -12,7 +12,7 @@ import pytest
 from support import chains
 from support.commands import ask_json, ask_torsion, refusal, run_here, run_in_terminal
 from support.diesel import write_diesel
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.torsion.starting_file import read_starting_file
 
@@ -97,8 +97,7 @@ def test_the_starting_file_shows_every_part():
 
 
 def test_a_terminal_of_80_columns_shows_all(tmp_path):
-    path = tmp_path / "chain.toml"
-    path.write_text(read_starting_file(), encoding="utf-8")
+    path = write(tmp_path / "chain.toml", read_starting_file())
     out = run_in_terminal("torsion", path, "--speeds", "1000:2500:25", "--holzer", "1").out
     plain = re.sub(r"\x1b\[[0-9;]*m", "", out)
     assert max(map(len, plain.splitlines())) <= 80

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from support.commands import ask_torsion, refusal, run_here
 from support.diesel import write_diesel
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli import analyze_torsion
 from balcli.render.plot.torsion import make_torsion
@@ -540,8 +540,7 @@ def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
 @pytest.mark.stress
 def test_plot_draws_torsion_too(tmp_path):
     """Over half to one and a half times the file's speed; the same picture as of `torsion`."""
-    engine = tmp_path / "six.toml"
-    engine.write_text(write_diesel(), encoding="utf-8")
+    engine = write(tmp_path / "six.toml", write_diesel())
     for what in ("modes", "response"):
         one, other = tmp_path / "one.svg", tmp_path / "other.svg"
         assert run_here("plot", engine, "--what", what, "-o", one).status == 0
@@ -549,8 +548,7 @@ def test_plot_draws_torsion_too(tmp_path):
         told = run_here("torsion", engine, *speeds, "--plot", other, "--what", what)
         assert told.status == 0
         assert one.read_bytes() == other.read_bytes()
-    chain = tmp_path / "chain.toml"
-    chain.write_text(SINGLE, encoding="utf-8")
+    chain = write(tmp_path / "chain.toml", SINGLE)
     assert refusal("plot", chain, "--what", "response", "-o", tmp_path / "x.svg") == (
         "--what response: give the range, such as --speeds 1000:2500"
     )

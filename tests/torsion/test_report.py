@@ -7,7 +7,7 @@ import re
 import pytest
 from support.commands import ask_json, run_here
 from support.diesel import write_diesel
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 
 @pytest.mark.stress
@@ -34,8 +34,7 @@ def test_the_page_shows_torsion(tmp_path):
 
 def test_that_gas_stays_is_said_of_an_engine_with_gas(tmp_path):
     """The published six has none, the shipped one has."""
-    without = tmp_path / "six.toml"
-    without.write_text(write_diesel(), encoding="utf-8")
+    without = write(tmp_path / "six.toml", write_diesel())
     for engine, told in ((ENGINES / "i6_diesel.toml", 1), (without, 0)):
         status, out, _ = run_here("torsion", engine, "--speeds", "1000:1100:50")
         assert status == 0
