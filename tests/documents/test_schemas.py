@@ -16,8 +16,7 @@ from support.paths import ENGINES
 from balcli import __version__
 from balcli.documents.names import DOCUMENTS
 from balcli.documents.schema import describe_document
-from balcli.field_balancing.starting_file import read_starting_file as read_runs
-from balcli.torsion.starting_file import read_starting_file as read_chain
+from balcli.enginefile.templates import template
 
 FILES = sorted(path for path in ENGINES.rglob("*.toml"))
 I4, V8, SINGLE = ENGINES / "i4.toml", ENGINES / "v8_wiebe.toml", ENGINES / "single.toml"
@@ -156,9 +155,9 @@ def test_what_every_command_prints_keeps_to_its_schema(
 
 
 def test_field_and_a_chain_of_shafts() -> None:
-    assert check(run_here("field", "-", "-f", "json", stdin=read_runs()).out)["corrections"]
+    assert check(run_here("field", "-", "-f", "json", stdin=template("field")).out)["corrections"]
     assert check(run_here("field", "-", "-f", "json", stdin=NO_UNIT).out)["unit"] is None
-    assert check(run_here("torsion", "-", "-f", "json", stdin=read_chain()).out)["modes"]
+    assert check(run_here("torsion", "-", "-f", "json", stdin=template("torsion")).out)["modes"]
 
 
 def test_a_bench() -> None:

@@ -16,8 +16,8 @@ from support.commands import ask_json, refusal, run_here
 from support.paths import write
 from support.rotors import three_runs
 
+from balcli.enginefile.templates import template
 from balcli.field_balancing.read import parse_runs
-from balcli.field_balancing.starting_file import read_starting_file
 
 SHOP = """
 name = "fan"
@@ -278,7 +278,7 @@ def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_p
     assert run_here("new", "field", path) == (0, "", "")
     status, _, err = run_here("field", path)
     assert (status, err) == (0, "")
-    text = read_starting_file()
+    text = template("field")
     assert path.read_text(encoding="utf-8") == text
     keys = tomllib.loads(OPTION.sub(r"\1", text).replace("speed  = 2900", ""))
     assert len(keys["run"]) == 4
@@ -290,13 +290,13 @@ def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_p
 
 
 def test_the_starting_file_is_short_enough_for_a_screen():
-    assert max(map(len, read_starting_file().splitlines())) <= 130
+    assert max(map(len, template("field").splitlines())) <= 130
 
 
 def test_the_schema_names_every_key():
     described = json.loads(run_here("schema", "field").out)
     assert described["title"] == "balcli file of runs"
-    example = tomllib.loads(read_starting_file())
+    example = tomllib.loads(template("field"))
     assert set(example) <= set(described["properties"])
     assert all(key.get("description") for key in described["properties"].values())
     assert described["required"] == ["planes", "run"]
