@@ -20,7 +20,7 @@ from pathlib import Path
 
 import pytest
 import typer
-from support.commands import ask_json, run_command, run_in_terminal, run_python
+from support.commands import ask, ask_json, refusal, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
 from support.paths import ENGINES, ROOT, SOURCE, write
 
@@ -68,9 +68,8 @@ def test_the_list_of_commands_says_what_the_help_of_each_begins_with(command):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_has_help(balcli, command):
-    status, out, err = balcli(command, "--help")
-    assert (status, err) == (0, "")
+def test_every_command_has_help(command):
+    out = ask(command, "--help")
     assert f"Usage: balcli {command}" in out
 
 
@@ -276,12 +275,11 @@ def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
 
 # ------------------------------------------------------------------ formats
 @pytest.mark.parametrize("form", Format)
-def test_a_format_is_what_its_name_says(balcli, good, form):
+def test_a_format_is_what_its_name_says(good, form):
     """Each is what its name says, ends in one newline, and holds the second-order force of the same
     analysis.
     """
-    status, out, err = balcli("analyze", good, "--format", form)
-    assert (status, err) == (0, "")
+    out = ask("analyze", good, "--format", form)
     assert out.endswith("\n")
     assert not out.endswith("\n\n")
     force = ask_json("analyze", good)["orders"][1]["force_N"]["major"]
@@ -436,13 +434,11 @@ def test_an_engines_name_cannot_colour_the_output(balcli, form):
 @pytest.mark.parametrize(
     "code", [0x061C, 0x200E, 0x200F, 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A)]
 )
-def test_no_text_of_a_file_turns_the_direction_of_what_is_shown(balcli, key, code):
+def test_no_text_of_a_file_turns_the_direction_of_what_is_shown(key, code):
     engine = f'{key} = "four{chr(code)}enil-ni"\n' + changed(('name = "in-line four"\n', ""))
-    status, out, err = balcli("analyze", "-", stdin=engine)
-    assert (status, out) == (2, "")
-    assert err == (
-        f"balcli: standard input: {key}: has the control character U+{code:04X}, which could "
-        "command a terminal or disguise what it shows; leave it out\n"
+    assert refusal("analyze", "-", stdin=engine) == (
+        f"standard input: {key}: has the control character U+{code:04X}, which could "
+        "command a terminal or disguise what it shows; leave it out"
     )
 
 
@@ -482,8 +478,7 @@ def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
     assert status == 2
     assert [json.loads(line)["engine"]["cylinders"] for line in out.splitlines()] == [4, 8]
     assert err == f"balcli: {bad}: crank.strok: unknown key in [crank]; did you mean stroke?\n"
-    status, out, err = balcli("analyze", good, V8, "--format", "table")
-    assert (status, err) == (0, "")
+    out = ask("analyze", good, V8, "--format", "table")
     assert out.index("in-line four") < out.index("90-degree cross-plane V8")
 
 

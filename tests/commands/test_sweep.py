@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.commands import HANGS, ask_json, run_command, run_here, start_command
+from support.commands import HANGS, ask, ask_json, run_command, run_here, start_command
 from support.engines import GOOD
 from support.paths import write
 
@@ -192,9 +192,7 @@ def read_markdown(text: str) -> list[list[str]]:
 
 def sweep_strokes(engine: str, values: str, *options: object) -> str:
     asked = ("--vary", f"crank.stroke={values}", "-q", "force.2.major,force.1.axis")
-    status, out, err = run_here("sweep", engine, *asked, *options)
-    assert (status, err) == (0, "")
-    return out
+    return ask("sweep", engine, *asked, *options)
 
 
 @pytest.mark.parametrize("count", [1, 50, 51, 2000])

@@ -12,7 +12,7 @@ import tomllib
 from io import StringIO
 
 import pytest
-from support.commands import ask_json, refusal, run_here
+from support.commands import ask, ask_json, refusal, run_here
 from support.paths import write
 from support.rotors import three_runs
 
@@ -39,8 +39,7 @@ def runs(tmp_path):
 
 
 def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
-    status, out, err = run_here("field", runs)
-    assert (status, err) == (0, "")
+    out = ask("field", runs)
     assert (
         "a weight at 30 deg stands 30 deg on from the 0 mark, going the way the rotor turns." in out
     )
@@ -147,11 +146,10 @@ def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     assert "wanted: 1.98 at 236.2 deg" in picture.read_text(encoding="utf-8")
 
 
-def test_senses_are_said_the_other_way_round_too(tmp_path):
-    path = write(tmp_path / "runs.toml", three_runs('weights = "against"'))
+def test_senses_are_said_the_other_way_round_too():
     assert (
         "30 deg on from the 0 mark, going against the way the rotor turns."
-        in run_here("field", path).out
+        in run_here("field", "-", stdin=three_runs('weights = "against"')).out
     )
 
 
@@ -217,8 +215,7 @@ def test_what_stays_on_in_a_plane_left_out_is_told(tmp_path, head):
 
 def test_check(runs, tmp_path):
     assert run_here("field", runs, "--check").status == 0
-    strict = write(tmp_path / "strict.toml", three_runs(SHOP).replace("6.3", "0.4"))
-    status, out, _ = run_here("field", strict, "--check")
+    status, out, _ = run_here("field", "-", "--check", stdin=three_runs(SHOP).replace("6.3", "0.4"))
     assert status == 1
     assert "not reached" in out
     plain = write(tmp_path / "plain.toml", three_runs())
@@ -276,8 +273,7 @@ OPTION = re.compile(r"^# *(\[\[run\]\]|[a-z_]+ *= .*)", re.MULTILINE)
 def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_path):
     path = tmp_path / "runs.toml"
     assert run_here("new", "field", path) == (0, "", "")
-    status, _, err = run_here("field", path)
-    assert (status, err) == (0, "")
+    ask("field", path)
     text = template("field")
     assert path.read_text(encoding="utf-8") == text
     keys = tomllib.loads(OPTION.sub(r"\1", text).replace("speed  = 2900", ""))

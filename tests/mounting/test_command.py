@@ -9,7 +9,7 @@ from io import StringIO
 
 import numpy as np
 import pytest
-from support.commands import ask_json, refusal, run_here, run_in_terminal
+from support.commands import ask, ask_json, refusal, run_here, run_in_terminal
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
 from support.paths import write
@@ -74,8 +74,7 @@ def test_csv_has_the_figures_of_json(four):
 
 
 def test_the_sheet_says_what_the_frame_feels(four):
-    status, out, err = run_here("mounts", four, "--speeds", "200:3000:50")
-    assert (status, err) == (0, "")
+    out = ask("mounts", four, "--speeds", "200:3000:50")
     # Mounts 2 and 4 feel the same, of which the first is named.
     assert re.search(r"^The mount 2 feels most: .* N at 28\d.* rpm, of which order 2", out, re.M)
     assert "There it meets mode 2 (along x, 9.39 Hz): resonance." in out
@@ -130,19 +129,17 @@ def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
     assert float(hertz) == pytest.approx(2 * float(rpm) / 60, rel=5e-3)
 
 
-def test_a_dashpot_beside_which_all_else_is_rounding_is_told(tmp_path):
+def test_a_dashpot_beside_which_all_else_is_rounding_is_told():
     """It was an internal error."""
-    path = write(tmp_path / "stiff.toml", ENGINE + block("damping = [1e12, 1, 1]"))
-    told = refusal("mounts", path)
+    told = refusal("mounts", "-", stdin=ENGINE + block("damping = [1e12, 1, 1]"))
     assert re.search(r"at [\d.]+ Hz the motion of the body is lost in rounding errors", told)
     assert told.endswith("is damping in N s/mm?")
 
 
-def test_orders_that_do_not_fit_are_counted(tmp_path):
+def test_orders_that_do_not_fit_are_counted():
     """Half orders from 1/2 to 3 stood there, and nothing of those above."""
     text = DAMPED + "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0.5\n" + WIEBE
-    path = write(tmp_path / "uneven.toml", text)
-    out = run_here("mounts", path, "--speeds", "200:3000:50", "--orders", "0.5-4").out
+    out = run_here("mounts", "-", "--speeds", "200:3000:50", "--orders", "0.5-4", stdin=text).out
     table = out.split("Where orders meet modes, rpm\n")[1].split("\n\n")[0]
     assert table.splitlines()[0].split()[-2:] == ["order", "3"]
     assert table.splitlines()[-1] == "JSON has 2 orders more."
@@ -203,11 +200,9 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
     light.write_text(text, encoding="utf-8")
     said = ask_json("mounts", four, light)
     (other,) = said["others"]
-    alone = write(tmp_path / "alone.toml", DAMPED.replace(ENGINE, text))
-    own = ask_json("mounts", alone)
+    own = ask_json("mounts", "-", stdin=DAMPED.replace(ENGINE, text))
     assert (other["name"], other["response"]) == ("light four", own["response"])
-    bare = write(tmp_path / "bare.toml", DAMPED.replace(ENGINE, ""))
-    on_bare = ask_json("mounts", bare, light)
+    on_bare = ask_json("mounts", "-", light, stdin=DAMPED.replace(ENGINE, ""))
     assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
     parts = {
         row["part"]
@@ -235,8 +230,11 @@ def test_cylinders_that_do_not_fire_are_named(tmp_path):
     listed = run_here("mounts", path, "-f", "csv").out.splitlines()
     assert "engine,,,,no_gas_in,3," in listed
     assert "engine,,,,no_burning_in,4," in listed
-    beside = write(tmp_path / "beside.toml", path.read_text("utf-8").replace("gas = 0", "gas = 1"))
-    told = " ".join(run_here("mounts", path, beside).out.split())
+    told = " ".join(
+        run_here(
+            "mounts", path, "-", stdin=path.read_text("utf-8").replace("gas = 0", "gas = 1")
+        ).out.split()
+    )
     assert "; no gas in 3; no burning in 4. With " in told
     assert "% more; no burning in 4. " in told
 
@@ -350,8 +348,7 @@ def rocking_of(page):
 @pytest.mark.stress
 def test_the_page_rocks_the_body(four):
     """Its motion at one speed is that of the point in the answer, to the figures of the page."""
-    status, page, err = run_here("report", four, "-o", "-")
-    assert (status, err) == (0, "")
+    page = ask("report", four, "-o", "-")
     assert "On its mounts" in page
     assert "feels most" in page
     data = rocking_of(page)
@@ -381,12 +378,10 @@ def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
     assert err.startswith(f"warning: the page does not show the mounts: {path}: mode ")
 
 
-def test_a_page_where_nothing_is_fitted_compares_nothing(tmp_path):
+def test_a_page_where_nothing_is_fitted_compares_nothing():
     """Of a six, orders 1 and 2 are balanced: a column with the scheme would say the same twice."""
     six = ENGINE.replace("[0, 180, 180, 0]", "[0, 240, 120, 120, 240, 0]")
-    path = write(tmp_path / "six.toml", six.replace("0.55", "0.5") + block("loss = 0.1"))
-    status, page, err = run_here("report", path, "-o", "-")
-    assert (status, err) == (0, "")
+    page = ask("report", "-", "-o", "-", stdin=six.replace("0.55", "0.5") + block("loss = 0.1"))
     assert "Nothing is fitted" in page
     assert "On its mounts" in page
     assert "with auto" not in page.lower()
@@ -460,20 +455,26 @@ def test_one_speed(four):
     assert "range" not in out.partition("Largest force")[0]
 
 
-def test_too_much_is_refused(tmp_path):
+def test_too_much_is_refused():
     mounts = "".join(
         f'[[mount]]\nname = "{k}"\nat = [{k + 9}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
         for k in range(100)
     )
-    path = write(tmp_path / "many.toml", ENGINE + block("loss = 1", count=0) + mounts)
-    message = refusal("mounts", path, "--speeds", "1:19000:1", "--orders", "1-3")
+    message = refusal(
+        "mounts",
+        "-",
+        "--speeds",
+        "1:19000:1",
+        "--orders",
+        "1-3",
+        stdin=ENGINE + block("loss = 1", count=0) + mounts,
+    )
     assert "3 orders at 19000 speeds of 100 mounts and 0 points are 5700000 results" in message
 
 
 def test_the_starting_file_runs(tmp_path):
     path = tmp_path / "four.toml"
     assert run_here("new", "mounts", path) == (0, "", "")
-    status, out, err = run_here("mounts", path)
-    assert (status, err) == (0, "")
+    out = ask("mounts", path)
     assert "feels most" in out
     assert run_here("analyze", path).status == 0

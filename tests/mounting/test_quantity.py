@@ -118,12 +118,11 @@ def test_variants_that_cannot_be_are_told_with_their_figures(four):
 
 # ------------------------------------------------------------------ tolerances of mounts
 @pytest.mark.stress
-def test_stiffness_scatters(tmp_path):
+def test_stiffness_scatters():
     """Up and down of the block is sqrt(sum k / m): by hand, with the same random numbers."""
-    path = write(tmp_path / "four.toml", NAMED)
     said = ask_json(
         "scatter",
-        path,
+        "-",
         "-q",
         "mode.z.Hz",
         "--samples",
@@ -132,6 +131,7 @@ def test_stiffness_scatters(tmp_path):
         "7",
         "--stiffness-scatter",
         "10%",
+        stdin=NAMED,
     )
     found = said["quantities"]["mode.z.Hz"]
     factors = 1 + 0.1 * (2 * np.random.default_rng(7).random((400, 4)) - 1)

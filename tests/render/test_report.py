@@ -10,7 +10,7 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 from support.browser import CHROMIUM, Browser
-from support.commands import run_here
+from support.commands import ask, run_here
 from support.engines import GOOD, build_text, changed
 from support.paths import ENGINES, write
 
@@ -99,9 +99,7 @@ def test_it_says_what_the_terminal_says():
 @cache
 def printed_report(name: str) -> str:
     """What the command makes of an engine that comes with balcli."""
-    status, out, err = run_here("report", ENGINES / f"{name}.toml", "-o", "-")
-    assert (status, err) == (0, "")
-    return out
+    return ask("report", ENGINES / f"{name}.toml", "-o", "-")
 
 
 @pytest.mark.parametrize(

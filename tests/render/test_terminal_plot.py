@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 import pytest
-from support.commands import run_in_terminal
+from support.commands import ask, run_in_terminal
 from support.engines import GOOD, changed
 from support.paths import write
 
@@ -68,8 +68,7 @@ def is_drawn(line):
 
 def test_drawn_wherever_a_table_goes(balcli, four, tmp_path):
     """In a pipe and in a file as in a terminal: they were asked for."""
-    status, out, err = balcli("analyze", four, "--plot")
-    assert (status, err) == (0, "")
+    out = ask("analyze", four, "--plot")
     assert len(list(filter(is_drawn, out.splitlines()))) > LOCUS_ROWS
     file = tmp_path / "four.txt"
     balcli("analyze", four, "--plot", "-o", file)

@@ -144,13 +144,11 @@ def test_with_gas_the_roll_is_that_of_both(tmp_path):
         (["--order", "2"], "scheme knuckles: has no option but --even"),
     ],
 )
-def test_options_that_knuckles_do_not_take_are_refused(tmp_path, options, message):
-    file = write(tmp_path / "radial.toml", RADIAL)
-    assert refusal("balance", file, "--scheme", "knuckles", *options) == message
+def test_options_that_knuckles_do_not_take_are_refused(options, message):
+    assert refusal("balance", "-", "--scheme", "knuckles", *options, stdin=RADIAL) == message
 
 
-def test_even_without_the_scheme(tmp_path):
-    file = write(tmp_path / "radial.toml", RADIAL)
-    assert refusal("balance", file, "--even", "strokes") == (
+def test_even_without_the_scheme():
+    assert refusal("balance", "-", "--even", "strokes", stdin=RADIAL) == (
         "--even belongs to --scheme knuckles; scheme auto has no such option"
     )

@@ -171,19 +171,17 @@ def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
         ("banks = [90]", "(banks at 90 deg), H along y."),
     ],
 )
-def test_where_vertical_is_told_by_the_banks(balcli, tmp_path, banks, told) -> None:
-    file = write(tmp_path / "leaning.toml", f"{TEXT}[layout]\n{banks}\n")
-    _, out, _ = balcli("analyze", file, "--format", "marine")
+def test_where_vertical_is_told_by_the_banks(balcli, banks, told) -> None:
+    _, out, _ = balcli("analyze", "-", "--format", "marine", stdin=f"{TEXT}[layout]\n{banks}\n")
     assert told in out
 
 
-def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli, tmp_path):
+def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli):
     """As `gas = 0` in the file does."""
     text = MARINE.read_text(encoding="utf-8")
-    silent = write(tmp_path / "silent.toml", f"{text}\n[cylinder.3]\ngas = 0\n")
     sheet = ("--format", "marine", "--format", "csv")
     found = balcli("analyze", MARINE, *sheet, "--misfire", "3").out
-    assert found == balcli("analyze", silent, *sheet).out
+    assert found == balcli("analyze", "-", *sheet, stdin=f"{text}\n[cylinder.3]\ngas = 0\n").out
     assert found != balcli("analyze", MARINE, *sheet).out
     told = balcli("analyze", MARINE, "--format", "marine", "--misfire", "3").out
     assert "\nno gas in  3\n" in told

@@ -113,7 +113,7 @@ def test_knuckle_angles_change_the_roll_of_the_gas_in_half_orders_too(tmp_path):
             assert float(rows[name][column]) == pytest.approx(size, rel=1e-3)
 
 
-def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):
+def test_where_devices_add_roll_the_growth_is_that_with_gas(four):
     """Shafts at 120, 80 and 60, -40 mm: their forces along x make a roll about the crank axis."""
     inertia, gas = find_second_order()
     asked = ("balance", four, "--scheme", "two-shaft", "--at=120,80", "--at=60,-40")
@@ -124,8 +124,7 @@ def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):
     added = -each * ((0.12 - 0.06) * 1j - (0.08 - 0.04))  # x Fy - y Fx of both
     assert told["roll_left_Nm"] == pytest.approx(abs(inertia + added), rel=1e-9)
     assert told["roll_with_gas_left_Nm"] == pytest.approx(abs(inertia + gas + added), rel=1e-9)
-    bare = write(tmp_path / "bare.toml", FILE.partition("[gas]")[0])
-    said = run_here("balance", str(bare), *asked[2:]).out
+    said = run_here("balance", "-", *asked[2:], stdin=FILE.partition("[gas]")[0]).out
     assert "roll, N·m      after\n" in said
     assert "with gas" not in said
 
@@ -144,7 +143,13 @@ def test_a_slider_beside_the_crank_is_told_where_it_adds_roll(four, at, grows):
     ("frame", "pivot"),
     [("", "the crankshaft"), ("[frame]\nreference = [0, 90, 0]\n", "the point of reference")],
 )
-def test_about_what_the_devices_have_levers(tmp_path, frame, pivot):
-    bare = write(tmp_path / "bare.toml", FILE.partition("[gas]")[0] + frame)
-    said = run_here("balance", str(bare), "--scheme", "slider", "--at=0,-200").out
+def test_about_what_the_devices_have_levers(frame, pivot):
+    said = run_here(
+        "balance",
+        "-",
+        "--scheme",
+        "slider",
+        "--at=0,-200",
+        stdin=FILE.partition("[gas]")[0] + frame,
+    ).out
     assert f"where they stand, the devices' forces have levers about {pivot}." in said

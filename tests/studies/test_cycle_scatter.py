@@ -121,7 +121,7 @@ def test_what_is_0_by_design_has_a_bound():
     assert found.shares[0][1] > 0
 
 
-def test_what_is_not_drawn_so(tmp_path):
+def test_what_is_not_drawn_so():
     path = ENGINES / "i4_wiebe.toml"
     told = refusal("scatter", path, "-q", "force.2.major,torque.max")
     assert told == (
@@ -137,8 +137,9 @@ def test_what_is_not_drawn_so(tmp_path):
     assert told == "nothing deviates; give a tolerance, such as --mass-scatter 0.5%"
     told = refusal("scatter", ENGINES / "i4.toml", "-q", "torque.max")
     assert told == "torque.max: the engine file has no [gas]"
-    bare = write(tmp_path / "bare.toml", PLAIN.replace("inertia = 90000\n", ""))
-    told = refusal("scatter", bare, "-q", "fluctuation")
+    told = refusal(
+        "scatter", "-", "-q", "fluctuation", stdin=PLAIN.replace("inertia = 90000\n", "")
+    )
     assert told.startswith("fluctuation: the file gives no inertia")
 
 

@@ -48,15 +48,14 @@ def analyse(text: str) -> list[float]:
     ]
 
 
-def test_a_grid_of_masses_lengths_and_pressures(tmp_path):
-    path = write(tmp_path / "four.toml", FOUR)
+def test_a_grid_of_masses_lengths_and_pressures():
     grid = {"gas.imep": (9, 12), "piston.mass": (0.4, 0.5, 0.7), "rod.length": (140, 150)}
     vary = [
         part
         for key, values in grid.items()
         for part in ("--vary", f"{key}={','.join(map(str, values))}")
     ]
-    done = run_here("sweep", path, *vary, "-q", NAMES)
+    done = run_here("sweep", "-", *vary, "-q", NAMES, stdin=FOUR)
     assert (done.status, done.err) == (0, "")
     head, *rows = csv.reader(StringIO(done.out))
     assert head == [*grid, *NAMES.split(",")]
@@ -187,11 +186,10 @@ def test_a_search_puts_one_goal_in_place_of_another(tmp_path):
     assert json.loads(done.out)["results"][0]["objective"] == float(row.split(",")[1])
 
 
-def test_what_no_gas_is_asked_of_does_not_build_it(tmp_path, monkeypatch):
-    path = write(tmp_path / "four.toml", FOUR)
+def test_what_no_gas_is_asked_of_does_not_build_it(monkeypatch):
     counted = []
     monkeypatch.setattr("balcli.engine.build_gas.build_gas", counted.append)
-    done = run_here("sweep", path, "--vary", "rod.length=140,150", "-q", "force.2.major")
+    done = run_here("sweep", "-", "--vary", "rod.length=140,150", "-q", "force.2.major", stdin=FOUR)
     assert done.status == 0
     assert counted == []
 
@@ -229,15 +227,13 @@ def test_deviating_engines_have_the_gas_of_their_own_rods_and_throws(text):
         )
 
 
-def test_scatter_counts_the_gas(tmp_path):
-    path = write(tmp_path / "four.toml", FOUR)
+def test_scatter_counts_the_gas():
     asked = ("-q", "torque.2.amplitude,gas.2.amplitude", "--samples", "2000", "--seed", "1")
-    said = json.loads(run_here("scatter", path, *asked, "-f", "json").out)["quantities"]
+    said = json.loads(run_here("scatter", "-", *asked, "-f", "json", stdin=FOUR).out)["quantities"]
     assert said["torque.2.amplitude"]["nominal"] == pytest.approx(analyse(FOUR)[0], rel=1e-12)
     gas = said["gas.2.amplitude"]
     assert gas["mean"] == pytest.approx(gas["nominal"], rel=1e-12), "masses leave it alone"
     assert gas["max"] == pytest.approx(gas["nominal"], rel=1e-12)
     assert said["torque.2.amplitude"]["p95"] > said["torque.2.amplitude"]["p05"]
-    bare = write(tmp_path / "bare.toml", FOUR.partition("[gas]")[0])
-    told = refusal("scatter", bare, "-q", "gas.2.amplitude")
+    told = refusal("scatter", "-", "-q", "gas.2.amplitude", stdin=FOUR.partition("[gas]")[0])
     assert told == "gas.2.amplitude: the engine file has no [gas]"

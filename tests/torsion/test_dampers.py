@@ -549,7 +549,6 @@ def test_plot_draws_torsion_too(tmp_path):
         told = run_here("torsion", engine, *speeds, "--plot", other, "--what", what)
         assert told.status == 0
         assert one.read_bytes() == other.read_bytes()
-    chain = write(tmp_path / "chain.toml", SINGLE)
-    assert refusal("plot", chain, "--what", "response", "-o", tmp_path / "x.svg") == (
+    assert refusal("plot", "-", "--what", "response", "-o", tmp_path / "x.svg", stdin=SINGLE) == (
         "--what response: give the range, such as --speeds 1000:2500"
     )

@@ -7,7 +7,7 @@ import json
 from io import StringIO
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import write
 
@@ -20,8 +20,7 @@ def diesel(tmp_path):
 
 
 def sweep(path, vary, quantities):
-    status, out, err = run_here("sweep", path, "--vary", vary, "--quantity", quantities)
-    assert (status, err) == (0, "")
+    out = ask("sweep", path, "--vary", vary, "--quantity", quantities)
     return [[float(x) for x in line] for line in list(csv.reader(StringIO(out)))[1:]]
 
 

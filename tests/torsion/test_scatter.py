@@ -59,9 +59,8 @@ length = 200
 """
 
 
-def test_two_inertias_by_hand(tmp_path):
+def test_two_inertias_by_hand():
     """`f = sqrt(k (1/J1 + 1/J2))/2 pi`, with the same random numbers."""
-    path = write(tmp_path / "two.toml", TWO)
     options = (
         "--samples",
         "60",
@@ -72,7 +71,9 @@ def test_two_inertias_by_hand(tmp_path):
         "--mass-scatter",
         "2%",
     )
-    found = ask_json("scatter", path, "-q", "torsion.1.Hz", *options)["quantities"]["torsion.1.Hz"]
+    found = ask_json("scatter", "-", "-q", "torsion.1.Hz", *options, stdin=TWO)["quantities"][
+        "torsion.1.Hz"
+    ]
     names = ["inertia throw 1", "stiffness wheel", "inertia wheel", "piston mass 1"]
     assert {*found["sensitivity"]} == {*names}
     theta = np.linspace(0, 2 * np.pi, 4096, endpoint=False)
