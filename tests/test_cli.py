@@ -20,9 +20,9 @@ from pathlib import Path
 
 import pytest
 import typer
-from support.commands import run_command, run_in_terminal, run_python
+from support.commands import ask, ask_json, refusal, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
-from support.paths import ENGINES, ROOT, SOURCE
+from support.paths import ENGINES, ROOT, SOURCE, write
 
 from balcli import __version__
 from balcli.cli import COMMANDS
@@ -38,16 +38,12 @@ ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 @pytest.fixture
 def good(tmp_path):
-    file = tmp_path / "good.toml"
-    file.write_text(GOOD)
-    return file
+    return write(tmp_path / "good.toml", GOOD)
 
 
 @pytest.fixture
 def bad(tmp_path):
-    file = tmp_path / "bad.toml"
-    file.write_text(changed(("stroke = 90", "strok = 90")))
-    return file
+    return write(tmp_path / "bad.toml", changed(("stroke = 90", "strok = 90")))
 
 
 # ------------------------------------------------------------------ exit statuses and messages
@@ -72,9 +68,8 @@ def test_the_list_of_commands_says_what_the_help_of_each_begins_with(command):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_has_help(balcli, command):
-    status, out, err = balcli(command, "--help")
-    assert (status, err) == (0, "")
+def test_every_command_has_help(command):
+    out = ask(command, "--help")
     assert f"Usage: balcli {command}" in out
 
 
@@ -271,8 +266,7 @@ def test_mistakes_of_a_file(balcli, bad):
 
 
 def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
-    file = tmp_path / "heavy.toml"
-    file.write_text(changed(("mass = 0.5", "mass = 65")))
+    file = write(tmp_path / "heavy.toml", changed(("mass = 0.5", "mass = 65")))
     status, out, err = balcli("analyze", file, "--format", "json")
     assert status == 0
     assert json.loads(out)["engine"]["cylinders"] == 4
@@ -281,17 +275,14 @@ def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
 
 # ------------------------------------------------------------------ formats
 @pytest.mark.parametrize("form", Format)
-def test_a_format_is_what_its_name_says(balcli, good, form):
+def test_a_format_is_what_its_name_says(good, form):
     """Each is what its name says, ends in one newline, and holds the second-order force of the same
     analysis.
     """
-    status, out, err = balcli("analyze", good, "--format", form)
-    assert (status, err) == (0, "")
+    out = ask("analyze", good, "--format", form)
     assert out.endswith("\n")
     assert not out.endswith("\n\n")
-    force = json.loads(balcli("analyze", good, "--format", "json")[1])["orders"][1]["force_N"][
-        "major"
-    ]
+    force = ask_json("analyze", good)["orders"][1]["force_N"]["major"]
     match form:
         case Format.JSON:
             assert json.loads(out)["format"] == "balcli.analysis/1"
@@ -320,8 +311,8 @@ def test_a_format_is_what_its_name_says(balcli, good, form):
             assert re.search(rf"(?m)^2 +{force:.5g} ", out)
 
 
-def test_json_of_analyze_has_the_keys_of_the_contract(balcli):
-    document = json.loads(balcli("analyze", V8, "--format", "json", "--orders", "1-4")[1])
+def test_json_of_analyze_has_the_keys_of_the_contract():
+    document = ask_json("analyze", V8, "--orders", "1-4")
     vector = {"forward", "backward", "major", "minor", "axis_deg", "balanced", "x", "y"}
     scalar = {"cos", "sin", "amplitude", "peak_deg", "balanced"}
     assert list(document) == [
@@ -372,8 +363,8 @@ def test_json_of_analyze_has_the_keys_of_the_contract(balcli):
         ("sizing", {"order"}, {"sizing"}),
     ],
 )
-def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
-    document = json.loads(balcli("analyze", V8, "--format", "json", "--only", only)[1])
+def test_what_is_left_out_is_no_key(only, keys, whole):
+    document = ask_json("analyze", V8, "--only", only)
     assert set(document["orders"][0]) == keys
     assert (
         set(document) - {"format", "version", "engine", "speed_rpm", "reference_mm", "orders"}
@@ -382,20 +373,15 @@ def test_what_is_left_out_is_no_key(balcli, only, keys, whole):
 
 
 def test_shares_of_the_cylinders_add_up(balcli, good):
-    document = json.loads(
-        balcli("analyze", good, "--format", "json", "--by", "cylinder", "--orders", "2")[1]
-    )
+    document = ask_json("analyze", good, "--by", "cylinder", "--orders", "2")
     assert [c["cylinder"] for c in document["cylinders"]] == [1, 2, 3, 4]
     total = sum(c["orders"][0]["force_N"]["forward"][0] for c in document["cylinders"])
     assert total == pytest.approx(document["orders"][0]["force_N"]["forward"][0], rel=1e-14)
     assert "Cylinder 3 alone" in balcli("analyze", good, "--by", "cylinder")[1]
 
 
-def test_speed_displaces_the_files(balcli, good):
-    one, two = (
-        json.loads(balcli("analyze", good, "--format", "json", *more)[1])
-        for more in ([], ["--speed", "6000"])
-    )
+def test_speed_displaces_the_files(good):
+    one, two = (ask_json("analyze", good, *more) for more in ([], ["--speed", "6000"]))
     assert (one["speed_rpm"], two["speed_rpm"]) == (3000, 6000)
     assert two["orders"][1]["force_N"]["major"] == 4 * one["orders"][1]["force_N"]["major"]
 
@@ -448,13 +434,11 @@ def test_an_engines_name_cannot_colour_the_output(balcli, form):
 @pytest.mark.parametrize(
     "code", [0x061C, 0x200E, 0x200F, 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A)]
 )
-def test_no_text_of_a_file_turns_the_direction_of_what_is_shown(balcli, key, code):
+def test_no_text_of_a_file_turns_the_direction_of_what_is_shown(key, code):
     engine = f'{key} = "four{chr(code)}enil-ni"\n' + changed(('name = "in-line four"\n', ""))
-    status, out, err = balcli("analyze", "-", stdin=engine)
-    assert (status, out) == (2, "")
-    assert err == (
-        f"balcli: standard input: {key}: has the control character U+{code:04X}, which could "
-        "command a terminal or disguise what it shows; leave it out\n"
+    assert refusal("analyze", "-", stdin=engine) == (
+        f"standard input: {key}: has the control character U+{code:04X}, which could "
+        "command a terminal or disguise what it shows; leave it out"
     )
 
 
@@ -478,8 +462,7 @@ LOCKED = changed(("length = 160", "length = 40"), ("cg = 45", "cg = 15"))
     ],
 )
 def test_what_cannot_be_an_engine_goes_by_its_file(balcli, tmp_path, command):
-    file = tmp_path / "locked.toml"
-    file.write_text(LOCKED)
+    file = write(tmp_path / "locked.toml", LOCKED)
     for name, called in ((str(file), str(file)), ("-", "standard input")):
         status, out, err = balcli(command[0], name, *command[1:], stdin=LOCKED)
         assert (status, out) == (2, "")
@@ -495,8 +478,7 @@ def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
     assert status == 2
     assert [json.loads(line)["engine"]["cylinders"] for line in out.splitlines()] == [4, 8]
     assert err == f"balcli: {bad}: crank.strok: unknown key in [crank]; did you mean stroke?\n"
-    status, out, err = balcli("analyze", good, V8, "--format", "table")
-    assert (status, err) == (0, "")
+    out = ask("analyze", good, V8, "--format", "table")
     assert out.index("in-line four") < out.index("90-degree cross-plane V8")
 
 
@@ -531,8 +513,7 @@ def test_into_a_file(balcli, good, tmp_path, form):
 
 @pytest.mark.parametrize("files", [["bad"], ["good", "bad"]])
 def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, files):
-    target = tmp_path / "out.json"
-    target.write_text("what was there before")
+    target = write(tmp_path / "out.json", "what was there before")
     assert balcli("analyze", *({"good": good, "bad": bad}[f] for f in files), "-o", target)[0] == 2
     assert target.read_text() == "what was there before"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["bad.toml", "good.toml", "out.json"]
@@ -541,8 +522,7 @@ def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, file
 def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(
     balcli, good, tmp_path, monkeypatch
 ):
-    target = tmp_path / "out.txt"
-    target.write_text("old")
+    target = write(tmp_path / "out.txt", "old")
     target.chmod(0o640)
     assert balcli("analyze", good, "-o", target)[0] == 0
     assert target.stat().st_mode & 0o777 == 0o640

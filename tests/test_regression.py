@@ -8,11 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.engines import GOOD, changed
-from support.paths import ENGINE_FILES, ENGINES
+from support.engines import GOOD, build_text, changed
+from support.paths import ENGINE_FILES, ENGINES, write
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.regression import TOLERANCE, find_differences, find_record, record_result
 from balcli.results.analysis import analyze
 
@@ -25,11 +23,10 @@ def check(balcli):
 @pytest.fixture
 def file(tmp_path):
     """An engine file with its recorded result."""
-    engine_file = tmp_path / "four.toml"
-    engine_file.write_text(GOOD)
+    engine_file = write(tmp_path / "four.toml", GOOD)
     target = find_record(engine_file)
     target.parent.mkdir()
-    target.write_text(record_result(build(parse(GOOD))))
+    target.write_text(record_result(build_text(GOOD)))
     return engine_file
 
 
@@ -96,8 +93,7 @@ def test_nothing_moved(check, file):
 
 
 def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
-    lonely = tmp_path / "lonely.toml"
-    lonely.write_text(GOOD)
+    lonely = write(tmp_path / "lonely.toml", GOOD)
     assert check(lonely) == (
         1,
         "lonely: no result is recorded in expected/lonely.json; check --update records it\n"
@@ -111,8 +107,7 @@ def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
 
 def test_a_record_whose_engine_is_gone_is_a_difference(check, file, tmp_path):
     """In a folder that is checked; where a file is checked, its neighbours are nobody's matter."""
-    lost = tmp_path / "lost.toml"
-    lost.write_text(GOOD)
+    lost = write(tmp_path / "lost.toml", GOOD)
     assert check("--update", tmp_path) == (0, "2 engines recorded\n", "")
     hidden = tmp_path / ".old" / "expected"
     hidden.mkdir(parents=True)
@@ -204,7 +199,7 @@ def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
         document["orders"][3]["force_N"]["forward"][0] += share * TOLERANCE * max(largest, peak)
 
     edited(file, edit)
-    found = find_differences("four", build(parse(GOOD)), find_record(file))
+    found = find_differences("four", build_text(GOOD), find_record(file))
     assert len(found) == moved
     assert all(str(d).startswith("four: force order ") for d in found)
 
@@ -217,7 +212,7 @@ def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path, round
     engine_file = Path(shutil.copy(ENGINES / "rotary9.toml", tmp_path))
     find_record(engine_file).parent.mkdir()
     shutil.copy(find_record(ENGINES / "rotary9.toml"), find_record(engine_file))
-    engine = build(parse(engine_file.read_text()))
+    engine = build_text(engine_file.read_text())
     force = analyze(engine).spectra.force
     noise = float(np.broadcast_to(force.noise, force.forward.shape)[force.orders == 9][0])
     assert noise > TOLERANCE * force.major.max() > 0

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.commands import run_here
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 from support.rotors import three_runs
 
 import balcli
@@ -277,8 +277,7 @@ def test_a_parquet_file_that_cannot_be_written_is_named(tmp_path):
 
 def test_a_parquet_file_that_fails_leaves_the_older_one(monkeypatch, tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
-    place = tmp_path / "a.parquet"
-    place.write_text("old")
+    place = write(tmp_path / "a.parquet", "old")
 
     def run_full(table, path):
         Path(path).write_text("half")

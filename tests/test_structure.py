@@ -149,10 +149,8 @@ ON_REQUEST = {
         "balcli.documents.names",
         "balcli.enginefile.examples",
         "balcli.enginefile.templates",
-        "balcli.field_balancing.starting_file",
         "balcli.sizing.schemes",
         "balcli.studies.quantity_names",
-        "balcli.torsion.starting_file",
     ),
     "balcli.commands.defaults": ("balcli.enginefile.toml_text",),
     "balcli.commands.overwrite_guard": ("balcli.commands.named_files",),
@@ -294,7 +292,6 @@ OF_THE_SAME_THING = [
         r"(mounting|torque|torsion|forces)/\w*quantity\.py",  # chapters, as sweeps call them
         r"Variants|evaluate_engine|list_names|parse_quantity|refuse_unknown",
     ),
-    (r"\w+/starting_file\.py", r"read_starting_file"),  # one of each kind, for `new`
     (r"core/mechanisms/\w+\.py", r".*"),  # the same figure by another method
 ]
 

@@ -17,7 +17,7 @@ from types import ModuleType
 import pytest
 from support.commands import run_here
 from support.engines import GOOD, tables
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.bench import bench, stopwatch
 from balcli.bench.bench import Bench, Case, Ratio, Row
@@ -39,9 +39,7 @@ MEASURED = Bench(
 
 @pytest.fixture
 def four(tmp_path):
-    file = tmp_path / "four.toml"
-    file.write_text(GOOD)
-    return file
+    return write(tmp_path / "four.toml", GOOD)
 
 
 # ------------------------------------------------------------------ pictures and pages
@@ -158,10 +156,10 @@ def test_curves_as_json_have_an_angle_for_each_value(balcli, four):
 
 def test_verdict_of_a_force_that_turns_against_the_crank(balcli, tmp_path):
     """A shaft at -1 alone shakes an engine whose pistons weigh nothing."""
-    file = tmp_path / "shaft.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "shaft.toml",
         "[crank]\nstroke = 100\n[rod]\nratio = 0.25\n[piston]\nmass = 0\n[operation]\nspeed = 600\n"
-        "[[shaft]]\nratio = -1\nunbalance = 1000\nangle = 0\n"
+        "[[shaft]]\nratio = -1\nunbalance = 1000\nangle = 0\n",
     )
     status, out, _ = balcli("analyze", file)
     assert status == 0

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.paths import ENGINES
 from typer.main import get_command
 
@@ -94,7 +94,7 @@ def test_digits_of_tables_and_json_that_nothing_changes(folder, monkeypatch):
 def test_digits_of_what_is_told_in_brief(folder, digits):
     """The short table, verdict and peaks have as many as are asked for; a speed is as given."""
     asked = ("analyze", ENGINES / "i3.toml", "--speed", "4321.5")
-    result = json.loads(run_here(*asked, "-f", "json").out)
+    result = ask_json(*asked)
     moment = result["orders"][1]["moment_Nm"]
     parts = [abs(complex(*moment[side])) for side in ("forward", "backward")]
     brief = run_here(*asked, "--digits", digits).out

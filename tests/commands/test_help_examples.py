@@ -11,7 +11,7 @@ from support.commands import run_here
 from support.paths import ENGINES
 
 from balcli.cli import COMMANDS
-from balcli.field_balancing.starting_file import read_starting_file
+from balcli.enginefile.templates import template
 
 FILES = {
     **{f"{name}.toml": f"{name}.toml" for name in ("i4", "v8_wiebe", "i4_mounts", "i6_diesel")},
@@ -41,7 +41,7 @@ def test_the_examples_run(command: str, tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.chdir(tmp_path)
     for name, source in FILES.items():
         shutil.copy(ENGINES / source, name)
-    Path("runs.toml").write_text(read_starting_file(), encoding="utf-8")
+    Path("runs.toml").write_text(template("field"), encoding="utf-8")
     for line in examples(command):
         if ".parquet" in line:
             pytest.importorskip("pyarrow")

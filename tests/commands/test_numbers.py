@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask, ask_json, refusal, run_here
 from support.paths import ENGINES
 
 
 def listed(file: str) -> dict:
-    return json.loads(run_here("numbers", ENGINES / file, "-f", "json").out)
+    return ask_json("numbers", ENGINES / file)
 
 
 @pytest.mark.parametrize("file", ["v8_wiebe.toml", "i4_shafts.toml", "i4_mounts.toml"])
@@ -48,7 +48,7 @@ def test_a_rigid_stiffness_is_told_as_the_file_says_it():
 def test_more_than_arrays_have_axes_are_refused():
     vary = [word for n in range(1, 18) for word in ("--vary", f"cylinder.{n}.piston_mass=0.5")]
     engine = "crank.stroke = 90\nrod.length = 160\npiston.mass = 0.5\nlayout.radial = 17\n"
-    assert refusal("sweep", "-", *vary, stdin=engine) == ("17 numbers vary; at most 16 can at once")
+    assert refusal("sweep", "-", *vary, stdin=engine) == "17 numbers vary; at most 16 can at once"
 
 
 @pytest.mark.parametrize("file", ["v8_wiebe.toml", "i4_mounts.toml", "i6_diesel.toml"])
@@ -60,10 +60,7 @@ def test_every_quantity_can_be_asked_for(file):
         for name in names
     ]
     file = ENGINES / file
-    status, out, err = run_here(
-        *("sweep", file, "--vary", "piston.offset=0", "--quantity", ",".join(asked))
-    )
-    assert (status, err) == (0, "")
+    out = ask("sweep", file, "--vary", "piston.offset=0", "--quantity", ",".join(asked))
     assert out.splitlines()[0] == "piston.offset," + ",".join(asked)
 
 

@@ -6,7 +6,7 @@ import re
 
 import pytest
 from support.commands import refusal, run_here
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.commands.plot_pages import What, complete_pages, parse_pages
 
@@ -70,8 +70,7 @@ def test_standard_input_is_read_once(tmp_path):
 
 
 def test_no_page_goes_onto_the_engine_file(tmp_path):
-    path = tmp_path / "x-pin.svg"
-    path.write_text(FOUR.read_text(encoding="utf-8"), encoding="utf-8")
+    path = write(tmp_path / "x-pin.svg", FOUR.read_text(encoding="utf-8"))
     told = refusal("plot", path, "--what", "torque,pin", "-o", tmp_path / "x.svg")
     assert told == (
         f"--what pin {path}: this is a file that is read, which stays as it is; choose another name"

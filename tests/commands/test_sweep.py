@@ -12,8 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.commands import HANGS, run_command, run_here, start_command
+from support.commands import HANGS, ask, ask_json, run_command, run_here, start_command
 from support.engines import GOOD
+from support.paths import write
 
 from balcli.commands import sweep_output
 from balcli.commands.file_names import VariantsFormat
@@ -23,8 +24,7 @@ from balcli.studies.sweep import evaluate_chunks, read_sweep
 
 @pytest.fixture
 def engine(tmp_path: Path) -> str:
-    path = tmp_path / "four.toml"
-    path.write_text(GOOD)
+    path = write(tmp_path / "four.toml", GOOD)
     return str(path)
 
 
@@ -48,8 +48,7 @@ def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
 
 
 def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> None:
-    target = tmp_path / "x.csv"
-    target.write_text("old\n")
+    target = write(tmp_path / "x.csv", "old\n")
     done = run_command(
         "sweep",
         engine,
@@ -68,11 +67,11 @@ def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> N
 
 def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: Path) -> None:
     """One between the corners of the grid, the ripple's angle; the first such is named."""
-    file = tmp_path / "rip.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "rip.toml",
         "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = "
         "0.5\n[operation]\nspeed_ripple = ["
-        "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n"
+        "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n",
     )
     done = run_command(
         "sweep",
@@ -97,11 +96,11 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
 
 def test_a_corner_that_cannot_be_is_named(tmp_path: Path) -> None:
     """A V6 whose crank and split pins fire evenly at a bank angle of 60 deg alone."""
-    file = tmp_path / "v6.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "v6.toml",
         "[crank]\nstroke = 80\nspacing = 100\nsplay = -60\n[rod]\nlength = 150\n[piston]\n"
         "mass = 0.5\n[layout]\nbank_angle = 60\nfiring_order = [1, 2, 3, 4, 5, 6]\n"
-        "numbering = [[1, 3, 5], [2, 4, 6]]\n"
+        "numbering = [[1, 3, 5], [2, 4, 6]]\n",
     )
     vary = ("--vary", "layout.bank_angle=60:90:15", "--vary", "rod.ratio=0.2,0.3")
     status, out, err = run_here("sweep", file, *vary, "--quantity", "force.1.major")
@@ -124,8 +123,7 @@ def until(happened: Callable[[], bool]) -> None:
 @pytest.mark.stress
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_a_valid_part_beside_the_older_file(engine: str, tmp_path: Path) -> None:
-    target = tmp_path / "x.json"
-    target.write_text("old")
+    target = write(tmp_path / "x.json", "old")
     process = start_command(
         *("sweep", engine, "-q", "force.2.major", "-f", "json", "-o", target),
         *("--vary", "rod.ratio=0.2:0.3:0.00001", "--vary", "crank.stroke=80:90:0.001"),
@@ -194,9 +192,7 @@ def read_markdown(text: str) -> list[list[str]]:
 
 def sweep_strokes(engine: str, values: str, *options: object) -> str:
     asked = ("--vary", f"crank.stroke={values}", "-q", "force.2.major,force.1.axis")
-    status, out, err = run_here("sweep", engine, *asked, *options)
-    assert (status, err) == (0, "")
-    return out
+    return ask("sweep", engine, *asked, *options)
 
 
 @pytest.mark.parametrize("count", [1, 50, 51, 2000])
@@ -301,8 +297,9 @@ def test_scatter_as_json_and_table(engine: str) -> None:
 
 def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: Path) -> None:
     """One piston: 3 standard deviations are its tolerance, and 1 of 370 samples lies beyond."""
-    file = tmp_path / "one.toml"
-    file.write_text("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n")
+    file = write(
+        tmp_path / "one.toml", "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n"
+    )
     command = ["scatter", str(file), "--mass-scatter=1%", "--seed=1", "-q", "force.1.major"]
     texts = {
         shape: run_here(*command, f"--distribution={shape}").out for shape in ("uniform", "normal")
@@ -311,7 +308,7 @@ def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: P
     assert "bound: no combination within the tolerances exceeds it (exact" in texts["normal"]
     told = " ".join(texts["normal"].split())
     assert "normal deviations go beyond a tolerance, three times their standard deviation" in told
-    document = json.loads(run_here(*command, "--distribution=normal", "-f", "json").out)
+    document = ask_json(*command, "--distribution=normal")
     figures = document["quantities"]["force.1.major"]
     assert document["distribution"] == "normal"
     assert figures["max"] > figures["bound"]

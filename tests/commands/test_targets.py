@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from support.commands import HANGS, run_here, run_python, start_command
+from support.commands import HANGS, refusal, run_here, run_python, start_command
 from support.engines import GOOD
 
 unix = pytest.mark.skipif(sys.platform == "win32", reason="needs links, pipes and signals")
@@ -64,14 +64,12 @@ COMMANDS = [
 @unix
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 @pytest.mark.parametrize("target", ["good.toml", "./good.toml", "link.toml", "hard.toml"])
-def test_never_onto_the_engine_file(balcli, good, command, target):
+def test_never_onto_the_engine_file(good, command, target):
     before, option = contents(), command[-1] if command[-1].startswith("--") else "--output"
     name, *rest = command if command[-1] != option else command[:-1]
-    status, out, err = balcli(name, good, *rest, option, target)
-    assert (status, out) == (2, "")
-    assert (
-        err == f"balcli: {option} {Path(target)}: this is a file that is read, which stays as it "
-        "is; choose another name\n"
+    assert refusal(name, good, *rest, option, target) == (
+        f"{option} {Path(target)}: this is a file that is read, which stays as it "
+        "is; choose another name"
     )
     assert contents() == before
 
@@ -80,16 +78,13 @@ def test_never_onto_the_engine_file(balcli, good, command, target):
     "table", ['[gas]\nindicator = "p.csv"', '[gas]\nharmonics = "p.csv"', "[cylinder.2]\n{}"]
 )
 @pytest.mark.parametrize("command", [["curves"], ["sweep", "--vary", "crank.stroke=80,90"]])
-def test_never_onto_a_file_that_the_engine_file_names(balcli, good, command, table):
+def test_never_onto_a_file_that_the_engine_file_names(good, command, table):
     """Whatever else is wrong with either file: a diagram that was measured is not there twice."""
     good.write_text(GOOD + table.format('indicator = "p.csv"'))
     Path("p.csv").write_text("measured")
     before = contents()
-    status, out, err = balcli(command[0], good, *command[1:], "-o", "./p.csv")
-    assert (status, out) == (2, "")
-    assert err == (
-        "balcli: --output p.csv: this is a file that is read, which stays as it is; choose "
-        "another name\n"
+    assert refusal(command[0], good, *command[1:], "-o", "./p.csv") == (
+        "--output p.csv: this is a file that is read, which stays as it is; choose another name"
     )
     assert contents() == before
 

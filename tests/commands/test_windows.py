@@ -8,7 +8,7 @@ import sys
 
 import pytest
 from support.commands import refusal, run_command, run_here, run_python
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli import process
 from balcli.commands import output
@@ -57,8 +57,7 @@ def test_a_reader_who_has_gone_is_no_error_on_windows(monkeypatch):
 
 def test_a_file_that_another_program_holds_open_is_a_message(tmp_path, monkeypatch):
     """`os.replace` is refused there; the older file stays, and nothing beside it."""
-    target = tmp_path / "x.csv"
-    target.write_text("old")
+    target = write(tmp_path / "x.csv", "old")
 
     def refuse(self, other):
         raise PermissionError(errno.EACCES, "Access is denied")

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.engines import alone, engine, engine_text
+from support.engines import alone, build_text, engine, engine_text
 
 from balcli.core.loads import Loads
 from balcli.core.mechanisms.fourier import SERIES, Series
@@ -73,7 +73,7 @@ def test_each_cylinder_has_its_own_crank_angle():
         crank="stroke = 100\nthrows = [0, 100]\nsplay = 10",
         layout="banks = [-20, 50]\nnumbering = [[4, 2], [3, 1]]",
     )
-    built = build(parse(text))
+    built = build_text(text)
     assert dict(zip(built.numbers, built.cylinders.angle_deg, strict=True)) == pytest.approx(
         {4: -60 + 20, 2: 40 + 20, 3: -50 - 50, 1: 0}
     )
@@ -142,7 +142,7 @@ def test_an_engine_does_what_its_cylinders_do(ripple):
         + ripple
         + "\n[cylinder.2]\npiston_mass = 3\nrod_length = 170\n[cylinder.5]\npiston_offset = 9\n"
     )
-    built = build(parse(text))
+    built = build_text(text)
     parts = [compute_spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
     for quantity, whole in compute_spectra(built, LOW, QUANTITIES).items():
         each = [part[quantity.name] for part in parts]

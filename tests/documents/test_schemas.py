@@ -9,15 +9,14 @@ from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
-from support.commands import refusal, run_here
+from support.commands import ask, refusal, run_here
 from support.gas_engines import WIEBE
 from support.paths import ENGINES
 
 from balcli import __version__
 from balcli.documents.names import DOCUMENTS
 from balcli.documents.schema import describe_document
-from balcli.field_balancing.starting_file import read_starting_file as read_runs
-from balcli.torsion.starting_file import read_starting_file as read_chain
+from balcli.enginefile.templates import template
 
 FILES = sorted(path for path in ENGINES.rglob("*.toml"))
 I4, V8, SINGLE = ENGINES / "i4.toml", ENGINES / "v8_wiebe.toml", ENGINES / "single.toml"
@@ -156,9 +155,9 @@ def test_what_every_command_prints_keeps_to_its_schema(
 
 
 def test_field_and_a_chain_of_shafts() -> None:
-    assert check(run_here("field", "-", "-f", "json", stdin=read_runs()).out)["corrections"]
+    assert check(run_here("field", "-", "-f", "json", stdin=template("field")).out)["corrections"]
     assert check(run_here("field", "-", "-f", "json", stdin=NO_UNIT).out)["unit"] is None
-    assert check(run_here("torsion", "-", "-f", "json", stdin=read_chain()).out)["modes"]
+    assert check(run_here("torsion", "-", "-f", "json", stdin=template("torsion")).out)["modes"]
 
 
 def test_a_bench() -> None:
@@ -174,8 +173,7 @@ def test_a_bench() -> None:
 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_the_command_prints_the_schema_with_its_address_and_units(name: str) -> None:
-    status, out, err = run_here("schema", "--of", name)
-    assert (status, err) == (0, "")
+    out = ask("schema", "--of", name)
     schema = json.loads(out)
     assert schema["$id"] == f"urn:balcli:schema:{name}:1"
     assert schema["properties"]["format"]["const"] == f"balcli.{name}/1"

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
+from support.paths import write
 
 from balcli.core.cylinder_pressure import PressureOnPiston
 from balcli.engine.load import load, parse
@@ -156,8 +157,7 @@ def beside(tmp_path):
 
     def write(gas: str, name: str = "p.csv", content: str = DIAGRAM) -> str:
         (tmp_path / name).write_text(content, encoding="utf-8")
-        path = tmp_path / "engine.toml"
-        path.write_text(FOUR + "[gas]\n" + gas, encoding="utf-8")
+        path = write(tmp_path / "engine.toml", FOUR + "[gas]\n" + gas)
         return str(path)
 
     return write
@@ -332,8 +332,7 @@ def test_a_diagram_that_goes_down_to_nothing_is_suspicious(beside):
 
 def test_keys_that_change_nothing_are_doubted(tmp_path):
     """The file is read all the same, as the other kind of cycle would be."""
-    path = tmp_path / "engine.toml"
-    path.write_text(TWO_STROKE + WIEBE + "exhaust = 1.5\n", encoding="utf-8")
+    path = write(tmp_path / "engine.toml", TWO_STROKE + WIEBE + "exhaust = 1.5\n")
     (doubt,) = load(path).gas.doubts
     assert doubt == (
         "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the pressure "

@@ -8,10 +8,10 @@ from support.mounts import block
 from support.rotors import three_runs
 
 from balcli.engine.load import parse
+from balcli.enginefile.templates import template
 from balcli.errors import InputError
-from balcli.torsion.starting_file import read_starting_file
 
-CHAIN = read_starting_file()
+CHAIN = template("torsion")
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,10 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from support.commands import run_here
+from support.commands import refusal, run_here
 from support.engines import GOOD, changed
 from support.gas_engines import PETROL_FOUR
+from support.paths import write
 
 from balcli import load
 from balcli.engine.load import parse
@@ -19,10 +20,8 @@ from balcli.errors import InputError
 NOT_TOML = "is not valid TOML: "
 
 
-def told(tmp_path, *changes, args=()):
-    file = tmp_path / "slip.toml"
-    file.write_text(changed(*changes), encoding="utf-8")
-    return run_here("analyze", file, "--only", "verdict", *args)
+def told(*changes, args=()):
+    return run_here("analyze", "-", "--only", "verdict", *args, stdin=changed(*changes))
 
 
 @pytest.mark.parametrize(
@@ -65,23 +64,21 @@ def told(tmp_path, *changes, args=()):
         ("stroke = 90", "stroke = ", ": stroke ="),
     ],
 )  # fmt: skip
-def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(tmp_path, old, new, answer):
-    err = told(tmp_path, (old, new)).err
+def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(old, new, answer):
+    err = told((old, new)).err
     assert NOT_TOML in err
     assert err.endswith(f"{answer}\n")
 
 
-def test_a_list_that_the_file_ends_in(tmp_path):
-    file = tmp_path / "slip.toml"
-    file.write_text("[crank]\nthrows = [0, 180")
-    assert run_here("analyze", file).err.endswith(
+def test_a_list_that_the_file_ends_in():
+    assert run_here("analyze", "-", stdin="[crank]\nthrows = [0, 180").err.endswith(
         "(at end of document): this list has no ] at its end\n"
     )
 
 
 @pytest.mark.parametrize("given", ["[0-180]", "[012]", "[0..180]"])
-def test_a_list_whose_values_nothing_parts_is_not_told_to_lack_commas(tmp_path, given):
-    err = told(tmp_path, ("throws = [0, 180, 180, 0]", f"throws = {given}")).err
+def test_a_list_whose_values_nothing_parts_is_not_told_to_lack_commas(given):
+    err = told(("throws = [0, 180, 180, 0]", f"throws = {given}")).err
     assert NOT_TOML in err
     assert "commas" not in err
 
@@ -94,8 +91,8 @@ def test_a_list_whose_values_nothing_parts_is_not_told_to_lack_commas(tmp_path, 
         ("stroke = 90", 'stroke = "90 MM"'),
     ],
 )
-def test_what_can_mean_one_thing_only_is_understood(tmp_path, old, new):
-    assert told(tmp_path, (old, new)) == told(tmp_path, (old, old))
+def test_what_can_mean_one_thing_only_is_understood(old, new):
+    assert told((old, new)) == told((old, old))
 
 
 def test_units_in_capitals_and_the_mark_of_inches():
@@ -105,8 +102,8 @@ def test_units_in_capitals_and_the_mark_of_inches():
         convert('"', LENGTH)
 
 
-def test_an_example_of_a_list_is_of_its_key(tmp_path):
-    err = told(tmp_path, ("firing_order = [1, 3, 4, 2]", "firing_order = 5")).err
+def test_an_example_of_a_list_is_of_its_key():
+    err = told(("firing_order = [1, 3, 4, 2]", "firing_order = 5")).err
     assert err.endswith("5 is not a list; write it in square brackets, such as [1, 3, 4, 2]\n")
 
 
@@ -120,11 +117,9 @@ def test_an_example_of_a_list_is_of_its_key(tmp_path):
         ("[operation]", "[operation]\nrpm = 9000", "unknown key in [operation]; did you mean speed?"),
     ],
 )  # fmt: skip
-def test_other_words_for_a_key_lead_to_it(tmp_path, old, new, meant):
+def test_other_words_for_a_key_lead_to_it(old, new, meant):
     text = changed() if old in GOOD else f"{GOOD}\n[operation]\n"
-    file = tmp_path / "words.toml"
-    file.write_text(text.replace(old, new, 1))
-    assert meant in run_here("analyze", file).err
+    assert meant in run_here("analyze", "-", stdin=text.replace(old, new, 1)).err
 
 
 COUNT = "the number of cylinders follows from throws and banks; give every throw its angle, such as"
@@ -185,21 +180,21 @@ def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer)
 def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "ford.toml").write_text(GOOD)
-    assert run_here("analyze", "ford").err == (
-        "balcli: ford: no such file; ford.toml is there: did you mean it?\n"
+    assert refusal("analyze", "ford") == (
+        "ford: no such file; ford.toml is there: did you mean it?"
     )
     (tmp_path / "sub").mkdir()
     for name, near in (("frod.toml", "ford.toml"), ("sub/../ford.tml", "sub/../ford.toml")):
-        assert run_here("analyze", name).err == (
-            f"balcli: {name}: no such file; {near} is there: did you mean it?\n"
+        assert refusal("analyze", name) == (
+            f"{name}: no such file; {near} is there: did you mean it?"
         )
-    assert run_here("torque", "--curve", "ford.csv").err == "balcli: ford.csv: no such file\n"
+    assert refusal("torque", "--curve", "ford.csv") == "ford.csv: no such file"
     for name in ("i3", "engines/i3.toml"):
-        assert run_here("analyze", name).err == (
-            f"balcli: {name}: no such file; i3 is an example: balcli engines i3 i3.toml\n"
+        assert refusal("analyze", name) == (
+            f"{name}: no such file; i3 is an example: balcli engines i3 i3.toml"
         )
     assert run_here("check", "i3").err.endswith("i3 is an example: balcli engines i3 i3.toml\n")
-    assert run_here("analyze", "i3.csv").err == "balcli: i3.csv: no such file\n"
+    assert refusal("analyze", "i3.csv") == "i3.csv: no such file"
     err = run_here("analyze", "ford.toml", "--only", "force", "moment").err
     assert "--only force,moment" in err
     assert "That is vee: balcli new vee" in run_here("new", "v8").err
@@ -227,8 +222,9 @@ def test_the_head_says_two_or_four_strokes_where_the_file_does(tmp_path):
         ("stroke = 90", "stroke = 90", "four-stroke"),
         ("[layout]", "[layout]\nstrokes = 2", "two-stroke"),
     ):
-        file = tmp_path / "strokes.toml"
-        file.write_text(changed((old, new), ("throws = [0, 180, 180, 0]", "")))
+        file = write(
+            tmp_path / "strokes.toml", changed((old, new), ("throws = [0, 180, 180, 0]", ""))
+        )
         assert f"deg, {word}\n" in run_here("analyze", file).out
     file.write_text(changed(("firing_order = [1, 3, 4, 2]", "")))
     assert "stroke\n" not in run_here("analyze", file).out
@@ -237,8 +233,7 @@ def test_the_head_says_two_or_four_strokes_where_the_file_does(tmp_path):
 
 
 def test_short_names_of_numbers_are_understood_where_one_number_has_them(tmp_path):
-    file = tmp_path / "i4.toml"
-    file.write_text(GOOD)
+    file = write(tmp_path / "i4.toml", GOOD)
 
     def swept(name):
         return run_here("sweep", file, "--vary", f"{name}=80,90", "-q", "force.2.major")
@@ -270,8 +265,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
 
 
 def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
-    file = tmp_path / "i4.toml"
-    file.write_text(GOOD)
+    file = write(tmp_path / "i4.toml", GOOD)
     search = ("search", file, "--minimise", "force.2.major", "--over")
     assert (
         "The best rod.length is an end of the range" in run_here(*search, "rod.length=140:180").out
@@ -288,8 +282,7 @@ def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
 
 def test_a_search_says_that_a_number_changes_nothing(tmp_path):
     """What turns with the crank has no second order."""
-    file = tmp_path / "i4.toml"
-    file.write_text(GOOD)
+    file = write(tmp_path / "i4.toml", GOOD)
     search = ("search", file, "--over", "crank.throw_mass=0:6", "--minimise", "force.2.major")
     told = run_here(*search).out
     nothing = "changes nothing of what is minimised: it is the same at every value."
@@ -304,12 +297,12 @@ def test_a_search_says_that_a_number_changes_nothing(tmp_path):
 
 def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
     """A firing order fits one splay alone: of a 60-degree V6 that fires evenly, -60."""
-    file = tmp_path / "v6.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "v6.toml",
         changed(
             ("throws = [0, 180, 180, 0]", "splay = -60"),
             ("firing_order = [1, 3, 4, 2]", "firing_order = [1, 4, 2, 5, 3, 6]\nbank_angle = 60"),
-        )
+        ),
     )
     search = ("search", file, "--minimise", "moment.1.backward", "--over", "crank.splay=-80:80")
     told = run_here(*search).out
@@ -319,11 +312,11 @@ def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
 
 
 def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
-    file = tmp_path / "twin.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "twin.toml",
         changed(
             ("throws = [0, 180, 180, 0]", "throws = [0, 90]"), ("firing_order = [1, 3, 4, 2]", "")
-        )
+        ),
     )
     near, far = (
         run_here("balance", file, "--scheme", "single-shaft", f"--at={at}").out
@@ -339,7 +332,7 @@ def test_a_project_file_whose_table_is_none_is_refused(tmp_path, monkeypatch):
     monkeypatch.delenv("BALCLI_CONFIG", raising=False)
     Path("i4.toml").write_text(GOOD)
     Path("pyproject.toml").write_text("tool.balcli = 3\n")
-    assert run_here("analyze", "i4.toml").err == (
-        f"balcli: {Path('pyproject.toml').resolve()}: tool.balcli: 3 stands where a table belongs; "
-        "write [tool.balcli] and its keys below it\n"
+    assert refusal("analyze", "i4.toml") == (
+        f"{Path('pyproject.toml').resolve()}: tool.balcli: 3 stands where a table belongs; "
+        "write [tool.balcli] and its keys below it"
     )

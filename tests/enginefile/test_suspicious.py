@@ -18,7 +18,9 @@ WITHIN = (
 )
 
 
-@pytest.mark.parametrize("text", [GOOD, *map(new.template, new.KINDS)], ids=["good", *new.KINDS])
+@pytest.mark.parametrize(
+    "text", [GOOD, *map(new.template, new.ENGINE_KINDS)], ids=["good", *new.ENGINE_KINDS]
+)
 def test_ordinary_engines_pass(text):
     assert find_suspicious(parse(text)) == []
 

@@ -11,7 +11,7 @@ import tomllib
 import pytest
 
 from balcli.engine.load import parse
-from balcli.enginefile.templates import KINDS, template
+from balcli.enginefile.templates import ENGINE_KINDS, template
 from balcli.errors import BalcliError
 
 OPTION = re.compile(r"^# *((?:\[+[a-z.0-9]+\]+)|(?:[a-z_]+ *= .*))")
@@ -27,7 +27,7 @@ CYLINDERS = {
 INSTEAD = ("or instead of", "# big_end")
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ENGINE_KINDS)
 def test_it_is_the_engine_that_it_says(kind):
     engine = parse(template(kind), kind)
     layout = engine.layout
@@ -37,14 +37,14 @@ def test_it_is_the_engine_that_it_says(kind):
     assert engine.source.endswith("replace every figure by your own")
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ENGINE_KINDS)
 def test_editors_are_told_where_the_schema_is(kind):
     hint, how = template(kind).splitlines()[:2]
     assert hint.startswith("#:schema ")
     assert f"`balcli schema -o {hint.split()[1]}`" in how
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ENGINE_KINDS)
 def test_every_optional_key_can_be_switched_on(kind):
     """All of them at once, but for those that stand instead of others."""
     lines = [
@@ -60,7 +60,7 @@ def test_every_optional_key_can_be_switched_on(kind):
     assert engine.operation.speed_ripple
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ENGINE_KINDS)
 def test_alternatives_say_the_same(kind):
     text = template(kind)
     engine = parse(text)
@@ -79,7 +79,7 @@ def test_alternatives_say_the_same(kind):
     assert given["pendulum"] == {"pivot": "small_end", "period": pytest.approx(swing, abs=1e-4)}
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ENGINE_KINDS)
 def test_the_parts_of_a_piston_weigh_as_much_as_the_whole(kind):
     text = template(kind)
     table = text.partition("[piston]")[2].partition("[layout]")[0]
@@ -89,7 +89,7 @@ def test_the_parts_of_a_piston_weigh_as_much_as_the_whole(kind):
     assert sum(given.values()) == pytest.approx(parse(text).piston.mass, abs=1e-9)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ENGINE_KINDS)
 def test_every_key_is_explained_and_lines_are_short(kind):
     lines = template(kind).splitlines()
     assert max(map(len, lines)) <= 120
@@ -108,7 +108,7 @@ def test_unknown_kinds():
         template("boxxer")
     assert str(caught.value) == (
         '"boxxer" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
-        "w, mounts. Did you mean boxer?"
+        "w, mounts, field, torsion. Did you mean boxer?"
     )
-    with pytest.raises(BalcliError, match=r"vee, boxer, radial, w, mounts\.$"):
+    with pytest.raises(BalcliError, match=r"w, mounts, field, torsion\.$"):
         template("q" * 10_000)

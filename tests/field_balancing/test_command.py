@@ -12,11 +12,12 @@ import tomllib
 from io import StringIO
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask, ask_json, refusal, run_here
+from support.paths import write
 from support.rotors import three_runs
 
+from balcli.enginefile.templates import template
 from balcli.field_balancing.read import parse_runs
-from balcli.field_balancing.starting_file import read_starting_file
 
 SHOP = """
 name = "fan"
@@ -34,14 +35,11 @@ speed = 3000
 
 @pytest.fixture
 def runs(tmp_path):
-    path = tmp_path / "runs.toml"
-    path.write_text(three_runs(SHOP), encoding="utf-8")
-    return path
+    return write(tmp_path / "runs.toml", three_runs(SHOP))
 
 
 def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
-    status, out, err = run_here("field", runs)
-    assert (status, err) == (0, "")
+    out = ask("field", runs)
     assert (
         "a weight at 30 deg stands 30 deg on from the 0 mark, going the way the rotor turns." in out
     )
@@ -71,7 +69,7 @@ def test_a_hole_is_told_by_what_it_does_at_the_rim(tmp_path):
         '[[run]]\nreadings = ["20 @ 0"]\nweights = { rim = "10 @ 0" }\n'
     )
     path.write_text(text, encoding="utf-8")
-    (plane,) = json.loads(run_here("field", path, "-f", "json").out)["corrections"]
+    (plane,) = ask_json("field", path)["corrections"]
     (hole,) = plane["pieces"]
     grams = 7.85e-3 * math.pi / 4 * 12**2 * hole["depth_mm"]
     assert grams * (100 - hole["depth_mm"] / 2) == pytest.approx(30 * 100)
@@ -124,13 +122,12 @@ def test_a_grade_may_be_written_with_its_letter(runs):
 @pytest.mark.parametrize("minimise", ["squares", "max"])
 def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     """No form says that readings are cancelled; all have what is left, and what would be best."""
-    path = tmp_path / "runs.toml"
-    path.write_text(three_runs('name = "fan"\nplaces = [[0, 40, 80], "free"]'), encoding="utf-8")
+    path = write(tmp_path / "runs.toml", three_runs('name = "fan"\nplaces = [[0, 40, 80], "free"]'))
     out = run_here("field", path, "--minimise", minimise).out
     assert "All readings are cancelled" not in out
     assert re.search(r"^front +– +– +–$", out, re.MULTILINE)
     assert "Without its limit, front would take 1.979 g at 236.2 deg." in " ".join(out.split())
-    said = json.loads(run_here("field", path, "--minimise", minimise, "-f", "json").out)
+    said = ask_json("field", path, "--minimise", minimise)
     front, rear = said["corrections"]
     assert (front["weight"], front["pieces"], front["at_limit"]) == (0, [], True)
     assert front["wanted"]["weight"] == pytest.approx(1.979467642, rel=1e-9)
@@ -149,17 +146,15 @@ def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     assert "wanted: 1.98 at 236.2 deg" in picture.read_text(encoding="utf-8")
 
 
-def test_senses_are_said_the_other_way_round_too(tmp_path):
-    path = tmp_path / "runs.toml"
-    path.write_text(three_runs('weights = "against"'), encoding="utf-8")
+def test_senses_are_said_the_other_way_round_too():
     assert (
         "30 deg on from the 0 mark, going against the way the rotor turns."
-        in run_here("field", path).out
+        in run_here("field", "-", stdin=three_runs('weights = "against"')).out
     )
 
 
 def test_json_is_what_it_promises(runs):
-    said = json.loads(run_here("field", runs, "-f", "json").out)
+    said = ask_json("field", runs)
     assert said["format"] == "balcli.field/1"
     front, rear = said["corrections"]
     assert (front["plane"], front["weight"]) == ("front", pytest.approx(1.979467642, rel=1e-9))
@@ -175,12 +170,12 @@ def test_json_is_what_it_promises(runs):
     assert said["permitted"]["unbalance_g_mm"] == pytest.approx(2406.42, rel=1e-5)
     assert said["permitted"]["reached"] is True
     assert "bound" not in said
-    best = json.loads(run_here("field", runs, "-f", "json", "--minimise", "max").out)
+    best = ask_json("field", runs, "--minimise", "max")
     assert best["bound"] == 0
 
 
 def test_csv_has_every_figure_of_json(runs):
-    said = json.loads(run_here("field", runs, "-f", "json").out)
+    said = ask_json("field", runs)
     lines = list(csv.DictReader(StringIO(run_here("field", runs, "-f", "csv").out)))
     found = {(r["part"], r["name"], r["figure"]): (r["value"], r["unit"]) for r in lines}
     front = said["corrections"][0]
@@ -201,7 +196,7 @@ def test_a_trim_is_shown_beside_the_total(tmp_path):
     out = run_here("field", path, "-f", "markdown").out
     assert "add now, g" in out
     assert "on top of what was on in 'in'" in out
-    said = json.loads(run_here("field", path, "-f", "json").out)
+    said = ask_json("field", path)
     assert said["trimmed"] == "in"
     assert said["corrections"][0]["add"]["weight"] < 1
 
@@ -220,13 +215,10 @@ def test_what_stays_on_in_a_plane_left_out_is_told(tmp_path, head):
 
 def test_check(runs, tmp_path):
     assert run_here("field", runs, "--check").status == 0
-    strict = tmp_path / "strict.toml"
-    strict.write_text(three_runs(SHOP).replace("6.3", "0.4"), encoding="utf-8")
-    status, out, _ = run_here("field", strict, "--check")
+    status, out, _ = run_here("field", "-", "--check", stdin=three_runs(SHOP).replace("6.3", "0.4"))
     assert status == 1
     assert "not reached" in out
-    plain = tmp_path / "plain.toml"
-    plain.write_text(three_runs(), encoding="utf-8")
+    plain = write(tmp_path / "plain.toml", three_runs())
     assert refusal("field", plain, "--check") == (
         f"{plain}: --check needs a grade, such as grade = 6.3, and mass and speed"
     )
@@ -265,8 +257,10 @@ def test_mistakes_of_the_file_and_standard_input(runs, tmp_path):
 
 
 def test_doubts_are_warnings(tmp_path):
-    path = tmp_path / "runs.toml"
-    path.write_text(three_runs().replace("235 @ 94", "171 @ 112").replace("58 @ 68", "53 @ 78"))
+    path = write(
+        tmp_path / "runs.toml",
+        three_runs().replace("235 @ 94", "171 @ 112").replace("58 @ 68", "53 @ 78"),
+    )
     status, _, err = run_here("field", path)
     assert status == 0
     assert err.startswith(f"warning: {path}: the trial weight in front changes no reading")
@@ -279,9 +273,8 @@ OPTION = re.compile(r"^# *(\[\[run\]\]|[a-z_]+ *= .*)", re.MULTILINE)
 def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_path):
     path = tmp_path / "runs.toml"
     assert run_here("new", "field", path) == (0, "", "")
-    status, _, err = run_here("field", path)
-    assert (status, err) == (0, "")
-    text = read_starting_file()
+    ask("field", path)
+    text = template("field")
     assert path.read_text(encoding="utf-8") == text
     keys = tomllib.loads(OPTION.sub(r"\1", text).replace("speed  = 2900", ""))
     assert len(keys["run"]) == 4
@@ -293,13 +286,13 @@ def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_p
 
 
 def test_the_starting_file_is_short_enough_for_a_screen():
-    assert max(map(len, read_starting_file().splitlines())) <= 130
+    assert max(map(len, template("field").splitlines())) <= 130
 
 
 def test_the_schema_names_every_key():
     described = json.loads(run_here("schema", "field").out)
     assert described["title"] == "balcli file of runs"
-    example = tomllib.loads(read_starting_file())
+    example = tomllib.loads(template("field"))
     assert set(example) <= set(described["properties"])
     assert all(key.get("description") for key in described["properties"].values())
     assert described["required"] == ["planes", "run"]

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.engines import build_text
 from support.paths import ENGINES
 
 from balcli.engine.build import build
@@ -221,7 +222,7 @@ def test_other_mechanisms_by_differences(name):
     less.
     """
     text = TEXTS[name].replace(", speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }]", "")
-    subject, fine = build(parse(text)), divide_revolution(0.05)
+    subject, fine = build_text(text), divide_revolution(0.05)
     omega, step = float(subject.omega), np.radians(0.05)
     for number in (1, 6):
         curve = compute_cylinder_curves(subject, number, fine).values

@@ -10,6 +10,7 @@ import pytest
 from support.commands import run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
+from support.paths import write
 
 from balcli.core.mechanisms.closed_form import find_harmonics
 from balcli.engine.load import load
@@ -178,8 +179,7 @@ def test_constant_pressure_has_the_harmonics_of_the_travel(tmp_path):
     (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}\n")
     single = FOUR.replace("throws = [0, 180, 180, 0]", "throws = [0]")
     single = single.replace("firing_order = [1, 3, 4, 2]", "")
-    path = tmp_path / "single.toml"
-    path.write_text(single + '[gas]\nindicator = "p.csv"\ncrankcase = 2\n')
+    path = write(tmp_path / "single.toml", single + '[gas]\nindicator = "p.csv"\ncrankcase = 2\n')
     found = load(path)
     torque = scalar(compute_spectra(found, ORDERS, ["gas"])["gas"])
     series = find_harmonics(ORDERS, found.cylinders.lam, ["piston"]).piston.c[:, 0]

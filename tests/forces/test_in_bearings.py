@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.commands import run_here
+from support.commands import ask
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError
@@ -172,9 +172,7 @@ def test_bearings_are_those_of_torque():
 
 # ------------------------------------------------------------------ what users see
 def analyze(*arguments):
-    status, out, err = run_here("analyze", *arguments, "--only", "inner")
-    assert (status, err) == (0, "")
-    return out
+    return ask("analyze", *arguments, "--only", "inner")
 
 
 def test_json_and_csv_have_every_place():
@@ -222,8 +220,7 @@ def test_where_it_is_not_known_the_reason_stands_there(tmp_path, change, why):
     text = FOUR + WIEBE
     if "throws" in change[0]:
         text = text.replace("firing_order = [1, 3, 4, 2]\n", "")
-    path = tmp_path / "engine.toml"
-    path.write_text(text.replace(*change))
+    path = write(tmp_path / "engine.toml", text.replace(*change))
     (tmp_path / "h.csv").write_text("order,cos,sin\n0,2,0\n0.5,1,3\n")
     out = analyze(path)
     assert f"Inside, it is not known: {why}" in " ".join(out.split())
@@ -234,8 +231,7 @@ def test_where_it_is_not_known_the_reason_stands_there(tmp_path, change, why):
 
 def test_engines_with_gas_are_compared_by_it():
     files = [str(ENGINES / name) for name in ("i4_wiebe.toml", "v8_wiebe.toml")]
-    status, out, err = run_here("compare", *files, "--only", "inner", "--orders", "1", "-f", "json")
-    assert (status, err) == (0, "")
+    out = ask("compare", *files, "--only", "inner", "--orders", "1", "-f", "json")
     keys = {"shaft_shear_N", "shaft_bending_Nm", "main_N", "block_shear_N", "block_bending_Nm"}
     assert keys <= {line["quantity"] for line in json.loads(out)["figures"]}
 

@@ -6,11 +6,10 @@ import re
 
 import numpy as np
 import pytest
+from support.engines import build_text
 from support.in_time import run_in_time
 from support.mounts import ENGINE
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.forces.in_time import compute_spectra_in_time
 from balcli.forces.spectrum import compute_spectra
@@ -39,7 +38,7 @@ def make_uneven(lines):
 def test_force_roll_and_gas(name):
     """Half orders of gas, and order 0; gas over the angle reaches far beyond the orders wanted."""
     lines, orders = LINES[name], np.arange(0, 12.5, 0.5)
-    engine = build(parse(make_uneven(lines)))
+    engine = build_text(make_uneven(lines))
     found, turns = compute_spectra_in_time(engine, orders, ["force", "roll", "gas"])
     over_angle = compute_spectra(engine, np.arange(0, 150, 0.5), ["force", "roll", "gas"])
 
@@ -64,7 +63,7 @@ def test_force_roll_and_gas(name):
     ("line", "slowest"), [((2, 0.9999, 0.0), "0.0001"), ((256, 0.8, 0.0), "0.2")]
 )
 def test_a_crank_that_all_but_stops_or_trembles_is_refused(line, slowest):
-    engine = build(parse(make_uneven([line])))
+    engine = build_text(make_uneven([line]))
     said = (
         f"operation.speed_ripple: the crank slows down to {slowest} of its mean speed; what "
         "vibrates there in time takes more samples than are computed; give a smaller amplitude or "

@@ -9,9 +9,10 @@ from io import StringIO
 
 import numpy as np
 import pytest
-from support.commands import refusal, run_here, run_in_terminal
+from support.commands import ask, ask_json, refusal, run_here, run_in_terminal
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
+from support.paths import write
 
 from balcli.mounting.response import LargestAmplitude
 from balcli.render.mounts import _less
@@ -21,13 +22,11 @@ DAMPED = ENGINE + block("loss = 0.1") + '[[point]]\nname = "lever"\nat = [100, 0
 
 @pytest.fixture
 def four(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(DAMPED, encoding="utf-8")
-    return path
+    return write(tmp_path / "four.toml", DAMPED)
 
 
 def test_json_is_what_it_promises(four):
-    said = json.loads(run_here("mounts", four, "--speeds", "600:3000:100", "-f", "json").out)
+    said = ask_json("mounts", four, "--speeds", "600:3000:100")
     assert said["format"] == "balcli.mounts/1"
     assert len(said["modes"]) == 6
     first = said["modes"][0]
@@ -54,12 +53,12 @@ def test_json_is_what_it_promises(four):
 
 def test_speeds_are_told_as_they_were_asked_for(four):
     """What is computed in rad/s came back as 700.6000000000001 rpm."""
-    said = json.loads(run_here("mounts", four, "--speeds", "700:702:0.1", "-f", "json").out)
+    said = ask_json("mounts", four, "--speeds", "700:702:0.1")
     assert said["response"]["speeds_rpm"] == [k / 10 for k in range(7000, 7021)]
 
 
 def test_csv_has_the_figures_of_json(four):
-    said = json.loads(run_here("mounts", four, "--speeds", "900,3000", "-f", "json").out)
+    said = ask_json("mounts", four, "--speeds", "900,3000")
     text = run_here("mounts", four, "--speeds", "900,3000", "-f", "csv").out
     lines = list(csv.DictReader(StringIO(text)))
     found = {
@@ -75,8 +74,7 @@ def test_csv_has_the_figures_of_json(four):
 
 
 def test_the_sheet_says_what_the_frame_feels(four):
-    status, out, err = run_here("mounts", four, "--speeds", "200:3000:50")
-    assert (status, err) == (0, "")
+    out = ask("mounts", four, "--speeds", "200:3000:50")
     # Mounts 2 and 4 feel the same, of which the first is named.
     assert re.search(r"^The mount 2 feels most: .* N at 28\d.* rpm, of which order 2", out, re.M)
     assert "There it meets mode 2 (along x, 9.39 Hz): resonance." in out
@@ -86,8 +84,7 @@ def test_the_sheet_says_what_the_frame_feels(four):
 
 def test_mounts_that_travel_farther_than_any_are_doubted(tmp_path):
     """At least as far as the force presses the stiffest of the springs."""
-    path = tmp_path / "undamped.toml"
-    path.write_text(ENGINE + block("loss = 0.0001"), encoding="utf-8")
+    path = write(tmp_path / "undamped.toml", ENGINE + block("loss = 0.0001"))
     found = run_here("mounts", path, "--speeds", "200:3000:50", "-f", "json")
     worst = [mount["worst"] for mount in json.loads(found.out)["response"]["mounts"]]
     force, rpm = max((each["force_N"], each["speed_rpm"]) for each in worst)
@@ -132,21 +129,17 @@ def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
     assert float(hertz) == pytest.approx(2 * float(rpm) / 60, rel=5e-3)
 
 
-def test_a_dashpot_beside_which_all_else_is_rounding_is_told(tmp_path):
+def test_a_dashpot_beside_which_all_else_is_rounding_is_told():
     """It was an internal error."""
-    path = tmp_path / "stiff.toml"
-    path.write_text(ENGINE + block("damping = [1e12, 1, 1]"), encoding="utf-8")
-    told = refusal("mounts", path)
+    told = refusal("mounts", "-", stdin=ENGINE + block("damping = [1e12, 1, 1]"))
     assert re.search(r"at [\d.]+ Hz the motion of the body is lost in rounding errors", told)
     assert told.endswith("is damping in N s/mm?")
 
 
-def test_orders_that_do_not_fit_are_counted(tmp_path):
+def test_orders_that_do_not_fit_are_counted():
     """Half orders from 1/2 to 3 stood there, and nothing of those above."""
     text = DAMPED + "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0.5\n" + WIEBE
-    path = tmp_path / "uneven.toml"
-    path.write_text(text, encoding="utf-8")
-    out = run_here("mounts", path, "--speeds", "200:3000:50", "--orders", "0.5-4").out
+    out = run_here("mounts", "-", "--speeds", "200:3000:50", "--orders", "0.5-4", stdin=text).out
     table = out.split("Where orders meet modes, rpm\n")[1].split("\n\n")[0]
     assert table.splitlines()[0].split()[-2:] == ["order", "3"]
     assert table.splitlines()[-1] == "JSON has 2 orders more."
@@ -156,7 +149,7 @@ def test_a_scheme_is_shown_beside(four):
     out = run_here("mounts", four, "--scheme", "two-shaft").out
     assert "With two-shaft the largest force of any mount is " in out
     assert "with two-shaft" in out
-    said = json.loads(run_here("mounts", four, "--scheme", "two-shaft", "-f", "json").out)
+    said = ask_json("mounts", four, "--scheme", "two-shaft")
     assert said["fitted"]["scheme"] == "two-shaft"
     assert len(said["fitted"]["response"]["mounts"]) == 4
     assert refusal("mounts", four, "--scheme", "nonsense").startswith(f"{four}: there is no scheme")
@@ -165,7 +158,7 @@ def test_a_scheme_is_shown_beside(four):
 def test_the_point_that_moves_most_is_told_with_a_scheme_and_without(four):
     """A shaft that spares the mounts may shake a handlebar."""
     asked = ("mounts", four, "--scheme", "two-shaft", "--at=0,300")
-    said = json.loads(run_here(*asked, "-f", "json").out)
+    said = ask_json(*asked)
     before = said["response"]["points"][0]["worst"]
     after = said["fitted"]["response"]["points"][0]["worst"]
     change = after["motion_mm"] / before["motion_mm"] - 1
@@ -205,15 +198,11 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
     fired = run_here("mounts", four, light).out
     assert re.search(r"^With light four .*, its gas included\.$", fired, re.M)
     light.write_text(text, encoding="utf-8")
-    said = json.loads(run_here("mounts", four, light, "-f", "json").out)
+    said = ask_json("mounts", four, light)
     (other,) = said["others"]
-    alone = tmp_path / "alone.toml"
-    alone.write_text(DAMPED.replace(ENGINE, text), encoding="utf-8")
-    own = json.loads(run_here("mounts", alone, "-f", "json").out)
+    own = ask_json("mounts", "-", stdin=DAMPED.replace(ENGINE, text))
     assert (other["name"], other["response"]) == ("light four", own["response"])
-    bare = tmp_path / "bare.toml"
-    bare.write_text(DAMPED.replace(ENGINE, ""), encoding="utf-8")
-    on_bare = json.loads(run_here("mounts", bare, light, "-f", "json").out)
+    on_bare = ask_json("mounts", "-", light, stdin=DAMPED.replace(ENGINE, ""))
     assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
     parts = {
         row["part"]
@@ -236,14 +225,16 @@ def test_cylinders_that_do_not_fire_are_named(tmp_path):
     path.write_text(ENGINE + weak + WIEBE + block("loss = 0.1"), encoding="utf-8")
     told = "the same diagram at every speed; no gas in 3; no burning in 4."
     assert told in " ".join(run_here("mounts", path).out.split())
-    said = json.loads(run_here("mounts", path, "-f", "json").out)["response"]
+    said = ask_json("mounts", path)["response"]
     assert (said["no_gas_in"], said["no_burning_in"]) == ([3], [4])
     listed = run_here("mounts", path, "-f", "csv").out.splitlines()
     assert "engine,,,,no_gas_in,3," in listed
     assert "engine,,,,no_burning_in,4," in listed
-    beside = tmp_path / "beside.toml"
-    beside.write_text(path.read_text("utf-8").replace("gas = 0", "gas = 1"), "utf-8")
-    told = " ".join(run_here("mounts", path, beside).out.split())
+    told = " ".join(
+        run_here(
+            "mounts", path, "-", stdin=path.read_text("utf-8").replace("gas = 0", "gas = 1")
+        ).out.split()
+    )
     assert "; no gas in 3; no burning in 4. With " in told
     assert "% more; no burning in 4. " in told
 
@@ -272,14 +263,13 @@ def test_what_cannot_misfire_is_told(four, tmp_path):
 
 
 def test_without_an_engine_modes_and_rest_are_told(tmp_path):
-    path = tmp_path / "block.toml"
-    path.write_text(block(), encoding="utf-8")
+    path = write(tmp_path / "block.toml", block())
     status, out, _ = run_here("mounts", path)
     assert status == 0
     assert "Natural modes" in out
     assert "At rest" in out
     assert "feels" not in out
-    said = json.loads(run_here("mounts", path, "-f", "json").out)
+    said = ask_json("mounts", path)
     assert "response" not in said
 
 
@@ -292,7 +282,7 @@ def test_rounding_is_no_share_of_a_mode_and_turns_no_shape(tmp_path):
     for stiff in range(150, 250, 5):
         text = block("angles = [0, 0, 45]").replace("-200]", "0]")
         path.write_text(text.replace("[200, 150", f"[200.7, {stiff}.3"), encoding="utf-8")
-        found += json.loads(run_here("mounts", path, "-f", "json").out)["modes"]
+        found += ask_json("mounts", path)["modes"]
     diagonal = [mode for mode in found if mode["energy_percent"]["x"] > 49]
     assert len(diagonal) == 40
     assert all(mode["shape"][0] > 0 for mode in diagonal)
@@ -333,8 +323,7 @@ def test_picture(four, tmp_path, form):
     "asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto"), ("--misfire", "1")]
 )
 def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path, asked):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(block("loss = 0.1"), encoding="utf-8")
+    bare = write(tmp_path / "bare.toml", block("loss = 0.1"))
     status, out, err = run_here("mounts", bare, *asked)
     assert (status, out) == (0, run_here("mounts", bare).out)
     assert err == (
@@ -359,12 +348,11 @@ def rocking_of(page):
 @pytest.mark.stress
 def test_the_page_rocks_the_body(four):
     """Its motion at one speed is that of the point in the answer, to the figures of the page."""
-    status, page, err = run_here("report", four, "-o", "-")
-    assert (status, err) == (0, "")
+    page = ask("report", four, "-o", "-")
     assert "On its mounts" in page
     assert "feels most" in page
     data = rocking_of(page)
-    said = json.loads(run_here("mounts", four, "-f", "json").out)["response"]
+    said = ask_json("mounts", four)["response"]
     k = 20
     place = int(np.argmin(np.abs(np.array(said["speeds_rpm"]) - data["speeds"][k])))
     angles = np.linspace(0, 4 * np.pi, 7201)
@@ -381,21 +369,19 @@ def test_the_page_rocks_the_body(four):
 
 @pytest.mark.stress
 def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
-    path = tmp_path / "undamped.toml"
-    path.write_text(ENGINE.replace("speed = 3000", "speed = 1200") + block(), encoding="utf-8")
+    path = write(
+        tmp_path / "undamped.toml", ENGINE.replace("speed = 3000", "speed = 1200") + block()
+    )
     status, page, err = run_here("report", path, "-o", "-")
     assert status == 0
     assert "rocking" not in page
     assert err.startswith(f"warning: the page does not show the mounts: {path}: mode ")
 
 
-def test_a_page_where_nothing_is_fitted_compares_nothing(tmp_path):
+def test_a_page_where_nothing_is_fitted_compares_nothing():
     """Of a six, orders 1 and 2 are balanced: a column with the scheme would say the same twice."""
     six = ENGINE.replace("[0, 180, 180, 0]", "[0, 240, 120, 120, 240, 0]")
-    path = tmp_path / "six.toml"
-    path.write_text(six.replace("0.55", "0.5") + block("loss = 0.1"), encoding="utf-8")
-    status, page, err = run_here("report", path, "-o", "-")
-    assert (status, err) == (0, "")
+    page = ask("report", "-", "-o", "-", stdin=six.replace("0.55", "0.5") + block("loss = 0.1"))
     assert "Nothing is fitted" in page
     assert "On its mounts" in page
     assert "with auto" not in page.lower()
@@ -469,21 +455,26 @@ def test_one_speed(four):
     assert "range" not in out.partition("Largest force")[0]
 
 
-def test_too_much_is_refused(tmp_path):
+def test_too_much_is_refused():
     mounts = "".join(
         f'[[mount]]\nname = "{k}"\nat = [{k + 9}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
         for k in range(100)
     )
-    path = tmp_path / "many.toml"
-    path.write_text(ENGINE + block("loss = 1", count=0) + mounts, encoding="utf-8")
-    message = refusal("mounts", path, "--speeds", "1:19000:1", "--orders", "1-3")
+    message = refusal(
+        "mounts",
+        "-",
+        "--speeds",
+        "1:19000:1",
+        "--orders",
+        "1-3",
+        stdin=ENGINE + block("loss = 1", count=0) + mounts,
+    )
     assert "3 orders at 19000 speeds of 100 mounts and 0 points are 5700000 results" in message
 
 
 def test_the_starting_file_runs(tmp_path):
     path = tmp_path / "four.toml"
     assert run_here("new", "mounts", path) == (0, "", "")
-    status, out, err = run_here("mounts", path)
-    assert (status, err) == (0, "")
+    out = ask("mounts", path)
     assert "feels most" in out
     assert run_here("analyze", path).status == 0

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import csv
-import json
 from io import StringIO
 
 import numpy as np
 import pytest
 from support.commands import ask_json, refusal, run_here
 from support.mounts import ENGINE, block
+from support.paths import write
 
 POINT = '[[point]]\nname = "shift lever"\nat = [100, 0, 300]\n'
 TEXT = ENGINE + block("loss = 0.1") + POINT
@@ -18,9 +18,7 @@ NAMED = TEXT.replace('name = "1"', 'name = "left"').replace('name = "3"', 'name 
 
 @pytest.fixture
 def four(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(NAMED, encoding="utf-8")
-    return path
+    return write(tmp_path / "four.toml", NAMED)
 
 
 def sweep(path, *args):
@@ -34,7 +32,7 @@ def sweep(path, *args):
 
 def said_by(path, text):
     path.write_text(text, encoding="utf-8")
-    return json.loads(run_here("mounts", path, "-f", "json").out)
+    return ask_json("mounts", path)
 
 
 def test_each_variant_is_the_file_that_says_so(four, tmp_path):
@@ -120,13 +118,11 @@ def test_variants_that_cannot_be_are_told_with_their_figures(four):
 
 # ------------------------------------------------------------------ tolerances of mounts
 @pytest.mark.stress
-def test_stiffness_scatters(tmp_path):
+def test_stiffness_scatters():
     """Up and down of the block is sqrt(sum k / m): by hand, with the same random numbers."""
-    path = tmp_path / "four.toml"
-    path.write_text(NAMED, encoding="utf-8")
     said = ask_json(
         "scatter",
-        path,
+        "-",
         "-q",
         "mode.z.Hz",
         "--samples",
@@ -135,6 +131,7 @@ def test_stiffness_scatters(tmp_path):
         "7",
         "--stiffness-scatter",
         "10%",
+        stdin=NAMED,
     )
     found = said["quantities"]["mode.z.Hz"]
     factors = 1 + 0.1 * (2 * np.random.default_rng(7).random((400, 4)) - 1)
@@ -188,8 +185,7 @@ GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
 def test_with_gas_every_figure_varies(path, old, new, tmp_path):
     text = NAMED + LAYOUT + GAS
     assert old in text
-    file = tmp_path / "four.toml"
-    file.write_text(text, encoding="utf-8")
+    file = write(tmp_path / "four.toml", text)
     value = 0.11 if path == "mount.left.loss" else 1.05 * float(old.split("=")[1])
     first = float(old.split("=")[1])
     (_, row) = sweep(file, "--vary", f"{path}={first},{value}", "-q", "mount.left.force")
@@ -200,8 +196,7 @@ def test_with_gas_every_figure_varies(path, old, new, tmp_path):
 
 def test_the_mean_torque_leans_on_the_mounts_whatever_else_is_asked(tmp_path):
     """Of [gas], as `mounts` has the rest: beside a force of the running engine, and alone."""
-    file = tmp_path / "four.toml"
-    file.write_text(NAMED + LAYOUT + GAS, encoding="utf-8")
+    file = write(tmp_path / "four.toml", NAMED + LAYOUT + GAS)
     rest = said_by(file, NAMED + LAYOUT + GAS)["static"]["mounts"][0]["force_N"]
     for asked in ("mount.left.static", "mount.left.static,mount.left.force"):
         (row,) = sweep(file, "--vary", "mount.left.loss=0.1", "-q", asked)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from support.commands import run_here
 from support.mounts import ENGINE, block
+from support.paths import write
 
 from balcli.errors import InputError
 from balcli.mounting.read import read_mounted
@@ -71,8 +72,7 @@ CASES = [
 
 
 def mistakes(tmp_path, text):
-    path = tmp_path / "x.toml"
-    path.write_text(text, encoding="utf-8")
+    path = write(tmp_path / "x.toml", text)
     with pytest.raises(InputError) as caught:
         read_mounted(path)
     return [str(problem) for problem in caught.value.problems]
@@ -84,8 +84,7 @@ def test_mistakes_are_told(tmp_path, text, message):
 
 
 def test_a_body_without_an_engine_needs_none(tmp_path):
-    path = tmp_path / "x.toml"
-    path.write_text(block(), encoding="utf-8")
+    path = write(tmp_path / "x.toml", block())
     assert read_mounted(path).engine is None
 
 
@@ -104,8 +103,7 @@ def test_units_of_their_own(tmp_path):
 
 
 def test_moments_that_no_body_has_are_doubted(tmp_path):
-    path = tmp_path / "x.toml"
-    path.write_text(block().replace("12e6, 14e6", "12e6, 24e6"), encoding="utf-8")
+    path = write(tmp_path / "x.toml", block().replace("12e6, 14e6", "12e6, 24e6"))
     assert read_mounted(path).doubts == (
         "body.inertia: zz of 2.4e+07 is more than xx and yy together (2e+07), which no body has; are "
         "the axes right? z is the crankshaft's",
@@ -119,8 +117,7 @@ def test_moments_that_no_body_has_are_doubted(tmp_path):
 
 
 def test_inertias_in_kg_m2_are_doubted(tmp_path):
-    path = tmp_path / "x.toml"
-    path.write_text(block().replace("8e6, 12e6, 14e6", "8, 12, 14"), encoding="utf-8")
+    path = write(tmp_path / "x.toml", block().replace("8e6, 12e6, 14e6", "8, 12, 14"))
     assert read_mounted(path).doubts == (
         "body.inertia: 14 kg mm^2 is that of 200 kg within 0.26 mm, and a mount stands 539 mm away; "
         'is it in kg mm^2? Another unit is said as in "14 kg m^2"',
@@ -146,8 +143,7 @@ def test_places_in_metres_are_doubted(tmp_path):
     [("[200e3, 150e3, 400e3]", "0.002"), ("[0.2, 0.15, 0.4]", "2e+03")],
 )
 def test_mounts_that_give_way_like_none_are_doubted(tmp_path, stiffness, sag):
-    path = tmp_path / "x.toml"
-    path.write_text(block().replace("[200, 150, 400]", stiffness), encoding="utf-8")
+    path = write(tmp_path / "x.toml", block().replace("[200, 150, 400]", stiffness))
     assert read_mounted(path).doubts == (
         f"mount.stiffness: under its weight the body would sink by about {sag} mm, where 0.02 to 200 "
         'mm is usual; is it in N/mm? Another unit is said as in "250 kN/m"',
@@ -155,9 +151,8 @@ def test_mounts_that_give_way_like_none_are_doubted(tmp_path, stiffness, sag):
 
 
 def test_a_loss_factor_in_percent_is_doubted(tmp_path):
-    path = tmp_path / "x.toml"
-    path.write_text(
-        block().replace("[200, 150, 400]", "[200, 150, 400]\nloss = 8"), encoding="utf-8"
+    path = write(
+        tmp_path / "x.toml", block().replace("[200, 150, 400]", "[200, 150, 400]\nloss = 8")
     )
     told = (
         "is 8, where at most 1 is usual; 8 % is 0.08, and of a relative damping psi the loss factor"
@@ -169,8 +164,7 @@ def test_a_loss_factor_in_percent_is_doubted(tmp_path):
 
 @pytest.mark.parametrize("one", ["300", '"300 N/mm"'])
 def test_one_stiffness_holds_along_all_three_axes(tmp_path, one):
-    path = tmp_path / "body.toml"
-    path.write_text(block("damping = 0.2").replace("[200, 150, 400]", one, 1), encoding="utf-8")
+    path = write(tmp_path / "body.toml", block("damping = 0.2").replace("[200, 150, 400]", one, 1))
     first, second = read_mounted(path).model.mount[:2]
     assert first.stiffness == (300, 300, 300)
     assert second.stiffness == (200, 150, 400)
@@ -178,8 +172,7 @@ def test_one_stiffness_holds_along_all_three_axes(tmp_path, one):
 
 
 def test_one_stiffness_that_cannot_be_is_told_once(tmp_path):
-    path = tmp_path / "body.toml"
-    path.write_text(block().replace("[200, 150, 400]", "-5", 1), encoding="utf-8")
+    path = write(tmp_path / "body.toml", block().replace("[200, 150, 400]", "-5", 1))
     with pytest.raises(InputError) as caught:
         read_mounted(path)
     told = 'a bare number in N/mm, or "350 N/mm" or "2000 lbf/in", 0 or more'

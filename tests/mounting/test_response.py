@@ -7,10 +7,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from oracle import momentum
+from support.engines import build_text
 from support.mounts import ENGINE, RandomBody, block
+from support.paths import write
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.forces.in_time import compute_spectra_in_time
 from balcli.forces.spectrum import compute_spectra
@@ -24,8 +24,7 @@ SPEEDS = np.array([700.0, 1100, 1900, 3000, 5200])
 @pytest.fixture
 def report(tmp_path):
     def of(text, speeds=SPEEDS, orders=None, scheme=None):
-        path = tmp_path / "engine.toml"
-        path.write_text(text, encoding="utf-8")
+        path = write(tmp_path / "engine.toml", text)
         file = read_mounted(path)
         return report_mounts(file.model, file.engine, speeds, orders, scheme, name="engine.toml")
 
@@ -248,7 +247,7 @@ def test_gas_rolls_the_body_alike_at_every_speed(report):
     orders = [0.5, 1, 1.5, 2]
     result = report(GAS + body.text, orders=orders)
     plain = report(ENGINE + body.text, orders=orders)
-    torque = compute_spectra(build(parse(GAS)), np.array(orders), ["gas"])["gas"].x
+    torque = compute_spectra(build_text(GAS), np.array(orders), ["gas"])["gas"].x
     assert np.abs(torque).min() > 1
     assert plain.response.loads.gas is None
     inertia = plain.response.loads.inertia
@@ -332,7 +331,7 @@ def test_under_a_constant_load_its_torque_leans_on_the_mounts(report):
     """
     steps = 1 << 10
     theta, orders = np.arange(steps) * (4 * np.pi / steps), np.arange(0, 24.5, 0.5)
-    torque = compute_spectra(build(parse(GAS)), orders, ["gas"])["gas"]
+    torque = compute_spectra(build_text(GAS), orders, ["gas"])["gas"]
     gas = torque.values(theta).real
     omega = find_constant_load_speed(gas, find_inertia(theta), 300)
     waves = np.fft.fft(omega, norm="forward")[:49]
@@ -345,7 +344,7 @@ def test_under_a_constant_load_its_torque_leans_on_the_mounts(report):
     )
     speed = f"speed = {waves[0].real * 30 / np.pi}\nspeed_ripple = [{lines}]"
     text = GAS.replace("speed = 3000", speed)
-    found, _ = compute_spectra_in_time(build(parse(text)), np.zeros(1), ["gas", "roll"])
+    found, _ = compute_spectra_in_time(build_text(text), np.zeros(1), ["gas", "roll"])
     of_gas, of_inertia = -found["gas"].x[0].real, found["roll"].x[0].real
 
     own = np.sum(gas / omega) / np.sum(1 / omega)

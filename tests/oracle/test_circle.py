@@ -13,12 +13,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from support.engines import engine_text
+from support.engines import build_text, engine_text
 
 from balcli.core import enclosing_circle as circle
 from balcli.core.phasors import Phasors
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.forces.orders import find_relevant_orders
 from balcli.forces.spectrum import compute_spectra
 
@@ -27,7 +25,7 @@ VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=
 
 
 def force(**tables: str) -> Phasors:
-    e = build(parse(engine_text(**tables)))
+    e = build_text(engine_text(**tables))
     return compute_spectra(e, find_relevant_orders(e), ("force",)).force
 
 

@@ -12,6 +12,7 @@ from io import StringIO
 from types import SimpleNamespace
 
 import pytest
+from support.commands import ask_json
 from support.engines import GOOD, RADIAL, STAGGERED_TWIN, build_text, inline_engine, rotary_engine
 from support.paths import ENGINES
 
@@ -391,9 +392,7 @@ def test_roll_beside_that_with_gas_is_told_to_be_of_inertia_alone(balcli):
 
 def test_all_has_the_guide_moments_and_json_has_not(balcli):
     assert "Guide-force moments" in balcli("analyze", ENGINES / "i3.toml", "--all").out
-    assert "guide" not in json.loads(
-        balcli("analyze", ENGINES / "i3.toml", "--all", "-f", "json").out
-    )
+    assert "guide" not in ask_json("analyze", ENGINES / "i3.toml", "--all")
 
 
 @pytest.mark.parametrize("more", [(), ("--all",)])

@@ -9,7 +9,7 @@ import re
 
 import pytest
 from support import imports
-from support.commands import run_here
+from support.commands import ask
 from support.paths import ENGINES, PACKAGE
 from support.rotors import three_runs
 
@@ -57,8 +57,7 @@ def show(monkeypatch):
     monkeypatch.setattr(bench, "bench", lambda: measured)
 
     def run(name: str, form: Format) -> str:
-        status, out, err = run_here(*SHOWN[name], "--format", form, stdin=RUNS)
-        assert (status, err) == (0, "")
+        out = ask(*SHOWN[name], "--format", form, stdin=RUNS)
         assert called == [f"balcli.render.{name}"]
         return out
 

@@ -22,8 +22,6 @@ from support.pictures import draw_page
 
 from balcli.commands.plot_pages import What
 from balcli.core.phasors import Phasors
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.render.plot import style, torsion
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import draw_locus, find_period_deg
@@ -40,7 +38,7 @@ MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
 
 
 def engine(text: str = GOOD):
-    return build(parse(text))
+    return build_text(text)
 
 
 @pytest.fixture(scope="module")

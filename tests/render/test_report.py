@@ -10,12 +10,10 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 from support.browser import CHROMIUM, Browser
-from support.commands import run_here
-from support.engines import GOOD, changed
-from support.paths import ENGINES
+from support.commands import ask, run_here
+from support.engines import GOOD, build_text, changed
+from support.paths import ENGINES, write
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.forces.kinds import KINDS
 from balcli.render.html import page
 from balcli.render.units import IMPERIAL, SI
@@ -53,7 +51,7 @@ ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 5", "radial = 5
 @cache
 def report(text: str, system=SI) -> str:
     """The page of an engine file, which many tests look at."""
-    engine = build(parse(text))
+    engine = build_text(text)
     return page(analyze(engine, None, {*KINDS, "peak"}), balance(engine), system)
 
 
@@ -101,9 +99,7 @@ def test_it_says_what_the_terminal_says():
 @cache
 def printed_report(name: str) -> str:
     """What the command makes of an engine that comes with balcli."""
-    status, out, err = run_here("report", ENGINES / f"{name}.toml", "-o", "-")
-    assert (status, err) == (0, "")
-    return out
+    return ask("report", ENGINES / f"{name}.toml", "-o", "-")
 
 
 @pytest.mark.parametrize(
@@ -146,7 +142,7 @@ def test_imperial_units_reach_everything():
     unit = scene["units"]["force"]
     assert (unit["name"], unit["thousand"]) == ("lbf", "")
     second = next(row for row in scene["variants"][0]["force"] if row[0] == 2)
-    force = analyze(build(parse(GOOD))).spectra.force.select_orders([2])
+    force = analyze(build_text(GOOD)).spectra.force.select_orders([2])
     assert second[1] == pytest.approx(float(force.forward[0].real) / 4.4482216152605, rel=1e-12)
 
 
@@ -183,8 +179,7 @@ def browser(tmp_path_factory):
 @pytest.fixture
 def show(browser, tmp_path):
     def opened(text: str = GOOD, **how):
-        file = tmp_path / "page.html"
-        file.write_text(report(text), encoding="utf-8")
+        file = write(tmp_path / "page.html", report(text))
         browser.open(file, **how)
         return browser
 
@@ -219,7 +214,7 @@ def test_the_keyboard_moves_the_vector(show):
     for _ in range(3):
         page.press("ArrowRight", 39)
     assert page.run("angle.value") == "3"
-    curve = analyze(build(parse(GOOD))).spectra.force
+    curve = analyze(build_text(GOOD)).spectra.force
     y, x = numbers(page, "#force-vector", "x2", "y2")
     forces = [float(abs(curve.values(np.radians(t)))) for t in (0, 3)]
     assert abs(y) < 1e-6
@@ -242,7 +237,7 @@ def test_the_keyboard_moves_the_vector(show):
     ],
 )
 def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(show, text):
-    page, c = show(text), build(parse(text)).cylinders
+    page, c = show(text), build_text(text).cylinders
     for theta in (0, 77, 250):
         turn(page, theta)
         ends = page.run(
@@ -282,7 +277,7 @@ def test_orders_are_switched(show):
     fourth = page.run("document.getElementById('force-now').textContent")
     page.run("document.querySelector('[name=order][value=\"4\"]').click()")
     assert before != [0]
-    force = analyze(build(parse(GOOD))).spectra.force.select_orders([4])
+    force = analyze(build_text(GOOD)).spectra.force.select_orders([4])
     assert float(fourth.split()[0]) == pytest.approx(float(force.major[0]), rel=1e-3)
     assert page.run("document.getElementById('force-now').textContent") == "balanced"
 
@@ -291,7 +286,7 @@ def test_orders_are_switched(show):
 def test_the_fitted_engine_shakes_less(show):
     page = show()
     page.run("document.querySelectorAll('[name=variant]')[1].click()")
-    after = balance(build(parse(GOOD))).after
+    after = balance(build_text(GOOD)).after
     assert float(
         page.run("document.getElementById('force-now').textContent").split()[0]
     ) == pytest.approx(float(abs(after.spectra.force.values(0.0))), rel=1e-3)

@@ -8,8 +8,9 @@ import sys
 
 import numpy as np
 import pytest
-from support.commands import run_in_terminal
+from support.commands import ask, run_in_terminal
 from support.engines import GOOD, changed
+from support.paths import write
 
 from balcli.core.phasors import Phasors
 from balcli.render.terminal_plot import BAR_COLUMNS, LOCUS_ROWS, bars, locus
@@ -58,9 +59,7 @@ def test_nothing_shakes():
 
 @pytest.fixture
 def four(tmp_path):
-    file = tmp_path / "four.toml"
-    file.write_text(GOOD)
-    return file
+    return write(tmp_path / "four.toml", GOOD)
 
 
 def is_drawn(line):
@@ -69,8 +68,7 @@ def is_drawn(line):
 
 def test_drawn_wherever_a_table_goes(balcli, four, tmp_path):
     """In a pipe and in a file as in a terminal: they were asked for."""
-    status, out, err = balcli("analyze", four, "--plot")
-    assert (status, err) == (0, "")
+    out = ask("analyze", four, "--plot")
     assert len(list(filter(is_drawn, out.splitlines()))) > LOCUS_ROWS
     file = tmp_path / "four.txt"
     balcli("analyze", four, "--plot", "-o", file)
@@ -87,12 +85,12 @@ def test_where_there_is_no_table_a_word_says_so(balcli, four, form):
 
 def test_what_is_negligible_is_said_and_not_drawn(balcli, tmp_path):
     """An in-line five has a free force of 1e-6 of one cylinder's, and a moment."""
-    file = tmp_path / "five.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "five.toml",
         changed(
             ("throws = [0, 180, 180, 0]", "throws = [0, 144, 216, 288, 72]"),
             ("firing_order = [1, 3, 4, 2]", ""),
-        )
+        ),
     )
     out = balcli("analyze", file, "--plot").out
     assert "Free force\nnegligible (0.00" in out

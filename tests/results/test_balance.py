@@ -11,12 +11,11 @@ from pathlib import Path
 
 import pytest
 from support.commands import refusal, run_here
-from support.engines import GOOD, SINGLE, changed
-from support.paths import ENGINES
+from support.engines import GOOD, SINGLE, build_text, changed
+from support.paths import ENGINES, write
 
 from balcli.core.drilled_hole import STEEL, find_drill_depth
-from balcli.engine.build import build
-from balcli.engine.load import load, parse
+from balcli.engine.load import load
 from balcli.enginefile.model import Counterweight, Slider
 from balcli.errors import BalcliError
 from balcli.results.balance import balance
@@ -28,9 +27,7 @@ from balcli.sizing.workshop import Holes, Tools, find_practical
 
 @pytest.fixture
 def file(tmp_path) -> Path:
-    path = tmp_path / "engine.toml"
-    path.write_text(GOOD)
-    return path
+    return write(tmp_path / "engine.toml", GOOD)
 
 
 def run(*arguments: object, text: str | None = None):
@@ -181,8 +178,7 @@ def test_what_is_balanced_is_so_at_steady_speed(tmp_path, file):
         ("throws = [0, 180, 180, 0]", "throws = [0, 120, 240, 240, 120, 0]"),
         ("firing_order = [1, 3, 4, 2]", "strokes = 4"),
     )
-    path = tmp_path / "six.toml"
-    path.write_text(six)
+    path = write(tmp_path / "six.toml", six)
     assert "Orders 1 and 2 are balanced.\n" in run(path).out
     path.write_text(six + "speed_ripple = [{ order = 4, amplitude = 0.1 }]\n")
     assert "Orders 1 and 2 are balanced at steady speed.\n" in run(path).out
@@ -247,11 +243,11 @@ def test_refusals(file, options, told):
 
 
 def test_a_rotary_engine_has_no_factor(tmp_path):
-    file = tmp_path / "rotary.toml"
-    file.write_text(
+    file = write(
+        tmp_path / "rotary.toml",
         GOOD.replace("throws = [0, 180, 180, 0]\n", "").replace(
             "firing_order = [1, 3, 4, 2]", "radial = 5\nrotary = true"
-        )
+        ),
     )
     assert "the cylinders turn and the crank pins stand still" in refusal(
         "balance", file, "--scheme", "factor"
@@ -259,10 +255,10 @@ def test_a_rotary_engine_has_no_factor(tmp_path):
 
 
 def test_weights_of_a_rotary_engine_stand_on_its_cylinders(tmp_path, file):
-    path = tmp_path / "rotary.toml"
-    path.write_text(
+    path = write(
+        tmp_path / "rotary.toml",
         SINGLE.replace("strokes = 4", "radial = 5\nrotary = true")
-        + "[cylinder.2]\npiston_mass = 0.6\n"
+        + "[cylinder.2]\npiston_mass = 0.6\n",
     )
     told = "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis"
     assert told in run(path).out
@@ -280,7 +276,7 @@ def test_a_folder_that_is_not_there(file, tmp_path):
 
 # ------------------------------------------------------------------ the workshop
 def engine():
-    return build(parse(SINGLE))
+    return build_text(SINGLE)
 
 
 def test_practical_figures_follow_from_their_definitions():

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import math
 
 import pytest
-from support.commands import run_here
-from support.engines import GOOD, changed
+from support.commands import ask_json, run_here
+from support.engines import GOOD, build_text, changed
 from support.gas_engines import WIEBE
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.results.comparison import compare_engines
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
-    slow, fast = build(parse(GOOD)), build(parse(changed(("speed = 3000", "speed = 6000"))))
+    slow, fast = build_text(GOOD), build_text(changed(("speed = 3000", "speed = 6000")))
     lines = {
         (line.kind.name, line.order): line
         for line in compare_engines([slow, fast], ["slow", "fast"]).lines
@@ -44,22 +41,19 @@ def test_at_which_speeds_engines_are_compared_is_told(
     for file, speed in zip(files, ("speed = 3000", second), strict=True):
         file.write_text(changed(("speed = 3000", speed)), encoding="utf-8")
     assert told in run_here("compare", *files).out.splitlines()
-    document = json.loads(run_here("compare", *files, "-f", "json").out)
+    document = ask_json("compare", *files)
     assert document["speeds_rpm"] == [3000, rpm]
 
 
 def test_orders_of_every_engine_are_shown() -> None:
-    six = build(
-        parse(
-            changed(
-                ("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"),
-                ("firing_order = [1, 3, 4, 2]", ""),
-            )
+    six = build_text(
+        changed(
+            ("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", "")
         )
     )
     lines = {
         (line.kind.name, line.order): line
-        for line in compare_engines([build(parse(GOOD)), six], ["4", "6"], only=["force"]).lines
+        for line in compare_engines([build_text(GOOD), six], ["4", "6"], only=["force"]).lines
     }
     assert {order for _, order in lines} >= {1, 2, 4, 6}
     assert lines["force", 6].values[1] > 0
@@ -68,7 +62,7 @@ def test_orders_of_every_engine_are_shown() -> None:
 
 def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
     """Unless all engines have gas, what is compared is that of inertia."""
-    bare, fired = build(parse(GOOD)), build(parse(GOOD + WIEBE))
+    bare, fired = build_text(GOOD), build_text(GOOD + WIEBE)
     several = compare_engines([fired, bare], ["fired", "bare"], [0.5, 1, 2], ["guide"])
     lines = {(line.kind.name, line.order): line for line in several.lines}
     assert lines["guide_h", 2].ratios == (1, 1)
@@ -82,13 +76,13 @@ def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
 
 def test_one_engine_is_refused() -> None:
     with pytest.raises(BalcliError, match="compare needs at least two engine files"):
-        compare_engines([build(parse(GOOD))], ["one"])
+        compare_engines([build_text(GOOD)], ["one"])
 
 
 def test_inner_guide_and_sizing_stand_side_by_side() -> None:
     from balcli.results.analysis import analyze
 
-    engines = [build(parse(GOOD)), build(parse(changed(("stroke = 90", "stroke = 80"))))]
+    engines = [build_text(GOOD), build_text(changed(("stroke = 90", "stroke = 80")))]
     found = compare_engines(engines, ["a", "b"], None, ["inner", "guide", "sizing"])
     lines = {(line.kind.name, line.order): line.values for line in found.lines}
     alone = [analyze(engine, [2], ["inner", "guide", "sizing"]) for engine in engines]
@@ -102,7 +96,7 @@ def test_inner_guide_and_sizing_stand_side_by_side() -> None:
 
 def test_orders_that_are_asked_for_are_there_balanced_or_not() -> None:
     """In-line fours have no odd order of any force, moment or torque of inertia."""
-    four = build(parse(GOOD))
+    four = build_text(GOOD)
     kinds = ["force", "moment", "couple", "torque", "roll"]
     asked = compare_engines([four, four], ["one", "other"], orders=[7], only=kinds).lines
     assert [(line.kind.name, line.order, line.values) for line in asked] == [

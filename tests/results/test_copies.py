@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.engines import engine_text
+from support.engines import build_text, engine_text
 
 from balcli import (
     analyze,
@@ -20,7 +20,6 @@ from balcli import (
     balance_rotor,
     load,
 )
-from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
 from balcli.results.knuckles import balance_knuckles
@@ -81,7 +80,7 @@ def test_an_analysis_comes_back_equal(name, way):
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_a_balance_comes_back_equal(scheme, way):
-    result = balance(build(parse(engine_text(operation="speed = 3000"))), scheme)
+    result = balance(build_text(engine_text(operation="speed = 3000")), scheme)
     assert difference(result, WAYS[way](result)) == ""
 
 

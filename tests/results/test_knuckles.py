@@ -7,9 +7,9 @@ import re
 
 import numpy as np
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.engines import RADIAL
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
@@ -110,8 +110,7 @@ def test_an_articulation_in_one_line_stays_in_its_line(tmp_path):
 
 
 def test_a_table_says_which_angles_are_even_and_what_is_left(tmp_path):
-    file = tmp_path / "radial.toml"
-    file.write_text(RADIAL)
+    file = write(tmp_path / "radial.toml", RADIAL)
     text = run(file, "--even", "strokes", "--speed", "2000").out
     assert "What is changed, and why" in text
     assert "strokes equal to the master's" in text
@@ -128,7 +127,7 @@ def test_with_gas_the_roll_is_that_of_both(tmp_path):
     file.write_text((ENGINES / "radial7_articulated.toml").read_text() + gas)
     found = json.loads(run(file, "--write", out, "-f", "json").out)
     for state, path in (("before", file), ("after", out)):
-        told = json.loads(run_here("analyze", path, "--orders", "1-4", "-f", "json").out)
+        told = ask_json("analyze", path, "--orders", "1-4")
         rolls = {entry["order"]: entry["roll_total_Nm"] for entry in found[state]["orders"]}
         assert [rolls[entry["order"]] for entry in told["orders"]] == [
             entry["roll_total_Nm"] for entry in told["orders"]
@@ -145,15 +144,11 @@ def test_with_gas_the_roll_is_that_of_both(tmp_path):
         (["--order", "2"], "scheme knuckles: has no option but --even"),
     ],
 )
-def test_options_that_knuckles_do_not_take_are_refused(tmp_path, options, message):
-    file = tmp_path / "radial.toml"
-    file.write_text(RADIAL)
-    assert refusal("balance", file, "--scheme", "knuckles", *options) == message
+def test_options_that_knuckles_do_not_take_are_refused(options, message):
+    assert refusal("balance", "-", "--scheme", "knuckles", *options, stdin=RADIAL) == message
 
 
-def test_even_without_the_scheme(tmp_path):
-    file = tmp_path / "radial.toml"
-    file.write_text(RADIAL)
-    assert refusal("balance", file, "--even", "strokes") == (
+def test_even_without_the_scheme():
+    assert refusal("balance", "-", "--even", "strokes", stdin=RADIAL) == (
         "--even belongs to --scheme knuckles; scheme auto has no such option"
     )

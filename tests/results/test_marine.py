@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.paths import ENGINES
+from support.engines import build_text
+from support.paths import ENGINES, write
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.results.marine import find_marine_sheet
 
 RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
@@ -66,7 +65,7 @@ def sampled(rpm: float) -> dict[str, np.ndarray]:
 
 
 def test_every_column_is_that_of_the_motion() -> None:
-    found = find_marine_sheet(build(parse(TEXT)), RPM, [1, 2, 3, 4])
+    found = find_marine_sheet(build_text(TEXT), RPM, [1, 2, 3, 4])
     for i, rpm in enumerate(RPM):
         for name, curve in sampled(rpm).items():
             largest = max(amplitude(curve, n) for n in (1, 2, 3, 4))
@@ -76,15 +75,14 @@ def test_every_column_is_that_of_the_motion() -> None:
 
 
 def test_the_guide_height_divides_x_alone() -> None:
-    engine = build(parse(TEXT))
+    engine = build_text(TEXT)
     usual, given = (find_marine_sheet(engine, (), [1, 2], height) for height in (None, 3.0))
     assert given.guide_x == pytest.approx(usual.guide_x * ROD / 3.0, rel=1e-12)
     assert given.guide_h == pytest.approx(usual.guide_h, rel=1e-12)
 
 
 def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
-    file = tmp_path / "nowhere.toml"
-    file.write_text(TEXT.replace(f"spacing = {1e3 * SPACING}", ""))
+    file = write(tmp_path / "nowhere.toml", TEXT.replace(f"spacing = {1e3 * SPACING}", ""))
     status, out, err = balcli("analyze", file, "--format", "marine", "-o", tmp_path / "s.json")
     assert (status, out) == (0, "")
     assert err == (
@@ -98,8 +96,9 @@ def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
 
 
 def test_over_speed_a_table_without_orders_is_a_sentence(balcli, tmp_path) -> None:
-    file = tmp_path / "nowhere.toml"
-    file.write_text((ENGINES / "i4.toml").read_text().replace("spacing ", "# "))
+    file = write(
+        tmp_path / "nowhere.toml", (ENGINES / "i4.toml").read_text().replace("spacing ", "# ")
+    )
     for engine, told in ((file, "not known"), (ENGINES / "i4.toml", "balanced")):
         out = balcli("analyze", engine, "--format", "marine", "--speed", "1000,2000")[1]
         assert f"\nExternal moments: {told}.\n" in out
@@ -131,8 +130,7 @@ def test_json_says_whether_gas_is_in_it(balcli, engine, includes) -> None:
 
 
 def test_names_of_orders_head_the_columns_over_speed(balcli, tmp_path) -> None:
-    file = tmp_path / "four.toml"
-    file.write_text(TEXT)
+    file = write(tmp_path / "four.toml", TEXT)
     _, at_one, _ = balcli("analyze", file, "--format", "marine")
     assert re.search("order +FnV, kN +FnH, kN +MnV, kN·m +MnH, kN·m\n", at_one)
     assert "V is along the cylinders (x), H across them (y)." in at_one
@@ -173,21 +171,17 @@ def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
         ("banks = [90]", "(banks at 90 deg), H along y."),
     ],
 )
-def test_where_vertical_is_told_by_the_banks(balcli, tmp_path, banks, told) -> None:
-    file = tmp_path / "leaning.toml"
-    file.write_text(f"{TEXT}[layout]\n{banks}\n")
-    _, out, _ = balcli("analyze", file, "--format", "marine")
+def test_where_vertical_is_told_by_the_banks(balcli, banks, told) -> None:
+    _, out, _ = balcli("analyze", "-", "--format", "marine", stdin=f"{TEXT}[layout]\n{banks}\n")
     assert told in out
 
 
-def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli, tmp_path):
+def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli):
     """As `gas = 0` in the file does."""
     text = MARINE.read_text(encoding="utf-8")
-    silent = tmp_path / "silent.toml"
-    silent.write_text(f"{text}\n[cylinder.3]\ngas = 0\n", encoding="utf-8")
     sheet = ("--format", "marine", "--format", "csv")
     found = balcli("analyze", MARINE, *sheet, "--misfire", "3").out
-    assert found == balcli("analyze", silent, *sheet).out
+    assert found == balcli("analyze", "-", *sheet, stdin=f"{text}\n[cylinder.3]\ngas = 0\n").out
     assert found != balcli("analyze", MARINE, *sheet).out
     told = balcli("analyze", MARINE, "--format", "marine", "--misfire", "3").out
     assert "\nno gas in  3\n" in told

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import csv
-import json
 import math
 import tomllib
 from io import StringIO
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.paths import ENGINES
 
 V8 = ENGINES / "v8_crossplane.toml"
@@ -18,7 +17,7 @@ WHOLE = 31e3 * 16 / (6000 * math.pi / 30)  # g mm
 
 
 def test_all_counterweights_share_what_is_permitted():
-    said = json.loads(run_here(*ASKED, "-f", "json").out)
+    said = ask_json(*ASKED)
     count = len(said["counterweights"])
     assert count == 2
     assert said["permitted"] == {
@@ -91,12 +90,12 @@ def test_planes_that_have_their_weights_already_share_it_too(tmp_path):
         assert [row.split()[0] for row in table[2:4]] == ["-200", "200"]
         assert [row.split()[1] == "0" for row in table[2:4]] == complete
         assert [row.endswith("0.0%, within") for row in table[2:4]] == complete
-        said = json.loads(run_here("balance", file, *asked, "-f", "json").out)["permitted"]
+        said = ask_json("balance", file, *asked)["permitted"]
         assert said["each_g_mm"] == pytest.approx(WHOLE * 6000 / 5000 / 2, rel=1e-12)
 
 
 def test_nothing_is_said_unasked():
-    said = json.loads(run_here("balance", V8, "-f", "json").out)
+    said = ask_json("balance", V8)
     assert "permitted" not in said
 
 

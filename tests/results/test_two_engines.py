@@ -14,7 +14,7 @@ from oracle import momentum
 from support.commands import refusal, run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
@@ -286,9 +286,9 @@ def test_whose_gas_counts_is_told(tmp_path):
 # ------------------------------------------------------------------ the command
 @pytest.fixture
 def file(tmp_path):
-    path = tmp_path / "single.toml"
-    path.write_text(
-        'name = "single"\n[crank]\nstroke = 90\nthrow_mass = 0.8\n' + PARTS.format(operation="")
+    path = write(
+        tmp_path / "single.toml",
+        'name = "single"\n[crank]\nstroke = 90\nthrow_mass = 0.8\n' + PARTS.format(operation=""),
     )
     return str(path)
 
@@ -339,8 +339,7 @@ def test_what_the_roll_is_stands_under_the_table(file, load, roll):
 
 def test_a_speed_that_no_file_gives_is_told_as_assumed(file, tmp_path):
     """Both run at the first one's speed."""
-    slow = tmp_path / "slow.toml"
-    slow.write_text(Path(file).read_text().replace("speed = 3000", ""))
+    slow = write(tmp_path / "slow.toml", Path(file).read_text().replace("speed = 3000", ""))
     assert "speed      both at 3000 rpm\n" in run(file, str(slow)).out
     told = "speed      both at 1000 rpm, assumed: the file gives none; what the second's file says"
     assert told in run(slow, file).out
@@ -348,8 +347,7 @@ def test_a_speed_that_no_file_gives_is_told_as_assumed(file, tmp_path):
 
 @pytest.mark.parametrize("own", ["speed = 3001", f"speed = 3000\n{RIPPLE}"])
 def test_a_speed_of_the_second_that_does_not_count_is_told(file, tmp_path, own):
-    other = tmp_path / "other.toml"
-    other.write_text(Path(file).read_text().replace("speed = 3000", own))
+    other = write(tmp_path / "other.toml", Path(file).read_text().replace("speed = 3000", own))
     told = "both at 3000 rpm; what the second's file says of its speed does not count\n"
     assert told in run(file, str(other)).out
     assert "does not count" not in run(file, file).out
@@ -357,8 +355,7 @@ def test_a_speed_of_the_second_that_does_not_count_is_told(file, tmp_path, own):
 
 
 def test_engines_without_a_name_go_by_their_files(file, tmp_path):
-    nameless = tmp_path / "twin.toml"
-    nameless.write_text(Path(file).read_text().replace('name = "single"', ""))
+    nameless = write(tmp_path / "twin.toml", Path(file).read_text().replace('name = "single"', ""))
     assert run(file, str(nameless)).out.startswith(
         "single and twin\n\nfirst      single, 1 cylinder\n"
     )

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import pytest
+from support.engines import build_text
 from support.remedies import write_engine
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.auto import size_auto
 from balcli.sizing.remedy import Remedy, fit_devices
 
 
 def test_every_device_has_its_reason():
-    remedy = size_auto(build(parse(write_engine(0, 240, 120))))
+    remedy = size_auto(build_text(write_engine(0, 240, 120)))
     assert len(remedy.reasons) == len(remedy.devices) == 8
     assert remedy.reasons[0] == (
         "Order 1 moment turning with the crank: counterweights turn with it too and cancel it"
@@ -29,7 +28,7 @@ def test_reasons_name_what_turns_and_how_it_is_cancelled():
     moment.
     """
     four, three, vee = (
-        size_auto(build(parse(write_engine(*throws, **more)))).reasons
+        size_auto(build_text(write_engine(*throws, **more))).reasons
         for throws, more in (
             ((0, 180, 180, 0), {}),
             ((0, 240, 120), {}),
@@ -51,18 +50,18 @@ def test_reasons_name_what_turns_and_how_it_is_cancelled():
 
 
 def test_nothing_is_fitted_where_nothing_is_left():
-    engine = build(parse(write_engine(0, 240, 120)))
+    engine = build_text(write_engine(0, 240, 120))
     assert not size_auto(fit_devices(engine, size_auto(engine))).devices
 
 
 def test_own_devices_count():
-    engine = build(parse(write_engine(0, 180, 180, 0)))
+    engine = build_text(write_engine(0, 180, 180, 0))
     half = Remedy("", shafts=size_auto(engine).shafts[:1])
     assert [s.ratio for s in size_auto(fit_devices(engine, half)).shafts] == [-2]
 
 
 def test_staggered_rods_on_one_throw_get_planes_at_the_outer_cylinders():
-    remedy = size_auto(build(parse(write_engine(0, layout="bank_angle = 60\nstagger = 24"))))
+    remedy = size_auto(build_text(write_engine(0, layout="bank_angle = 60\nstagger = 24")))
     assert {d.position for d in remedy.counterweights} == {
         0.0
     }  # forward vectors of both rods lie on the pin
@@ -71,7 +70,7 @@ def test_staggered_rods_on_one_throw_get_planes_at_the_outer_cylinders():
 
 def test_sizing_does_not_depend_on_speed():
     slow, fast = (
-        size_auto(build(parse(write_engine(0, 90, 200) + f"[operation]\nspeed = {rpm}\n")))
+        size_auto(build_text(write_engine(0, 90, 200) + f"[operation]\nspeed = {rpm}\n"))
         for rpm in (10, 20000)
     )
     assert [d.unbalance for d in slow.devices] == pytest.approx(
@@ -80,8 +79,8 @@ def test_sizing_does_not_depend_on_speed():
 
 
 def test_devices_are_summed_in_the_order_of_the_file():
-    engine = build(
-        parse(write_engine(0, 240, 120) + "[[slider]]\norder = 2\nunbalance = 3\ndirection = 10\n")
+    engine = build_text(
+        write_engine(0, 240, 120) + "[[slider]]\norder = 2\nunbalance = 3\ndirection = 10\n"
     )
     kinds = [d.kind for d in fit_devices(engine, size_auto(engine)).devices]
     assert kinds == sorted(kinds)

@@ -13,7 +13,7 @@ import pytest
 from oracle import momentum
 from support.commands import refusal, run_here
 from support.engines import build_text, changed
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 from support.remedies import SMALL, figures, write_engine
 
 from balcli.commands.balance import balance
@@ -443,9 +443,7 @@ def test_what_a_factor_cannot_be(text, options, told):
 # ------------------------------------------------------------------ as it is typed, and read
 @pytest.fixture
 def ford(tmp_path):
-    path = tmp_path / "ford.toml"
-    path.write_text(FORD)
-    return path
+    return write(tmp_path / "ford.toml", FORD)
 
 
 @pytest.mark.parametrize(

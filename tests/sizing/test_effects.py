@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.engines import build_text
 from support.remedies import write_engine
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.sizing.effects import Slot, find_effect, size_unbalances, solve_exactly
 from balcli.sizing.remedy import Remedy, fit_devices
@@ -82,7 +81,7 @@ def test_effect_is_what_the_analysis_says(slot):
     """Moments and roll about a point that is neither on the crank axis nor in the middle of the
     throws.
     """
-    engine = build(parse(write_engine(0, 180, 180, 0, frame="reference = [40, -25, 130]")))
+    engine = build_text(write_engine(0, 180, 180, 0, frame="reference = [40, -25, 130]"))
     reference = ReferencePoint(complex(*engine.reference_m[:2]), float(engine.reference_m[2]))
     u = cmath.rect(2e-3, 0.4)
     table = slot.make_table(u, 0.0)

@@ -7,13 +7,11 @@ import math
 
 import numpy as np
 import pytest
-from support.engines import rotary_engine
+from support.engines import build_text, rotary_engine
 from support.remedies import SMALL, figures, find_orders, write_engine
 
 from balcli.core import enclosing_circle as circle
 from balcli.core.peaks import find_peak
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
@@ -26,7 +24,7 @@ def test_minimax_reaches_what_it_says_where_it_says(more):
     """The peak, the crank angles at which it is reached, and the gain over half the reciprocating
     mass, by the analysis.
     """
-    engine = build(parse(SMALL["one"] + more))
+    engine = build_text(SMALL["one"] + more)
     remedy = size(engine, "minimax")
     told, curve = figures(remedy), find_orders(fit_devices(engine, remedy))
     assert find_peak(curve).value == pytest.approx(told["peak force"], rel=1e-12)
@@ -35,7 +33,7 @@ def test_minimax_reaches_what_it_says_where_it_says(more):
     assert np.abs(curve.values(np.radians(told["reached"]))) == pytest.approx(
         told["peak force"], rel=1e-9
     )
-    plain = build(parse(SMALL["one"]))
+    plain = build_text(SMALL["one"])
     half = find_peak(find_orders(fit_devices(plain, size(plain, "factor")))).value
     assert told["factor half peak"] == pytest.approx(
         half, rel=1e-12
@@ -45,20 +43,20 @@ def test_minimax_reaches_what_it_says_where_it_says(more):
 
 @pytest.mark.parametrize("name", ["one", "two", "vee"])
 def test_minimax_knows_its_error(name):
-    assert 0 <= figures(size(build(parse(SMALL[name])), "minimax"))["relative error bound"] < 1e-14
+    assert 0 <= figures(size(build_text(SMALL[name]), "minimax"))["relative error bound"] < 1e-14
 
 
 def test_minimax_puts_its_angles_in_order_after_they_are_wrapped(monkeypatch):
     """A hair before a whole turn is 0, and stands first."""
     found = circle.Circle(3 + 4j, 1e3, np.array([1.0, 4.0, 2 * np.pi - 1e-14]), 0.0)
     monkeypatch.setattr(circle, "enclose_curve", lambda curve: found)
-    told = figures(size(build(parse(SMALL["one"])), "minimax"))
+    told = figures(size(build_text(SMALL["one"]), "minimax"))
     assert told["reached"] == (0, round(math.degrees(1), 9), round(math.degrees(4), 9))
 
 
 def test_minimax_with_nothing_to_fit_says_so_and_fits_no_rounding():
     """An in-line four in two planes: neither a force nor a moment turns with the crank."""
-    remedy = size(build(parse(SMALL["four"])), "minimax", SchemeOptions(planes="ends"))
+    remedy = size(build_text(SMALL["four"]), "minimax", SchemeOptions(planes="ends"))
     assert remedy.devices == ()
     assert remedy.note.startswith("no counterweight makes the largest force smaller than it is: ")
     assert (figures(remedy)["improvement"], figures(remedy)["relative error bound"]) == (0, 0)
@@ -68,7 +66,7 @@ def test_minimax_of_a_crank_that_has_its_weight_already_gives_no_false_reason():
     """What is left of a single cylinder has a part of order 1 that turns with the crank; and yet
     no other weight leaves less.
     """
-    engine = build(parse(SMALL["one"]))
+    engine = build_text(SMALL["one"])
     fitted = fit_devices(engine, size(engine, "minimax"))
     force = find_orders(fitted)
     assert abs(force.forward[0]) > 0.01 * abs(force.backward[0])
@@ -88,13 +86,13 @@ def test_a_gain_of_rounding_is_none(monkeypatch, slip):
         "enclose_curve",
         lambda curve: (found := exact(curve))._replace(radius=found.radius * (1 + slip)),
     )
-    engine = build(parse(SMALL["three"]))
+    engine = build_text(SMALL["three"])
     told = figures(size(engine, "minimax", SchemeOptions(planes="ends")))
     assert told["improvement"] == 0
 
 
 def test_minimax_in_several_planes_takes_the_moment_too():
-    engine = build(parse(SMALL["vee"]))
+    engine = build_text(SMALL["vee"])
     one, several = (
         size(engine, "minimax", SchemeOptions(planes=planes)) for planes in (None, (-0.1, 0.17))
     )
@@ -115,7 +113,7 @@ def test_minimax_in_several_planes_takes_the_moment_too():
 
 def test_minimax_without_a_force():
     """Nothing can be gained; a moment turning with the crank is still taken if planes are named."""
-    engine = build(parse(SMALL["three"]))
+    engine = build_text(SMALL["three"])
     remedy = size(engine, "minimax")
     assert not remedy.devices
     assert "no counterweight makes the largest force smaller than it is" in remedy.note
@@ -136,7 +134,7 @@ def test_minimax_of_an_engine_without_any_force():
     """A boxer twin: whatever one piston does, the other does against it; its moment has a part that
     turns with the crank.
     """
-    engine = build(parse(write_engine(0, 180, layout='banks = [0, 180]\nrods = "alternating"')))
+    engine = build_text(write_engine(0, 180, layout='banks = [0, 180]\nrods = "alternating"'))
     told = figures(size(engine, "minimax", SchemeOptions(planes="ends")))
     assert (
         told["peak force"],

@@ -6,7 +6,8 @@ import json
 
 import numpy as np
 import pytest
-from support.commands import run_here
+from support.commands import ask_json, run_here
+from support.paths import write
 
 from balcli.enginefile import examples
 
@@ -36,8 +37,7 @@ harmonics = "tangential.csv"
 @pytest.fixture
 def four(tmp_path):
     (tmp_path / "tangential.csv").write_text(f"order,cos,sin\n0,2,0\n0.5,1,3\n2,{COS},{SIN}\n")
-    path = tmp_path / "four.toml"
-    path.write_text(FILE)
+    path = write(tmp_path / "four.toml", FILE)
     return str(path)
 
 
@@ -61,7 +61,7 @@ def test_shafts_that_cancel_the_roll_of_inertia_may_leave_more_with_gas(four):
     """Balance said that nothing was left, where the roll of the frame grew."""
     inertia, gas = find_second_order()
     asked = ("balance", four, "--scheme", "two-shaft", "--roll", "zero")
-    found = json.loads(run_here(*asked, "-f", "json").out)
+    found = ask_json(*asked)
     told = found["details"]["order_2"]
     assert told["roll_left_Nm"] == 0
     assert told["roll_before_Nm"] == pytest.approx(abs(inertia), rel=1e-12)
@@ -113,20 +113,18 @@ def test_knuckle_angles_change_the_roll_of_the_gas_in_half_orders_too(tmp_path):
             assert float(rows[name][column]) == pytest.approx(size, rel=1e-3)
 
 
-def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):
+def test_where_devices_add_roll_the_growth_is_that_with_gas(four):
     """Shafts at 120, 80 and 60, -40 mm: their forces along x make a roll about the crank axis."""
     inertia, gas = find_second_order()
     asked = ("balance", four, "--scheme", "two-shaft", "--at=120,80", "--at=60,-40")
-    told = json.loads(run_here(*asked, "-f", "json").out)["details"]["order_2"]
+    told = ask_json(*asked)["details"]["order_2"]
     theta = np.arange(256) * 2 * np.pi / 256
     travel = R * np.cos(theta) + np.sqrt(L**2 - (R * np.sin(theta)) ** 2)
     each = 4 * MASS * OMEGA**2 * 4 * np.fft.fft(travel)[2].real / 256  # a shaft's force, N
     added = -each * ((0.12 - 0.06) * 1j - (0.08 - 0.04))  # x Fy - y Fx of both
     assert told["roll_left_Nm"] == pytest.approx(abs(inertia + added), rel=1e-9)
     assert told["roll_with_gas_left_Nm"] == pytest.approx(abs(inertia + gas + added), rel=1e-9)
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FILE.partition("[gas]")[0])
-    said = run_here("balance", str(bare), *asked[2:]).out
+    said = run_here("balance", "-", *asked[2:], stdin=FILE.partition("[gas]")[0]).out
     assert "roll, N·m      after\n" in said
     assert "with gas" not in said
 
@@ -134,7 +132,7 @@ def test_where_devices_add_roll_the_growth_is_that_with_gas(four, tmp_path):
 @pytest.mark.parametrize(("at", "grows"), [("0,-80", True), ("0,80", False)])
 def test_a_slider_beside_the_crank_is_told_where_it_adds_roll(four, at, grows):
     asked = ("balance", four, "--scheme", "slider", f"--at={at}")
-    told = json.loads(run_here(*asked, "-f", "json").out)["details"]
+    told = ask_json(*asked)["details"]
     grown = told["roll_with_gas_left_Nm"] - told["roll_with_gas_before_Nm"]
     assert (grown > 0) == grows
     said = f"The roll of order 2 with gas grows by {grown:.4g} N·m: "
@@ -145,8 +143,13 @@ def test_a_slider_beside_the_crank_is_told_where_it_adds_roll(four, at, grows):
     ("frame", "pivot"),
     [("", "the crankshaft"), ("[frame]\nreference = [0, 90, 0]\n", "the point of reference")],
 )
-def test_about_what_the_devices_have_levers(tmp_path, frame, pivot):
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FILE.partition("[gas]")[0] + frame)
-    said = run_here("balance", str(bare), "--scheme", "slider", "--at=0,-200").out
+def test_about_what_the_devices_have_levers(frame, pivot):
+    said = run_here(
+        "balance",
+        "-",
+        "--scheme",
+        "slider",
+        "--at=0,-200",
+        stdin=FILE.partition("[gas]")[0] + frame,
+    ).out
     assert f"where they stand, the devices' forces have levers about {pivot}." in said

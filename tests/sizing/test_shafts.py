@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 
 import pytest
-from support.commands import refusal, run_here
-from support.engines import STAGGERED_TWIN, engine
+from support.commands import ask_json, refusal, run_here
+from support.engines import STAGGERED_TWIN, build_text, engine
 from support.paths import ENGINES
 
 from balcli.core.cylinders import DeviceKind
-from balcli.engine.build import build
-from balcli.engine.load import load, parse
+from balcli.engine.load import load
 from balcli.forces.spectrum import compute_spectra
 from balcli.render.page_scene import place_beside, scene
 from balcli.render.units import SYSTEMS
@@ -181,7 +180,7 @@ def test_free_places_are_told():
     rows = [line.split() for line in table.splitlines() if line.startswith("shaft")]
     assert [(row[1], row[4]) for row in rows] == [("+2", "free")] * 2 + [("-2", "100,")] * 2
     assert "free: the shaft may stand anywhere, for it makes a moment alone." in table
-    sizing = json.loads(run_here("analyze", I5, "--format", "json").out)["sizing"]
+    sizing = ask_json("analyze", I5)["sizing"]
     assert [(s["free"], s["at_mm"]) for s in sizing["shafts"]] == [(True, [0, 0])] * 6
 
 
@@ -250,7 +249,7 @@ def test_the_page_has_no_shaft_inside_the_crank():
 # ------------------------------------------------------------------ an order that was not asked for
 def test_lower_orders_that_stay_as_they_are_are_named():
     """Pins split by 2 x 75 - 180 degrees: no force of order 1 turns against the crank."""
-    twin = build(parse(STAGGERED_TWIN))
+    twin = build_text(STAGGERED_TWIN)
     remedy = size(twin, "single-shaft")
     assert remedy.order == 2
     assert remedy.note == (
@@ -287,7 +286,7 @@ def test_so_are_orders_whose_moment_is_left():
 
 
 def test_what_turns_with_the_crank_is_said_with_its_size():
-    twin = build(parse(STAGGERED_TWIN))
+    twin = build_text(STAGGERED_TWIN)
     remedy = size(twin, "single-shaft", SchemeOptions(order=1))
     assert remedy.note == (
         "order 1 has no free force turning against the crank: nothing to balance; its force and "
@@ -301,7 +300,7 @@ def test_what_turns_with_the_crank_is_said_with_its_size():
 
 
 def test_a_shaft_that_turns_as_the_crank_does_names_counterweights():
-    twin = build(parse(STAGGERED_TWIN))
+    twin = build_text(STAGGERED_TWIN)
     reasons = [*size(twin, "couple-shaft").reasons, *size(twin, "two-shaft").reasons]
     told = [reason for reason in reasons if "+1 times crank speed" in reason]
     assert len(told) == 3

@@ -8,11 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.engines import engine_text
+from support.engines import build_text, engine_text
 from support.remedies import SMALL, figures, find_orders, write_engine
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.enginefile.model import Counterweight
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
@@ -59,7 +57,7 @@ def devices(remedy: Remedy) -> list[tuple[float, ...]]:
 def test_a_remedy_does_not_depend_on_the_point_of_reference(name, scheme):
     """Moments are counted from it, but devices stand where the engine needs them."""
     plain, moved = (
-        build(parse(SMALL[name] + frame)) for frame in ("", "[frame]\nreference = [30, -20, 170]\n")
+        build_text(SMALL[name] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n")
     )
     here, there = (size(e, scheme) for e in (plain, moved))
     assert len(there.devices) == len(here.devices)
@@ -77,8 +75,7 @@ def test_no_roll_about_the_crank_whatever_the_point_of_reference():
     """
     options = SchemeOptions(at=(-0.04 + 0.06j,), roll="zero")
     plain, moved = (
-        build(parse(SMALL["four"] + frame))
-        for frame in ("", "[frame]\nreference = [30, -20, 170]\n")
+        build_text(SMALL["four"] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n")
     )
     here, there = (devices(size(e, "two-shaft", options)) for e in (plain, moved))
     assert there == [pytest.approx(device, rel=1e-10, abs=1e-9) for device in here]
@@ -86,13 +83,11 @@ def test_no_roll_about_the_crank_whatever_the_point_of_reference():
 
 def test_a_weight_opposite_staggered_rods_stands_in_their_middle():
     """Places whose mean is 0 but for rounding."""
-    engine = build(
-        parse(
-            engine_text(
-                crank="stroke = 100\nthrows = [0]",
-                layout="bank_angle = 90\nstagger = 22.3",
-                rod="ratio = 0.25\nmass = 0.61\ncg = 47.3",
-            )
+    engine = build_text(
+        engine_text(
+            crank="stroke = 100\nthrows = [0]",
+            layout="bank_angle = 90\nstagger = 22.3",
+            rod="ratio = 0.25\nmass = 0.61\ncg = 47.3",
         )
     )
     cylinders = replace(
@@ -104,11 +99,9 @@ def test_a_weight_opposite_staggered_rods_stands_in_their_middle():
 
 def test_a_shaft_where_the_force_acts_is_at_no_distance_from_it():
     """Not at one of 1e-15 mm."""
-    engine = build(
-        parse(
-            engine_text(crank="stroke = 100\nthrows = [0, 90]\npositions = [0, 33.3]")
-            + "[cylinder.2]\npiston_mass = 1.7\n"
-        )
+    engine = build_text(
+        engine_text(crank="stroke = 100\nthrows = [0, 90]\npositions = [0, 33.3]")
+        + "[cylinder.2]\npiston_mass = 1.7\n"
     )
     remedy = size(engine, "single-shaft", SchemeOptions(order=1))
     assert remedy.shafts[0].position > 0
@@ -122,9 +115,7 @@ def test_places_along_the_crank_are_figures_that_people_can_read():
         for share in (1, 3, 9):
             crank_text = crank.format(first, second)
             remedy = size_auto(
-                build(
-                    parse(engine_text(crank=crank_text) + f"[cylinder.2]\npiston_mass = {share}\n")
-                )
+                build_text(engine_text(crank=crank_text) + f"[cylinder.2]\npiston_mass = {share}\n")
             )
             assert {d.position for d in remedy.shafts} == {
                 round((first + share * second) / (1 + share), 9)
@@ -134,8 +125,8 @@ def test_places_along_the_crank_are_figures_that_people_can_read():
 
 def test_what_is_in_the_middle_of_the_throws():
     """Throws at 10, 30 and 110 mm: 60, where nothing says otherwise."""
-    engine = build(
-        parse(engine_text(crank="stroke = 100\nthrows = [0, 0, 0]\npositions = [10, 30, 110]"))
+    engine = build_text(
+        engine_text(crank="stroke = 100\nthrows = [0, 0, 0]\npositions = [10, 30, 110]")
     )
     (weight,) = size(engine, "minimax").counterweights
     assert weight.position == 60
@@ -145,11 +136,11 @@ def test_what_is_in_the_middle_of_the_throws():
 
 def test_a_single_device_has_no_condition_number():
     """Of two planes at equal distance from the middle it is 1."""
-    assert "condition number" not in figures(size(build(parse(SMALL["four"])), "single-shaft"))
-    assert figures(size_auto(build(parse(SMALL["three"]))))["condition number"] == pytest.approx(
+    assert "condition number" not in figures(size(build_text(SMALL["four"]), "single-shaft"))
+    assert figures(size_auto(build_text(SMALL["three"])))["condition number"] == pytest.approx(
         1, rel=1e-14
     )
-    balanced = build(parse(write_engine(0, 240, 120, 120, 240, 0)))
+    balanced = build_text(write_engine(0, 240, 120, 120, 240, 0))
     assert not size_auto(balanced).details
 
 
@@ -172,7 +163,7 @@ def test_a_single_device_has_no_condition_number():
     ],
 )
 def test_a_remedy_says_its_scheme_and_its_order(scheme, name, order):
-    remedy = size(build(parse((SMALL | {"centred": write_engine(0)})[name])), scheme)
+    remedy = size(build_text((SMALL | {"centred": write_engine(0)})[name]), scheme)
     assert (remedy.scheme, remedy.order) == (scheme, order)
 
 
@@ -201,7 +192,7 @@ TAKEN = {
 @pytest.mark.parametrize("option", OPTIONS)
 @pytest.mark.parametrize("scheme", TAKEN)
 def test_an_option_makes_a_difference_or_is_refused(scheme, option):
-    engine = build(parse(SMALL["vee"]))
+    engine = build_text(SMALL["vee"])
     options = SchemeOptions(
         **{option: 1 if scheme == "counterweights" and option == "order" else OPTIONS[option]}
     )
@@ -215,7 +206,7 @@ def test_an_option_makes_a_difference_or_is_refused(scheme, option):
 
 
 def test_planes_are_named_or_given():
-    engine = build(parse(SMALL["vee"]))
+    engine = build_text(SMALL["vee"])
     with pytest.raises(
         BalcliError, match=r'--planes "left": give ends, throws, or places along z$'
     ):
@@ -238,7 +229,7 @@ def test_planes_are_named_or_given():
 @pytest.mark.parametrize("place", [0.0, 0.1])
 def test_what_a_single_plane_leaves_is_said(place):
     """Away from the middle, force and moment both."""
-    engine = build(parse(SMALL["vee"]))
+    engine = build_text(SMALL["vee"])
     remedy = size(engine, "counterweights", SchemeOptions(planes=(place,)))
     after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
     assert figures(remedy)["force with crank left"] == pytest.approx(
@@ -258,7 +249,7 @@ def test_a_single_plane_near_the_point_of_reference_takes_no_huge_weight(name, p
     """Least squares of force F + u and moment M + a u over the engine's reach: about the point of
     reference a plane there has no arm a to take a moment with.
     """
-    engine = build(parse(UNEVEN if name == "uneven" else SMALL[name]))
+    engine = build_text(UNEVEN if name == "uneven" else SMALL[name])
     before = compute_spectra(engine, [1], ("force", "moment"))
     force, moment = before.force.forward[0], before.moment.forward[0] / 1j
     reach = max(abs(place), float(np.abs(engine.cylinders.z).max()), float(engine.cylinders.radius))
@@ -270,14 +261,14 @@ def test_a_single_plane_near_the_point_of_reference_takes_no_huge_weight(name, p
 
 
 def test_without_a_scheme_it_is_auto():
-    engine = build(parse(SMALL["three"]))
+    engine = build_text(SMALL["three"])
     assert size(engine) == size(engine, "auto") == size_auto(engine)
 
 
 # ------------------------------------------------------------------ shafts and sliders
 @pytest.mark.parametrize("name", ["two", "vee", "uneven"])
 def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
-    engine = build(parse(UNEVEN if name == "uneven" else SMALL[name]))
+    engine = build_text(UNEVEN if name == "uneven" else SMALL[name])
     here = size(engine, "single-shaft")
     assert "turning against the crank" in here.reasons[-1]
     assert "one eccentric on a shaft at -" in here.reasons[-1]
@@ -302,7 +293,7 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
 @pytest.mark.parametrize("bank", [50, 130])
 def test_sliders_stand_where_the_stronger_part_acts(bank, order):
     """Between the throws, so that it leaves the least moment."""
-    engine = build(parse(UNEVEN.replace("bank_angle = 50", f"bank_angle = {bank}")))
+    engine = build_text(UNEVEN.replace("bank_angle = 50", f"bank_angle = {bank}"))
     force = compute_spectra(engine, [order], ("force",)).force
     stronger = "forward" if abs(force.forward[0]) > abs(force.backward[0]) else "backward"
     place = size(engine, "slider", SchemeOptions(order=order)).sliders[0].position / 1e3
@@ -321,7 +312,7 @@ def test_sliders_stand_where_the_stronger_part_acts(bank, order):
 
 
 def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
-    remedy = size(build(parse(SMALL["vee"])), "two-shaft")
+    remedy = size(build_text(SMALL["vee"]), "two-shaft")
     assert [s.at for s in remedy.shafts] == [(0, 0), (0, 0)]
     assert remedy.reasons[0] == (
         "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; "
@@ -337,9 +328,9 @@ def test_no_roll_by_the_nearest_places(order, frame):
     """Of all pairs of places that take force and roll, those with the least sum of squares; about
     the crank axis.
     """
-    at_crank = build(parse(UNEVEN))
+    at_crank = build_text(UNEVEN)
     options = SchemeOptions(order=order, roll="zero")
-    remedy = size(build(parse(UNEVEN + frame)), "two-shaft", options)
+    remedy = size(build_text(UNEVEN + frame), "two-shaft", options)
     before, after = (
         compute_spectra(e, [order], ("force", "roll"))
         for e in (at_crank, fit_devices(at_crank, remedy))
@@ -357,13 +348,13 @@ def test_no_roll_by_the_nearest_places(order, frame):
 
 @pytest.mark.parametrize("scheme", ["single-shaft", "four-shaft", "couple-shaft", "slider"])
 def test_other_devices_do_so_too(scheme):
-    remedy = size(build(parse(SMALL["vee"])), scheme)
+    remedy = size(build_text(SMALL["vee"]), scheme)
     assert {d.at for d in remedy.devices if not isinstance(d, Counterweight)} == {(0, 0)}
 
 
 def test_a_single_shaft_says_what_force_it_leaves():
     """Of an order that nothing on the crankshaft can take."""
-    engine = build(parse(UNEVEN))
+    engine = build_text(UNEVEN)
     remedy = size(engine, "single-shaft", SchemeOptions(order=2))
     left = compute_spectra(fit_devices(engine, remedy), [2], ("force",)).force.forward[0]
     assert figures(remedy)["force with crank left"] == pytest.approx(abs(left), rel=1e-12)
@@ -373,12 +364,12 @@ def test_a_single_shaft_says_what_force_it_leaves():
 def test_a_single_shaft_has_counterweights_at_both_throws():
     """As `auto` has, though one plane would do."""
     assert [
-        d.position for d in size(build(parse(write_engine(0, 0))), "single-shaft").counterweights
+        d.position for d in size(build_text(write_engine(0, 0)), "single-shaft").counterweights
     ] == [-50, 50]
 
 
 def test_the_geometry_of_a_pair_in_the_details():
-    engine = build(parse(SMALL["vee"]))
+    engine = build_text(SMALL["vee"])
     remedy = size(engine, "two-shaft", SchemeOptions(order=2, at=(-0.03 + 0.04j, 0.12j)))
     told = figures(remedy, "order 2")
     assert (told["radius against crank"], told["radius with crank"]) == pytest.approx((0.05, 0.12))
@@ -396,19 +387,19 @@ def test_the_geometry_of_a_pair_in_the_details():
 
 def test_shafts_on_the_crank_axis_have_no_direction_there():
     """One was told to stand at 0 mm, in a direction of 180 degrees."""
-    told = figures(size(build(parse(SMALL["four"])), "two-shaft"), "order 2")
+    told = figures(size(build_text(SMALL["four"]), "two-shaft"), "order 2")
     assert (told["radius against crank"], told["radius with crank"]) == (0, 0)
     assert not {"direction with crank", "direction against crank", "radius ratio"} & set(told)
 
 
 def test_four_shafts_are_for_the_orders_that_are_there():
-    assert {detail.group for detail in size(build(parse(SMALL["four"])), "four-shaft").details} == {
+    assert {detail.group for detail in size(build_text(SMALL["four"]), "four-shaft").details} == {
         "order 2"
     }
     assert {s.ratio for s in size(star(3), "four-shaft").shafts} == {1, -2}
     assert (
         "there is no free force of orders 1 and 2"
-        in size(build(parse(SMALL["three"])), "four-shaft").note
+        in size(build_text(SMALL["three"]), "four-shaft").note
     )
 
 
@@ -417,7 +408,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     """Of three cylinders in a star, order n turns with the crank if n - 1 is divisible by 3,
     against it if n + 1 is.
     """
-    engine = build(parse(write_engine(0, layout="radial = 3")))
+    engine = build_text(write_engine(0, layout="radial = 3"))
     with pytest.raises(
         BalcliError,
         match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes "
@@ -436,7 +427,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
 
 
 def test_couple_shafts_say_what_they_do_and_what_is_left():
-    engine = build(parse(SMALL["vee"]))
+    engine = build_text(SMALL["vee"])
     remedy = size(engine, "couple-shaft", SchemeOptions(order=1))
     assert list(remedy.reasons[::2]) == [
         f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at "
@@ -455,7 +446,7 @@ def test_couple_shafts_say_what_they_do_and_what_is_left():
 
 
 def star(cylinders):
-    return build(parse(write_engine(0, layout=f"radial = {cylinders}")))
+    return build_text(write_engine(0, layout=f"radial = {cylinders}"))
 
 
 def test_the_lowest_order_that_is_there_up_to_8():
@@ -465,8 +456,8 @@ def test_the_lowest_order_that_is_there_up_to_8():
         "there is no free force turning against the crank of orders 1 to 8: nothing to balance"
     )
     assert size(star(11), "single-shaft", SchemeOptions(order=10)).order == 10
-    ninth = build(
-        parse(write_engine(0, layout="radial = 10", piston="mass = 1\noffset = 3"))
+    ninth = build_text(
+        write_engine(0, layout="radial = 10", piston="mass = 1\noffset = 3")
     )  # an offset makes odd orders
     assert "of orders 1 to 8" in size(ninth, "single-shaft").note
     assert size(ninth, "single-shaft", SchemeOptions(order=9)).devices
@@ -482,15 +473,15 @@ def test_the_lowest_order_that_is_there_up_to_8():
 
 
 def test_what_else_an_order_has_is_said():
-    three, vee = (build(parse(SMALL[name])) for name in ("three", "four"))
+    three, vee = (build_text(SMALL[name]) for name in ("three", "four"))
     assert size(three, "two-shaft", SchemeOptions(order=1)).note == (
         "order 1 has no free force: nothing to balance; it has a free moment: couple-shaft"
     )
     assert size(vee, "couple-shaft", SchemeOptions(order=2)).note == (
         "order 2 has no free moment: nothing to balance; it has a free force: two-shaft"
     )
-    cross = build(
-        parse(write_engine(0, 90, 270, 180, layout="bank_angle = 90"))
+    cross = build_text(
+        write_engine(0, 90, 270, 180, layout="bank_angle = 90")
     )  # a moment with the crank alone
     assert size(cross, "two-shaft", SchemeOptions(order=1)).note.endswith(
         "; it has a free moment: couple-shaft"
@@ -505,11 +496,11 @@ def test_what_else_an_order_has_is_said():
 def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
     """One cylinder shakes along its axis, and needs no slider across."""
     single = write_engine(0, layout=f"banks = [{bank}]")
-    (along,) = size(build(parse(single)), "slider", SchemeOptions(order=2)).sliders
+    (along,) = size(build_text(single), "slider", SchemeOptions(order=2)).sliders
     assert along.direction == pytest.approx(90 if bank == -90 else bank)
     for half in (25, 35):  # the long axis of the ellipse lies along the bisector, and across it
         two = size(
-            build(parse(write_engine(0, layout=f"banks = [{bank - half}, {bank + half}]"))),
+            build_text(write_engine(0, layout=f"banks = [{bank - half}, {bank + half}]")),
             "slider",
             SchemeOptions(order=2),
         ).sliders
@@ -519,7 +510,7 @@ def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
 
 # ------------------------------------------------------------------ the shop's factor
 def test_a_single_factor_is_no_sweep():
-    engine = build(parse(SMALL["vee"]))
+    engine = build_text(SMALL["vee"])
     remedy = size(engine, "factor", SchemeOptions(factor=(0.4,)))
     assert not remedy.sweep
     swept = size(engine, "factor", SchemeOptions(factor=(0.4, 0.5))).sweep
@@ -535,8 +526,8 @@ def test_peaks_along_and_across_are_those_of_the_curve():
     """Across the first bank, which leans, and off its axis by an offset: samples of what the remedy
     leaves, every 0.01 degrees.
     """
-    engine = build(
-        parse(SMALL["vee"].replace("mass = 1\n[layout]", "mass = 1\noffset = 6\n[layout]"))
+    engine = build_text(
+        SMALL["vee"].replace("mass = 1\n[layout]", "mass = 1\noffset = 6\n[layout]")
     )
     for row in size(engine, "factor", SchemeOptions(factor=(0.3, 0.7))).sweep:
         curve = find_orders(
@@ -551,10 +542,8 @@ def test_peaks_along_and_across_are_those_of_the_curve():
 
 
 def test_rods_a_whole_turn_apart_are_on_one_pin():
-    engine = build(
-        parse(
-            write_engine(0, 90, layout="bank_angle = 60").replace("spacing", "splay = 360\nspacing")
-        )
+    engine = build_text(
+        write_engine(0, 90, layout="bank_angle = 60").replace("spacing", "splay = 360\nspacing")
     )
     remedy = size(engine, "factor")
     assert [entry.cylinders for entry in remedy.card] == [(1, 3), (2, 4)]
@@ -566,7 +555,7 @@ def test_rods_a_whole_turn_apart_are_on_one_pin():
 
 @pytest.mark.parametrize("share", [-2, 2])
 def test_factors_at_their_bounds(share):
-    engine = build(parse(SMALL["one"]))
+    engine = build_text(SMALL["one"])
     assert figures(size(engine, "factor", SchemeOptions(factor=(share,))))["factor"] == share
     with pytest.raises(
         BalcliError,
@@ -582,10 +571,10 @@ def test_dust_of_an_unbalance_is_no_device(scheme):
     more than rounding, less than anybody could drill.
     """
     vee = write_engine(0, layout="bank_angle = 90")
-    (whole,) = size(build(parse(vee)), "factor").counterweights
+    (whole,) = size(build_text(vee), "factor").counterweights
     for dust in (1e-9, -1e-9):
         weight = f"[[counterweight]]\nunbalance = {whole.unbalance + dust!r}\nangle = 180\n"
-        remedy = size(build(parse(vee + weight)), scheme)
+        remedy = size(build_text(vee + weight), scheme)
         assert not remedy.counterweights
         if scheme == "counterweights":
             assert remedy.note.startswith("there is no free force or moment of order 1 turning")
@@ -611,7 +600,7 @@ def test_dust_of_an_unbalance_is_no_device(scheme):
 def test_what_is_no_option_is_told_in_words(scheme, options, told):
     """In Python; nan once went through to the figures."""
     with pytest.raises(TypeError) as error:
-        size(build(parse(SMALL["four"])), scheme, SchemeOptions(**options))
+        size(build_text(SMALL["four"]), scheme, SchemeOptions(**options))
     assert str(error.value).startswith(f"SchemeOptions: {told}")
 
 

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from support.engines import GOOD, SINGLE
+from support.engines import GOOD, SINGLE, build_text
 from support.paths import ENGINE_FILES
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.results.analysis import analyze
 from balcli.sizing.options import SchemeOptions
@@ -30,13 +28,11 @@ def figures(engine):
 @pytest.mark.parametrize("path", ENGINE_FILES[::4], ids=lambda p: p.stem)
 def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, scheme):
     text = path.read_bytes()
-    engine = build(parse(text))
+    engine = build_text(text)
     if engine.rotary and scheme == "factor":
         pytest.skip("pins that stand still have no factor")
     remedy = size(engine, scheme)
-    assert figures(build(parse(insert_remedy(text, remedy)))) == figures(
-        fit_devices(engine, remedy)
-    )
+    assert figures(build_text(insert_remedy(text, remedy))) == figures(fit_devices(engine, remedy))
 
 
 @pytest.mark.parametrize("scheme", ["auto", "minimax", "two-shaft", "slider", "factor"])
@@ -46,16 +42,16 @@ def test_devices_of_the_file_stay(scheme):
         '[[slider]]\norder = 2\nunbalance = "3 kg*mm"\ndirection = 20\n'
         "[[counterweight]]\nmass = 0.3\nradius = 50\n"
     )
-    engine = build(parse(SINGLE + own))
+    engine = build_text(SINGLE + own)
     remedy = size(engine, scheme)
-    assert figures(build(parse(insert_remedy((SINGLE + own).encode(), remedy)))) == figures(
+    assert figures(build_text(insert_remedy((SINGLE + own).encode(), remedy))) == figures(
         fit_devices(engine, remedy)
     )
 
 
 def test_the_text_stays_and_reasons_stand_beside_the_devices():
     text = GOOD.rstrip("\n") + " # the last comment"
-    remedy = size(build(parse(text)), "auto")
+    remedy = size(build_text(text), "auto")
     new = insert_remedy(text.encode(), remedy)
     assert new.startswith(
         text + "\n\n# fitted by balcli, scheme auto\n# Order 2 force turning with the crank: "
@@ -68,20 +64,18 @@ def test_the_text_stays_and_reasons_stand_beside_the_devices():
 )
 def test_marks_and_line_ends(dressed):
     text = dressed(SINGLE).encode()
-    engine = build(parse(text))
+    engine = build_text(text)
     remedy = size(engine, "auto")
-    assert figures(build(parse(insert_remedy(text, remedy)))) == figures(
-        fit_devices(engine, remedy)
-    )
+    assert figures(build_text(insert_remedy(text, remedy))) == figures(fit_devices(engine, remedy))
 
 
 def test_an_inline_list_of_devices_is_written_anew():
     text = "counterweight = [{ unbalance = 500, angle = 180 }]  # by hand\n" + SINGLE
-    engine = build(parse(text))
+    engine = build_text(text)
     remedy = size(engine, "auto")
     new = insert_remedy(text.encode(), remedy)
     assert new.startswith("# Comments and lay-out of the original could not be kept")
-    assert figures(build(parse(new))) == figures(fit_devices(engine, remedy))
+    assert figures(build_text(new)) == figures(fit_devices(engine, remedy))
 
 
 def test_nothing_to_fit_leaves_the_text():
@@ -90,7 +84,7 @@ def test_nothing_to_fit_leaves_the_text():
 
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_what_no_file_can_describe_is_not_written(scheme):
-    remedy = size(build(parse(SINGLE)), scheme, SchemeOptions())
+    remedy = size(build_text(SINGLE), scheme, SchemeOptions())
     with pytest.raises(
         BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"
     ):

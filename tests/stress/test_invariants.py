@@ -18,11 +18,10 @@ import pytest
 import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support.engines import alone
+from support.engines import alone, build_text
 
 from balcli.core.phasors import Phasors
-from balcli.engine.build import Engine, build
-from balcli.engine.load import parse
+from balcli.engine.build import Engine
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import Spectra, compute_spectra
 
@@ -124,7 +123,7 @@ def engines(draw: st.DrawFn) -> Tables:
 
 
 def made(model: Tables) -> Engine:
-    return build(parse(tomli_w.dumps(model)))
+    return build_text(tomli_w.dumps(model))
 
 
 def changed(model: Tables, change: Any) -> Tables:

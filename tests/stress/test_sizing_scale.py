@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from support.engines import engine_text
+from support.engines import build_text, engine_text
 from support.remedies import figures
 
-from balcli.engine.build import Engine, build
-from balcli.engine.load import parse
+from balcli.engine.build import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.auto import size_auto
@@ -53,23 +52,21 @@ def random_engine(seed: int) -> Engine:
         for n in range(1, throws * banks + 1)
         if r.random() < 0.3
     )
-    return build(
-        parse(
-            engine_text(
-                crank=f"stroke = 100\nthrows = {list(map(float, r.uniform(0, 360, throws)))}\n"
-                "positions = "
-                f"{list(map(float, np.sort(r.uniform(-400, 400, throws))))}\nthrow_mass = "
-                f"{r.uniform(0, 3)}",
-                rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = "
-                f"{r.uniform(0, 100)}",
-                piston=f"mass = 1\noffset = {r.choice([0.0, 3.0, -8.0])}",
-                layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = "
-                f"{r.choice([0.0, 22.0])}",
-                frame=f"reference = [{r.uniform(-50, 50)}, {r.uniform(-50, 50)}, "
-                f"{r.uniform(-300, 300)}]",
-            )
-            + more
+    return build_text(
+        engine_text(
+            crank=f"stroke = 100\nthrows = {list(map(float, r.uniform(0, 360, throws)))}\n"
+            "positions = "
+            f"{list(map(float, np.sort(r.uniform(-400, 400, throws))))}\nthrow_mass = "
+            f"{r.uniform(0, 3)}",
+            rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = "
+            f"{r.uniform(0, 100)}",
+            piston=f"mass = 1\noffset = {r.choice([0.0, 3.0, -8.0])}",
+            layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = "
+            f"{r.choice([0.0, 22.0])}",
+            frame=f"reference = [{r.uniform(-50, 50)}, {r.uniform(-50, 50)}, "
+            f"{r.uniform(-300, 300)}]",
         )
+        + more
     )
 
 
@@ -127,19 +124,13 @@ def test_no_scheme_breaks(seed, scheme):
 @pytest.mark.parametrize("light", [1e-3, 1e-6])
 def test_a_gram_next_to_a_hundred_tonnes(light):
     """Beside 100 t a gram is 1e-8, and its part of the moment must vanish with the rest."""
-    engine = build(
-        parse(
-            engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston="mass = 1e5")
-            + f"[cylinder.2]\npiston_mass = {light}\n"
-        )
+    engine = build_text(
+        engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston="mass = 1e5")
+        + f"[cylinder.2]\npiston_mass = {light}\n"
     )
     assert share_left(engine, fit_devices(engine, size_auto(engine))) <= LEFT
-    alone = build(
-        parse(
-            engine_text(
-                crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston=f"mass = {light}"
-            )
-        )
+    alone = build_text(
+        engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston=f"mass = {light}")
     )
     assert share_left(alone, fit_devices(alone, size_auto(alone))) <= LEFT
 
@@ -149,10 +140,8 @@ def test_planes_next_to_each_other(apart):
     """Planes 1 mm apart in an engine of 200 mm: the unbalances grow a hundredfold, and still
     nothing is left.
     """
-    engine = build(
-        parse(
-            engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2")
-        )
+    engine = build_text(
+        engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2")
     )
     remedy = size(engine, "counterweights", SchemeOptions(planes=(0.05, 0.05 + apart / 1e3)))
     before, after = (
@@ -167,7 +156,7 @@ def test_planes_next_to_each_other(apart):
 @pytest.mark.parametrize("apart", [1e-9, 1e-6])
 def test_hopeless_planes_are_refused_with_their_condition_number(apart):
     """A nanometre, or a micrometre: rounding alone would leave more than the promised 1e-12."""
-    engine = build(parse(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100")))
+    engine = build_text(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100"))
     with pytest.raises(BalcliError) as caught:
         size(engine, "counterweights", SchemeOptions(planes=(0.05, 0.05 + apart)))
     told = re.search(r"condition number ([0-9.e+]+)\)", str(caught.value))
@@ -184,6 +173,6 @@ def test_remedies_grow_with_the_masses(scale):
     def weights(mass):
         crank = f"stroke = 100\nthrows = [0, 90, 250]\nspacing = 100\nthrow_mass = {2 * mass!r}"
         text = engine_text(crank=crank, piston=f"mass = {mass!r}")
-        return np.array([d.unbalance for d in size_auto(build(parse(text))).devices])
+        return np.array([d.unbalance for d in size_auto(build_text(text)).devices])
 
     assert weights(scale) == pytest.approx(scale * weights(1.0), rel=1e-12)

@@ -7,11 +7,11 @@ import json
 import numpy as np
 import pytest
 from support.commands import refusal, run_here
+from support.engines import build_text
 from support.gas_engines import PETROL_FOUR
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 import balcli
-from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.forces.guide_moments import compute_guide_moments
 from balcli.studies.deviations import DeviatingEngine, Tolerances
@@ -49,7 +49,7 @@ def test_a_deviating_engine_is_that_of_its_own_file(length):
     named = {
         source.name: value for source, value in zip(engines.sources, drawn.tolist(), strict=True)
     }
-    one, other = engines.deviate_one(drawn), build(parse(deviated(named)))
+    one, other = engines.deviate_one(drawn), build_text(deviated(named))
     found, expected = analyze_torque(one, [1, 2]), analyze_torque(other, [1, 2])
     size = expected.curves.total.extremes()[1].value
     for mine, theirs in zip(
@@ -81,8 +81,7 @@ def test_throw_masses_are_in_the_inertia_of_a_crank_that_is_given():
 
 
 def test_samples_and_shares_are_those_of_single_engines(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(PLAIN, encoding="utf-8")
+    path = write(tmp_path / "four.toml", PLAIN)
     names = "torque.max,torque.min,torque.mean,fluctuation"
     told = json.loads(
         run_here(
@@ -105,7 +104,7 @@ def test_samples_and_shares_are_those_of_single_engines(tmp_path):
     heavier = PLAIN.replace("[cylinder]", "[cylinder]\n2 = {piston_mass = 0.505}")
     lighter = PLAIN.replace("[cylinder]", "[cylinder]\n2 = {piston_mass = 0.495}")
     ends = [
-        analyze_torque(build(parse(text)), [1]).curves.total.extremes()[1].value
+        analyze_torque(build_text(text), [1]).curves.total.extremes()[1].value
         for text in (heavier, lighter)
     ]
     share = found["torque.max"]["sensitivity"]["piston mass 2"]
@@ -122,7 +121,7 @@ def test_what_is_0_by_design_has_a_bound():
     assert found.shares[0][1] > 0
 
 
-def test_what_is_not_drawn_so(tmp_path):
+def test_what_is_not_drawn_so():
     path = ENGINES / "i4_wiebe.toml"
     told = refusal("scatter", path, "-q", "force.2.major,torque.max")
     assert told == (
@@ -138,9 +137,9 @@ def test_what_is_not_drawn_so(tmp_path):
     assert told == "nothing deviates; give a tolerance, such as --mass-scatter 0.5%"
     told = refusal("scatter", ENGINES / "i4.toml", "-q", "torque.max")
     assert told == "torque.max: the engine file has no [gas]"
-    bare = tmp_path / "bare.toml"
-    bare.write_text(PLAIN.replace("inertia = 90000\n", ""), encoding="utf-8")
-    told = refusal("scatter", bare, "-q", "fluctuation")
+    told = refusal(
+        "scatter", "-", "-q", "fluctuation", stdin=PLAIN.replace("inertia = 90000\n", "")
+    )
     assert told.startswith("fluctuation: the file gives no inertia")
 
 

@@ -10,7 +10,9 @@ from itertools import product
 import numpy as np
 import pytest
 from support.commands import refusal, run_here
+from support.engines import build_text
 from support.gas_engines import PETROL_FOUR
+from support.paths import write
 
 from balcli.engine.build import build
 from balcli.engine.load import parse
@@ -34,7 +36,7 @@ NAMES = (
 def analyse(text: str) -> list[float]:
     """The same figures of one engine, by its spectra."""
     found = compute_spectra(
-        build(parse(text)), [0.5, 1.5, 2, 3, 4], ["gas", "torque_total", "roll_total"]
+        build_text(text), [0.5, 1.5, 2, 3, 4], ["gas", "torque_total", "roll_total"]
     )
     total, gas, roll = found["torque_total"], found["gas"], found["roll_total"]
     return [
@@ -46,16 +48,14 @@ def analyse(text: str) -> list[float]:
     ]
 
 
-def test_a_grid_of_masses_lengths_and_pressures(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+def test_a_grid_of_masses_lengths_and_pressures():
     grid = {"gas.imep": (9, 12), "piston.mass": (0.4, 0.5, 0.7), "rod.length": (140, 150)}
     vary = [
         part
         for key, values in grid.items()
         for part in ("--vary", f"{key}={','.join(map(str, values))}")
     ]
-    done = run_here("sweep", path, *vary, "-q", NAMES)
+    done = run_here("sweep", "-", *vary, "-q", NAMES, stdin=FOUR)
     assert (done.status, done.err) == (0, "")
     head, *rows = csv.reader(StringIO(done.out))
     assert head == [*grid, *NAMES.split(",")]
@@ -69,8 +69,7 @@ def test_a_grid_of_masses_lengths_and_pressures(tmp_path):
 
 
 def test_cycles_that_cannot_be_are_told_with_their_figures(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     told = refusal("sweep", path, "--vary", "gas.burn_duration=50,200", "-q", "gas.2.amplitude")
     assert told.startswith(f"{path}: gas.burn_duration = 200: 2 mistakes\n")
 
@@ -138,8 +137,10 @@ def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
     [("heat = 900\n", {"imep", "bmep", "max_pressure", "cut_off", "heat"}), ("gas = 0.5\n", set())],
 )
 def test_what_all_cylinders_have_of_their_own_is_no_number_of_the_gas(own, idle, tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(PETROL_FOUR + "".join(f"[cylinder.{n}]\n{own}" for n in (1, 2, 3, 4)), "utf-8")
+    path = write(
+        tmp_path / "four.toml",
+        PETROL_FOUR + "".join(f"[cylinder.{n}]\n{own}" for n in (1, 2, 3, 4)),
+    )
     told = json.loads(run_here("numbers", path, "-f", "json").out)["numbers"]
     known = {number["path"].removeprefix("gas.") for number in told}
     assert known.isdisjoint(idle)
@@ -171,28 +172,24 @@ def test_where_all_cylinders_have_diagrams_no_number_is_of_the_cycle(tmp_path):
 )
 def test_goals_that_contradict_each_other_are_refused(vary, told, tmp_path):
     """The first alone counted; nothing counted, and cells stayed empty."""
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     varied = (word for one in vary for word in ("--vary", one))
     assert refusal("sweep", path, *varied, "-q", "torque.mean") == told.format(path)
 
 
 def test_a_search_puts_one_goal_in_place_of_another(tmp_path):
     """The file says imep; a search for the heat said that it has both."""
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+    path = write(tmp_path / "four.toml", FOUR)
     over, minimise = ("--over", "gas.heat=900:1000"), ("--minimise", "torque.max")
     done = run_here("search", path, *over, *minimise, "-f", "json")
     row = run_here("sweep", path, "--vary", "gas.heat=900", "-q", "torque.max").out.split()[1]
     assert json.loads(done.out)["results"][0]["objective"] == float(row.split(",")[1])
 
 
-def test_what_no_gas_is_asked_of_does_not_build_it(tmp_path, monkeypatch):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+def test_what_no_gas_is_asked_of_does_not_build_it(monkeypatch):
     counted = []
     monkeypatch.setattr("balcli.engine.build_gas.build_gas", counted.append)
-    done = run_here("sweep", path, "--vary", "rod.length=140,150", "-q", "force.2.major")
+    done = run_here("sweep", "-", "--vary", "rod.length=140,150", "-q", "force.2.major", stdin=FOUR)
     assert done.status == 0
     assert counted == []
 
@@ -230,17 +227,13 @@ def test_deviating_engines_have_the_gas_of_their_own_rods_and_throws(text):
         )
 
 
-def test_scatter_counts_the_gas(tmp_path):
-    path = tmp_path / "four.toml"
-    path.write_text(FOUR, encoding="utf-8")
+def test_scatter_counts_the_gas():
     asked = ("-q", "torque.2.amplitude,gas.2.amplitude", "--samples", "2000", "--seed", "1")
-    said = json.loads(run_here("scatter", path, *asked, "-f", "json").out)["quantities"]
+    said = json.loads(run_here("scatter", "-", *asked, "-f", "json", stdin=FOUR).out)["quantities"]
     assert said["torque.2.amplitude"]["nominal"] == pytest.approx(analyse(FOUR)[0], rel=1e-12)
     gas = said["gas.2.amplitude"]
     assert gas["mean"] == pytest.approx(gas["nominal"], rel=1e-12), "masses leave it alone"
     assert gas["max"] == pytest.approx(gas["nominal"], rel=1e-12)
     assert said["torque.2.amplitude"]["p95"] > said["torque.2.amplitude"]["p05"]
-    bare = tmp_path / "bare.toml"
-    bare.write_text(FOUR.partition("[gas]")[0], encoding="utf-8")
-    told = refusal("scatter", bare, "-q", "gas.2.amplitude")
+    told = refusal("scatter", "-", "-q", "gas.2.amplitude", stdin=FOUR.partition("[gas]")[0])
     assert told == "gas.2.amplitude: the engine file has no [gas]"

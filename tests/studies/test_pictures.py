@@ -8,13 +8,11 @@ import re
 
 import numpy as np
 import pytest
-from support.engines import GOOD, changed
+from support.engines import GOOD, build_text, changed
 from support.gas_engines import FOUR, WIEBE
 from support.pictures import draw_page
 
 from balcli.core.mechanisms import harmonics
-from balcli.engine.build import build
-from balcli.engine.load import parse
 from balcli.errors import BalcliError
 from balcli.render.plot.bank_angle import place_labels
 from balcli.render.plot.pages import PageSubject
@@ -30,7 +28,7 @@ CROSS = changed(
 
 
 def engine(text):
-    return build(parse(text))
+    return build_text(text)
 
 
 def test_flat_plane_vee_eight_over_its_bank_angle():

@@ -65,11 +65,16 @@ def refusal(*args: object, stdin: str = "") -> str:
     return err.removeprefix("balcli: ").removesuffix("\n")
 
 
-def ask_json(*args: object, stdin: str = "") -> Any:
-    """What a command answers as JSON, with status 0 and nothing on standard error."""
-    status, out, err = run_here(*args, "--format", "json", stdin=stdin)
+def ask(*args: object, stdin: str = "") -> str:
+    """What a command prints, with status 0 and nothing on standard error."""
+    status, out, err = run_here(*args, stdin=stdin)
     assert (status, err) == (0, "")
-    return json.loads(out)
+    return out
+
+
+def ask_json(*args: object, stdin: str = "") -> Any:
+    """What a command answers as JSON, likewise."""
+    return json.loads(ask(*args, "--format", "json", stdin=stdin))
 
 
 def ask_torsion(text: str, *options: object) -> Any:

@@ -1,4 +1,4 @@
-"""Where things stand in the repository."""
+"""Where things stand in the repository, and files that tests write."""
 
 from __future__ import annotations
 
@@ -10,3 +10,9 @@ PACKAGE = SOURCE / "balcli"
 ENGINES = ROOT / "engines"
 ENGINE_FILES = sorted(ENGINES.rglob("*.toml"))  # textbook layouts, and engines by class
 DOCS = ROOT / "docs"
+
+
+def write(path: Path, text: str) -> Path:
+    """A file of this text; returns its path."""
+    path.write_text(text, encoding="utf-8")
+    return path

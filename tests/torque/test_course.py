@@ -14,7 +14,7 @@ import pytest
 from support.commands import run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.engine.load import load
 from balcli.errors import BalcliError
@@ -293,8 +293,9 @@ def test_large_figures_have_large_units(tmp_path):
     assert "bore = 86" in heavy != small
     told = {}
     for factor in (6, 60):
-        path = tmp_path / f"{factor}.toml"
-        path.write_text(heavy.replace("bore = 86", f"bore = {factor * 86}"))
+        path = write(
+            tmp_path / f"{factor}.toml", heavy.replace("bore = 86", f"bore = {factor * 86}")
+        )
         out = run_here("torque", path).out
         figures = json.loads(run_here("torque", path, "-f", "json").out)
         assert "Torque by order, kN·m\n" in out

@@ -10,11 +10,13 @@ from io import StringIO
 import numpy as np
 import pytest
 from support import chains
-from support.commands import ask_torsion, refusal, run_here, run_in_terminal
+from support.commands import ask, ask_json, ask_torsion, refusal, run_here, run_in_terminal
 from support.diesel import write_diesel
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
-from balcli.torsion.starting_file import read_starting_file
+from balcli.enginefile.templates import template
+
+CHAIN = template("torsion")  # the file to start from
 
 
 def node(name, inertia_kg_m2, more=""):
@@ -80,12 +82,9 @@ def test_forced_vibration_against_50_digits(kind):
 
 
 def test_the_starting_file_shows_every_part():
-    text = read_starting_file()
-    assert text == run_here("new", "torsion").out
-    status, out, err = run_here(
-        "torsion", "-", "--speeds", "1000:2500:25", "--holzer", "1", stdin=text
-    )
-    assert (status, err) == (0, "")
+    assert run_here("new", "torsion").out == CHAIN
+    asked = ("torsion", "-", "--speeds", "1000:2500:25", "--holzer", "1")
+    out = ask(*asked, stdin=CHAIN)
     heads = [
         "Natural modes",
         "Inertias and shapes",
@@ -97,8 +96,7 @@ def test_the_starting_file_shows_every_part():
 
 
 def test_a_terminal_of_80_columns_shows_all(tmp_path):
-    path = tmp_path / "chain.toml"
-    path.write_text(read_starting_file(), encoding="utf-8")
+    path = write(tmp_path / "chain.toml", CHAIN)
     out = run_in_terminal("torsion", path, "--speeds", "1000:2500:25", "--holzer", "1").out
     plain = re.sub(r"\x1b\[[0-9;]*m", "", out)
     assert max(map(len, plain.splitlines())) <= 80
@@ -107,8 +105,8 @@ def test_a_terminal_of_80_columns_shows_all(tmp_path):
 
 def test_csv_lists_the_figures_of_json():
     options = ("--speeds", "1000:1100:50", "--holzer", "2")
-    said = ask_torsion(read_starting_file(), *options)
-    table = run_here("torsion", "-", *options, "-f", "csv", stdin=read_starting_file()).out
+    said = ask_torsion(CHAIN, *options)
+    table = run_here("torsion", "-", *options, "-f", "csv", stdin=CHAIN).out
     lines = list(csv.DictReader(StringIO(table)))
     found = [float(x["value"]) for x in lines if x["part"] == "mode" and x["figure"] == "frequency"]
     assert found == [mode["frequency_Hz"] for mode in said["modes"]]
@@ -130,7 +128,7 @@ def test_csv_lists_the_figures_of_json():
 
 def test_limits_bar_speeds_between_the_steps():
     """The ends of a barred range do not depend on the step; at both the limit is just met."""
-    text = read_starting_file().replace("limit = 40", "limit = 12", 1)
+    text = CHAIN.replace("limit = 40", "limit = 12", 1)
     coarse, fine = (ask_torsion(text, "--speeds", f"2000:2600:{step}") for step in (600, 10))
     assert len(fine["barred_rpm"]) == 1
     assert coarse["barred_rpm"][0] == pytest.approx(fine["barred_rpm"][0], abs=0.01)
@@ -141,7 +139,7 @@ def test_limits_bar_speeds_between_the_steps():
 
 
 def test_a_swing_can_be_the_limit():
-    text = read_starting_file().replace("limit = 40", "angle_limit = 0.1", 1)
+    text = CHAIN.replace("limit = 40", "angle_limit = 0.1", 1)
     said = ask_torsion(text, "--speeds", "800:1600:20")
     (span,) = said["barred_rpm"]
     assert span[0] == 800
@@ -152,7 +150,7 @@ def test_a_swing_can_be_the_limit():
 
 def test_a_limit_of_stress_without_any_diameter_is_not_judged():
     """It said that no speed is barred."""
-    text = re.sub(r"diameter = .*\nlength = .*", "stiffness = 9e4", read_starting_file())
+    text = re.sub(r"diameter = .*\nlength = .*", "stiffness = 9e4", CHAIN)
     text = re.sub(r"(?m)^diameter = .*\n", "", text)
     assert "barred_rpm" not in ask_torsion(text, "--speeds", "800:1600:20")
     said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
@@ -168,19 +166,19 @@ def test_a_limit_of_stress_without_any_diameter_is_not_judged():
 
 def test_shafts_without_a_diameter_are_told_as_not_judged():
     """None in this range, it said, of the stress of all shafts that twist: one was judged."""
-    text = re.sub(r"(?m)^diameter = 60 .*\n", "", read_starting_file(), count=1)
+    text = re.sub(r"(?m)^diameter = 60 .*\n", "", CHAIN, count=1)
     ring = 'damper = { kind = "rubber", inertia = 3e4, stiffness = 4e4, loss = 0.1 }\n'
     text = text.replace("inertia = 950000\n", f"inertia = 950000\n{ring}")
     said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=text).out
     assert said.rstrip().endswith(
         "\nnot judged     engine-flywheel: no diameter, so that no stress is known"
     )
-    said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=read_starting_file()).out
+    said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=CHAIN).out
     assert "not judged" not in said
 
 
 def test_what_nothing_damps_is_told_with_its_speed():
-    text = read_starting_file().replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
+    text = CHAIN.replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
     text = text.replace("damping = 1.5", "")
     assert refusal("torsion", "-", "--speeds", "1000:2500", stdin=text) == (
         "standard input: the natural frequency of 77.1782 Hz is excited by order 2 at 2315.35 rpm and "
@@ -438,12 +436,12 @@ def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
     ],
 )
 def test_options_that_cannot_be(options, message):
-    assert refusal("torsion", "-", *options, stdin=read_starting_file()) == message
+    assert refusal("torsion", "-", *options, stdin=CHAIN) == message
 
 
 def test_trial_frequencies_have_units():
     tables = ask_torsion(
-        read_starting_file(),
+        CHAIN,
         *(
             "--holzer",
             "20 rad/s",
@@ -457,7 +455,7 @@ def test_trial_frequencies_have_units():
 
 
 def test_orders_are_those_asked_for():
-    said = ask_torsion(read_starting_file(), "--speeds", "2315", "--orders", "3-8")
+    said = ask_torsion(CHAIN, "--speeds", "2315", "--orders", "3-8")
     assert said["criticals"] == []  # order 4 meets no mode at this speed
     assert [x["order"] for x in said["response"]["shafts"][0]["worst"]["orders"]] == [4]
 
@@ -609,20 +607,18 @@ def test_tables_and_pictures_in_imperial_units(tmp_path):
 
 
 def test_markdown_has_the_same_tables():
-    out = run_here("torsion", "-", "-f", "markdown", stdin=read_starting_file()).out
+    out = run_here("torsion", "-", "-f", "markdown", stdin=CHAIN).out
     assert "| mode | Hz | 1/min | nodes | node in |" in out
 
 
 def test_progress_says_nothing_where_nobody_looks():
-    status, _, err = run_here(
-        "torsion", "-", "--speeds", "1000:1100", "--progress", stdin=read_starting_file()
-    )
+    status, _, err = run_here("torsion", "-", "--speeds", "1000:1100", "--progress", stdin=CHAIN)
     assert (status, err.strip()) == (0, "")
 
 
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
     monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
-    assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=read_starting_file()) == (
+    assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=CHAIN) == (
         "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer "
         "speeds or orders"
     )
@@ -693,7 +689,7 @@ def test_criticals_say_of_which_orders_and_speeds_they_are():
 def test_what_a_table_of_an_engine_leaves_to_json_and_what_gas_does():
     file = ENGINES / "i6_diesel.toml"
     out = run_here("torsion", file, "--holzer", "2").out
-    found = json.loads(run_here("torsion", file, "--format", "json").out)
+    found = ask_json("torsion", file)
     rows = re.search(r"\nCritical speeds\n.*\n.*\n((?:\d.*\n)+)", out)[1].count("\n")
     assert f" JSON has {len(found['criticals']) - rows} more.\n" in out
     assert "Left over at the end: 0 N·m." in out
@@ -730,7 +726,7 @@ def test_a_barred_speed_that_is_the_file_s_own_is_named(speed, told):
     ],
 )
 def test_chains_in_metres_are_asked_back(old, new, told):
-    text = read_starting_file()
+    text = CHAIN
     assert old in text
     result = run_here("torsion", "-", stdin=text.replace(old, new))
     assert result.status == 0

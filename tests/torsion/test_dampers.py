@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 from support.commands import ask_torsion, refusal, run_here
 from support.diesel import write_diesel
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli import analyze_torsion
+from balcli.enginefile.templates import template
 from balcli.render.plot.torsion import make_torsion
-from balcli.torsion.starting_file import read_starting_file
 
+CHAIN = template("torsion")  # the file to start from
 RANGE = ("--speeds", "850:1150:0.5")
 # 1 kg m2 on a spring with a natural frequency of 1000 rpm, excited by 100 N m
 SINGLE = f"""
@@ -341,7 +342,7 @@ def test_dampers_of_unlikely_size(options, told):
 
 def test_a_damper_that_cannot_be_is_told_in_words():
     """A shaft as thin as a few atoms asks for next to no damping."""
-    thin = read_starting_file().replace("diameter = 55", "diameter = 5.5e-8")
+    thin = CHAIN.replace("diameter = 55", "diameter = 5.5e-8")
     asked = (*RANGE, "--damper", "viscous", "--damper-at", "pump", "-q")  # without doubts
     told = run_here("torsion", "-", *asked, stdin=thin)
     assert (told.status, told.out) == (2, "")
@@ -356,7 +357,7 @@ def test_a_damper_that_cannot_be_is_told_in_words():
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
 def test_what_is_written_does_what_was_said(tmp_path, line_end):
     chain, fitted = tmp_path / "chain.toml", tmp_path / "fitted.toml"
-    text = read_starting_file()
+    text = CHAIN
     chain.write_bytes(text.replace("\n", line_end).encode())
     options = ("--speeds", "1500:2600:20", "--format", "json")
     sized = run_here("torsion", chain, *options, "--damper", "viscous", "--write", fitted)
@@ -529,7 +530,7 @@ def test_units_of_a_damper_are_those_of_its_size(times, ring, heat):
 
 def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
     picture = tmp_path / "chain.svg"
-    status, *_ = run_here("torsion", "-", "--plot", picture, stdin=read_starting_file())
+    status, *_ = run_here("torsion", "-", "--plot", picture, stdin=CHAIN)
     assert status == 0
     text = picture.read_text()
     assert "Shapes of modes" in text
@@ -540,8 +541,7 @@ def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
 @pytest.mark.stress
 def test_plot_draws_torsion_too(tmp_path):
     """Over half to one and a half times the file's speed; the same picture as of `torsion`."""
-    engine = tmp_path / "six.toml"
-    engine.write_text(write_diesel(), encoding="utf-8")
+    engine = write(tmp_path / "six.toml", write_diesel())
     for what in ("modes", "response"):
         one, other = tmp_path / "one.svg", tmp_path / "other.svg"
         assert run_here("plot", engine, "--what", what, "-o", one).status == 0
@@ -549,8 +549,6 @@ def test_plot_draws_torsion_too(tmp_path):
         told = run_here("torsion", engine, *speeds, "--plot", other, "--what", what)
         assert told.status == 0
         assert one.read_bytes() == other.read_bytes()
-    chain = tmp_path / "chain.toml"
-    chain.write_text(SINGLE, encoding="utf-8")
-    assert refusal("plot", chain, "--what", "response", "-o", tmp_path / "x.svg") == (
+    assert refusal("plot", "-", "--what", "response", "-o", tmp_path / "x.svg", stdin=SINGLE) == (
         "--what response: give the range, such as --speeds 1000:2500"
     )

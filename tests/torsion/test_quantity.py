@@ -7,22 +7,20 @@ import json
 from io import StringIO
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask, refusal, run_here
 from support.diesel import write_diesel
+from support.paths import write
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 
 
 @pytest.fixture
 def diesel(tmp_path):
-    path = tmp_path / "diesel.toml"
-    path.write_text(write_diesel(extra=GAS), encoding="utf-8")
-    return path
+    return write(tmp_path / "diesel.toml", write_diesel(extra=GAS))
 
 
 def sweep(path, vary, quantities):
-    status, out, err = run_here("sweep", path, "--vary", vary, "--quantity", quantities)
-    assert (status, err) == (0, "")
+    out = ask("sweep", path, "--vary", vary, "--quantity", quantities)
     return [[float(x) for x in line] for line in list(csv.reader(StringIO(out)))[1:]]
 
 
@@ -57,8 +55,10 @@ def test_search_and_scatter_say_over_which_speeds_a_shaft_is_loaded(diesel):
 
 def test_figures_of_lists_and_dampers_vary(tmp_path):
     own = 'damper = { kind = "rubber", inertia = 20000, stiffness = 40000, loss = 0.1 }\n'
-    path = tmp_path / "damped.toml"
-    path.write_text(write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
+    path = write(
+        tmp_path / "damped.toml",
+        write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}'),
+    )
     (soft, low), (stiff, high) = sweep(
         path, "torsion.front.2.damper.stiffness=20000,60000", "torsion.1.Hz"
     )
@@ -89,15 +89,16 @@ def test_figures_of_lists_and_dampers_vary(tmp_path):
 def test_a_figure_that_contradicts_its_table_is_refused(figure, told, tmp_path):
     """A bore wider than its shaft had a stress below 0."""
     own = 'damper = { kind = "viscous", inertia = 20000, damping = 4 }\n'
-    path = tmp_path / "damped.toml"
-    path.write_text(write_diesel(extra=GAS).replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
+    path = write(
+        tmp_path / "damped.toml",
+        write_diesel(extra=GAS).replace('name = "pulley"\n', f'name = "pulley"\n{own}'),
+    )
     options = ("--vary", figure.replace(" ", ""), "-q", "shaft.flywheel.stress")
     assert refusal("sweep", path, *options) == f"{path}: {figure}: {told}"
 
 
 def test_without_gas_figures_of_the_engine_vary_too(tmp_path):
-    path = tmp_path / "bare.toml"
-    path.write_text(write_diesel(), encoding="utf-8")
+    path = write(tmp_path / "bare.toml", write_diesel())
     (_, light), (_, heavy) = sweep(path, "piston.mass=2,3", "shaft.flywheel.torque")
     assert 1.3 < heavy / light < 1.7, "inertia torque grows with the mass"
 
@@ -126,8 +127,7 @@ def test_what_is_no_quantity(diesel, quantity, message):
 
 
 def test_files_without_torsion_have_none(tmp_path):
-    path = tmp_path / "plain.toml"
-    path.write_text(write_diesel().partition("[torsion]")[0], encoding="utf-8")
+    path = write(tmp_path / "plain.toml", write_diesel().partition("[torsion]")[0])
     assert refusal("sweep", path, "--vary", "rod.length=200,210", "-q", "torsion.1.Hz") == (
         f"{path}: has no [torsion]; balcli torsion --help says what it needs"
     )

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import re
 
 import pytest
-from support.commands import run_here
+from support.commands import ask, ask_json, run_here
 from support.diesel import write_diesel
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 
 @pytest.mark.stress
 def test_the_page_shows_torsion(tmp_path):
     engine, page = tmp_path / "six.toml", tmp_path / "six.html"
     engine.write_text(write_diesel("limit = 20"), encoding="utf-8")
-    status, _, err = run_here("report", engine, "-o", page)
-    assert (status, err) == (0, "")
+    ask("report", engine, "-o", page)
     text = page.read_text(encoding="utf-8")
     section = text[text.index('<section id="torsion">') :]
     section = section[: section.index("</section>")]
@@ -35,8 +33,7 @@ def test_the_page_shows_torsion(tmp_path):
 
 def test_that_gas_stays_is_said_of_an_engine_with_gas(tmp_path):
     """The published six has none, the shipped one has."""
-    without = tmp_path / "six.toml"
-    without.write_text(write_diesel(), encoding="utf-8")
+    without = write(tmp_path / "six.toml", write_diesel())
     for engine, told in ((ENGINES / "i6_diesel.toml", 1), (without, 0)):
         status, out, _ = run_here("torsion", engine, "--speeds", "1000:1100:50")
         assert status == 0
@@ -51,10 +48,7 @@ def test_large_torques_are_in_kilonewton_metres():
     assert re.search(r"shaft +± kN·m +at rpm +sum, kN·m", out)
     row = re.search(r"(?m)^flywheel +([\d.]+) +[\d.]+ +([\d.]+) ", out[out.index("Vibratory") :])
     assert row is not None
-    shafts = {
-        each["name"]: each
-        for each in json.loads(run_here(*asked, "-f", "json").out)["response"]["shafts"]
-    }
+    shafts = {each["name"]: each for each in ask_json(*asked)["response"]["shafts"]}
     largest = shafts["flywheel"]["worst"]["half_peak_to_peak_Nm"]
     assert float(row[1]) == pytest.approx(largest / 1e3, rel=1e-4)
 

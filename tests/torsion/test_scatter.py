@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.commands import ask_json, refusal, run_here
+from support.paths import write
 
 TWO = """
 name = "one throw and a wheel"
@@ -58,10 +59,8 @@ length = 200
 """
 
 
-def test_two_inertias_by_hand(tmp_path):
+def test_two_inertias_by_hand():
     """`f = sqrt(k (1/J1 + 1/J2))/2 pi`, with the same random numbers."""
-    path = tmp_path / "two.toml"
-    path.write_text(TWO, encoding="utf-8")
     options = (
         "--samples",
         "60",
@@ -72,7 +71,9 @@ def test_two_inertias_by_hand(tmp_path):
         "--mass-scatter",
         "2%",
     )
-    found = ask_json("scatter", path, "-q", "torsion.1.Hz", *options)["quantities"]["torsion.1.Hz"]
+    found = ask_json("scatter", "-", "-q", "torsion.1.Hz", *options, stdin=TWO)["quantities"][
+        "torsion.1.Hz"
+    ]
     names = ["inertia throw 1", "stiffness wheel", "inertia wheel", "piston mass 1"]
     assert {*found["sensitivity"]} == {*names}
     theta = np.linspace(0, 2 * np.pi, 4096, endpoint=False)
@@ -93,8 +94,7 @@ def test_two_inertias_by_hand(tmp_path):
 
 
 def test_every_throw_deviates_by_itself_and_with_gas(tmp_path):
-    path = tmp_path / "three.toml"
-    path.write_text(THREE + GAS, encoding="utf-8")
+    path = write(tmp_path / "three.toml", THREE + GAS)
     said = ask_json("scatter", path, "-q", "shaft.wheel.stress", "--samples", "3", "--seed", "1")
     found = said["quantities"]["shaft.wheel.stress"]
     assert {*found["sensitivity"]} == {
@@ -108,8 +108,7 @@ def test_every_throw_deviates_by_itself_and_with_gas(tmp_path):
 
 
 def test_what_does_not_scatter(tmp_path):
-    path = tmp_path / "two.toml"
-    path.write_text(TWO, encoding="utf-8")
+    path = write(tmp_path / "two.toml", TWO)
     told = refusal("scatter", path, "-q", "torsion.1.Hz,force.2.major")
     assert told == (
         "force.2.major and torsion.1.Hz have tolerances of their own; ask for quantities of the "

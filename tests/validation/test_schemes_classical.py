@@ -9,12 +9,11 @@ import math
 
 import numpy as np
 import pytest
-from support.engines import engine_text
+from support.engines import build_text, engine_text
 from support.remedies import figures
 
 from balcli.core.mechanisms import closed_form
-from balcli.engine.build import Engine, build
-from balcli.engine.load import parse
+from balcli.engine.build import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
@@ -31,7 +30,7 @@ def engine(
     throws: list[float], spacing: float = 100, throw_mass: float = 1, more: str = "", **tables: str
 ) -> Engine:
     crank = f"stroke = 100\nthrows = {throws}\nspacing = {spacing}\nthrow_mass = {throw_mass}"
-    return build(parse(engine_text(crank=crank, **tables) + more))
+    return build_text(engine_text(crank=crank, **tables) + more)
 
 
 INLINE_4 = engine([0, 180, 180, 0])
@@ -133,12 +132,10 @@ def test_bobweight_card_of_a_cross_plane_v8():
 
 def test_split_pins_have_a_card_each():
     e = engine([0, 240, 120], layout="bank_angle = 60")
-    split = build(
-        parse(
-            engine_text(
-                crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60",
-                layout="bank_angle = 60",
-            )
+    split = build_text(
+        engine_text(
+            crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60",
+            layout="bank_angle = 60",
         )
     )
     assert [len(entry.cylinders) for entry in size(e, "factor").card] == [2, 2, 2]
@@ -149,7 +146,7 @@ def test_factor_sweep_trades_along_for_across():
     """One cylinder, order 1 alone as lambda -> 0: peak along falls by K, across rises by K, both in
     units of m r omega^2.
     """
-    e = build(parse(engine_text(rod="ratio = 1e-7")))
+    e = build_text(engine_text(rod="ratio = 1e-7"))
     remedy = size(e, "factor", SchemeOptions(factor=(0.0, 0.25, 0.5, 0.75, 1.0)))
     unit = M * R * e.omega**2
     for row in remedy.sweep:
@@ -220,12 +217,10 @@ def test_inline_three_needs_couples():
 
 
 def test_even_firing_v6_at_60_degrees_has_a_backward_second_order_couple_alone():
-    e = build(
-        parse(
-            engine_text(
-                crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60",
-                layout="bank_angle = 60",
-            )
+    e = build_text(
+        engine_text(
+            crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60",
+            layout="bank_angle = 60",
         )
     )
     assert {s.ratio for s in size_auto(e).shafts} <= {-2}

@@ -13,11 +13,10 @@ import math
 
 import numpy as np
 import pytest
-from support.engines import engine_text
+from support.engines import build_text, engine_text
 
 from balcli.core.mechanisms import closed_form
-from balcli.engine.build import Engine, build
-from balcli.engine.load import parse
+from balcli.engine.build import Engine
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
@@ -30,12 +29,10 @@ EVERY_ANGLE = [0, 15, 30, 45, 59, 60, 61, 75, 90, 105, 120, 135, 150, 165, 179, 
 
 
 def flat_plane(gamma: float) -> Engine:
-    return build(
-        parse(
-            engine_text(
-                crank="stroke = 100\nthrows = [0, 180, 180, 0]\nspacing = 100\nthrow_mass = 1",
-                layout=f"bank_angle = {gamma}",
-            )
+    return build_text(
+        engine_text(
+            crank="stroke = 100\nthrows = [0, 180, 180, 0]\nspacing = 100\nthrow_mass = 1",
+            layout=f"bank_angle = {gamma}",
         )
     )
 

@@ -11,12 +11,11 @@ import math
 
 import numpy as np
 import pytest
-from support.engines import engine_text
+from support.engines import build_text, engine_text
 from support.remedies import figures
 
 from balcli.core.mechanisms import closed_form, slidercrank
-from balcli.engine.build import Engine, build
-from balcli.engine.load import parse
+from balcli.engine.build import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
@@ -29,11 +28,8 @@ M, R = 1.0, 0.05
 
 
 def single(lam: float = 0.25, more: str = "", **tables: str) -> Engine:
-    return build(
-        parse(
-            engine_text(rod=f"ratio = {lam}", crank="stroke = 100\nthrow_mass = 0.7", **tables)
-            + more
-        )
+    return build_text(
+        engine_text(rod=f"ratio = {lam}", crank="stroke = 100\nthrow_mass = 0.7", **tables) + more
     )
 
 
@@ -175,16 +171,14 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
     mean is left.
     """
     plain, mass, bank, z = single(0.25), 0.4, 37, 60
-    other = build(
-        parse(
-            engine_text(
-                rod="ratio = 0.25",
-                crank=f"stroke = 100\nthrow_mass = 0.7\nthrows = [0]\npositions = [{z}]",
-                piston=f"mass = {mass}",
-                layout=f"banks = [{bank}]",
-                frame=f"reference = [0, 0, {z}]",
-                operation="speed = 2300",
-            )
+    other = build_text(
+        engine_text(
+            rod="ratio = 0.25",
+            crank=f"stroke = 100\nthrow_mass = 0.7\nthrows = [0]\npositions = [{z}]",
+            piston=f"mass = {mass}",
+            layout=f"banks = [{bank}]",
+            frame=f"reference = [0, 0, {z}]",
+            operation="speed = 2300",
         )
     )
     remedy = size(other, "eccentric-slider")
@@ -227,7 +221,7 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
 
 def test_shafts_of_variable_speed_leave_only_what_turns_with_the_throw_to_the_counterweight():
     """Without a rotating mass no counterweight is fitted."""
-    light = build(parse(engine_text(rod="ratio = 0.25")))
+    light = build_text(engine_text(rod="ratio = 0.25"))
     for scheme in ("eccentric-slider", "oldham"):
         assert not size(light, scheme).counterweights
 

@@ -17,10 +17,8 @@ if TYPE_CHECKING:
 def complete_kinds(incomplete: str) -> list[str]:
     """Kinds of files, of `balcli new`."""
     from ..enginefile.templates import KINDS
-    from ..field_balancing.starting_file import KIND as FIELD
-    from ..torsion.starting_file import KIND as TORSION
 
-    return _beginning_with(incomplete, (*KINDS, FIELD, TORSION))
+    return _beginning_with(incomplete, KINDS)
 
 
 def complete_schemes(incomplete: str) -> list[str]:

@@ -8,8 +8,6 @@ from typing import Annotated
 import typer
 
 from ..enginefile.templates import template
-from ..field_balancing import starting_file as field
-from ..torsion import starting_file as torsion
 from .completion import complete_kinds
 from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
@@ -44,8 +42,7 @@ def new(
     Example:
       balcli new vee v6.toml
     """
-    chapters = {chapter.KIND: chapter.read_starting_file for chapter in (field, torsion)}
-    text = chapters[kind]() if kind in chapters else template(kind, chapters)
+    text = template(kind)
     require_ending(path, ".toml", "FILE")
     refuse_existing(path, force)
     emit(text, path)

@@ -60,16 +60,19 @@ def schema(
 
 
 def _describe_file(kind: File) -> dict[str, Any]:
-    from ..enginefile.schema import describe_engine_file  # pydantic
-    from ..field_balancing.schema import describe_runs_file
-    from ..torsion.schema import describe_chain_file
+    from ..enginefile.schema import describe_engine_file, describe_file  # pydantic
+    from ..enginefile.shafting import Damper
+    from ..field_balancing.model import Run, RunsFile
+    from ..torsion.chain_file import ChainFile
+    from ..torsion.read_chain import LISTS
 
-    describe = {
-        File.ENGINE: describe_engine_file,
-        File.FIELD: describe_runs_file,
-        File.TORSION: describe_chain_file,
-    }
-    return describe[kind]()
+    match kind:
+        case File.ENGINE:
+            return describe_engine_file()
+        case File.FIELD:
+            return describe_file(RunsFile, [Run], "runs-file", "balcli file of runs")
+        case File.TORSION:
+            return describe_file(ChainFile, [Damper, *LISTS], "chain-file", "balcli chain file")
 
 
 def _describe_result(name: str, kind: File | None) -> dict[str, Any]:

@@ -1,15 +1,17 @@
-"""Starting files: of every common kind an engine with comments, which analyses as it stands."""
+"""Starting files: commented ones that work as they stand, of every common kind of engine, of runs
+of a rotor and of a chain of shafts.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
 from pathlib import Path
 
 from ..errors import BalcliError
 from .fields import nearest
 
-KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
+ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
+KINDS = (*ENGINE_KINDS, "field", "torsion")
 SCHEMA = """\
 #:schema balcli.schema.json
 # Editors that know TOML check and complete what you type, with that file here: `balcli schema -o balcli.schema.json`
@@ -41,16 +43,20 @@ def _known_as(kind: str) -> str:
     return ""
 
 
-def template(kind: str, others: Collection[str] = ()) -> str:
-    """The engine file of a kind as TOML text. BalcliError for an unknown kind, with the nearest one
-    and all of them, also of `others`: kinds of files that are of no engine.
+def template(kind: str) -> str:
+    """The starting file of a kind as TOML text. BalcliError for an unknown kind, with the nearest
+    one and all of them.
     """
     if kind not in KINDS:
-        known = (*KINDS, *others)
-        near = nearest(kind, known)
+        near = nearest(kind, KINDS)
         hint = _known_as(kind.lower()) or (f" Did you mean {near}?" if near else "")
         raise BalcliError(
-            f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(known)}.{hint}'
+            f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(KINDS)}.{hint}'
         )
-    parts = (_FOLDER / f"{name}.toml" for name in (kind, "optional"))
-    return SCHEMA + "".join(part.read_text(encoding="utf-8") for part in parts)
+    if kind in ENGINE_KINDS:
+        return SCHEMA + _read(kind) + _read("optional")
+    return _read(kind)
+
+
+def _read(name: str) -> str:
+    return (_FOLDER / f"{name}.toml").read_text(encoding="utf-8")

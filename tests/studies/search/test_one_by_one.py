@@ -12,7 +12,7 @@ from itertools import permutations
 import pytest
 from support.commands import ask_json, refusal, run_here
 from support.diesel import write_diesel
-from support.paths import ENGINES
+from support.paths import ENGINES, write
 
 from balcli.core.telling import tell_nobody
 from balcli.engine.load import parse
@@ -98,9 +98,9 @@ def test_throws_by_shaft_torque_without_gas(tmp_path):
 
 
 def test_the_firing_order_decides_where_gas_fires_in_two_turns(tmp_path):
-    path = tmp_path / "six.toml"
-    path.write_text(
-        SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]")
+    path = write(
+        tmp_path / "six.toml",
+        SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]"),
     )
     told = refusal("search", path, "--over", "throws", "--minimise", "torque.2.amplitude")
     assert told.startswith("with [gas] in four strokes the firing order decides, too")
