@@ -110,5 +110,7 @@ def test_unknown_kinds():
         '"boxxer" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
         "w, mounts. Did you mean boxer?"
     )
+    with pytest.raises(BalcliError, match=r"example: balcli engines twin270 FILE\.$"):
+        template("twin270")
     with pytest.raises(BalcliError, match=r"vee, boxer, radial, w, mounts\.$"):
         template("q" * 10_000)

@@ -7,6 +7,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from ..errors import BalcliError
+from . import examples
 from .fields import nearest
 
 KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
@@ -20,7 +21,7 @@ _FOLDER = Path(__file__).with_name("starting_files")
 # what people call the kinds
 _CALLED = {
     r"v|v-?\d+|v-?twin|vee-?\w*": "vee",
-    r"[il]-?\d+|r\d+|straight-?\w+|in-?line-?\w+|line|twin|four|six": "inline",
+    r"[il]-?\d+|r\d+|straight-?\w+|in-?line-?\w+|line|(parallel-?)?twin|four|six": "inline",
     r"h?flat-?\w*|boxer-?\w+|b\d+|[fh]\d+": "boxer",
     r"w-?\d+": "w",
     r"one|thumper|mono|1": "single",
@@ -32,6 +33,8 @@ _CALLED = {
 
 def _known_as(kind: str) -> str:
     """What a layout such as v8 or i4 is called here, and where there is one that is finished."""
+    if kind in examples.names():
+        return f" It is an example: balcli engines {kind} FILE."
     for pattern, name in _CALLED.items():
         if re.fullmatch(pattern, kind):
             return (
