@@ -110,7 +110,10 @@ def test_unknown_kinds():
         '"boxxer" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
         "w, mounts. Did you mean boxer?"
     )
-    with pytest.raises(BalcliError, match=r"example: balcli engines twin270 FILE\.$"):
+    with pytest.raises(
+        BalcliError,
+        match=r"mounts\. A finished one is among the examples: balcli engines twin270\.$",
+    ):
         template("twin270")
     with pytest.raises(BalcliError, match=r"vee, boxer, radial, w, mounts\.$"):
         template("q" * 10_000)

@@ -33,15 +33,11 @@ _CALLED = {
 
 def _known_as(kind: str) -> str:
     """What a layout such as v8 or i4 is called here, and where there is one that is finished."""
+    called = next((name for pattern, name in _CALLED.items() if re.fullmatch(pattern, kind)), None)
+    hint = f" That is {called}: balcli new {called}." if called else ""
     if kind in examples.names():
-        return f" It is an example: balcli engines {kind} FILE."
-    for pattern, name in _CALLED.items():
-        if re.fullmatch(pattern, kind):
-            return (
-                f" That is {name}: balcli new {name}. A finished one may be among the examples: "
-                "balcli engines."
-            )
-    return ""
+        return f"{hint} A finished one is among the examples: balcli engines {kind}."
+    return hint and f"{hint} A finished one may be among the examples: balcli engines."
 
 
 def template(kind: str, others: Collection[str] = ()) -> str:
