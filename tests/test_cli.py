@@ -86,6 +86,7 @@ def usage(command: str, message: str) -> str:
         "": "[OPTIONS] COMMAND [ARGS]...",
         "analyze": "[OPTIONS] {FILE...}...",
         "check": "[OPTIONS] {PATH...}...",
+        "balance": "[OPTIONS] {FILE}",
     }[command]
     name = f"balcli {command}".strip()
     return f"Usage: {name} {form}\nTry '{name} -h' for help.\n\nError: {message}\n"
@@ -110,6 +111,11 @@ def usage(command: str, message: str) -> str:
             ["analyze", V8, "--json"],
             "analyze",
             "No such option: --json (Possible options: --only). That is --format json.",
+        ),
+        (
+            ["balance", V8, "--overbalance", "2%"],
+            "balance",
+            "No such option: --overbalance (Possible options: --verbose). That is --factor 51%.",
         ),
         (
             ["analyze", V8, "-f", "latex"],

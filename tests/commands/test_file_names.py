@@ -61,16 +61,21 @@ def test_a_format_that_is_said_needs_no_ending_that_is_known(name):
 
 
 PICTURES = ".svg, .png or .pdf"
+DRAWN = (
+    "; pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and "
+    "field"
+)
 
 
 @pytest.mark.parametrize(
     ("args", "can"),
     [
-        (("analyze", "-o", "r.pdf"), ".txt, .json, .csv or .md"),
-        (("analyze", "-f", "csv", "-o", "r.PDF"), ".txt, .json, .csv or .md"),
+        (("analyze", "-o", "r.pdf"), f".txt, .json, .csv or .md{DRAWN}"),
+        (("analyze", "-o", "r.html"), ".txt, .json, .csv or .md; pages are written by balcli report FILE X.html"),
+        (("analyze", "-f", "csv", "-o", "r.PDF"), f".txt, .json, .csv or .md{DRAWN}"),
         (("analyze", "-o", "r.xyz"), ".txt, .json, .csv or .md"),
         (("curves", "-o", "r.md"), ".csv or .json"),
-        (("sweep", *VARY, "-o", "r.png"), ".csv, .json, .parquet, .txt or .md"),
+        (("sweep", *VARY, "-o", "r.png"), f".csv, .json, .parquet, .txt or .md{DRAWN}"),
         (("sweep", *VARY, "--plot", "r.csv"), PICTURES),
         (("plot", "-o", "r.jpg"), PICTURES),
         (("report", "-o", "r.pdf"), ".html or .htm"),
@@ -78,7 +83,7 @@ PICTURES = ".svg, .png or .pdf"
         (("search", *SEARCH, "--write", "r.csv"), ".toml"),
     ],
     ids=lambda v: " ".join(v) if type(v) is tuple else "",
-)
+)  # fmt: skip
 def test_an_ending_that_cannot_be_is_refused(args, can):
     name, *rest = args
     option, target = {"-o": "--output"}.get(rest[-2], rest[-2]), rest[-1]

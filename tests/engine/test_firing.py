@@ -223,6 +223,29 @@ def test_throws_that_count_the_other_way_are_told():
     assert "sense" not in refused(crank=crank, layout=wrong)
 
 
+ODD_AND_EVEN = [[1, 3, 5], [2, 4, 6]]
+
+
+@pytest.mark.parametrize(
+    ("crank", "hint"),
+    [
+        # Seen from the free end odd numbers are on the right, and the throws counted as they fire.
+        (
+            {"throws": [0, 120, 240], "splay": -30},
+            "the driver's right; and with throws that count in the sense of rotation: "
+            "crank.throws = [0, 240, 120]",
+        ),
+        ({"throws": [0, 240, 120], "splay": 30}, "and with split pins: crank.splay = -30"),
+        # By exchanged banks alone they would fire after 60, 60, 60, 60, 60, 420 deg.
+        ({"throws": [0, 120, 240], "splay": 30}, "or leave crank.throws out"),
+    ],
+)
+def test_what_is_proposed_fires_as_one_would_want_it(crank, hint):
+    """An American V6 with 30-degree split pins and more than one mistake in it."""
+    layout = {"bank_angle": 90, "firing_order": [1, 6, 5, 4, 3, 2], "numbering": ODD_AND_EVEN}
+    assert refused(crank=crank, layout=layout).endswith(hint)
+
+
 def test_a_rotary_numbered_as_its_cylinders_come_to_the_top():
     """Cylinders that turn come to the top in the reverse of the sense in which they are numbered;
     one pin cannot be split for that.
@@ -414,9 +437,25 @@ def test_an_order_of_one_revolution_is_doubted_where_two_are_less_uneven():
     )
 
 
+def test_pins_that_are_split_the_wrong_way_are_doubted():
+    """A 90-degree V6: its banks are 30 degrees short of the 120 from firing to firing."""
+    vee = {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]}
+    doubts = engine(crank={"throws": [0, 240, 120], "splay": 30}, layout=vee).doubts
+    (told,) = (doubt for doubt in doubts if "splay" in doubt)
+    assert told == (
+        "crank.splay is 30, with which the cylinders fire after 60, 180, 60, 180, 60, 180 deg, and "
+        "with -30 they would evenly; change it, or say layout.firing_intervals = [60, 180, 60, "
+        "180, 60, 180] if it is so"
+    )
+
+
 @pytest.mark.parametrize(
     "parts",
     [
+        {  # less than even firing takes, and more even than common pins
+            "crank": {"throws": [0, 240, 120], "splay": -18},
+            "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]},
+        },
         {
             "crank": {"throws": [0, 240, 120]},
             "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]},
@@ -435,4 +474,5 @@ def test_an_order_of_one_revolution_is_doubted_where_two_are_less_uneven():
     ],
 )
 def test_an_order_is_not_doubted_where_it_is_even_or_none_is(parts):
-    assert not [doubt for doubt in engine(**parts).doubts if "firing" in doubt]
+    doubts = engine(**parts).doubts
+    assert not [doubt for doubt in doubts if "firing" in doubt or "splay" in doubt]

@@ -171,6 +171,15 @@ ONCE = "each of the cylinders 1 to {} must stand once"
             f"layout.numbering: there is no cylinder 5, cylinder 3 is missing: {ONCE.format(4)}",
         ),
         (
+            {
+                "crank": {"throws": [0, 180]},
+                "layout": {"bank_angle": 180, "firing_order": [1, 2]},
+            },
+            f"layout.firing_order: cylinders 3 and 4 are missing: {ONCE.format(4)}; every throw "
+            "carries a rod of each of the 2 banks: if they take the throws in turn, as in a boxer, "
+            'say layout.rods = "alternating"',
+        ),
+        (
             {"crank": {"throws": [0, 180]}, "layout": {"firing_order": [1, 3, 2]}},
             f"layout.firing_order: there is no cylinder 3: {ONCE.format(2)}",
         ),

@@ -283,6 +283,7 @@ def test_engines_of_the_project_are_of_usual_size():
     "layout",
     [
         'banks = [-90, 90]\nrods = "alternating"',  # opposite cylinders overlap in side view
+        'bank_angle = 15\nrods = "alternating"',
         "radial = 9",
     ],
 )

@@ -110,5 +110,10 @@ def test_unknown_kinds():
         '"boxxer" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
         "w, mounts, field, torsion. Did you mean boxer?"
     )
+    with pytest.raises(
+        BalcliError,
+        match=r"mounts\. A finished one is among the examples: balcli engines twin270\.$",
+    ):
+        template("twin270")
     with pytest.raises(BalcliError, match=r"w, mounts, field, torsion\.$"):
         template("q" * 10_000)

@@ -168,3 +168,17 @@ def test_modes_that_lie_close_are_named_together():
     (meetings,) = (ax for ax in figure.axes if "meet modes" in ax.get_title(loc="left"))
     names = [text.get_text() for text in meetings.texts if text.get_ha() == "right"]
     assert names == ["1, 2", "3, 4, 5", "6"]
+
+
+@pytest.mark.parametrize("name", ["sweep", "torsion", "mounts"])
+def test_curves_of_one_axis_are_told_apart_without_colour(name):
+    """As on paper printed in black and white: the first three of each legend are dashed, dotted or
+    of another width.
+    """
+    legends = [ax.get_legend() for ax in SHOWN[name]().axes if ax.get_legend()]
+    looks = [
+        [(line.get_linestyle(), line.get_linewidth()) for line in each.get_lines()[:3]]
+        for each in legends
+    ]
+    assert max(map(len, looks)) > 1
+    assert all(len({*each}) == len(each) for each in looks)

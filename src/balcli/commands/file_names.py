@@ -27,6 +27,16 @@ TEXTS = {
     ".md": Format.MARKDOWN,
 }
 PICTURES: dict[str, Form] = {".svg": "svg", ".png": "png", ".pdf": "pdf"}
+# Who writes what a table cannot be.
+INSTEAD = {
+    ".tex": LATEX,
+    **dict.fromkeys(
+        PICTURES,
+        "pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and "
+        "field",
+    ),
+    **dict.fromkeys((".html", ".htm"), "pages are written by balcli report FILE X.html"),
+}
 # What nobody takes for anything else, so that no --format can make it so.
 KNOWN = {*TEXTS, *PICTURES, ".html", ".htm", ".toml", ".parquet", ".xlsx", ".jpg", ".jpeg"}
 
@@ -130,8 +140,8 @@ def format_of(
         return usual
     can = _listed(list(endings))
     said = f"{ending} cannot be written here" if ending else "has no ending that says its format"
-    latex = f"; {LATEX}" if ending == ".tex" and ".md" in endings else ""
-    raise BalcliError(f"{option} {output}: {said}; give a name that ends in {can}{latex}")
+    instead = f"; {INSTEAD[ending]}" if ".csv" in endings and ending in INSTEAD else ""
+    raise BalcliError(f"{option} {output}: {said}; give a name that ends in {can}{instead}")
 
 
 def picture_form(output: Path, option: str = "--output") -> Form:

@@ -41,6 +41,8 @@ OPTIONS = {
     **dict.fromkeys(("--silent", "--no-warnings"), "--quiet"),
     **dict.fromkeys(("--precision", "--decimals"), "--digits N"),
     **dict.fromkeys(("--revs", "--revolutions"), "--speed RPM"),
+    **dict.fromkeys(("--overbalance", "--bobweight", "--bobweights"), "--factor 51%"),
+    **dict.fromkeys(("--heavy-metal", "--mallory", "--tungsten"), "--slug tungsten, with --drill"),
 }
 
 

@@ -17,12 +17,13 @@ from .firing import (
     find_steadiest_order,
 )
 from .layout import cycle_deg
+from .split_pins import find_fitting_splay
 
 
 def doubt_firing_order(model: EngineFile) -> Iterator[str]:
     """A warning where the cylinders of a file fire unevenly, and in another order would fire evenly
-    on the same crank, or where all fire in one revolution of two and need not; none where the file
-    gives the intervals.
+    on the same crank, or where all fire in one revolution of two and need not, or where pins split
+    the other way would fire evenly; none where the file gives the intervals.
 
     Where all dead centres are in one turn and apart, as of an odd number of cylinders or of a vee
     on common pins, an order along them, with a long wait behind, takes no more than a cycle.
@@ -43,6 +44,7 @@ def doubt_firing_order(model: EngineFile) -> Iterator[str]:
         other = find_instants(turn, find_intervals(turn, ready, cycle), cycle)
         better = f"after {_write(_list_gaps(other, cycle))}"
     else:
+        yield from _doubt_splay(model, gaps)
         return
     throws = " (or crank.throws, which count in the sense of rotation)"
     yield (
@@ -51,6 +53,17 @@ def doubt_firing_order(model: EngineFile) -> Iterator[str]:
         f"change it{throws if len(model.crank.throws) > 1 else ''}, or say "
         f"layout.firing_intervals = [{_write(gaps)}] if it is so"
     )
+
+
+def _doubt_splay(model: EngineFile, gaps: list[float]) -> Iterator[str]:
+    """A warning where pins are split against the way in which they would fire evenly."""
+    even = find_fitting_splay(model)
+    if even is not None and even * model.crank.splay < 0:
+        yield (
+            f"crank.splay is {model.crank.splay:g}, with which the cylinders fire after "
+            f"{_write(gaps)} deg, and with {even:g} they would evenly; change it, or say "
+            f"layout.firing_intervals = [{_write(gaps)}] if it is so"
+        )
 
 
 def _list_gaps(fires: Mapping[int, Figure], cycle: float) -> list[float]:

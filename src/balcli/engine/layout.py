@@ -66,7 +66,7 @@ def plan_cylinders(crank: Crank, layout: Layout) -> Plan:
                 f'{counted(throws, "throw")}: give more throws, or "shared"',
             )
         )
-    problems += _check_firing_order(layout, sorted(numbers))
+    problems += _check_firing_order(layout, sorted(numbers), throws)
     if problems:
         raise InputError(problems)
     cells = tuple(Cell(*place, number) for place, number in zip(places, numbers, strict=True))
@@ -153,10 +153,21 @@ def _number_cylinders(
     return numbers, []
 
 
-def _check_firing_order(layout: Layout, numbers: Sequence[int]) -> Iterator[Problem]:
+def _check_firing_order(layout: Layout, numbers: Sequence[int], throws: int) -> Iterator[Problem]:
+    """Every cylinder stands in the firing order once; where that has one for each throw, and banks
+    share the throws, the mistake says how they do not.
+    """
     order = layout.firing_order
-    if order is not None and sorted(order) != numbers:
-        yield Problem("layout.firing_order", _describe_not_once(order, numbers))
+    if order is None or sorted(order) == numbers:
+        return
+    told = _describe_not_once(order, numbers)
+    banks = count_banks(layout)
+    if 1 < banks <= throws == len(order) and layout.rods == "shared":
+        told += (
+            f"; every throw carries a rod of each of the {banks} banks: if they take the throws in "
+            'turn, as in a boxer, say layout.rods = "alternating"'
+        )
+    yield Problem("layout.firing_order", told)
 
 
 def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:

@@ -18,6 +18,7 @@ from ..enginefile.model import EngineFile
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
 from .assembly import Assembly
+from .even_order import doubt_firing_order
 from .firing import TOLERANCE_DEG, check_firing, find_even_order, find_intervals
 from .layout import cycle_deg
 from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
@@ -182,9 +183,8 @@ def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
     """
     for problem in _find_dead_centres_missed(parts):
         hint = (
-            _suggest_swapped_banks(parts)
+            _suggest_turned_round(parts)
             or _suggest_turned_numbers(parts)
-            or _suggest_mirrored_throws(parts)
             or _suggest_turn(parts)
             or _suggest_one_pin(parts)
             or _suggest_splay(parts)
@@ -204,14 +204,24 @@ def _find_dead_centres_missed(parts: Assembly) -> list[Problem]:
     return list(check_firing(fires, pins, tops, sense, throws_given=throws_given))
 
 
-def _suggest_swapped_banks(parts: Assembly) -> str:
-    """The numbering of a vee with its banks exchanged, if all would fire at top dead centre by it
-    with the throws given; else empty.
+def _suggest_turned_round(parts: Assembly) -> str:
+    """The banks exchanged, or the throws counted against the sense of rotation, or both, if by that
+    all would fire at top dead centre, in an order that nobody doubts; else empty.
     """
-    swapped = None if parts.model.crank.throws is None else _exchange_banks(parts)
-    if swapped is None or _find_dead_centres_missed(Assembly(swapped)):
+    if parts.model.crank.throws is None:
         return ""
-    return f". They fit with {_describe_exchange(swapped)}"
+    ways = [_mirror_throws(parts.model)]
+    swapped = _exchange_banks(parts)
+    if swapped is not None:
+        exchange = _describe_exchange(swapped)
+        both, mirrored = _mirror_throws(swapped)
+        ways = [(swapped, exchange), *ways, (both, f"{exchange}; and with {mirrored}")]
+    fitting = (told for turned, told in ways if _fits(turned))
+    return next((f". They fit with {told}" for told in fitting), "")
+
+
+def _fits(model: EngineFile) -> bool:
+    return not _find_dead_centres_missed(Assembly(model)) and not any(doubt_firing_order(model))
 
 
 def _exchange_banks(parts: Assembly) -> EngineFile | None:
@@ -254,18 +264,12 @@ def _suggest_turned_numbers(parts: Assembly) -> str:
     return f". They fit with cylinders numbered the other way round: layout.numbering = {shown}"
 
 
-def _suggest_mirrored_throws(parts: Assembly) -> str:
-    """The throws counted against the sense of rotation, if all would fire at top dead centre by
-    them; else empty.
-    """
-    if parts.model.crank.throws is None:
-        return ""
-    mirrored = tuple(-throw % 360 for throw in parts.model.crank.throws)
-    turned = parts.model.with_table("crank", throws=mirrored)
-    if _find_dead_centres_missed(Assembly(turned)):
-        return ""
+def _mirror_throws(model: EngineFile) -> tuple[EngineFile, str]:
+    """The engine with its throws counted the other way round, and that in words."""
+    mirrored = tuple(-throw % 360 for throw in model.crank.throws or ())
     throws = ", ".join(f"{throw:g}" for throw in mirrored)
-    return f". They fit with throws that count in the sense of rotation: crank.throws = [{throws}]"
+    told = f"throws that count in the sense of rotation: crank.throws = [{throws}]"
+    return model.with_table("crank", throws=mirrored), told
 
 
 def _suggest_turn(parts: Assembly) -> str:

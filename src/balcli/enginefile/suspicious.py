@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from .exclusive import join_words
 from .fields import count_lambda_digits
-from .model import Counterweight, EngineFile
+from .model import Counterweight, EngineFile, Layout
 from .units import ask_unit
 
 if TYPE_CHECKING:
@@ -478,8 +478,8 @@ def _find_gap_in_bank(model: EngineFile) -> float | None:
     if layout.radial is not None or own:
         return None
     throws, _ = _throws_and_rods(model)
-    banks = len(layout.banks or ()) or 1
-    step = banks if layout.rods == "alternating" else 1  # from one throw of a bank to its next
+    # from one throw of a bank to its next
+    step = _count_banks(layout) if layout.rods == "alternating" else 1
     if step >= throws:
         return None
     if crank.positions is None:
@@ -495,12 +495,15 @@ def _spacing(model: EngineFile) -> float | None:
 def _throws_and_rods(model: EngineFile) -> tuple[int, int]:
     """How many there are; without throws, the firing order tells the number of rods."""
     layout = model.layout
-    banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
-    rods_on_a_throw = banks if layout.rods == "shared" else 1
+    rods_on_a_throw = _count_banks(layout) if layout.rods == "shared" else 1
     if model.crank.throws is None and layout.firing_order:
         return max(len(layout.firing_order) // rods_on_a_throw, 1), len(layout.firing_order)
     throws = len(model.crank.throws or (0.0,))
     return throws, throws * rods_on_a_throw
+
+
+def _count_banks(layout: Layout) -> int:
+    return 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
 
 
 def _unbalance(weight: Counterweight) -> float:

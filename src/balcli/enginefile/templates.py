@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 from ..errors import BalcliError
+from . import examples
 from .fields import nearest
 
 ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
@@ -22,7 +23,7 @@ _FOLDER = Path(__file__).with_name("starting_files")
 # what people call the kinds
 _CALLED = {
     r"v|v-?\d+|v-?twin|vee-?\w*": "vee",
-    r"[il]-?\d+|r\d+|straight-?\w+|in-?line-?\w+|line|twin|four|six": "inline",
+    r"[il]-?\d+|r\d+|straight-?\w+|in-?line-?\w+|line|(parallel-?)?twin|four|six": "inline",
     r"h?flat-?\w*|boxer-?\w+|b\d+|[fh]\d+": "boxer",
     r"w-?\d+": "w",
     r"one|thumper|mono|1": "single",
@@ -34,13 +35,11 @@ _CALLED = {
 
 def _known_as(kind: str) -> str:
     """What a layout such as v8 or i4 is called here, and where there is one that is finished."""
-    for pattern, name in _CALLED.items():
-        if re.fullmatch(pattern, kind):
-            return (
-                f" That is {name}: balcli new {name}. A finished one may be among the examples: "
-                "balcli engines."
-            )
-    return ""
+    called = next((name for pattern, name in _CALLED.items() if re.fullmatch(pattern, kind)), None)
+    hint = f" That is {called}: balcli new {called}." if called else ""
+    if kind in examples.names():
+        return f"{hint} A finished one is among the examples: balcli engines {kind}."
+    return hint and f"{hint} A finished one may be among the examples: balcli engines."
 
 
 def template(kind: str) -> str:

@@ -105,7 +105,7 @@ def _notes(result: Search) -> Iterator[str]:
         )
     if result.over != "operation.speed" and (assumed := tell_assumed_speed(result.model)):
         yield assumed
-    if _textbook(result, result.results[0]):
+    if any(one.figures[name] for one in result.results for name in _textbook(result, one)):
         yield _AS_BUILT
     if speeds := tell_speeds(q.name for q in result.objective.quantities):
         yield speeds

@@ -452,3 +452,12 @@ def test_bank_angles_vary_beside_given_knuckle_angles() -> None:
 def test_an_articulated_radial_has_no_bank_angle_to_look_for() -> None:
     with pytest.raises(BalcliError, match="there is no bank angle to look for"):
         search_arrangements(load(RADIAL), "bank_angle", parse_objective("force.6.major"))
+
+
+def test_units_of_the_textbook_are_told_where_a_figure_has_them() -> None:
+    """At 60 degrees of split nothing turns against the crank, and there is no multiple of F1."""
+    for of, told in (("force.1.backward", False), ("force.1.backward,force.2.major", True)):
+        found = search_arrangements(vee(bank=60), "splay", parse_objective(of))
+        (grid,) = renderer.sheet(found, SYSTEMS["si"]).parts
+        cells = " ".join(cell for row in grid.rows for cell in row)
+        assert [" F2)" in cells, "Fn" in grid.note] == [told, told]

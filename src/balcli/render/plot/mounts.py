@@ -5,7 +5,7 @@ and the body moving in each mode.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, product
+from itertools import combinations
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
@@ -19,14 +19,14 @@ from ...mounting.response import MountingResponse
 from ..body_block import PROJECTION, find_corners
 from ..sheet import NAMELESS, number, order_name
 from ..units import ShownUnit, System
-from .style import BLUE, FAINT, GREEN, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, put_title
+from .axes import MANY_LOOKS
+from .style import BLUE, FAINT, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, put_title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_LOOKS = tuple(product(("-", "--", ":"), (BLUE, RED, GREEN, INK)))
-_MOST_CURVES = 12  # that are told apart
+_MOST_CURVES = len(MANY_LOOKS)
 _WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
 _LABEL_HEIGHT = 0.035  # of an axis
 _SWING = 0.22  # of the body's size, by which its farthest corner moves in a picture of a mode
@@ -76,7 +76,7 @@ def _draw_curves(
 ) -> None:
     """Over speed, a curve for each name; those with a scheme are thin and of the same look."""
     for k, name in enumerate(names[:_MOST_CURVES]):
-        line, colour = _LOOKS[k % len(_LOOKS)]
+        line, colour = MANY_LOOKS[k]
         for values, more in curves:
             ax.plot(
                 speeds_rpm,

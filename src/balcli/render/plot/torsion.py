@@ -5,7 +5,7 @@ orders one behind the other (waterfall).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import cycle, product
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,14 +15,14 @@ from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
 from ..units import SI, System
-from .style import BLUE, FAINT, GREEN, INK, RED, SOFT, Form, fit_name, open_figure, put_title
+from .axes import MANY_LOOKS
+from .style import BLUE, FAINT, INK, RED, SOFT, Form, fit_name, open_figure, put_title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 PAGES = ("all", "modes", "campbell", "response", "waterfall")
-_STYLES = tuple(product(("-", "--", ":"), (BLUE, RED, GREEN, INK)))  # told apart in grey, too
 _MOST_MODES = 4  # whose shapes are drawn: more lie on one another
 _MOST_SHAFTS = 8  # whose torque is drawn: the largest
 _WIDEST = 0.9  # of an order in a waterfall, over the gap between orders: none covers another
@@ -76,21 +76,22 @@ def _lay_out(fig: Figure, rows: int, columns: int) -> list[Axes]:
 def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     """Angle of each node, joined along the shafts; a mesh of gears is dotted."""
     chain, names = result.system.chain, result.system.nodes
-    for mode, (line, colour) in zip(result.modes[:_MOST_MODES], _STYLES, strict=False):
+    for mode, (line, colour) in zip(result.modes[:_MOST_MODES], MANY_LOOKS, strict=False):
         for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
             style: Any = (0, (1, 2)) if np.isinf(stiffness) else line
             angles = mode.shape[[start, end]]
             ax.plot([start, end], angles, color=colour, linestyle=style, linewidth=1.4)
         label = f"{mode.number}: {number(mode.frequency_hz, 4)} Hz"
-        ax.plot(
-            range(len(names)), mode.shape, "o", color=colour, markersize=3, label=label, zorder=3
-        )
+        ax.plot(range(len(names)), mode.shape, "o", color=colour, markersize=3, zorder=3)
+        ax.plot([], [], line, color=colour, linewidth=1.4, marker="o", markersize=3, label=label)
     ax.axhline(0, color=SOFT, linewidth=0.8)
     ax.set_xticks(range(len(names)), [fit_name(name, 14) for name in names])
     ax.tick_params(axis="x", labelrotation=90 if len(names) > 5 else 0)
     ax.set_ylim(-1.1, 1.1)
     if result.modes:
-        ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1)
+        ax.legend(
+            loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1.9
+        )
     ax.set_title("Shapes of modes: angle of each node", pad=22)
 
 
@@ -154,7 +155,7 @@ def _draw_torque(
     swings = response.stress if by_stress else response.torque
     peaks = worst.stress if by_stress else worst.torque
     unit = (system.stress if by_stress else system.moment).fit(float(peaks[shown].max()))
-    for k, (line, colour) in zip(shown, cycle(_STYLES)):
+    for k, (line, colour) in zip(shown, cycle(MANY_LOOKS)):
         name = fit_name(result.system.shafts[k], 22)
         rpm, swing = _put_in(response.speeds_rpm, swings[:, k], worst.speeds_rpm[k], peaks[k])
         ax.plot(rpm, swing / unit.size, line, color=colour, label=name)
@@ -162,7 +163,7 @@ def _draw_torque(
         ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
     _finish(ax, response, unit.name)
     ax.set_title("Vibratory stress" if by_stress else "Vibratory torque", pad=34)
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1.4)
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1.9)
     _shade_barred(ax, result)
 
 
@@ -173,12 +174,12 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) ->
     _, swings = _put_in(response.speeds_rpm, response.swings, worst.swing_rpm, worst.swings)
     ax.plot(rpm, np.degrees(swing), color=INK, label="added up in time")
     largest = np.argsort(-swings.max(axis=1), kind="stable")[:5]
-    for k, (line, colour) in zip(sorted(largest), _STYLES, strict=False):
+    for k, (line, colour) in zip(sorted(largest), MANY_LOOKS, strict=False):
         label = f"order {order_name(float(response.orders[k]))}"
         ax.plot(rpm, np.degrees(swings[k]), line, color=colour, linewidth=1, label=label)
     _finish(ax, response, "deg")
     ax.set_title(f"Half swing of {fit_name(result.system.nodes[0], 30)}", pad=34)
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3, borderaxespad=0, handlelength=1.4)
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3, borderaxespad=0, handlelength=1.9)
     _shade_barred(ax, result)
 
 
