@@ -552,3 +552,33 @@ def test_plot_draws_torsion_too(tmp_path):
     assert refusal("plot", "-", "--what", "response", "-o", tmp_path / "x.svg", stdin=SINGLE) == (
         "--what response: give the range, such as --speeds 1000:2500"
     )
+
+
+def test_of_several_stiffnesses_that_are_best_nearby_the_best_of_all_is_taken():
+    """The largest stress over the stiffness of this ring has two valleys, the deeper one narrower:
+    the other was taken, with 4 % more.
+    """
+    turning = [("a", 91000, 0), ("b", 98000, 1), ("c", 1.3e6, 0.4)]
+    shafts = [("a", "b", 0.9e6, 88), ("b", "c", 3e6, 52)]
+    pushes = [("b", 2, -130, 105), ("b", 4, -195, -118), ("b", 9, -220, 160), ("a", 3, 280, 68)]
+    chain = {
+        "loss": 0.0042,
+        "node": [dict(zip(("name", "inertia", "damping"), each, strict=True)) for each in turning],
+        "shaft": [
+            dict(zip(("from", "to", "stiffness", "diameter"), each, strict=True)) for each in shafts
+        ],
+        "excitation": [
+            dict(zip(("node", "order", "cos", "sin"), each, strict=True)) for each in pushes
+        ],
+    }
+    speeds = np.arange(1800, 6501, 100)
+
+    def stress(damper):
+        nodes = [chain["node"][0] | {"damper": damper}, *chain["node"][1:]]
+        return np.nanmax(analyze_torsion(chain | {"node": nodes}, speeds).response.worst.stress)
+
+    sized = analyze_torsion(chain, speeds, damper="rubber").damper
+    ring = sized.damper.model_dump(exclude_none=True)
+    assert sized.after == pytest.approx(stress(ring), rel=1e-9)
+    others = [ring | {"stiffness": share * sized.start} for share in np.geomspace(1 / 4, 4, 65)]
+    assert sized.after <= min(map(stress, others))

@@ -210,6 +210,13 @@ class Engine:
         return import_module("balcli.render.notebook").show_in_notebook(self)
 
     @property
+    def speed_assumed(self) -> bool:
+        """Whether neither its file nor anybody else says its speed."""
+        if self.model is None or "speed" in self.model.operation.model_fields_set:
+            return False
+        return float(self.speed_rpm) == self.model.operation.speed
+
+    @property
     def omega(self) -> Figure:
         """Mean crank speed, rad/s."""
         return self.speed_rpm * RPM

@@ -55,6 +55,7 @@ class MountReport(Result):
         response: to its engine; None where the file has no engine.
         fitted: with a scheme, if one was asked for.
         others: other engines on the same body and mounts.
+        assumed_rpm: to which the response goes, where neither the file nor the caller says.
     """
 
     name: str
@@ -63,6 +64,7 @@ class MountReport(Result):
     response: MountingResponse | None = None
     fitted: Fitted | None = None
     others: tuple[Other, ...] = ()
+    assumed_rpm: float | None = None
 
     @property
     def summary(self) -> str:
@@ -190,4 +192,5 @@ def _run(
         Other(label, respond_to(find_loads(other, mounted.body.centre, asked)))
         for label, other in others
     )
-    return MountReport(name, mounted, modes, response, fitted, beside)
+    assumed = float(engine.speed_rpm) if speeds_rpm is None and engine.speed_assumed else None
+    return MountReport(name, mounted, modes, response, fitted, beside, assumed)

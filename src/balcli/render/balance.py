@@ -25,7 +25,6 @@ from .devices import (
     practical_entry,
     practical_grid,
 )
-from .engine_facts import is_speed_assumed
 from .figures import assumptions, figure_rows
 from .order_tables import fit_largest
 from .overview import find_orders_that_matter, name_column, tell_others
@@ -77,7 +76,7 @@ def sheet(result: Balance, system: System) -> Sheet:
         why = () if remedy.note or not known else (balanced,)
         parts.append(Text("Nothing is fitted", why))
     growing, engine = tell_growing_rolls(result, system), result.before.engine
-    assumed = tell_assumed_speed(engine.model) if is_speed_assumed(engine) else ""
+    assumed = tell_assumed_speed(engine.model) if engine.speed_assumed else ""
     turning = _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else ""
     note = remedy.note and sentence(remedy.note)
     if notes := tuple(filter(None, (note, _tell_negligible(result), turning, *growing, assumed))):

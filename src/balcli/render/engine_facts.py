@@ -68,18 +68,18 @@ def engine_facts(
     return Facts(tuple((name, value) for name, value in pairs if value))
 
 
-def tell_speed(engine: Engine) -> str:
-    """Its mean speed, and whether that is assumed or uneven."""
-    uneven = ", uneven: figures are those of the uneven speed" if engine.ripple else ""
-    assumed = ", assumed: the file gives none" if is_speed_assumed(engine) else ""
+def tell_speed(engine: Engine, *, steady: bool = False) -> str:
+    """Its mean speed, and whether that is assumed or uneven; `steady`: of figures in which an
+    uneven speed does not count.
+    """
+    counts = (
+        "the file's uneven one does not count"
+        if steady
+        else "uneven: figures are those of the uneven speed"
+    )
+    uneven = f", {counts}" if engine.ripple else ""
+    assumed = ", assumed: the file gives none" if engine.speed_assumed else ""
     return f"{given(float(engine.speed_rpm))} rpm{assumed}{uneven}"
-
-
-def is_speed_assumed(engine: Engine) -> bool:
-    """Whether neither its file nor anybody else says its speed."""
-    if engine.model is None or "speed" in engine.model.operation.model_fields_set:
-        return False
-    return float(engine.speed_rpm) == engine.model.operation.speed
 
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:

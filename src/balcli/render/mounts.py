@@ -61,6 +61,9 @@ def _answer(result: MountReport, response: MountingResponse, system: System) -> 
     else:
         silent = _tell_silent(response)
         yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
+    if result.assumed_rpm is not None:
+        told = f"{number(result.assumed_rpm, 4)} rpm, which is assumed"
+        yield f"The file gives no speed: these are the largest up to {told}."
     for other in result.beside:
         yield f"With {other.name} {''.join(_compare(result, response, other.response, system))}."
 

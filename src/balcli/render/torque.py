@@ -14,7 +14,7 @@ from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
 from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
 from ..torque.loads import CycleLoad
-from .engine_facts import list_silent, tell_strokes
+from .engine_facts import list_silent, tell_speed, tell_strokes
 from .order_tables import show_peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, given, number, order_name, size_text
 from .torque_document import Result, document, round_angle, rows
@@ -104,7 +104,7 @@ def _load_table(
 def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
     gas = result.max_pressure
     pairs = [("cycle", f"{tell_strokes(result.engine)}, {round_angle(result.cycle_deg)} deg")]
-    pairs.append(("speed", f"{given(float(result.engine.speed_rpm))} rpm"))
+    pairs.append(("speed", tell_speed(result.engine, steady=True)))
     mean = f"{_size(result.imep, system.pressure)} indicated"
     if result.bmep is not None:
         mean += f", {_size(result.bmep, system.pressure)} brake"

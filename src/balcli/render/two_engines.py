@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from .csv import Rows
-from .engine_facts import is_speed_assumed, tell_pivot, tell_speed
+from .engine_facts import tell_pivot, tell_speed
 from .figures import assumptions, clean, figure_rows, order_entries, peak_entries
 from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Sheet, number
@@ -107,7 +107,7 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
 
 def _tell_other_speed(first: Engine, second: Engine) -> str:
     """That the second engine's own speed, or its unevenness, does not count where it is another."""
-    slower = second.speed_rpm != first.speed_rpm and not is_speed_assumed(second)
+    slower = second.speed_rpm != first.speed_rpm and not second.speed_assumed
     other = slower or second.ripple not in ((), first.ripple)
     return "; what the second's file says of its speed does not count" if other else ""
 

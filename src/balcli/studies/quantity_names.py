@@ -88,8 +88,8 @@ CYCLE = Chapter(
     "torque.quantity",
     (
         Form("torque.mean", "N·m", "mean torque of the gas", "gas"),
-        Form("torque.max", "N·m", "largest torque over the cycle", "gas"),
-        Form("torque.min", "N·m", "smallest torque over the cycle", "gas"),
+        Form("torque.max", "N·m", "largest torque over the cycle, at steady speed", "gas"),
+        Form("torque.min", "N·m", "smallest torque over the cycle, at steady speed", "gas"),
         Form("fluctuation", "", "highest less lowest speed, over the mean", "gas"),
     ),
 )

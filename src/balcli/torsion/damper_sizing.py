@@ -30,7 +30,7 @@ _PLACES = 13  # looked at over this range before the best is approached
 _END = 0.99  # of this range: a best one farther out is at its end
 _HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
 _HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
-_RESPONSES = _PLACES + 2 + ROUNDS + 2  # the last of the best damper, and without any
+_RESPONSES = _PLACES + 2 + ROUNDS + 2  # of one valley; the last of the best damper, and of none
 
 
 class SizedDamper(NamedTuple):
@@ -98,7 +98,7 @@ def size_damper(
         """Largest stress or torque of the shafts there without it, between the speeds, too."""
         system = build(damper)
         shafts = [system.shafts.index(name) for name in bare.shafts]
-        tell(next(tried) / _RESPONSES)
+        tell(min(next(tried) / _RESPONSES, 1.0))
         return find_largest_of_all(system, speeds, shafts, weights)
 
     width = math.log(_WIDTH[asked.kind])
@@ -232,8 +232,12 @@ def _with(damper: Damper, figure: str, value: float) -> Damper:
 
 
 def _minimise(judge: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function is least: the best of a few places, approached by golden section."""
-    places = np.linspace(low, high, _PLACES)
-    best = int(np.argmin([judge(float(place)) for place in places]))
-    low, high = float(places[max(best - 1, 0)]), float(places[min(best + 1, _PLACES - 1)])
-    return find_least(judge, low, high)
+    """Where a function is least: golden section in every valley that a few places show."""
+    places = np.linspace(low, high, _PLACES).tolist()
+    values = np.array([judge(place) for place in places])
+    around = np.concatenate([[np.inf], values, [np.inf]])
+    bottoms = np.flatnonzero((values < around[:-2]) & (values <= around[2:])).tolist()
+    found = [
+        find_least(judge, places[max(k - 1, 0)], places[min(k + 1, _PLACES - 1)]) for k in bottoms
+    ]
+    return min(found, key=judge, default=low)
