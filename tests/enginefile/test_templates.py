@@ -112,7 +112,7 @@ def test_unknown_kinds():
     )
     with pytest.raises(
         BalcliError,
-        match=r"mounts\. A finished one is among the examples: balcli engines twin270\.$",
+        match=r"torsion\. A finished one is among the examples: balcli engines twin270\.$",
     ):
         template("twin270")
     with pytest.raises(BalcliError, match=r"w, mounts, field, torsion\.$"):
