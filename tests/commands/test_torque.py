@@ -55,13 +55,15 @@ def test_the_table_says_why_nothing_is_told_of_the_speed(four, tmp_path):
 def test_the_table_says_of_which_speed_it_is(four, tmp_path):
     """An uneven speed in the file counts in `analyze`, not in `torque`, which finds its own."""
     uneven, nameless = tmp_path / "uneven.toml", tmp_path / "nameless.toml"
-    assert torque(four, "--write", str(uneven))
-    text = torque(str(uneven))
+    assert ask("torque", four, "--write", str(uneven))
+    text = ask("torque", str(uneven))
     assert "\nspeed             3000 rpm, the file's uneven one does not count\n" in text
     same = text.replace(", the file's uneven one does not count", "")
-    assert same.splitlines()[1:] == torque(four).splitlines()[1:]
+    assert same.splitlines()[1:] == ask("torque", four).splitlines()[1:]
     nameless.write_text(FOUR.replace("speed = 3000", "") + WIEBE, encoding="utf-8")
-    assert "\nspeed             1000 rpm, assumed: the file gives none\n" in torque(str(nameless))
+    assert "\nspeed             1000 rpm, assumed: the file gives none\n" in ask(
+        "torque", str(nameless)
+    )
 
 
 def test_json_has_what_the_file_allows(four):
