@@ -20,7 +20,15 @@ from pathlib import Path
 
 import pytest
 import typer
-from support.commands import ask, ask_json, refusal, run_command, run_in_terminal, run_python
+from support.commands import (
+    ask,
+    ask_csv,
+    ask_json,
+    refusal,
+    run_command,
+    run_in_terminal,
+    run_python,
+)
 from support.engines import GOOD, changed
 from support.paths import ENGINES, ROOT, SOURCE, write
 
@@ -394,7 +402,7 @@ def test_speed_displaces_the_files(good):
 
 def test_imperial_figures_are_the_metric_ones_in_other_units(balcli, good):
     def values(*more):
-        rows = csv.DictReader(io.StringIO(balcli("analyze", good, "--format", "csv", *more)[1]))
+        rows = ask_csv("analyze", good, *more)
         return {
             (r["quantity"], r["order"], r["figure"]): (float(r["value"]), r["unit"])
             for r in rows

@@ -5,7 +5,6 @@ and what the schemes refuse.
 from __future__ import annotations
 
 import csv
-import io
 import json
 import math
 import re
@@ -15,7 +14,7 @@ from contextlib import nullcontext
 from types import ModuleType
 
 import pytest
-from support.commands import run_here
+from support.commands import ask_csv, run_here
 from support.engines import GOOD, tables
 from support.paths import ENGINES, write
 
@@ -179,8 +178,7 @@ def test_bench_in_every_format(balcli, tmp_path):
     assert "3.2e-02" in table
     assert table.count("rounding") == 3
     assert "e-1" not in table
-    _, text, _ = balcli("bench", "--format", "csv")
-    lines = list(csv.DictReader(io.StringIO(text)))
+    lines = ask_csv("bench")
     assert lines[1] == {
         "task": "A_2",
         "method": "two-term formula",

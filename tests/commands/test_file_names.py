@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from support.commands import refusal, run_command, run_here
+from support.commands import ask_csv, refusal, run_command, run_here
 from support.engines import GOOD, changed
 
 from balcli import __version__
@@ -220,8 +220,7 @@ DANGERS = ["=1+1", "+1", "-1", "@SUM(A1)", "\uff1d1+1"]
 def test_a_spreadsheet_takes_no_name_for_a_formula(name):
     for file in ("a.toml", "b.toml"):
         Path(file).write_text(changed(('"in-line four"', json.dumps(name + file))))
-    text = run_here("analyze", "a.toml", "-f", "csv")[1]
-    lines = list(csv.DictReader(io.StringIO(text)))
+    lines = ask_csv("analyze", "a.toml")
     assert {line["engine"] for line in lines} == {f"'{name}a.toml"}
     assert any(line["value"].startswith("-") for line in lines)  # numbers stay numbers
     heads = next(csv.reader(io.StringIO(run_here("compare", "a.toml", "b.toml", "-f", "csv")[1])))
@@ -231,8 +230,7 @@ def test_a_spreadsheet_takes_no_name_for_a_formula(name):
 def test_a_spreadsheet_takes_no_file_for_a_formula():
     for file in ("=a.toml", "=b.toml"):
         Path(file).write_text(GOOD)
-    text = run_here("analyze", "=a.toml", "=b.toml", "-f", "csv")[1]
-    names = {line["engine"] for line in csv.DictReader(io.StringIO(text))}
+    names = {line["engine"] for line in ask_csv("analyze", "=a.toml", "=b.toml")}
     assert names == {"'=a.toml", "'=b.toml"}
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import csv
-import io
 import json
 import math
 import re
@@ -12,7 +10,7 @@ import tomllib
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_json, refusal, run_here
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES, write
 
@@ -342,7 +340,7 @@ def test_imperial_figures_are_the_metric_ones_in_other_units(four):
     asked = (four, "--fluctuation", "1/300", "--loads", "pin,main")
 
     def rows(*more):
-        return list(csv.DictReader(io.StringIO(ask("torque", *asked, "-f", "csv", *more))))
+        return ask_csv("torque", *asked, *more)
 
     units = set()
     for si, imperial in zip(rows(), rows("--units", "imperial"), strict=True):

@@ -78,19 +78,7 @@ firing_intervals = [230, 250, 240]
 KNUCKLES = RADIAL.replace(
     "knuckle_radius", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]\nknuckle_radius"
 ).replace("cg = 90", "cg = 90, inertia = 3500")
-ROTARY = """
-[crank]
-stroke = 120
-[rod]
-length = 240
-mass = 1.9
-cg = 55
-[piston]
-mass = 1.3
-[layout]
-radial = 5
-rotary = true
-"""
+ROTARY = RADIAL.partition("[articulation]")[0] + "rotary = true\n"
 FILES = {"vee": VEE, "fired": FIRED, "knuckles": KNUCKLES, "rotary": ROTARY}
 RIVALS = {
     "bank_angle": ["banks"],

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from support.engines import build_text
+from support.engines import RADIAL, build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import write
 
@@ -155,12 +155,11 @@ DIAGRAM = "angle_deg,pressure_MPa\n# a note\n" + "\n".join(
 def beside(tmp_path):
     """Writes an engine file and a file beside it; returns the engine file's path."""
 
-    def write(gas: str, name: str = "p.csv", content: str = DIAGRAM) -> str:
-        (tmp_path / name).write_text(content, encoding="utf-8")
-        path = write(tmp_path / "engine.toml", FOUR + "[gas]\n" + gas)
-        return str(path)
+    def write_both(gas: str, name: str = "p.csv", content: str = DIAGRAM) -> str:
+        write(tmp_path / name, content)
+        return str(write(tmp_path / "engine.toml", FOUR + "[gas]\n" + gas))
 
-    return write
+    return write_both
 
 
 def test_a_diagram_may_count_from_the_other_dead_centre_and_be_shifted(beside):
@@ -517,25 +516,13 @@ def test_a_file_without_gas_makes_no_gas():
     assert build_text(FOUR).gas is None
 
 
-RADIAL = """\
-[crank]
-stroke = 120
-[rod]
-length = 240
-[piston]
-mass = 1.3
-bore = 120
-[layout]
-radial = 3
-firing_order = [1, 3, 2]
-[articulation]
-knuckle_radius = 52
-rod = { length = 188 }
-"""
+THREE = RADIAL.replace("radial = 7", "radial = 3\nfiring_order = [1, 3, 2]").replace(
+    "[piston]", "[piston]\nbore = 120"
+)
 
 
 def test_articulated_cylinders_have_cycles_of_their_own():
-    gas = build_text(RADIAL + WIEBE).gas
+    gas = build_text(THREE + WIEBE).gas
     strokes = {round(c.piston.stroke, 6) for c in gas.cylinders}
     assert len(strokes) == 2
     assert len({id(c.torque) for c in gas.cylinders}) == 3

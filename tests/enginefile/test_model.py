@@ -8,7 +8,7 @@ from types import CodeType
 
 import pytest
 from pydantic import ValidationError
-from support.engines import GOOD, changed
+from support.engines import GOOD, changed, mistakes_in
 
 from balcli.engine.load import parse
 from balcli.enginefile import model
@@ -16,14 +16,7 @@ from balcli.enginefile.articulation_tables import ArticulatedRod
 from balcli.enginefile.messages import import_lists, import_tables
 from balcli.enginefile.shafting import Damper
 from balcli.enginefile.torsion_tables import Part
-from balcli.errors import InputError
 from balcli.torsion.chain_file import ChainShaft
-
-
-def refusal(text: str) -> str:
-    with pytest.raises(InputError) as caught:
-        parse(text, "e.toml")
-    return str(caught.value)
 
 
 def test_defaults():
@@ -147,95 +140,90 @@ def test_unusual_but_allowed(text):
     [
         (
             changed(("length = 160", "length = 160\nratio = 0.28")),
-            "e.toml: rod: has length and ratio; give either length or ratio",
+            "rod: has length and ratio; give either length or ratio",
         ),
         (
             changed(("length = 160", "")),
-            "e.toml: rod: has neither length nor ratio; give either length or ratio",
+            "rod: has neither length nor ratio; give either length or ratio",
         ),
         (
             changed(("cg = 45", "cg = 45\nsmall_end = 0.2")),
-            "e.toml: rod: has mass, cg and small_end; give either mass and cg or small_end and "
-            "big_end",
+            "rod: has mass, cg and small_end; give either mass and cg or small_end and big_end",
         ),
         (
             changed(("mass = 0.6\ncg = 45", "small_end = 0.2")),
-            "e.toml: rod: has small_end without big_end; weigh the rod at both ends, or give mass "
-            "and cg",
+            "rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg",
         ),
         (
             changed(
                 ("cg = 45", 'cg = 45\ninertia = 9\npendulum = { pivot = "small_end", period = 1 }')
             ),
-            "e.toml: rod: has inertia and pendulum; give either inertia or pendulum",
+            "rod: has inertia and pendulum; give either inertia or pendulum",
         ),
         (
             changed(("cg = 45", 'cg = 45\npendulum = { pivot = "middle", period = 1 }')),
-            'e.toml: rod.pendulum.pivot: "middle" is not "small_end" or "big_end"',
+            'rod.pendulum.pivot: "middle" is not "small_end" or "big_end"',
         ),
         (
             changed(("spacing = 100", "spacing = 100\npositions = [0, 1, 2, 3]")),
-            "e.toml: crank: has spacing and positions; give either spacing or positions",
+            "crank: has spacing and positions; give either spacing or positions",
         ),
         (
             changed(("spacing = 100", "positions = [0, 1, 2]")),
-            "e.toml: crank: positions has 3 places for 4 throws; give one for each throw",
+            "crank: positions has 3 places for 4 throws; give one for each throw",
         ),
         (
             changed(("[layout]", "[layout]\nbank_angle = 90\nradial = 5")),
-            "e.toml: layout: has bank_angle and radial; give either bank_angle or banks or radial",
+            "layout: has bank_angle and radial; give either bank_angle or banks or radial",
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 3, 2]")),
-            "e.toml: layout: firing_order has cylinder 3 more than once; name every cylinder once",
+            "layout: firing_order has cylinder 3 more than once; name every cylinder once",
         ),
         (
             changed(("[layout]", "[layout]\nnumbering = [[1, 2], [2, 1]]")),
-            "e.toml: layout: numbering has cylinder 1 and 2 more than once; name every cylinder "
-            "once",
+            "layout: numbering has cylinder 1 and 2 more than once; name every cylinder once",
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180]")),
             (
-                "e.toml: layout: firing_intervals has 3 intervals for 4 firings; give one for "
+                "layout: firing_intervals has 3 intervals for 4 firings; give one for "
                 "each, the last one back to the first cylinder"
             ),
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180, 160]")),
-            "e.toml: layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has "
+            "layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has "
             "720 (within 0.5)",
         ),
         (
             changed(("firing_order = [1, 3, 4, 2]", "firing_intervals = [180, 180, 180, 180]")),
-            "e.toml: layout: firing_intervals is given without firing_order; give both, or neither",
+            "layout: firing_intervals is given without firing_order; give both, or neither",
         ),
         (
             GOOD + "[[counterweight]]\nangle = 180\n",
             (
-                "e.toml: counterweight.1: has neither unbalance nor mass and radius; give either "
+                "counterweight.1: has neither unbalance nor mass and radius; give either "
                 "unbalance or mass and radius"
             ),
         ),
         (
             GOOD + "[[counterweight]]\nunbalance = 1\n[[counterweight]]\nmass = 1\n",
-            "e.toml: counterweight.2: has mass without radius; give either unbalance or mass and "
-            "radius",
+            "counterweight.2: has mass without radius; give either unbalance or mass and radius",
         ),
         (
             GOOD + "[[shaft]]\nunbalance = 1\nratio = 0\n",
-            "e.toml: shaft.1.ratio: 0 is out of range; a whole number from -1000 to 1000, not 0, "
-            "is wanted",
+            "shaft.1.ratio: 0 is out of range; a whole number from -1000 to 1000, not 0, is wanted",
         ),
         (
             GOOD + "[[shaft]]\nunbalance = 1\nratio = 1.5\n",
-            "e.toml: shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, "
+            "shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, "
             "not 0, is wanted",
         ),
     ],
 )
 def test_contradictions(text, message):
-    assert refusal(text) == message
+    assert mistakes_in(text) == message
 
 
 def test_a_pendulum_is_never_quicker_than_a_point_mass():
@@ -245,8 +233,8 @@ def test_a_pendulum_is_never_quicker_than_a_point_mass():
     shortest = 2 * math.pi * math.sqrt(0.115 / 9.80665)
     text = 'cg = 45\npendulum = {{ pivot = "small_end", period = {!r} }}'
     parse(changed(("cg = 45", text.format(shortest * 1.000001))))
-    assert refusal(changed(("cg = 45", text.format(0.1)))) == (
-        "e.toml: rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the "
+    assert mistakes_in(changed(("cg = 45", text.format(0.1)))) == (
+        "rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the "
         f"pivot a full swing takes more than {shortest:.4g} s"
     )
     ends = changed(
@@ -255,7 +243,7 @@ def test_a_pendulum_is_never_quicker_than_a_point_mass():
             'small_end = 0.2\nbig_end = 0.6\npendulum = { pivot = "big_end", period = 0.1 }',
         )
     )
-    assert "with the centre of mass 40 mm from the pivot" in refusal(ends)  # 160 * 0.2 / 0.8
+    assert "with the centre of mass 40 mm from the pivot" in mistakes_in(ends)  # 160 * 0.2 / 0.8
 
 
 def test_models_check_without_a_file_too():
@@ -268,8 +256,8 @@ def test_models_check_without_a_file_too():
 def test_mistakes_of_a_table_beside_a_misspelt_key_are_told():
     """That the length is missing is not: it is there, misspelt."""
     text = changed(("length = 160", "lenght = 160"), ("mass = 0.6\ncg = 45", "small_end = 0.2"))
-    assert refusal(text) == (
-        "e.toml: 2 mistakes\n"
+    assert mistakes_in(text) == (
+        "2 mistakes\n"
         "  rod.lenght: unknown key in [rod]; did you mean length?\n"
         "  rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg"
     )
@@ -297,13 +285,13 @@ def test_mistakes_of_a_table_beside_a_misspelt_key_are_told():
     ],
 )
 def test_what_is_misspelt_is_not_missing(text, told):
-    assert refusal(text) == f"e.toml: {told}"
+    assert mistakes_in(text) == f"{told}"
 
 
 def test_rules_that_do_not_need_a_broken_key_are_applied():
     text = changed(("[1, 3, 4, 2]", "[1, 3, 4, 0]\nnumbering = [[1, 2], [2, 1]]"))
-    assert refusal(text) == (
-        "e.toml: 2 mistakes\n"
+    assert mistakes_in(text) == (
+        "2 mistakes\n"
         "  layout: numbering has cylinder 1 and 2 more than once; name every cylinder once\n"
         "  layout.firing_order: the 4th value 0 is out of range; a whole number from 1 to 10000 is "
         "wanted"

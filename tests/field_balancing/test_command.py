@@ -4,15 +4,13 @@ exit statuses.
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import re
 import tomllib
-from io import StringIO
 
 import pytest
-from support.commands import ask, ask_json, refusal, run_here
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.paths import write
 from support.rotors import three_runs
 
@@ -137,7 +135,7 @@ def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     assert largest > 100
     assert f"{largest:.4g}" in out
     assert f"{largest:.4g}" in run_here("field", path, "--minimise", minimise, "-f", "markdown").out
-    lines = list(csv.DictReader(StringIO(run_here("field", path, "-f", "csv").out)))
+    lines = ask_csv("field", path)
     figures = {(r["part"], r["name"], r["figure"]): r["value"] for r in lines}
     assert figures["correction", "front", "at_limit"] == "true"
     assert float(figures["details", "", "largest"]) > 100
@@ -176,7 +174,7 @@ def test_json_is_what_it_promises(runs):
 
 def test_csv_has_every_figure_of_json(runs):
     said = ask_json("field", runs)
-    lines = list(csv.DictReader(StringIO(run_here("field", runs, "-f", "csv").out)))
+    lines = ask_csv("field", runs)
     found = {(r["part"], r["name"], r["figure"]): (r["value"], r["unit"]) for r in lines}
     front = said["corrections"][0]
     assert found["correction", "front", "weight"] == (str(front["weight"]), "g")

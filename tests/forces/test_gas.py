@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from support.commands import run_here
-from support.engines import build_text
+from support.engines import RADIAL, build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import write
 
@@ -73,24 +73,10 @@ def test_against_a_quadrature(seed, strokes):
     assert error.max() < OF_THE_LARGEST * np.abs(want).max()
 
 
-HUNG = """\
-[crank]
-stroke = 120
-[rod]
-length = 240
-[piston]
-mass = 1.3
-bore = 120
-offset = 7
-[layout]
-radial = 5
-firing_order = [1, 3, 5, 2, 4]
-[articulation]
-knuckle_radius = 52
-rod = { length = 188 }
-[cylinder.4]
-gas = 0
-"""
+HUNG = RADIAL.replace("radial = 7", "radial = 5\nfiring_order = [1, 3, 5, 2, 4]").replace(
+    "[piston]", "[piston]\nbore = 120\noffset = 7"
+)
+HUNG += "[cylinder.4]\ngas = 0\n"
 
 
 def find_hung_rate(found, row, crank):

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 import json
-from io import StringIO
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_csv, refusal, run_here
 from support.paths import ENGINES
 
 MARINE = ENGINES / "marine/marine6.toml"
@@ -25,11 +23,8 @@ FOUR = ENGINES / "i4.toml"
 def test_each_variant_is_what_the_analysis_says(path, vary, line):
     text, key = path.read_text(encoding="utf-8"), line.split()[0]
     assert text.count(line) == 1
-    done = run_here(
-        "sweep", path, "--vary", f"{vary}=0.4,1.4", "-q", "guide.4.H,guide.6.X,guide.6.H"
-    )
-    assert (done.status, done.err) == (0, "")
-    for row in csv.DictReader(StringIO(done.out)):
+    quantities = ("-q", "guide.4.H,guide.6.X,guide.6.H")
+    for row in ask_csv("sweep", path, "--vary", f"{vary}=0.4,1.4", *quantities):
         own = text.replace(line, f"{key} = {row[vary]}")
         asked = ("--only", "guide", "--orders", "4,6", "-f", "json")
         said = json.loads(run_here("analyze", "-", *asked, stdin=own).out)

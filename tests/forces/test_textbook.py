@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import re
 from functools import cache
@@ -11,7 +9,7 @@ from math import sqrt
 
 import numpy as np
 import pytest
-from support.commands import run_here
+from support.commands import ask_csv, run_here
 from support.engines import engine
 
 from balcli.core.mechanisms import closed_form
@@ -89,7 +87,7 @@ def _reasons(text: str) -> dict[tuple[str, int], float]:
 @cache
 def _layouts() -> dict[str, dict[tuple[str, int], float]]:
     """Semi-major axes of `tables layouts`, by engine."""
-    found = csv.DictReader(io.StringIO(run_here("tables", "layouts", "--format", "csv").out))
+    found = ask_csv("tables", "layouts")
     return {
         row["engine"]: {
             (kind, order): float(row[f"{letter}{order}_major"])

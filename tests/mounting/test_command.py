@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import re
-from io import StringIO
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_json, refusal, run_here, run_in_terminal
+from support.commands import ask, ask_csv, ask_json, refusal, run_here, run_in_terminal
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
 from support.paths import write
@@ -59,8 +57,7 @@ def test_speeds_are_told_as_they_were_asked_for(four):
 
 def test_csv_has_the_figures_of_json(four):
     said = ask_json("mounts", four, "--speeds", "900,3000")
-    text = run_here("mounts", four, "--speeds", "900,3000", "-f", "csv").out
-    lines = list(csv.DictReader(StringIO(text)))
+    lines = ask_csv("mounts", four, "--speeds", "900,3000")
     found = {
         (r["part"], r["name"], r["order"], r["speed_rpm"][:4], r["figure"]): (r["value"], r["unit"])
         for r in lines
@@ -204,10 +201,7 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
     assert (other["name"], other["response"]) == ("light four", own["response"])
     on_bare = ask_json("mounts", "-", light, stdin=DAMPED.replace(ENGINE, ""))
     assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
-    parts = {
-        row["part"]
-        for row in csv.DictReader(StringIO(run_here("mounts", four, light, "-f", "csv").out))
-    }
+    parts = {row["part"] for row in ask_csv("mounts", four, light)}
     assert {"mount", "light four: mount", "light four: point"} <= parts
 
 

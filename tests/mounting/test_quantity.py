@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import csv
-from io import StringIO
-
 import numpy as np
 import pytest
-from support.commands import ask_json, refusal, run_here
+from support.commands import ask_csv, ask_json, refusal, run_here
 from support.mounts import ENGINE, block
 from support.paths import write
 
@@ -22,12 +19,8 @@ def four(tmp_path):
 
 
 def sweep(path, *args):
-    done = run_here("sweep", path, *args)
-    assert (done.status, done.err) == (0, "")
-    return [
-        {key: float(value) for key, value in row.items()}
-        for row in csv.DictReader(StringIO(done.out))
-    ]
+    rows = ask_csv("sweep", path, *args)
+    return [{key: float(value) for key, value in row.items()} for row in rows]
 
 
 def said_by(path, text):

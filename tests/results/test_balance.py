@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import re
-from io import StringIO
 from pathlib import Path
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_csv, refusal, run_here
 from support.engines import GOOD, SINGLE, build_text, changed
 from support.paths import ENGINES, write
 
@@ -109,7 +107,7 @@ def test_what_has_one_size_all_round_is_largest_at_any_angle():
 
 
 def test_csv_has_one_figure_a_line(file):
-    rows = list(csv.DictReader(StringIO(run(file, "--format", "csv").out)))
+    rows = ask_csv("balance", file)
     devices = {(r["part"], r["figure"]): r["value"] for r in rows if r["part"].startswith("shaft")}
     assert devices["shaft 1", "ratio"] == "2"
     assert {r["part"] for r in rows} == {"shaft 1", "shaft 2", "before", "after"}
@@ -118,7 +116,7 @@ def test_csv_has_one_figure_a_line(file):
 
 def test_csv_has_what_json_calls_practical_and_details(file):
     options = ("--scheme", "factor", "--factor", "0.5")
-    rows = list(csv.DictReader(StringIO(run(file, *options, "--format", "csv").out)))
+    rows = ask_csv("balance", file, *options)
     found = {(r["part"], r["figure"]): r["value"] for r in rows if not r["quantity"]}
     wanted = document(file, *options)
     for k, shop in enumerate(wanted["practical"], 1):
@@ -136,9 +134,7 @@ def test_csv_has_what_json_calls_practical_and_details(file):
 )
 def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
     options = ("--scheme", "two-shaft", "--at=-60 mm,80 mm", "--position", "12 mm")
-    rows = list(
-        csv.DictReader(StringIO(run(file, *options, "--format", "csv", "--units", units).out))
-    )
+    rows = ask_csv("balance", file, *options, "--units", units)
     found = {
         r["figure"]: (float(r["value"]), r["unit"])
         for r in rows

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import tomllib
-from io import StringIO
 
 import pytest
-from support.commands import ask_json, refusal, run_here
+from support.commands import ask_csv, ask_json, refusal, run_here
 from support.paths import ENGINES
 
 V8 = ENGINES / "v8_crossplane.toml"
@@ -25,7 +23,7 @@ def test_all_counterweights_share_what_is_permitted():
         "mass_kg": 31,
         "each_g_mm": pytest.approx(WHOLE / count, rel=1e-12),
     }
-    rows = csv.DictReader(StringIO(run_here(*ASKED, "-f", "csv").out))
+    rows = ask_csv(*ASKED)
     figures = {row["figure"]: row["value"] for row in rows if row["part"] == "permitted"}
     assert float(figures["each_g_mm"]) == pytest.approx(WHOLE / count, rel=1e-12)
 

@@ -133,6 +133,10 @@ def changed(model: Tables, change: Any) -> Tables:
     return other
 
 
+def without_devices(model: Tables) -> Tables:
+    return changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
+
+
 # ------------------------------------------------------------------ comparison
 def found(engine: Engine) -> Spectra:
     return compute_spectra(engine, ORDERS)
@@ -179,6 +183,16 @@ def assert_same(
             error,
             scale[q],
         )
+
+
+def assert_sum(whole: Spectra, parts: list[Spectra], scale: dict[str, float]) -> None:
+    """The parts add up to the whole, but for rounding beside this size of each quantity."""
+    for q in KINDS:
+        p = [getattr(part, q) for part in parts]
+        for way in ("forward", "backward"):
+            total = sum(getattr(one, way) for one in p)
+            error = np.abs(getattr(getattr(whole, q), way) - total).max()
+            assert error <= SCALED * scale[q] + rounding(getattr(whole, q), *p), q
 
 
 # ------------------------------------------------------------------ invariants
@@ -380,18 +394,12 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
         return lambda m: m["crank"].update(throws=throws, positions=positions)
 
     count, both = len(first), len(first) + len(second)
-    bare = changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
+    bare = without_devices(model)
     one = made(changed(model, with_throws(first, where[:count])))
     other = made(changed(bare, with_throws(second, where[count:both])))
     whole = found(made(changed(model, with_throws(first + second, where[:both]))))
-    p, o, scale, scale_too = found(one), found(other), sizes(one), sizes(other)
-    for q in KINDS:
-        for way in ("forward", "backward"):
-            total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
-            error = np.abs(getattr(getattr(whole, q), way) - total).max()
-            assert error <= SCALED * (scale[q] + scale_too[q]) + rounding(
-                getattr(whole, q), getattr(p, q), getattr(o, q)
-            ), q
+    scale, scale_too = sizes(one), sizes(other)
+    assert_sum(whole, [found(one), found(other)], {q: scale[q] + scale_too[q] for q in KINDS})
 
 
 @quick
@@ -402,10 +410,8 @@ def test_every_mass_in_two_parts(model, share):
     """
     model.pop("cylinder", None)
     del model["crank"]["spacing"]
-    throws, along = (
-        model["crank"]["throws"],
-        [37.0 * t for t in range(len(model["crank"]["throws"]))],
-    )
+    throws = model["crank"]["throws"]
+    along = [37.0 * t for t in range(len(throws))]
 
     def masses(part: float) -> Any:
         """Of each throw: pistons, rods and the throw's own, in this proportion."""
@@ -418,24 +424,17 @@ def test_every_mass_in_two_parts(model, share):
 
         return change
 
-    bare = changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
+    bare = without_devices(model)
     placed = [
         changed(m, lambda m: m["crank"].update(throws=throws, positions=along))
         for m in (model, bare)
     ]
     one = made(placed[0])
-    whole, scale = found(one), sizes(one)
-    p, o = (
-        found(made(changed(placed[0], masses(share)))),
-        found(made(changed(placed[1], masses(1 - share)))),
-    )
-    for q in KINDS:
-        for way in ("forward", "backward"):
-            total = getattr(getattr(p, q), way) + getattr(getattr(o, q), way)
-            error = np.abs(getattr(getattr(whole, q), way) - total).max()
-            assert error <= SCALED * scale[q] + rounding(
-                getattr(whole, q), getattr(p, q), getattr(o, q)
-            ), q
+    parts = [
+        found(made(changed(m, masses(part))))
+        for m, part in zip(placed, (share, 1 - share), strict=True)
+    ]
+    assert_sum(found(one), parts, sizes(one))
 
 
 @quick
@@ -570,15 +569,5 @@ def test_torque_has_no_mean_and_roll_is_couple_less_torque(model):
 def test_cylinders_and_devices_add_up(model):
     """The whole is the sum of what its cylinders make alone, and its devices."""
     engine = made(model)
-    bare = made(
-        changed(model, lambda m: [m.pop(key) for key in ("counterweight", "shaft", "slider")])
-    )
-    scale = sizes(engine)
-    for kind, whole in found(bare).items():
-        q = kind.name
-        parts = [found(alone(engine, n))[q] for n in engine.numbers]
-        for way in ("forward", "backward"):
-            total = sum(getattr(p, way) for p in parts)
-            assert np.abs(total - getattr(whole, way)).max() <= SCALED * scale[q] + rounding(
-                whole, *parts
-            ), q
+    whole = found(made(without_devices(model)))
+    assert_sum(whole, [found(alone(engine, n)) for n in engine.numbers], sizes(engine))

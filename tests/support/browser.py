@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import fcntl
 import json
 import os
@@ -118,15 +117,6 @@ class Browser:
                 **written,
             )
 
-    def screenshot(self, target: Path, whole: bool = True) -> None:
-        data = self.call(
-            "Page.captureScreenshot",
-            format="png",
-            captureBeyondViewport=whole,
-            **({"clip": self._all()} if whole else {}),
-        )
-        target.write_bytes(base64.b64decode(data["data"]))
-
     def close(self) -> None:
         self._session = ""
         try:
@@ -136,10 +126,6 @@ class Browser:
         self._process.wait(300)
         self._in.close()
         self._out.close()
-
-    def _all(self) -> dict[str, float]:
-        size = self.call("Page.getLayoutMetrics")["cssContentSize"]
-        return {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1}
 
     def _next(self) -> dict[str, Any]:
         """The next message, noted if it is a complaint or a request."""

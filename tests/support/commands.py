@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
@@ -75,6 +76,11 @@ def ask(*args: object, stdin: str = "") -> str:
 def ask_json(*args: object, stdin: str = "") -> Any:
     """What a command answers as JSON, likewise."""
     return json.loads(ask(*args, "--format", "json", stdin=stdin))
+
+
+def ask_csv(*args: object, stdin: str = "") -> list[dict[str, str]]:
+    """What a command answers as CSV, a dict a line, likewise."""
+    return list(csv.DictReader(io.StringIO(ask(*args, "--format", "csv", stdin=stdin))))
 
 
 def ask_torsion(text: str, *options: object) -> Any:

@@ -159,6 +159,18 @@ def refused(**parts: dict[str, Any] | list[dict[str, Any]]) -> str:
     return str(caught.value)
 
 
+def mistakes_in(text: str | bytes) -> str:
+    """All of what is said against the text of an engine file, without its name."""
+    import pytest
+
+    from balcli.engine.load import parse
+    from balcli.errors import InputError
+
+    with pytest.raises(InputError) as caught:
+        parse(text, "e.toml")
+    return str(caught.value).removeprefix("e.toml: ")
+
+
 def engine_text(**tables: str) -> str:
     """A small engine in 1 kg, 100 mm stroke, unit figures; each keyword names a table and gives its
     lines, replacing the default.

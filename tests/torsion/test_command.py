@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import re
-from io import StringIO
 
 import numpy as np
 import pytest
 from support import chains
-from support.commands import ask, ask_json, ask_torsion, refusal, run_here, run_in_terminal
+from support.commands import ask, ask_csv, ask_json, ask_torsion, refusal, run_here, run_in_terminal
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
 
@@ -106,8 +104,7 @@ def test_a_terminal_of_80_columns_shows_all(tmp_path):
 def test_csv_lists_the_figures_of_json():
     options = ("--speeds", "1000:1100:50", "--holzer", "2")
     said = ask_torsion(CHAIN, *options)
-    table = run_here("torsion", "-", *options, "-f", "csv", stdin=CHAIN).out
-    lines = list(csv.DictReader(StringIO(table)))
+    lines = ask_csv("torsion", "-", *options, stdin=CHAIN)
     found = [float(x["value"]) for x in lines if x["part"] == "mode" and x["figure"] == "frequency"]
     assert found == [mode["frequency_Hz"] for mode in said["modes"]]
     first = said["response"]["shafts"][0]
@@ -573,10 +570,8 @@ IMPERIAL = {  # SI units of the CSV: what stands instead, and its size
 )
 def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
     asked = ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:2000:50", "--holzer", "1")
-    asked = (*asked, "--damper", kind, "-f", "csv")
     metric, imperial = (
-        list(csv.DictReader(StringIO(run_here(*asked, "--units", units).out)))
-        for units in ("si", "imperial")
+        ask_csv(*asked, "--damper", kind, "--units", units) for units in ("si", "imperial")
     )
     for si, ours in zip(metric, imperial, strict=True):
         name, size = IMPERIAL.get(si["unit"], (si["unit"], 1))

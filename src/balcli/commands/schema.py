@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from ..documents.names import DOCUMENTS
-from ..enginefile.fields import nearest
+from ..enginefile.fields import suggest_nearest
 from ..errors import BalcliError
 from .completion import complete_documents
 from .file_names import require_ending
@@ -79,8 +79,7 @@ def _describe_result(name: str, kind: File | None) -> dict[str, Any]:
     if kind is not None:
         raise BalcliError(f"--of {name}: is of a result; leave {kind} out, which is a file")
     if name not in DOCUMENTS:
-        near = nearest(name, DOCUMENTS)
-        hint = f"did you mean {near}?" if near else f"there are {', '.join(DOCUMENTS)}"
+        hint = suggest_nearest(name, DOCUMENTS, f"there are {', '.join(DOCUMENTS)}")
         raise BalcliError(f"--of {name[:60]}: there is no such result; {hint}")
     from ..documents.schema import describe_document  # pydantic
 

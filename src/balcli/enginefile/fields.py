@@ -65,6 +65,12 @@ def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     return near[0] if near else ""
 
 
+def suggest_nearest(word: str, known: Iterable[str], otherwise: str) -> str:
+    """A question for the known word that was probably meant; what to say otherwise if none is."""
+    near = nearest(word, known)
+    return f"did you mean {near}?" if near else otherwise
+
+
 class _Field:
     """A type of field: `read` gives the value or raises ValueError, `json` describes it."""
 

@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN
 from .conflicts import examine_refused
-from .fields import nearest, shorten
+from .fields import nearest, shorten, suggest_nearest
 from .messages import join_path
 from .model import FileTable
 
@@ -79,8 +79,7 @@ class TableReader:
 
     def _refuse_key(self, path: str, key: str, table: type[FileTable]) -> None:
         place = f"in {_heading(path)}" if path else f"in {self._file_kind}"
-        near = nearest(key, table.keys())
-        hint = f"did you mean {near}?" if near else f"it has {', '.join(table.keys())}"
+        hint = suggest_nearest(key, table.keys(), f"it has {', '.join(table.keys())}")
         self._add(join_path(path, [key]), f"unknown key {place}; {hint}")
 
     def _add(self, path: str, message: str) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic_core import ErrorDetails
 
-from ..enginefile.fields import counted, nearest, printable, shorten
+from ..enginefile.fields import counted, printable, shorten, suggest_nearest
 from ..enginefile.file_kinds import RUNS, refuse_other_kind
 from ..enginefile.messages import describe_finding, join_path
 from ..enginefile.model import FileTable
@@ -184,8 +184,7 @@ def _check_planes(file: RunsFile, k: int, names: Iterable[object]) -> Iterator[P
     """What takes a weight in the k-th run, and is no plane."""
     for name in names:
         if isinstance(name, str) and name not in file.planes:
-            near = nearest(name, file.planes)
-            hint = f"did you mean {near}?" if near else f"there are {', '.join(file.planes)}"
+            hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
             yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ..enginefile.fields import nearest, shorten
+from ..enginefile.fields import shorten, suggest_nearest
 from ..errors import BalcliError
 
 
@@ -70,7 +70,6 @@ def refuse_stranger(q: TargetQuantity, there: Sequence[str]) -> None:
     """
     if q.target in there:
         return
-    near = nearest(q.target, there)
     some = f"there are {', '.join(there[:8])}" if there else "there is none"
-    hint = f"did you mean {near}?" if near else some
+    hint = suggest_nearest(q.target, there, some)
     raise BalcliError(f"{q.name}: the file has no {q.kind} {shorten(q.target)}; {hint}")

@@ -11,8 +11,9 @@ import numpy as np
 from ..core.speeds import RPM
 from ..engine.arrays import find_first_largest
 from ..engine.variants import EngineVariants
-from ..enginefile.model import EngineFile, FileTable, change_figure, label_table
-from ..errors import BalcliError, InputError, Problem
+from ..enginefile.changed_figures import change_figures
+from ..enginefile.model import EngineFile, label_table
+from ..errors import BalcliError
 from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .build import build_mounted_body
 from .modes import BodyModes, find_mounted_modes
@@ -73,40 +74,6 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
             refuse_stranger(q, names[q.kind])
 
 
-def _begin(path: str) -> str:
-    return path.partition(".")[0]
-
-
-def vary_mounting(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
-    """The file with other figures of body, mounts and points, by dotted name
-    (`mount.left.stiffness.2`, `body.mass`); all others are left alone.
-
-    Raises:
-        InputError: what a table then says against itself, such as an inertia tensor that no body
-            has.
-    """
-    tables = dict(model.tables())
-    changed: dict[str, FileTable] = {}
-    for path, value in values.items():
-        start = next((s for s in tables if path.startswith(f"{s}.")), "")
-        if _begin(start) in _TABLES:
-            table = changed.get(start, tables[start])
-            changed[start] = change_figure(table, path[len(start) + 1 :].split("."), value)
-    faults = [
-        Problem(path, fault) for path, table in changed.items() for fault in table.list_faults()
-    ]
-    if faults:
-        raise InputError(faults)
-    rows = {
-        key: tuple(
-            changed.get(f"{key}.{label_table(table, k)}", table)
-            for k, table in enumerate(getattr(model, key), 1)
-        )
-        for key in ("mount", "point")
-    }
-    return model.model_copy(update={"body": changed.get("body", model.body), **rows})
-
-
 class Variants:
     """Evaluates quantities of variants of a file one by one; what does not vary is computed once.
 
@@ -127,11 +94,13 @@ class Variants:
         Raises:
             InputError, BalcliError: it cannot be.
         """
-        mounted = build_mounted_body(vary_mounting(self._model, values))
+        mounted = build_mounted_body(change_figures(self._model, values, _TABLES))
         if not (self._runs or self._leans):
             modes = find_mounted_modes(mounted)
             return [self._read(q, modes, ()) for q in self._quantities]
-        own = {path: value for path, value in values.items() if _begin(path) not in _TABLES}
+        own = {
+            path: value for path, value in values.items() if path.partition(".")[0] not in _TABLES
+        }
         engine = self._engines.build(own)
         loads = find_loads(engine, mounted.body.centre)
         modes = find_mounted_modes(mounted, loads.mean)

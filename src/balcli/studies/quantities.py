@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
 from typing import NamedTuple, Protocol, cast
 
-from ..enginefile.fields import nearest
+from ..enginefile.fields import suggest_nearest
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, parse_quantity
@@ -90,9 +90,9 @@ def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity,
 def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
     chapter = find_chapter(word)
     if chapter is None:
-        near = nearest(word.partition(".")[0], BEGINNINGS)
         there = f"one begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
-        raise BalcliError(f"{word} is no quantity: {f'did you mean {near}?' if near else there}")
+        hint = suggest_nearest(word.partition(".")[0], BEGINNINGS, there)
+        raise BalcliError(f"{word} is no quantity: {hint}")
     if chapter is ENGINE:
         return parse_quantity(word, with_gas=with_gas)
     return load_chapter(chapter).parse_quantity(word)

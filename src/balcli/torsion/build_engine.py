@@ -15,7 +15,7 @@ from ..core.singular_values import Real
 from ..core.speeds import RPM
 from ..core.torsional_chain import ChainShaft
 from ..engine.build import Engine
-from ..enginefile.fields import counted, nearest, printable, shorten
+from ..enginefile.fields import counted, printable, shorten, suggest_nearest
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import find_stiffness
 from ..enginefile.torsion_tables import Part, Torsion
@@ -223,9 +223,8 @@ def _find_misfits(
             )
         taken.add(name)
         if joint.of not in names:
-            near = nearest(joint.of, names)
             listed = ", ".join(printable(each) for each in names[:8])
-            hint = f"did you mean {near}?" if near else f"there are {listed}"
+            hint = suggest_nearest(joint.of, names, f"there are {listed}")
             yield Problem(f"{joint.path}.of", f"{shorten(joint.of)} is no part; {hint}")
     led = [j if j.of in names else j._replace(of="throw 1") for j in joints]  # told already
     hanging = _find_gears(led, throws)

@@ -5,16 +5,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
 from ..core.singular_values import Real
 from ..engine.build import Engine, build
 from ..engine.variants import EngineVariants, Values, remember
-from ..enginefile.model import EngineFile, FileTable, change_figure
-from ..enginefile.torsion_tables import Torsion
-from ..errors import BalcliError, InputError, Problem
+from ..enginefile.changed_figures import change_figures
+from ..enginefile.model import EngineFile
+from ..errors import BalcliError
 from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .build_engine import build_engine_system, excite_engine
 from .largest import find_largest_torques
@@ -74,36 +73,6 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
             raise BalcliError(f"{q.name}: this shaft has no diameter, so its stress is not known")
 
 
-def vary_torsion(model: EngineFile, values: Mapping[str, float]) -> EngineFile:
-    """The file with other figures of [torsion], by dotted name (`torsion.rear.1.stiffness`); all
-    others are left alone.
-
-    Raises:
-        InputError: what a table then says against itself, such as a bore wider than its shaft.
-    """
-    torsion: Any = model.torsion
-    varied = {path: value for path, value in values.items() if path.startswith("torsion.")}
-    for path, value in varied.items():
-        torsion = change_figure(torsion, path.split(".")[1:], value)
-    faults = [fault for path in varied for fault in _find_faults(torsion, path)]
-    if faults:
-        raise InputError(list(dict.fromkeys(faults)))
-    return model.model_copy(update={"torsion": torsion})
-
-
-def _find_faults(torsion: Torsion, path: str) -> Iterator[Problem]:
-    """What tables say against themselves on the way to a figure."""
-    place: Any = torsion
-    name, *keys = path.split(".")
-    for key in keys:
-        if isinstance(place, FileTable):
-            yield from (Problem(name, fault) for fault in place.list_faults())
-            place = getattr(place, key)
-        else:
-            place = place[int(key) - 1]
-        name = f"{name}.{key}"
-
-
 class Variants:
     """Evaluates quantities of variants of a file one by one; what does not vary is computed once.
 
@@ -128,7 +97,8 @@ class Variants:
         excitation = remember(
             self._excitations, key, lambda: excite_engine(self._model, engine, None)
         )
-        system = _build(vary_torsion(self._model, values), engine, excitation)
+        varied = change_figures(self._model, values, {"torsion"})
+        system = _build(varied, engine, excitation)
         found: dict[TargetQuantity, float] = {}
         if of_modes := [q for q in self._quantities if q.kind == "torsion"]:
             modes = find_natural_modes(system)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import re
-from io import StringIO
 from itertools import permutations
 
 import pytest
-from support.commands import ask_json, refusal, run_here
+from support.commands import ask_csv, ask_json, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
 
@@ -111,11 +109,10 @@ def test_a_number_in_a_range(tmp_path):
     path = ENGINES / "i4_mounts.toml"
     key, quantity = "mount.left.stiffness.2", "mode.roll.share"
     found = search(path, "--over", f"{key}=60:400", "--minimise", quantity)
-    done = run_here("sweep", path, "--vary", f"{key}=60:400:10", "-q", quantity)
-    values = [float(row[quantity]) for row in csv.DictReader(StringIO(done.out))]
+    swept = ask_csv("sweep", path, "--vary", f"{key}=60:400:10", "-q", quantity)
+    values = [float(row[quantity]) for row in swept]
     assert found[0]["objective"] <= min(values) * (1 + 1e-9)
-    alone = run_here("sweep", path, "--vary", f"{key}={found[0][key]!r}", "-q", quantity)
-    (row,) = csv.DictReader(StringIO(alone.out))
+    (row,) = ask_csv("sweep", path, "--vary", f"{key}={found[0][key]!r}", "-q", quantity)
     assert float(row[quantity]) == pytest.approx(found[0]["objective"], rel=1e-12)
 
 
@@ -268,8 +265,8 @@ def test_a_firing_order_of_no_account_leaves_room_for_a_bank_angle():
 def test_so_it_does_by_the_angles_own_name(over):
     """No worse than all of a sweep, in which the firing order counts for nothing, either."""
     path, quantity = ENGINES / "v12_60.toml", "guide.3.X"
-    done = run_here("sweep", path, "--vary", "layout.bank_angle=0:180:5", "-q", quantity)
-    values = [float(row[quantity]) for row in csv.DictReader(StringIO(done.out))]
+    swept = ask_csv("sweep", path, "--vary", "layout.bank_angle=0:180:5", "-q", quantity)
+    values = [float(row[quantity]) for row in swept]
     found = search(path, "--over", over, "--minimise", quantity)
     assert found[0]["objective"] <= min(values) + 1e-9 * max(values)
 
