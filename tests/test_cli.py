@@ -239,8 +239,8 @@ def test_bad_usage_that_the_parser_words(balcli, args, told):
         ),
         (
             ["analyze", V8, "--only", "force,noise"],
-            "--only noise: choose from force, moment, couple, torque, roll, peak, sizing, gas, inner, "
-            "guide, xy, textbook, verdict",
+            "--only noise: choose from force, moment, couple, torque, roll, peak, sizing, gas, torque_total, "
+            "roll_total, inner, guide, xy, textbook, verdict",
         ),
         (
             ["analyze", V8, "-o", "/nowhere/x.txt"],

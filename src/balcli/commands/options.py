@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import BalcliError
-from ..forces.kinds import KINDS, VECTORS
+from ..forces.kinds import GAS_KINDS, KINDS, VECTORS
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER, LONGEST_SHOWN, SMALLEST_POSITIVE
 from ..render.formats import Format, Units
 from .amounts import doubt_thousands, read_length, read_speed
@@ -19,7 +19,7 @@ from .format_names import format_option
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
-WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "gas", "inner", "guide", *PARTS)
+WORDS_OF_ONLY = (*KINDS, "peak", "sizing", *GAS_KINDS, "inner", "guide", *PARTS)
 
 
 def complete_parts(incomplete: str) -> list[str]:
