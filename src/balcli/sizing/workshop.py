@@ -25,7 +25,8 @@ class Tools(NamedTuple):
 
     Attributes:
         radius: at which masses are stated; the crank radius if not said.
-        thickness, disc: thickness, or radius, of semicircular discs; 20 mm thick if not said.
+        thickness: of semicircular discs; 20 mm if not said.
+        disc: their radius, instead of their thickness.
         drill: diameter; no holes are stated if not said.
         max_depth: of holes; to the axis if not said.
         slug: density of slugs that fill the holes, kg/m3; empty holes if not said.
