@@ -41,7 +41,7 @@ class Tools(NamedTuple):
 
 
 class Holes(NamedTuple):
-    """Radial holes side by side along the crank, all alike: they remove an unbalance opposite to
+    """Radial holes side by side along the axis, all alike: they remove an unbalance opposite to
     it, or add it with slugs on its own side.
 
     Attributes:
