@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.commands import ask_csv, ask_json, refusal, run_here
 from support.mounts import ENGINE, block
-from support.paths import write
+from support.paths import ENGINES, write
 
 POINT = '[[point]]\nname = "shift lever"\nat = [100, 0, 300]\n'
 TEXT = ENGINE + block("loss = 0.1") + POINT
@@ -137,6 +137,17 @@ def test_stiffness_scatters():
     assert list(found["sensitivity"]) == ["stiffness left", *list(found["sensitivity"])[1:]]
     assert found["sensitivity"]["stiffness left"] == pytest.approx(each, rel=0.05)
     assert found["bound"] == pytest.approx(found["nominal"] + 4 * each, rel=0.01)
+
+
+@pytest.mark.parametrize("quantity", ["mode.1.Hz", "mount.left.force"])
+def test_files_without_a_body_on_mounts_have_none(quantity):
+    told = f"{quantity}: the file has no [body] on a [[mount]]; "
+    told += "balcli mounts --help says what it needs"
+    bare = ENGINES / "i4.toml"
+    assert refusal("scatter", bare, "-q", quantity) == told
+    assert refusal("search", bare, "--over", "rod.ratio=0.2:0.3", "--minimise", quantity) == told
+    varied = refusal("sweep", bare, "--vary", "rod.ratio=0.2,0.3", "-q", quantity)
+    assert varied == f"{bare}: {told}"
 
 
 def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):

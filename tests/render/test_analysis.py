@@ -390,6 +390,16 @@ def test_roll_beside_that_with_gas_is_told_to_be_of_inertia_alone(balcli):
     assert "roll C − T, inertia alone" in balcli("analyze", diesel).out
 
 
+@pytest.mark.parametrize("command", [("analyze",), ("analyze", "--only", "gas")])
+def test_the_mean_roll_is_minus_the_mean_torque(balcli, command):
+    """C - T, and no couple has a mean."""
+    shown = balcli(*command, ENGINES / "i4_wiebe.toml", "--orders", "0,2").out
+    table = shown.partition("About the crank axis with gas")[2]
+    figures = re.findall(r"-?[\d.]+", re.search(r"^0 +(.+)$", table, re.MULTILINE)[1])
+    torque, roll = (float(figure) for figure in figures[-2:])
+    assert roll == -torque < 0
+
+
 def test_all_has_the_guide_moments_and_json_has_not(balcli):
     assert "Guide-force moments" in balcli("analyze", ENGINES / "i3.toml", "--all").out
     assert "guide" not in ask_json("analyze", ENGINES / "i3.toml", "--all")

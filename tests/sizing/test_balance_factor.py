@@ -596,15 +596,13 @@ def test_a_card_says_what_is_still_missing_or_that_nothing_is(ford):
 def test_holes_that_are_many_or_deep_are_told(ford):
     """13 of 1 in stand along 330 mm; without a limit they go nearly to the axis."""
     asked = ("balance", ford, "--factor", "51%")
-    room = "13 holes side by side take 330 mm of the crank at the least."
+    room = "13 holes side by side take 330 mm along the axis at the least."
     for form in ("card", "table"):
         out = " ".join(run_here(*asked, *DRILLED, "--format", form).out.split())
         assert room in out
         assert "--max-depth says how deep" not in out
         deep = run_here(*asked, *DRILLED[:-2], "--format", form).out
-        assert "of 63.5 mm towards the axis of the crank: --max-depth says" in " ".join(
-            deep.split()
-        )
+        assert "of 63.5 mm towards the axis: --max-depth says" in " ".join(deep.split())
     wide = ("--planes=-220,230", "--radius", "200 mm", "--drill", "60 mm", "--max-depth", "100 mm")
     assert "side by side take" not in run_here(*asked, *wide).out
 

@@ -100,9 +100,7 @@ Drill = Annotated[
         "many and how deep, to remove as much.",
     ),
 ]
-MaxDepth = Annotated[
-    str | None, optional("MM", "Deepest hole, for --drill; default: to the axis of the crank.")
-]
+MaxDepth = Annotated[str | None, optional("MM", "Deepest hole, for --drill; default: to the axis.")]
 Slug = Annotated[
     str | None,
     optional(

@@ -99,7 +99,8 @@ class FieldBalance(Result):
         influence: what a unit of weight in each plane changes.
         condition: of the influence coefficients.
         bound: no weights leave less as the largest (weighted) reading; nan for squares.
-        largest: the largest weighted reading after; rms: of the weighted readings.
+        largest: the largest weighted reading after.
+        rms: of the weighted readings after.
     """
 
     file: RunsFile

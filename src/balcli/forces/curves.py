@@ -36,7 +36,8 @@ class Curves(Result):
     """Figures over the crank angle.
 
     Attributes:
-        name, speed_rpm: of the engine.
+        name: of the engine.
+        speed_rpm: its crank speed.
         crank_deg: shape (angles,).
         values: by name with unit (`force_x_N`), each of the shape of `crank_deg`.
         moments_known: whether the engine file says where the throws stand; else moments are of

@@ -63,11 +63,17 @@ def _name_targets(model: EngineFile) -> dict[str, list[str]]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Nothing, unless one of these is of a mount or point that the file does not have.
+    """Nothing, unless one of these is of a mount or point that the file does not have, or it has no
+    body on mounts.
 
     Raises:
         BalcliError: the quantity, and the nearest name.
     """
+    if model.body is None or not model.mount:
+        raise BalcliError(
+            f"{quantities[0].name}: the file has no [body] on a [[mount]]; balcli mounts --help "
+            "says what it needs"
+        )
     names = _name_targets(model)
     for q in quantities:
         if q.kind in names:

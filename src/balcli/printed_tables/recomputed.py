@@ -50,7 +50,9 @@ class Table(Result):
     """Rows as recomputed and as printed, of one shape; `errata` follow from the two.
 
     Attributes:
-        name, title, source: of the table, and where it is printed.
+        name: by which it is asked for.
+        title: what it shows.
+        source: where it is printed.
         columns: their names.
         exact: a row of cells for each of the table.
         printed: the same as texts, as they are printed.

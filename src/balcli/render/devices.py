@@ -150,7 +150,7 @@ def holes_grid(
     else:
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
         what = "Slugs stand where weight is to be added and count less the steel removed for them"
-    note = f"{what}; radial, {rim} inwards, side by side along the crank."
+    note = f"{what}; radial, {rim} inwards, side by side along the axis."
     for reason in dict.fromkeys(p.holes.reason for p in practical if p.holes and p.holes.reason):
         note += f" {capitalized(reason)}."
     note = " ".join([note, *explain_holes(practical, tools, unit)])
@@ -164,20 +164,20 @@ def tell_rim(tools: Tools, radius: str) -> str:
 
 
 def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit) -> Iterator[str]:
-    """What the largest row of holes takes of the crank's length, and that they go deep where nobody
-    has said how deep they may.
+    """How long the largest row of holes is, and that they go deep where nobody has said how deep
+    they may.
     """
     planned = [p.holes for p in practical if p.holes and not math.isnan(p.holes.depth)]
     most = max((holes.number for holes in planned), default=0)
     if most > 1 and tools.drill is not None:
         length = f"{number(unit.of(most * tools.drill), 3)} {unit.name}"
-        yield f"{most} holes side by side take {length} of the crank at the least."
+        yield f"{most} holes side by side take {length} along the axis at the least."
     deepest = max((holes.depth for holes in planned), default=0.0)
     if tools.max_depth is None and deepest > practical[0].radius / 2:
         depth, rim = (number(unit.of(way), 3) for way in (deepest, practical[0].radius))
         yield (
-            f"They go {depth} of {rim} {unit.name} towards the axis of the crank: --max-depth says "
-            "how deep they may."
+            f"They go {depth} of {rim} {unit.name} towards the axis: --max-depth says how deep "
+            "they may."
         )
 
 

@@ -124,6 +124,11 @@ def scalar_entry(c: complex, order: float, balanced: bool) -> Entry:
     }
 
 
+def size_or_mean(c: complex, order: float) -> float:
+    """Amplitude of `Re(c e^{i n theta})`; of order 0 the mean, with its sign."""
+    return abs(c) if order else c.real
+
+
 def peak_deg(c: complex, order: float) -> float | None:
     """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; None if it
     vanishes or is a mean.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engine.arrays import find_first_largest
-from .figures import peak_deg
+from .figures import peak_deg, size_or_mean
 from .order_tables import fit_largest
 from .sheet import NEGLIGIBLE, Grid, degrees, order_name, size_cell, size_text
 
@@ -37,10 +37,11 @@ def gas_grid(
     least = NEGLIGIBLE * float(max(gas.major.max(initial=0), inertia.major.max(initial=0)))
 
     def row(k: int) -> Iterator[str]:
-        yield order_name(spectra.orders[k])
+        order = float(spectra.orders[k])
+        yield order_name(order)
         for phasors in (inertia, gas, total, roll):
-            yield size_cell(float(phasors.major[k]), unit)
-        at = peak_deg(complex(roll.x[k]), float(roll.orders[k]))
+            yield size_cell(size_or_mean(complex(phasors.x[k]), order), unit)
+        at = peak_deg(complex(roll.x[k]), order)
         yield "" if at is None else degrees(at)
 
     shown = [

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..forces.kinds import FORCE, GAS_KINDS, KINDS, MOMENT, ROLL, Kind
-from .figures import peak_deg, phase_deg
+from .figures import peak_deg, phase_deg, size_or_mean
 from .sheet import (
     NEGLIGIBLE,
     NOTHING,
@@ -187,10 +187,10 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
 
 
 def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
-    """Amplitude, and where it is reached first."""
+    """Amplitude, and where it is reached first; or a mean."""
     if c == 0:
         return NOTHING, ""
-    return number(unit.of(abs(c))), show_peak_deg(c, order)
+    return number(unit.of(size_or_mean(c, order))), show_peak_deg(c, order)
 
 
 def show_peak_deg(c: complex, order: float) -> str:

@@ -15,6 +15,7 @@ from ..torque.flywheel import Flywheel, Speed
 from ..torque.given_curve import CurveAnalysis
 from ..torque.loads import CycleLoad
 from .engine_facts import list_silent, tell_speed, tell_strokes
+from .figures import size_or_mean
 from .order_tables import show_peak_deg
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, given, number, order_name, size_text
 from .torque_document import Result, document, round_angle, rows
@@ -237,7 +238,7 @@ def _order_table(result: TorqueAnalysis, system: System) -> Grid:
         yield order_name(n)
         for phasors in columns:
             yield from _amplitude(complex(phasors.x[k]), n, unit)
-        yield number(unit.of(abs(complex(alone.x[k]))), 4)
+        yield number(unit.of(size_or_mean(complex(alone.x[k]), n)), 4)
 
     every = [*(phasors for _, phasors in spectra.items()), alone]
     shown = [k for k in range(len(spectra.orders)) if not all(p.balanced[k] for p in every)]
@@ -253,7 +254,7 @@ def _order_table(result: TorqueAnalysis, system: System) -> Grid:
 
 
 def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
-    return (number(unit.of(abs(c)), 5), show_peak_deg(c, order)) if c else ("0", "")
+    return (number(unit.of(size_or_mean(c, order)), 5), show_peak_deg(c, order)) if c else ("0", "")
 
 
 def _curve_table(result: CurveAnalysis, system: System) -> Grid:

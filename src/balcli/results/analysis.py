@@ -52,8 +52,9 @@ class Analysis(Result):
     Attributes:
         engine: as analysed.
         spectra: phasors of the orders shown.
-        force, moment: largest `value` over a revolution (N, N m), of all orders, and its crank
-            angle `theta` (rad).
+        force: largest `value` over a revolution (N), of all orders, and its crank angle `theta`
+            (rad).
+        moment: likewise (N m).
         sizing: devices of the scheme `auto`, and the analysis with them.
         cylinders: phasors of each cylinder alone (no devices), by cylinder number.
         why: whether the orders shown are balanced by symmetry.

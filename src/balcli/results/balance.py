@@ -42,7 +42,8 @@ class Balance(Result):
 
     Attributes:
         remedy: the new devices, and why these.
-        before, after: analyses of the same orders.
+        before: analysis of the engine without them.
+        after: with them, of the same orders.
         practical: the workshop's figures of each device, in the order of `remedy.devices`.
         tools: what the workshop has.
         speed_note: how remedy and analyses differ in speed; empty if they do not.

@@ -89,8 +89,9 @@ class Combined(Result):
         engines: as they were given.
         arrangement: where the second one stands, how it leads, and who drives the load.
         spectra: phasors of the orders shown, of both together.
-        force, moment: largest `value` over a revolution (N, N m), of all orders, and its crank
-            angle `theta` (rad).
+        force: largest `value` over a revolution (N), of all orders, and its crank angle `theta`
+            (rad).
+        moment: likewise (N m).
         cylinders: none; each engine's own analysis has them.
         every_order: whether orders were asked for, so that none of them is left out.
     """

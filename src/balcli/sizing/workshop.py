@@ -25,7 +25,8 @@ class Tools(NamedTuple):
 
     Attributes:
         radius: at which masses are stated; the crank radius if not said.
-        thickness, disc: thickness, or radius, of semicircular discs; 20 mm thick if not said.
+        thickness: of semicircular discs; 20 mm if not said.
+        disc: their radius, instead of their thickness.
         drill: diameter; no holes are stated if not said.
         max_depth: of holes; to the axis if not said.
         slug: density of slugs that fill the holes, kg/m3; empty holes if not said.
@@ -40,7 +41,7 @@ class Tools(NamedTuple):
 
 
 class Holes(NamedTuple):
-    """Radial holes side by side along the crank, all alike: they remove an unbalance opposite to
+    """Radial holes side by side along the axis, all alike: they remove an unbalance opposite to
     it, or add it with slugs on its own side.
 
     Attributes:

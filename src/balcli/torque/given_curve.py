@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -135,9 +136,10 @@ def analyze_curve(
                 f"of {1 / turns:g}"
             )
         if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
+            highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # that may be asked for
             raise BalcliError(
                 f"order {every[high[0]] / turns:g}: of a period of {turns:g} turns there are "
-                f"orders to {HIGHEST_HARMONIC / turns:.4g}"
+                f"orders to {highest:g}"
             )
     above = surplus(net)._replace(work=torque.integral)
     asked = FlywheelQuestion(net, above.energy, shaft.mean_speed, shaft.inertia, None, fluctuation)

@@ -62,6 +62,11 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         BalcliError: the quantity, and what there is.
         InputError: what does not fit together in [torsion].
     """
+    if model.torsion is None:
+        raise BalcliError(
+            f"{quantities[0].name}: the file has no [torsion]; balcli torsion --help says what it "
+            "needs"
+        )
     system = _build(model, build(model), None)
     modes = len(find_natural_modes(system))
     for q in quantities:
@@ -128,8 +133,6 @@ def choose_torsion_speeds(engine: Engine) -> Real:
 
 
 def _build(model: EngineFile, engine: Engine, excitation: Excitation | None) -> TorsionalSystem:
-    if model.torsion is None:
-        raise BalcliError("has no [torsion]; balcli torsion --help says what it needs")
     if excitation is None:
         excitation = excite_engine(model, engine, None)
     return build_engine_system(model, engine, excitation)

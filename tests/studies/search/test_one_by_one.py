@@ -190,7 +190,7 @@ def test_numbers_are_shown_and_not_written(tmp_path):
             '--over "rod.length=1:2:3": give the ends of a range',
         ),
         ("throws", "torque.min", "torque.min may be negative; name a size such as torque.max"),
-        ("throws", "shaft.x.torque", "has no [torsion]"),
+        ("throws", "shaft.x.torque", "shaft.x.torque: the file has no [torsion]"),
     ],
 )
 def test_mistakes(over, minimise, message):
