@@ -31,6 +31,12 @@ def test_equal_strokes():
     assert len(found.reasons) == 1
 
 
+@pytest.mark.parametrize("goal", ["dead-centres", "strokes"])
+def test_pins_that_are_even_stay(goal):
+    found = even_knuckles(even_knuckles(enginefile.parse(RADIAL), goal).model, goal)
+    assert found.reasons[0].startswith("knuckle pins stay where they are: ")
+
+
 def test_mirror_images_get_mirrored_angles():
     angles = np.array(even_knuckles(enginefile.parse(RADIAL)).angles_deg)
     assert np.allclose(angles[1:] + angles[:0:-1], 360, atol=1e-9)

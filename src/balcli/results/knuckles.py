@@ -25,6 +25,7 @@ from .balance import Balance, analyze_both
 Goal = Literal["dead-centres", "strokes"]
 GOALS: tuple[Goal, ...] = ("dead-centres", "strokes")
 _STEP_DEG = 1e-3  # for the slope
+_STAYS_DEG = 1e-9  # what a pin is turned by less is rounding
 _FARTHEST_DEG = 30.0  # a knuckle pin that would have to move farther is no answer
 _CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # degrees; metres
 
@@ -175,7 +176,8 @@ def _explain(
     else:
         result = "strokes equal to the master's"
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
-    reasons = [f"knuckle pins turned by up to {largest:.3g} deg: {result}"]
+    turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
+    reasons = [f"knuckle pins {turned}: {result}"]
     if left := [str(bank + 1) for bank in np.flatnonzero(hung & ~done)]:
         reasons.append(
             f"no angle makes bank {', '.join(left)} even: the knuckle pin stays where it is"
