@@ -86,14 +86,15 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     new_deg = (old_deg + np.where(done, turn_deg, 0.0)[rows]) % 360
     angles_deg = tuple(map(float, np.where(hung[rows], new_deg, 0.0)))
     better = model.with_table("articulation", knuckle_angles=angles_deg)
-    return Knuckles(
-        goal,
-        better,
-        angles_deg,
-        before=find_travel(c),
-        after=find_travel(build(better).cylinders),
-        reasons=_explain(goal, hung[rows], done[rows], turn_deg[rows]),
-    )
+    after = find_travel(build(better).cylinders)
+    uneven = hung & (np.abs(_measure_error(after, linkage, goal)) > 10 * _CLOSE[goal])
+    uneven[rows] = False  # of these the banks are told
+    reasons = _explain(goal, hung[rows], done[rows], turn_deg[rows])
+    if others := sorted(engine.numbers[row] for row in np.flatnonzero(uneven)):
+        told = f"cylinder{'s' * (len(others) > 1)} {', '.join(map(str, others))}"
+        alike = "the knuckle pins of a bank turn alike, as its first throw asks"
+        reasons = (*reasons, f"not so {told}: {alike}")
+    return Knuckles(goal, better, angles_deg, find_travel(c), after, reasons)
 
 
 def balance_knuckles(
