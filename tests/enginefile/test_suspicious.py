@@ -25,6 +25,17 @@ def test_ordinary_engines_pass(text):
     assert find_suspicious(parse(text)) == []
 
 
+def test_one_throw_may_stand_at_the_origin_unsaid():
+    """With both rods of a vee on it."""
+    own = "".join(f"[cylinder.{n}]\nposition = {z}\n" for n, z in ((1, -60), (3, -60)))
+    vee = changed(
+        ("spacing = 100\n", ""),
+        ("throws = [0, 180, 180, 0]", "throws = [0, 180]"),
+        ("firing_order = [1, 3, 4, 2]", "bank_angle = 90"),
+    )
+    assert find_suspicious(parse(vee + own)) == []
+
+
 @pytest.mark.parametrize(
     ("text", "warning"),
     [
@@ -36,6 +47,11 @@ def test_ordinary_engines_pass(text):
                 "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the "
                 "units right? Bare numbers are kg and mm"
             ),
+        ),
+        (
+            changed(("spacing = 100\n", "")) + "[cylinder.2]\nposition = -50\n",
+            "cylinder.2.position is given, but 3 cylinders have no place and all stand at 0: give "
+            "the position of each, or crank.spacing",
         ),
         (
             changed(

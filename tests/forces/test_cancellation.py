@@ -106,6 +106,30 @@ def test_phasors_and_pairs_are_those_of_the_engine(file):
             assert own == pytest.approx(np.round(own), abs=1e-9)
 
 
+def test_offset_mechanisms_are_not_in_phase_where_one_piston_is_lighter():
+    """Throws side by side. The first order of an offset piston stands aslant to its crank pin, what
+    turns with the pin does not, and counts for more beside the lighter piston.
+    """
+    text = """
+[crank]
+stroke = 80
+throws = [0, 0]
+spacing = 100
+throw_mass = 1
+[rod]
+length = 110
+[piston]
+mass = 0.5
+offset = 15
+[cylinder.2]
+piston_mass = 0.1
+"""
+    found = explain_symmetry(build_text(text), [1, 2], ["force"]).reasons
+    assert [reason.because for reason in found] == ["", "all in phase"]
+    alike = explain_symmetry(build_text(text.replace("offset = 15", "")), [1, 2], ["force"]).reasons
+    assert [reason.because for reason in alike] == ["all in phase", "all in phase"]
+
+
 def test_unequal_mechanisms_are_not_in_phase_because_equal_ones_are():
     """Two master rods and two articulated ones: those of a kind are in phase, but both kinds have
     phases of their own, and their forces add up to less than the sum of their sizes.

@@ -17,6 +17,7 @@ from support.paths import ENGINES, write
 from support.remedies import SMALL, figures, write_engine
 
 from balcli.commands.balance import balance
+from balcli.core.phasors import unit
 from balcli.errors import BalcliError
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
@@ -242,6 +243,36 @@ def test_nothing_is_missing_once_it_is_there(planes):
     assert not again.devices
     assert again.note == "nothing is missing: the counterweights of the file balance this factor"
     assert {need.missing for need in again.needs} == {0}
+
+
+def test_nor_is_anything_of_split_pins_in_one_plane():
+    """Each pin has its weight, all in the plane of the throw; half as much again is one weight of
+    their sum.
+    """
+    split = TWIN.replace("stagger = 24", "").replace("throws = [0]", "throws = [0]\nsplay = 90")
+    first = fit(split)
+    assert [device.angle for device in first.devices] == [180, -90]
+    again = fit(insert_remedy(split.encode(), first))
+    assert (again.devices, again.note) == (
+        (),
+        "nothing is missing: the counterweights of the file balance this factor",
+    )
+    (one,) = fit(insert_remedy(split.encode(), first), 0.75).devices
+    apart = fit(split, 0.75).devices
+    more = [
+        device.unbalance - own.unbalance for device, own in zip(apart, first.devices, strict=True)
+    ]
+    assert one.unbalance * unit(one.angle) == pytest.approx(-more[0] - 1j * more[1], rel=1e-9)
+
+
+def test_what_is_there_counts_in_sum_where_moments_are_not_known():
+    """Three pins that balance each other: their own weights are not asked for a second time."""
+    three = SMALL["three"].replace("spacing = 100\n", "")
+    first = fit(three)
+    assert len(first.devices) == 3
+    again = fit(insert_remedy(three.encode(), first))
+    assert not again.devices
+    assert again.note.startswith("nothing is missing in sum; opposite which pin")
 
 
 @pytest.mark.parametrize("form", ["table", "card"])

@@ -68,7 +68,7 @@ SAME_INERTIA = 0.05  # share by which what is said twice may differ: it is round
 def find_suspicious(model: EngineFile) -> list[str]:
     """Warnings for what is allowed and yet unlikely; empty for an ordinary engine."""
     of_rods = _piston, _proportions, _rod, _rod_ends, _inertia, _motion
-    of_crank = _neighbours, _throw_angles, _layout, _throw, _bobweight, _counterweights
+    of_crank = _neighbours, _own_places, _throw_angles, _layout, _throw, _bobweight, _counterweights
     beyond = _shafts, _rotary, _turning, _gas, _torsion
     return [warning for find in (*of_rods, *of_crank, *beyond) for warning in find(model)]
 
@@ -189,6 +189,18 @@ def _neighbours(model: EngineFile) -> Iterator[str]:
         yield (
             f"crank.{key} puts neighbouring cylinders of one bank {gap:g} mm apart, which is less "
             f"than their bore of {bore:g} mm; {ask_unit('mm', '4.4 in', '1.02 m')}"
+        )
+
+
+def _own_places(model: EngineFile) -> Iterator[str]:
+    """Cylinders of several throws without a place, where others have one of their own."""
+    crank, (throws, rods) = model.crank, _throws_and_rods(model)
+    placed = [number for number, own in model.cylinder.items() if own.position is not None]
+    left = rods - len(placed)
+    if crank.spacing is None and crank.positions is None and placed and left > rods / throws:
+        yield (
+            f"cylinder.{placed[0]}.position is given, but {left} cylinders have no place and all "
+            "stand at 0: give the position of each, or crank.spacing"
         )
 
 

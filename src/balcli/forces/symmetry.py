@@ -48,6 +48,7 @@ _SUMMED: dict[KindGroup, tuple[str, ...]] = {
 }
 NEARLY = 1e-2  # of one cylinder
 _ULPS = 16  # of the largest weight, by which such a ratio may be off
+_IN_FULL = 1e-9  # of a sum, by which it may be less than its parts that are in phase
 
 
 @dataclass(frozen=True)
@@ -241,7 +242,9 @@ class _Layout:
         size = 0.0 if exact else float(max(sizes))
         verdict: Verdict = "exact" if exact else _judge(size)
         multiples = self._multiples(row, group)
-        because = "" if verdict == "rounding" else _tell_why(sums, alike=len(families) == 1)
+        in_full = all(np.isclose(whole[name], single[name].sum(), _IN_FULL, 0) for name in parts)
+        alike = len(families) == 1 and in_full
+        because = "" if verdict == "rounding" else _tell_why(sums, alike=alike)
         return Reason(order, group, verdict, size, *multiples, because)
 
     def _multiples(self, row: int, group: KindGroup) -> tuple[float | None, float | None, str]:
@@ -330,7 +333,8 @@ def _tell_why(sums: list[tuple[int, list[list[Term]]]], *, alike: bool) -> str:
 
     Args:
         sums: the side of each, and its sets of commensurable terms.
-        alike: whether all are of one mechanism, and so have one phase at equal angles.
+        alike: whether all have one phase at equal angles: cylinders of one mechanism have, unless
+            it is offset and their masses differ.
     """
     of_side = {side: [sets for s, sets in sums if s == side] for side, _ in sums}
     told = {

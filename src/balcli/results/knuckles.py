@@ -25,6 +25,7 @@ from .balance import Balance, analyze_both
 Goal = Literal["dead-centres", "strokes"]
 GOALS: tuple[Goal, ...] = ("dead-centres", "strokes")
 _STEP_DEG = 1e-3  # for the slope
+_STAYS_DEG = 1e-9  # what a pin is turned by less is rounding
 _FARTHEST_DEG = 30.0  # a knuckle pin that would have to move farther is no answer
 _CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # degrees; metres
 
@@ -85,14 +86,15 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     new_deg = (old_deg + np.where(done, turn_deg, 0.0)[rows]) % 360
     angles_deg = tuple(map(float, np.where(hung[rows], new_deg, 0.0)))
     better = model.with_table("articulation", knuckle_angles=angles_deg)
-    return Knuckles(
-        goal,
-        better,
-        angles_deg,
-        before=find_travel(c),
-        after=find_travel(build(better).cylinders),
-        reasons=_explain(goal, hung[rows], done[rows], turn_deg[rows]),
-    )
+    after = find_travel(build(better).cylinders)
+    uneven = hung & (np.abs(_measure_error(after, linkage, goal)) > 10 * _CLOSE[goal])
+    uneven[rows] = False  # of these the banks are told
+    reasons = _explain(goal, hung[rows], done[rows], turn_deg[rows])
+    if others := sorted(engine.numbers[row] for row in np.flatnonzero(uneven)):
+        told = f"cylinder{'s' * (len(others) > 1)} {', '.join(map(str, others))}"
+        alike = "the knuckle pins of a bank turn alike, as its first throw asks"
+        reasons = (*reasons, f"not so {told}: {alike}")
+    return Knuckles(goal, better, angles_deg, find_travel(c), after, reasons)
 
 
 def balance_knuckles(
@@ -175,7 +177,8 @@ def _explain(
     else:
         result = "strokes equal to the master's"
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
-    reasons = [f"knuckle pins turned by up to {largest:.3g} deg: {result}"]
+    turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
+    reasons = [f"knuckle pins {turned}: {result}"]
     if left := [str(bank + 1) for bank in np.flatnonzero(hung & ~done)]:
         reasons.append(
             f"no angle makes bank {', '.join(left)} even: the knuckle pin stays where it is"

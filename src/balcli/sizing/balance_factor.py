@@ -34,6 +34,10 @@ from .scheme_figures import FactorPeaks, PlaneNeed
 
 _NEARLY = 0.05  # of one cylinder's: pistons of one engine, weighed, differ by less
 COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
+IN_SUM = (
+    "nothing is missing in sum; opposite which pin the counterweights of the file stand is not "
+    "known, as moments are not"
+)
 OF_ITSELF = "nothing is missing: what the pins carry balances itself in these planes"
 OWN_PLACES = (
     "these planes are where the counterweights of the file stand; --planes throws asks what is "
@@ -60,7 +64,7 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
 
     What the file's own counterweights do counts, and what is missing is fitted: in the planes asked
     for, to which pins and weights are carried by the lever; by default where the file's own stand,
-    or opposite each pin if they stand in fewer than two places.
+    or opposite each pin if they stand in fewer than two places (of pins in one plane in sum).
 
     Of several factors all peaks are told, and the one that leaves the smallest peak force is
     fitted, or moment, where the pins balance each other (`FactorPeaks.by_moment`).
@@ -118,7 +122,8 @@ def _note(
     if factor > 1:
         return "a factor above 1: more than all reciprocating mass on the pin is balanced"
     if not fitting.remedy.devices:
-        return COMPLETE if own else OF_ITSELF
+        complete = COMPLETE if fitting.engine.places_known else IN_SUM
+        return complete if own else OF_ITSELF
     return OWN_PLACES if unasked else ""
 
 
@@ -264,10 +269,11 @@ def _fit_factor(engine: Engine, factor: float, planes: tuple[float, ...] | None)
         reason = f"In these planes, carried to them by the lever: {taken} of every pin{less}"
         slots = [Slot("counterweight", 1, 1, need.z) for need in needs]
         return fitting.add(slots, [need.missing for need in needs], reason)
-    for need, load in zip(needs, _list_loads(engine, factor), strict=True):
-        numbers = ", ".join(map(str, load.cylinders))
-        cylinders = f"cylinder{'s' if len(load.cylinders) > 1 else ''} {numbers}"
-        reason = f"Opposite the pin of {cylinders}: {taken}{less}"
+    for need, pins in zip(needs, _share_out(engine, _list_loads(engine, factor)), strict=True):
+        numbers = [str(number) for pin in pins for number in pin.cylinders]
+        cylinders = f"cylinder{'s' * (len(numbers) > 1)} {', '.join(numbers)}"
+        where = "Opposite the pin" if len(pins) == 1 else "In the plane"
+        reason = f"{where} of {cylinders}: {taken}{less}"
         fitting = fitting.add([Slot("counterweight", 1, 1, need.z)], [need.missing], reason)
     return fitting
 
@@ -276,19 +282,23 @@ def _find_needs(
     engine: Engine, factor: float, planes: tuple[float, ...] | None
 ) -> tuple[PlaneNeed, ...]:
     """What each plane asks for and has, directions at crank angle 0; without planes one for each
-    pin, where of pins in one plane the first has what is carried to that plane.
+    set of pins of `_share_out`.
     """
     loads = _list_loads(engine, factor)
-    pins = np.array([load.unbalance for load in loads], complex)
-    at = np.array([load.z for load in loads])
-    z = at if planes is None else np.array(planes)
-    if not len(z):
+    if not loads:
         return ()
-    distinct, first = np.unique(z, return_index=True)
+    pins = np.array([load.unbalance for load in loads], complex)
+    if planes is None:
+        sets = _share_out(engine, loads)
+        z = np.array([members[0].z for members in sets])
+        of_pins = np.array([[float(load in members) for load in loads] for members in sets])
+    else:
+        z = np.array(planes)
+        of_pins = share_by_lever(np.array([load.z for load in loads]), z)
     places, weights = _find_counterweights(engine)
     of_weights = np.zeros((len(z), len(places)))
-    of_weights[first] = share_by_lever(places, distinct)
-    of_pins = np.eye(len(z)) if planes is None else share_by_lever(at, distinct)
+    if weights.any():
+        of_weights[np.argsort(z)] = share_by_lever(places, np.sort(z))
     wanted, present = -(of_pins @ pins), of_weights @ weights
     parts = np.abs(of_pins) @ np.abs(pins) + np.abs(of_weights) @ np.abs(weights)
     vectors = np.stack([wanted, present, wanted - present])
@@ -307,6 +317,18 @@ def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
     own = [device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT]
     places = np.array([float(device.z) for device in own])
     return places, np.array([complex(device.forward) for device in own], complex)
+
+
+def _share_out(engine: Engine, loads: list[PinUnbalance]) -> list[list[PinUnbalance]]:
+    """The pins that ask for a weight together: each by itself, or where the file has counterweights
+    all in one plane, for nobody knows opposite which of them a weight in their plane belongs.
+    """
+    if not _find_counterweights(engine)[1].any():
+        return [[load] for load in loads]
+    planes: dict[float, list[PinUnbalance]] = {}
+    for load in loads:
+        planes.setdefault(load.z, []).append(load)
+    return list(planes.values())
 
 
 def _list_loads(engine: Engine, factor: float) -> list[PinUnbalance]:

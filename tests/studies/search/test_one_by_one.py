@@ -7,6 +7,7 @@ import math
 import re
 from itertools import permutations
 
+import numpy as np
 import pytest
 from support.commands import ask_csv, ask_json, refusal, run_here
 from support.diesel import write_diesel
@@ -15,6 +16,7 @@ from support.paths import ENGINES, write
 from balcli.core.telling import tell_nobody
 from balcli.engine.load import parse
 from balcli.studies.search import one_by_one
+from balcli.studies.search.angles import Span, find_minima
 from balcli.studies.search.designs import Design
 from balcli.studies.search.objective import Merit, parse_objective
 
@@ -303,6 +305,14 @@ def test_where_no_value_makes_an_engine_the_reason_is_told():
 )
 def test_the_place_of_a_minimum_is_the_round_number_that_it_is(function, place):
     assert find_best(function, 13.0, 160.0)[0] == place
+
+
+def test_a_zero_has_no_sign():
+    """The function is level from -0.3 to 0.1, of which 0 is the roundest number."""
+    (place,) = find_best(lambda x: max(abs(x + 0.1), 0.2), -10.0, 20.0)
+    assert str(place) == "0.0"
+    found = find_minima(lambda x: np.abs(x), [], Span(-180, 180), 1)
+    assert list(map(str, found.tolist())) == ["0.0"]
 
 
 def test_a_pole_elsewhere_in_the_range_makes_no_number_as_good():

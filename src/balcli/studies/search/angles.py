@@ -150,7 +150,7 @@ def _round_off(curve: Curve, x: Array, farthest: float, slack: float) -> Array:
     """The same angles, or rounder ones, no farther than that, as good but for the slack."""
     found, enough = x, curve(x) + slack
     for grain in reversed(ROUND):
-        rounder = np.round(found / grain) * grain
+        rounder = np.round(found / grain) * grain + 0.0  # without the sign of -0.0
         good = (np.abs(rounder - x) <= farthest) & (curve(rounder) <= enough)
         found = np.where(good, rounder, found)
     return found

@@ -152,7 +152,7 @@ def _round_off(
     low, high = ends
     coarsest = -math.floor(math.log10(high - low))
     for digits in range(coarsest, coarsest + _DECIMALS):
-        rounder = round(x, digits)
+        rounder = round(x, digits) + 0.0  # without the sign of -0.0
         if low <= rounder <= high and (there := judge(rounder)) <= enough:
             return there, rounder
     return judge(x), x
