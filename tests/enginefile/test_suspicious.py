@@ -436,3 +436,17 @@ def test_inertias_that_are_said_twice(flywheel):
         "[flywheel] has 0.25 kg m^2, and the part 'Flywheel' of [torsion] 2.5: `torque` takes the "
         "one, `torsion` the other"
     ]
+
+
+def test_a_flywheel_that_torsion_lacks():
+    """[flywheel] is for `torque`; without one of its own the crankshaft twists at far higher
+    frequencies.
+    """
+    wheel, twist = "[flywheel]\ninertia = 250000\n", TWIST % ("25000", "250000")
+    alone = twist.partition("[[torsion.rear]]")[0]
+    assert find_suspicious(parse(changed(more=wheel + alone))) == [
+        "[flywheel] has 0.25 kg m^2, and [torsion] nothing behind the throws: `torsion` has no "
+        "flywheel; write it as [[torsion.rear]], too"
+    ]
+    assert find_suspicious(parse(changed(more=wheel + twist))) == []
+    assert find_suspicious(parse(changed(more=alone))) == []

@@ -88,8 +88,13 @@ def test_holes_on_top_of_a_correction_are_new_ones(runs):
     )
     runs.write_text(text)
     assert told in run_here("field", runs).out
-    runs.write_text(text.replace("drill = [4, 4]\ndeepest = [20, 20]\n", ""))
+    placed = text.replace("drill = [4, 4]\ndeepest = [20, 20]\n", "")
+    runs.write_text(placed)
     assert told not in run_here("field", runs).out
+    carried = "The limit is for these alone: what a place carries already is not in the file."
+    assert carried not in run_here("field", runs).out
+    runs.write_text("most = [9, 9]\n" + placed)
+    assert carried in run_here("field", runs).out
 
 
 def test_a_shop_that_works_in_inches_reads_inches(runs):

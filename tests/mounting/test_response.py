@@ -14,7 +14,7 @@ from support.paths import write
 from balcli.errors import BalcliError
 from balcli.forces.in_time import compute_spectra_in_time
 from balcli.forces.spectrum import compute_spectra
-from balcli.mounting.motions import name_motions
+from balcli.mounting.motions import describe_free_motion, name_motions
 from balcli.mounting.read import read_mounted
 from balcli.mounting.report import report_mounts
 
@@ -443,6 +443,12 @@ def test_a_motion_that_nothing_holds_is_named(report, text, motion):
         f"engine.toml: mount: nothing holds the body against {motion}; give a mount that does, or "
         "stiffness along another axis"
     )
+
+
+def test_components_that_rounding_leaves_are_0():
+    turn = np.array([0, 0, 0, 0.8, 6e-17, 0.6])
+    told = describe_free_motion(turn, np.zeros(3))
+    assert told == "turning about (0.8, 0, 0.6) through (0, 0, 0) mm"
 
 
 def test_several_free_motions_are_counted(report):

@@ -349,7 +349,7 @@ def _torsion(model: EngineFile) -> Iterator[str]:
     yield from _throw_stiffness(model.torsion, model)
     yield from _crank_inertia(model.torsion, model)
     yield from _parts_in_water(model.torsion)
-    yield from _two_flywheels(model.torsion, model)
+    yield from _flywheels(model.torsion, model)
 
 
 def _crank_inertia(torsion: Torsion, model: EngineFile) -> Iterator[str]:
@@ -373,21 +373,29 @@ def _parts_in_water(torsion: Torsion) -> Iterator[str]:
             )
 
 
-def _two_flywheels(torsion: Torsion, model: EngineFile) -> Iterator[str]:
-    """One in [flywheel] and another in [torsion]."""
+def _flywheels(torsion: Torsion, model: EngineFile) -> Iterator[str]:
+    """One in [flywheel], and another in [torsion] or none."""
+    flywheel = _flywheel_inertia(model)
+    if not flywheel:
+        return
+    own = f"[flywheel] has {flywheel / 1e6:.4g} kg m^2"
     named = [
         (part.name, part.inertia)
         for part in (*torsion.front, *torsion.rear)
         if part.inertia and "flywheel" in part.name.lower()
     ]
-    flywheel = _flywheel_inertia(model)
-    if len(named) == 1 and flywheel:
+    if len(named) == 1:
         name, inertia = named[0]
         if abs(inertia - flywheel) > SAME_INERTIA * flywheel:
             yield (
-                f"[flywheel] has {flywheel / 1e6:.4g} kg m^2, and the part '{name}' of [torsion] "
-                f"{inertia / 1e6:.4g}: `torque` takes the one, `torsion` the other"
+                f"{own}, and the part '{name}' of [torsion] {inertia / 1e6:.4g}: `torque` takes "
+                "the one, `torsion` the other"
             )
+    elif not named and not torsion.rear:
+        yield (
+            f"{own}, and [torsion] nothing behind the throws: `torsion` has no flywheel; write "
+            "it as [[torsion.rear]], too"
+        )
 
 
 def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:

@@ -57,4 +57,4 @@ def _describe_direction(direction: Real) -> str:
     for axis, name in enumerate(_ALONG):
         if abs(abs(direction[axis]) - 1) < _EXACT:
             return name
-    return "({:.3g}, {:.3g}, {:.3g})".format(*direction + 0.0)
+    return "({:.3g}, {:.3g}, {:.3g})".format(*np.where(np.abs(direction) < _EXACT, 0.0, direction))

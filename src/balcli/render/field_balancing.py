@@ -132,6 +132,8 @@ def _explain_work(result: FieldBalance) -> Iterator[str]:
         yield "Together they do what the corrections do."
     if drilled and result.influence.trimmed:
         yield "Depths are of new holes: those drilled before are not in the file."
+    elif result.influence.trimmed and result.file.most is not None:
+        yield "The limit is for these alone: what a place carries already is not in the file."
     if result.limited:
         yield "Places and limits allow no better: see the readings below."
     if result.limited and drilled and result.file.places is None:
