@@ -12,6 +12,7 @@ DEEPEST_KEY = 32  # parts of a dotted key: the memory of tomllib grows with thei
 LONGEST_NAME = 200  # characters; the name stands in every line of a CSV
 LONGEST_FILE_NAME = 255  # of a file that an engine file names: file systems have no longer ones
 MOST_ROWS = 20_000  # of such a file: a diagram of 720 deg in steps of 0.05 has 14 400
+LARGEST_IN_COLUMNS = 1e30  # of a figure in such a file, either way: its products are no overflow
 LONGEST_FIGURE = 100  # characters of a number with its unit: no regular expression sees more
 LONGEST_SHOWN = 60  # characters of a value that a message repeats: it stays one line
 MOST_MISTAKES_SHOWN = 20  # of one file: they stay on the screen
@@ -55,7 +56,7 @@ LARGEST_FACTOR = 2  # share of the reciprocating mass, either way: shops take 0 
 MOST_HOLES = 50  # in one counterweight: none has room for more
 MOST_DIGITS = 15  # of figures in tables: what a floating-point number has
 MOST_FACTORS = 1000  # steps of a range of balance factors
-MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table
+MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table, and figures of its body
 LARGEST_TABLE_VALUE = 10**9  # in such a range
 HIGHEST_POWER = 200  # of lambda in a table of series: exact fractions, a second or two
 

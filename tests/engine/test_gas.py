@@ -275,8 +275,13 @@ def test_harmonics_are_of_the_mean_tangential_pressure(beside):
         ),
         (
             'harmonics = "p.csv"',
-            "order,cos,sin\n1,1,0\n1e300,1,0\n",
-            "gas.harmonics: p.csv: line 3: order 1e+300 is above 100, where no table goes",
+            "order,cos,sin\n1,1,0\n1e30,1,0\n",
+            "gas.harmonics: p.csv: line 3: order 1e+30 is above 100, where no table goes",
+        ),
+        (
+            'indicator = "p.csv"',
+            "angle_deg,pressure_kPa\n0,1e306\n",
+            'gas.indicator: {folder}/p.csv: line 2: "1e306" is too large a number',
         ),
         (
             'harmonics = "p.csv"',

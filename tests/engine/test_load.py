@@ -165,7 +165,7 @@ def test_standard_input(monkeypatch):
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitud = 0.1 }]")),
-            "operation.speed_ripple.1.amplitud: unknown key in [operation]; did you mean amplitude?",
+            "operation.speed_ripple.1.amplitud: unknown key in [operation.speed_ripple]; did you mean amplitude?",
         ),
         (
             GOOD + "[frame]\nreference = [0, 0]\n",
@@ -363,7 +363,11 @@ def test_missing_tables_come_with_an_example():
             GOOD.encode() + b"# \xff\n",
             f"is not UTF-8 text (line {GOOD.count(chr(10)) + 1}); save it as UTF-8",
         ),
-        (b"\0" * 9, "is not valid TOML: Invalid statement (at line 1, column 1)"),
+        (
+            b"\0" * 9,
+            "is not valid TOML: Invalid statement (at line 1, column 1): there are zero bytes, as "
+            "in UTF-16; save it as UTF-8",
+        ),
         (
             "x = " + "[" * 100_000 + "]" * 100_000,
             "lists or tables are nested too deeply; an engine file needs no more than four levels",

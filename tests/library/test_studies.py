@@ -17,6 +17,7 @@ from support.rotors import three_runs
 
 import balcli
 from balcli.errors import BalcliError
+from balcli.forces import curves as force_curves
 from balcli.library.arguments import (
     check_count,
     check_inertia,
@@ -766,3 +767,17 @@ def test_what_is_wrong_is_told(call, kind, message):
     with pytest.raises(kind) as caught:
         call()
     assert str(caught.value).startswith(message)
+
+
+@pytest.mark.parametrize("cylinder", [None, 2])
+def test_curves_with_gas_do_not_depend_on_how_many_angles_are_computed_at_a_time(
+    cylinder, monkeypatch
+):
+    engine = balcli.load_example("i4_wiebe")
+    at_once = balcli.curves(engine, 7, cylinder=cylinder).values
+    monkeypatch.setattr(force_curves, "AT_ONCE", 4 * 10)  # ten angles of four cylinders
+    in_pieces = balcli.curves(engine, 7, cylinder=cylinder).values
+    for name, values in at_once.items():
+        np.testing.assert_allclose(
+            in_pieces[name], values, rtol=0, atol=1e-12 * np.abs(values).max()
+        )

@@ -290,6 +290,10 @@ def test_errata_of_one_table_and_of_all():
             ("--angle", "0:90:5"),
             "--angle: name the table that it is for (tsinghua-1-2, tsinghua-1-3, tsinghua-1-6)",
         ),
+        (
+            ("tsinghua-1-2", "--angle", "0:180:0.01", "--lambda", "0.2:0.4:0.01"),
+            "18001 angles of 21 crank ratios are 378021 figures, and at most 100000 are tabulated",
+        ),
     ],
 )
 def test_wrong_names_and_options_are_refused(arguments, message):

@@ -9,6 +9,7 @@ across a corner or a jump.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -162,9 +163,10 @@ class PiecewiseCurve:
         Gauss-Legendre quadrature of every panel, or where it holds many waves of equal parts of it,
         with as many nodes as the series times the highest harmonic need.
         """
-        numbers = np.asarray(wanted).tolist()
+        numbers = np.asarray(wanted, int)
+        top = int(numbers.max(initial=0))
         unit = 2 * np.pi / self.period
-        highest = unit * max(numbers, default=0)
+        highest = unit * top
         edges = cut(self.breaks, 2 * _LONGEST_REACH / max(highest, unit))
         middle, half = _panels(edges)
         x, weights = gauss(_nodes_for(len(self.series), highest * float(half.max())))
@@ -174,15 +176,16 @@ class PiecewiseCurve:
         else:
             values = self.within(angle)
         shares = (values * half * weights[:, None]).reshape(-1) * (2 / self.period)
-        flat = angle.reshape(-1)
-        step = np.exp(-1j * unit * flat)
-        turning, before = np.ones_like(step), 0
-        found = np.empty(len(numbers), complex)
-        for place, k in enumerate(numbers):
-            turning = turning * step if k == before + 1 else np.exp(-1j * (k * unit) * flat)
-            found[place] = turning @ shares if k else self.mean
-            before = k
-        return found
+
+        def turn(harmonics: NDArray[np.intp]) -> Complex:
+            return np.exp(-1j * np.multiply.outer(unit * harmonics, angle.reshape(-1)))
+
+        # e^(-i k angle) of k = high * stride + low is a product: few waves of each make all
+        stride = math.isqrt(top) + 1
+        low, place_of_low = np.unique(numbers % stride, return_inverse=True)
+        high, place_of_high = np.unique(numbers // stride, return_inverse=True)
+        every = turn(low) @ (turn(high * stride) * shares).T
+        return np.where(numbers == 0, self.mean, every[place_of_low, place_of_high])
 
     def antiderivative(self) -> PiecewiseCurve:
         """The integral from the first breakpoint on; periodic if the mean is 0."""

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import BalcliError
-from ..limits import LARGEST_FILE_BYTES, MOST_ROWS
+from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, MOST_ROWS
 from .fields import shorten
 from .toml_text import name_other_kind, read_bytes
 
@@ -138,4 +138,6 @@ def _read_number(cell: str, line: int) -> float:
         number = math.nan
     if not math.isfinite(number):
         raise ValueError(f"line {line}: {shorten(cell.strip())} is not a number")
+    if abs(number) > LARGEST_IN_COLUMNS:
+        raise ValueError(f"line {line}: {shorten(cell.strip())} is too large a number")
     return number

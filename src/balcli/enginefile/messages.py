@@ -85,9 +85,12 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTab
     if kind == "value_error":
         message = str(context["error"])
     elif kind in ("too_short", "too_long"):
-        message = _describe_length(value, context)
-    elif kind == "tuple_type" and isinstance(value, Mapping) and _holds_tables(table, loc):
-        message = f"is one of several; write [[{join_path(path, loc)}]] in double brackets"
+        message = _describe_length(value, context, _find_field(table, loc))
+    elif kind == "tuple_type" and _holds_tables(table, loc):
+        what = (
+            "is one of several" if isinstance(value, Mapping) else f"{shorten(value)} is no table"
+        )
+        message = f"{what}; write [[{join_path(path, loc)}]] in double brackets"
     else:
         example = _find_example(table, loc) if kind == "tuple_type" else ""
         message = WORDS.get(kind, OTHER).format(value=shorten(value), example=example)
@@ -138,10 +141,15 @@ def _suggest_missing(table: type[model.FileTable], loc: Sequence[str | int]) -> 
     return f"give it, such as {loc[-1]} = {example}"
 
 
-def _describe_length(value: list[object], context: Mapping[str, object]) -> str:
+def _describe_length(
+    value: list[object], context: Mapping[str, object], field: FieldInfo | None
+) -> str:
     wanted = context.get("min_length") or context.get("max_length")
     if not value:
-        return "is an empty list; give at least one value, or leave the key out"
+        needed = field is not None and field.is_required()
+        return (
+            f"is an empty list; give at least one value{'' if needed else ', or leave the key out'}"
+        )
     if len(value) > MOST_LIST_VALUES:
         return f"has more than {MOST_LIST_VALUES} values"
     return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted"

@@ -195,6 +195,9 @@ class _Reader:
         return value
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
+        if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
+            self.add(path, f"stands once, in single brackets: [{path}]")
+            return None
         if not isinstance(value, Mapping):
             self.add(
                 path,
@@ -203,7 +206,11 @@ class _Reader:
             )
             return None
         fields = table.model_fields
-        self.unknown += [UnknownKey(path, key, table) for key in value if key not in fields]
+        self.unknown += [
+            UnknownKey(path, key, table, isinstance(part, Mapping))
+            for key, part in value.items()
+            if key not in fields
+        ]
         known = {key: part for key, part in value.items() if key in fields}
         if self._refuse_huge(path, known):
             return None
@@ -227,6 +234,9 @@ class _Reader:
         )
 
     def read_cylinders(self, value: object) -> dict[int, Override | None]:
+        if isinstance(value, list):
+            self.add("cylinder", "has a table for each that differs, such as [cylinder.3]")
+            return {}
         if not isinstance(value, Mapping):
             value = {"": value}
         cylinders: dict[int, Override | None] = {}
@@ -265,7 +275,9 @@ class _Reader:
             if finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
                 inner = find_inner_table(table, finding["loc"])
-                self.unknown.append(UnknownKey(join_path(path, parents), str(last), inner))
+                holds_table = isinstance(finding["input"], Mapping)
+                place = join_path(path, parents)
+                self.unknown.append(UnknownKey(place, str(last), inner, holds_table))
             else:
                 self.problems.append(describe_finding(path, finding, table))
 

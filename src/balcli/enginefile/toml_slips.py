@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable, Iterable
+import unicodedata
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 
 _LONGEST_LINE = 80  # that is shown
@@ -12,6 +13,7 @@ _BARE = r"[+-]?\d+(?:\.\d+)?"  # a number as TOML writes one
 # As people write one: .5, 5., 007, 1 000.
 _NUMBER = r"[+-]?(?:\d{1,3}(?: \d{3})+\.?\d*|\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _HEAD = r"\s*\[\s*([\w.-]{1,60})\s*\]\s*(?:#.*)?"  # of a table
+_ANY_HEAD = r"\s*(\[\[?)\s*([\w.-]{1,60})\s*\]\]?\s*(?:#.*)?"
 _OPEN_HEAD = r"\s*(?:([\w.-]{1,40})\s*:|\[([\w.-]{1,40}))\s*(?:#.*)?"
 _WITHOUT_EQUALS = r"\s*([\w.-]{1,40})\s*(?::=?|==)\s*([^:=#]{1,60}?)\s*(?:#.*)?"
 _WITHOUT_QUOTES = r"[^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,-]{1,60}\]"
@@ -19,10 +21,17 @@ _WITH_INCH_MARK = r"[\d./ -]{1,30}(?:\"|'')"
 _ASSIGNED = rf"\s*([\w.-]{{1,40}})\s*=\s*({_WITHOUT_QUOTES}|{_WITH_INCH_MARK})\s*(?:#.*)?"
 
 
-def explain(line: str, error: str) -> str:
+def explain(line: str, error: str, above: Sequence[str] = ()) -> str:
     """A line that TOML does not understand, and what is meant, where that can be guessed, in words
     that follow tomllib's; empty where nothing can be said.
+
+    Args:
+        above: the lines before it.
     """
+    if strange := _name_strange_letter(line, error):
+        return strange
+    if (head := re.fullmatch(_ANY_HEAD, line)) and (told := _tell_other_brackets(head, above)):
+        return told
     twice = re.match(r"\s*([\w.-]{1,60})\s*=", line)
     if twice and error.startswith("Cannot overwrite"):
         return f": {twice[1]} is given twice; write it once"
@@ -30,6 +39,8 @@ def explain(line: str, error: str) -> str:
         return f": [{head[1]}] stands twice; put all its keys below the first one"
     if error.startswith("Unclosed array") and "]" not in (value := line.partition("=")[2]):
         return f": {'this list' if '[' in value else 'a list above'} has no ] at its end"
+    if error.startswith("Invalid initial character for a key part") and "{" in line:
+        return ": a table in braces stands on one line, without a comma at its end"
     if misfit := re.fullmatch(_WITHOUT_EQUALS, line):
         return f": a key and its value have = between them: {misfit[1]} = {misfit[2]}"
     if table := re.fullmatch(_OPEN_HEAD, line):
@@ -44,6 +55,38 @@ def explain(line: str, error: str) -> str:
         return ""  # it is something before it that is wrong
     hint = guess(key, value)
     return f": {key} = {value}: {hint}" if hint else f": {key} = {value}"
+
+
+def _name_strange_letter(line: str, error: str) -> str:
+    """The letter at which tomllib stops where a key or a head is wanted, if it is none of those
+    that these have, such as a blank of another kind; else empty.
+    """
+    place = re.search(r"column (\d+)\)", error)
+    letter = (
+        line[int(place[1]) - 1 :][:1] if place and not error.startswith("Invalid value") else ""
+    )
+    if not letter or letter in "\t\r" or " " <= letter <= "~":
+        return ""
+    if letter == "\0":
+        return ": there are zero bytes, as in UTF-16; save it as UTF-8"
+    name = unicodedata.name(letter, "")
+    named = f" ({name})" if name else ""
+    return f": keys have plain letters, not U+{ord(letter):04X}{named}"
+
+
+def _tell_other_brackets(head: re.Match[str], above: Iterable[str]) -> str:
+    """A head in single brackets after the same in double ones, or the other way round; empty if
+    there is none.
+    """
+    brackets, name = head[1], head[2]
+    other = "[" if brackets == "[[" else "[["
+    heads = filter(None, (re.fullmatch(_ANY_HEAD, line) for line in above))
+    if not any(one[1] == other and one[2] == name for one in heads):
+        return ""
+    return (
+        f": {name} stands above in {'double' if other == '[[' else 'single'} brackets; what there "
+        "may be several of has double ones each time, all else single ones, once"
+    )
 
 
 def guess(key: str, value: str) -> str:
@@ -112,6 +155,26 @@ _SLIPS: tuple[tuple[str, Callable[[str, re.Match[str]], str]], ...] = (
     (
         r"[+-]?[\d.]+(\s*,\s*[+-]?[\d.]+)+,?",
         lambda key, match: f"a list stands in brackets: {key} = [{match[0]}]",
+    ),
+    (
+        rf"({_BARE})\s*[;,]+",
+        lambda key, match: f"nothing stands behind a value: {key} = {match[1]}",
+    ),
+    (
+        r"(?:0|[1-9]\d*)(?:-(?:0|[1-9]\d*)){2,}",
+        lambda key, match: f"a list stands in brackets: {key} = {_write_list(match[0].split('-'))}",
+    ),
+    (
+        r"[\d.()\s/*+-]*\d[)\s]*[*+][\d.()\s/*+-]*",
+        lambda key, match: f"TOML does not calculate; write {key} as one number",
+    ),
+    (
+        "(?i)true|false|yes|no|on|off",
+        lambda key, match: f"write {key} = true, or {key} = false",
+    ),
+    (
+        r"(?i)[+-]?(?:nan|inf|infinity)|null|none|nil",
+        lambda key, match: f"leave {key} out where it is not known",
     ),
     (r"([+-]?)(?:(\d{1,9})[ -])?(\d{1,9})\s*/\s*([1-9]\d{0,8})", _tell_fraction),
     (

@@ -103,10 +103,11 @@ def _explain(text: str | bytes, error: str) -> str:
     """What is wrong with the line that an error of tomllib names, or else with the last."""
     from .toml_slips import explain  # after a mistake alone
 
+    decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
     place = re.search(r"\(at line (\d+), ", error)
-    lines = (text.decode("utf-8-sig") if isinstance(text, bytes) else text).splitlines()
-    line = lines[int(place[1]) - 1 if place else -1] if lines else ""
-    return explain(line, error)
+    lines = decoded.split("\n")
+    number = int(place[1]) if place else len(decoded.rstrip("\n").split("\n"))
+    return explain(lines[number - 1].rstrip("\r"), error, lines[: number - 1])
 
 
 def _load_toml(text: str) -> dict[str, Any]:

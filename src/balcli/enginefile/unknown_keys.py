@@ -116,11 +116,18 @@ class UnknownKey(NamedTuple):
         key: as it is written.
         table: what may stand in that table; None for the file itself, and for a table that no
             engine file has.
+        holds_table: whether a table stands there.
     """
 
     path: str
     key: str
     table: type[model.FileTable] | None
+    holds_table: bool = False
+
+    @property
+    def is_misplaced(self) -> bool:
+        """Whether it is a table of its own, written within another one."""
+        return bool(self.path) and self.holds_table and self.key in {*KNOWN} - {*TEXTS}
 
 
 def find_unknown_keys(data: Mapping[str, Any]) -> Iterator[UnknownKey]:
@@ -134,14 +141,17 @@ def find_unknown_keys(data: Mapping[str, Any]) -> Iterator[UnknownKey]:
         inside = data[key] if isinstance(data[key], Mapping) else {}
         shown = count < MOST_MISTAKES_SHOWN  # of the others only how many there are is told
         if inside and not (shown and (key.lower() in INSTEAD or _find_own(key, KNOWN))):
-            yield from (UnknownKey(key, inner, None) for inner in inside)
+            for inner, value in inside.items():
+                yield UnknownKey(key, inner, None, isinstance(value, Mapping))
         else:
             yield UnknownKey("", key, None)
 
 
 def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
     """An unknown key in words, and the path of the key that was probably meant, or ""."""
-    path, key, table = unknown
+    path, key, table, _ = unknown
+    if unknown.is_misplaced:
+        return Problem(f"{path}.{printable(key)}", _tell_own_table(path, key)), key
     first = path.partition(".")[0]
     start = f"{path}." if path else ""
     own = list(table.model_fields) if table else [] if path else list(KNOWN)
@@ -149,10 +159,26 @@ def describe_unknown_key(unknown: UnknownKey) -> tuple[Problem, str]:
     if not path:
         told = f"unknown key in an engine file; {hint}"
     elif table:
-        told = f"unknown key in [{first}]; {hint}"
+        told = f"unknown key in [{_name_heading(path)}]; {hint}"
     else:
         told = f"there is no table [{printable(first)}]{'; ' if hint else ''}{hint}"
     return Problem(start + printable(key), told), start + meant if meant else ""
+
+
+def _tell_own_table(path: str, key: str) -> str:
+    """Of a table that stands within the one at a path."""
+    several = key in {**DEVICES, **CHAPTER_LISTS}
+    head = f"[[{key}]]" if several else "[cylinder.3]" if key == "cylinder" else f"[{key}]"
+    within = printable(_name_heading(path))
+    return (
+        f"{key} is a table of its own, not one within [{within}]; write {head} and its keys below "
+        "it"
+    )
+
+
+def _name_heading(path: str) -> str:
+    """`operation.speed_ripple` of its second line, `operation.speed_ripple.2`."""
+    return ".".join(part for part in path.split(".") if not part.isdecimal())
 
 
 def suggest_place(key: str) -> str:

@@ -132,8 +132,7 @@ def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
 def _sum_parts(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
 ) -> Curves:
-    """Curves by their parts, over so many angles at a time that memory does not grow with both
-    cylinders and angles. What lies within the rounding error of its parts is 0.
+    """Curves by their parts. What lies within the rounding error of its parts is 0.
 
     Args:
         compute: parts at some angles, by name, each of shape (parts, angles).
@@ -142,16 +141,30 @@ def _sum_parts(
         name: 8 * len(parts) * EPS * float(np.abs(parts).sum(axis=0).max())
         for name, parts in compute(_EVERYWHERE).items()
     }
-    step = max(AT_ONCE // engine.cylinders.count, 1)
-    pieces: dict[str, list[Array]] = {name: [] for name in noise}
-    for start in range(0, max(len(crank_deg), 1), step):
-        for name, parts in compute(crank_deg[start : start + step]).items():
-            pieces[name].append(parts.sum(axis=0))
-    values = {}
-    for name, some in pieces.items():
-        curve = np.concatenate(some)
-        values[name] = np.where(np.abs(curve) <= noise[name], 0.0, curve)
+    sums = compute_piecemeal(
+        engine,
+        crank_deg,
+        lambda angles: {name: parts.sum(axis=0) for name, parts in compute(angles).items()},
+    )
+    values = {
+        name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in sums.items()
+    }
     return Curves(engine.name, float(engine.speed_rpm), crank_deg, values)
+
+
+def compute_piecemeal(
+    engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
+) -> dict[str, Array]:
+    """Curves by name, each of shape (angles,), computed at so many angles at a time that memory
+    does not grow with both cylinders and angles.
+
+    Args:
+        compute: the curves at some of the angles.
+    """
+    step = max(AT_ONCE // engine.cylinders.count, 1)
+    starts = range(0, max(len(crank_deg), 1), step)
+    pieces = [compute(crank_deg[start : start + step]) for start in starts]
+    return {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:

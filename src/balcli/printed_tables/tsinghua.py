@@ -11,6 +11,8 @@ import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
 from ..core.phasors import Array
+from ..errors import BalcliError
+from ..limits import MOST_TABLE_VALUES
 from .printed import Print, as_cells, head_rows
 from .ranges import Ranges, as_numbers
 from .recomputed import Cell, Explanation, Row, Table, Words, parse_decimal, parse_decimals
@@ -85,9 +87,18 @@ def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
 
 
 def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Table:
-    """One row a crank angle, one column a lambda, margins as the print has them."""
+    """One row a crank angle, one column a lambda, margins as the print has them.
+
+    Raises:
+        BalcliError: they are too many.
+    """
     headings = ranges.lam or printed.headings()
     stub = ranges.angle or tuple(text or "" for text in printed.column("alpha_deg"))
+    if (count := len(stub) * len(headings)) > MOST_TABLE_VALUES:
+        raise BalcliError(
+            f"{len(stub)} angles of {len(headings)} crank ratios are {count} figures, and at most "
+            f"{MOST_TABLE_VALUES} are tabulated: take larger steps of --angle or --lambda"
+        )
     angles = np.array(as_numbers(stub))
     body = function(angles[:, None], np.array(as_numbers(headings))[None, :])
     signs = "sign_left" in printed.columns

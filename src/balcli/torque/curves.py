@@ -9,7 +9,7 @@ import numpy as np
 from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array
 from ..engine.build import Engine
-from ..forces.curves import Curves, compute_cylinder_torque
+from ..forces.curves import Curves, compute_cylinder_torque, compute_piecemeal
 from ..forces.gas import take_gas
 from ..forces.kinds import GAS, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
 from ..forces.rod_forces import compute_rod_forces
@@ -26,7 +26,11 @@ def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
     """
     everywhere = np.arange(0.0, take_gas(engine).cycle_deg, _APART)
     size = np.abs(_find_gas_torques(engine, everywhere)).sum(axis=0).max()
-    gas = _find_gas_torques(engine, curves.crank_deg).sum(axis=0)
+    gas = compute_piecemeal(
+        engine,
+        curves.crank_deg,
+        lambda angles: {GAS.key: _find_gas_torques(engine, angles).sum(axis=0)},
+    )[GAS.key]
     gas = np.where(np.abs(gas) <= _ROUNDING * size, 0.0, gas)
     inertia, roll = curves.values[TORQUE.key], curves.values[ROLL.key]
     added = {GAS.key: gas, TORQUE_TOTAL.key: inertia + gas, ROLL_TOTAL.key: roll - gas}
@@ -47,21 +51,29 @@ def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
     Args:
         curves: of that cylinder, from `forces.curves.compute_cylinder_curves`.
     """
-    found = dict(curves.values)
     row = engine.numbers.index(number)
+    of_gas = compute_piecemeal(
+        engine, curves.crank_deg, lambda angles: _find_cylinder_gas(engine, row, angles)
+    )
+    settled = {name: _settle(values) for name, values in {**curves.values, **of_gas}.items()}
+    return replace(curves, values=settled)
+
+
+def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
+    """What `add_cylinder_gas` adds, of the cylinder in a row, each of shape (angles,)."""
+    found: dict[str, Array] = {}
     gas = take_gas(engine)
     cylinder = gas.cylinders[row]
-    at = np.radians(curves.crank_deg) - cylinder.fires
+    at = np.radians(crank_deg) - cylinder.fires
     if isinstance(cylinder.torque, PressureOnPiston):
         found["pressure_Pa"] = cylinder.torque.pressure.at(at)
         if gas.compression_ratio is not None:
             found["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)
         found["gas_force_N"] = cylinder.share * cylinder.torque.force(at)
-        found |= _find_rod_forces(engine, row, curves.crank_deg)
-    inertia = compute_cylinder_torque(engine, row, curves.crank_deg)
+        found |= _find_rod_forces(engine, row, crank_deg)
+    inertia = compute_cylinder_torque(engine, row, crank_deg)
     found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.at(at)
-    settled = {name: _settle(values) for name, values in found.items()}
-    return replace(curves, values=settled)
+    return found
 
 
 def _settle(values: Array) -> Array:
