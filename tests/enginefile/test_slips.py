@@ -57,6 +57,8 @@ def told(tmp_path, *changes, args=()):
         ("stroke = 90", "stroke 90", " (at line 3, column 8): stroke 90"),
         ("throws = [0, 180, 180, 0]", "throws = (0, 180, 180, 0)", ": throws = (0, 180, 180, 0): a list stands in square brackets: throws = [0, 180, 180, 0]"),
         ("throws = [0, 180, 180, 0]", "throws = 0 180 180 0", ": throws = 0 180 180 0: a list stands in brackets, with commas: throws = [0, 180, 180, 0]"),
+        ("throws = [0, 180, 180, 0]", "throws = [0°, 90 °]", ": throws = [0°, 90 °]: degrees are bare numbers: throws = [0, 90 ]"),
+        ("firing_order = [1, 3, 4, 2]", "firing_order = 1-3-4-2", ": firing_order = 1-3-4-2: a list stands in brackets, with commas: firing_order = [1, 3, 4, 2]"),
         ("throws = [0, 180, 180, 0]", "throws = 0 240 120", ": throws = 0 240 120: a list stands in brackets, with commas: throws = [0, 240, 120]"),
         ("throws = [0, 180, 180, 0]", "throws = 90 240 120", ": throws = 90 240 120: TOML writes this number throws = 90240120, a list throws = [90, 240, 120]"),
         ("stroke = 90", "stroke = 1 250 000", ": stroke = 1 250 000: TOML writes this number stroke = 1250000"),
@@ -263,7 +265,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
         "shows each\n"
     )
     told = run_here("tables", "kvasnikov").err
-    assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1 and kvasnikov-2: name one\n"
+    assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1, kvasnikov-2: name one\n"
     told = run_here("sweep", "i4.toml", "--vary", "rpm=1,2", "--scheme", "auto").err
     assert "balcli balance FILE --scheme NAME --write FITTED.toml" in told
     assert "FITTED.toml" not in run_here("engines", "--scheme", "auto").err

@@ -14,7 +14,7 @@ _NUMBER = r"[+-]?(?:\d{1,3}(?: \d{3})+\.?\d*|\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}
 _HEAD = r"\s*\[\s*([\w.-]{1,60})\s*\]\s*(?:#.*)?"  # of a table
 _OPEN_HEAD = r"\s*(?:([\w.-]{1,40})\s*:|\[([\w.-]{1,40}))\s*(?:#.*)?"
 _WITHOUT_EQUALS = r"\s*([\w.-]{1,40})\s*(?::=?|==)\s*([^:=#]{1,60}?)\s*(?:#.*)?"
-_WITHOUT_QUOTES = r"[^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,-]{1,60}\]"
+_WITHOUT_QUOTES = r"[^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,°-]{1,60}\]"
 _WITH_INCH_MARK = r"[\d./ -]{1,30}(?:\"|'')"
 _ASSIGNED = rf"\s*([\w.-]{{1,40}})\s*=\s*({_WITHOUT_QUOTES}|{_WITH_INCH_MARK})\s*(?:#.*)?"
 
@@ -85,6 +85,14 @@ def _tell_semicolons(key: str, match: re.Match[str]) -> str:
     return f"commas stand between the values of a list: {key} = {listed}"
 
 
+def _tell_hyphens(key: str, match: re.Match[str]) -> str:
+    return f"a list stands in brackets, with commas: {key} = {_write_list(match[0].split('-'))}"
+
+
+def _tell_degrees(key: str, match: re.Match[str]) -> str:
+    return f"degrees are bare numbers: {key} = {match[0].replace('°', '')}"
+
+
 def _tell_numbers(key: str, match: re.Match[str]) -> str:
     listed = _write_list(map(_write_number, re.findall(_NUMBER, match[0])))
     return f"TOML writes these numbers {key} = {listed}"
@@ -103,6 +111,8 @@ _SLIPS: tuple[tuple[str, Callable[[str, re.Match[str]], str]], ...] = (
     (_NUMBER, _tell_number),
     (rf"{_BARE}(?:\s+{_BARE})+", _tell_blanks),
     (rf"\(\s*{_BARE}(?:[\s,;]+{_BARE})*\s*\)", _tell_round_brackets),
+    (r"\d{1,3}(?:-\d{1,3}){2,}", _tell_hyphens),
+    (r"\[.*°.*\]", _tell_degrees),
     (
         r"[+-]?\d+,\d+",
         lambda key, match: (
