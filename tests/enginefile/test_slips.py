@@ -172,6 +172,8 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"torsion": {"coupling": {"loss": 1}}}, f"torsion.coupling: unknown key in [torsion]; {PART}"),
         ({"torsion": {"damper": {"inertia": 3}}}, "torsion.damper: unknown key in [torsion]; a damper is written where it sits"),
         ({"torsion": {"excitation": [{"order": 4}]}}, "torsion.excitation: unknown key in [torsion]; an engine is excited by"),
+        ({"layout": {"firing_order": ["B2", "A1", "B1", "A2"]}}, "layout.firing_order: names cylinders by bank and place; here they have numbers, bank by bank from the free end: [4, 1, 3, 2]"),
+        ({"layout": {"firing_order": "A1-B1"}}, "layout.firing_order: names cylinders by bank and place;"),
         ({"excitation": [{"order": 4}]}, "excitation: unknown key in an engine file; an engine is excited by"),
     ],
 )  # fmt: skip
