@@ -85,7 +85,7 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTab
     if kind == "value_error":
         message = str(context["error"])
     elif kind in ("too_short", "too_long"):
-        message = _describe_length(value, context)
+        message = _describe_length(value, context, _find_field(table, loc))
     elif kind == "tuple_type" and isinstance(value, Mapping) and _holds_tables(table, loc):
         message = f"is one of several; write [[{join_path(path, loc)}]] in double brackets"
     else:
@@ -138,13 +138,17 @@ def _suggest_missing(table: type[model.FileTable], loc: Sequence[str | int]) -> 
     return f"give it, such as {loc[-1]} = {example}"
 
 
-def _describe_length(value: list[object], context: Mapping[str, object]) -> str:
+def _describe_length(
+    value: list[object], context: Mapping[str, object], field: FieldInfo | None
+) -> str:
     wanted = context.get("min_length") or context.get("max_length")
     if not value:
         return "is an empty list; give at least one value, or leave the key out"
     if len(value) > MOST_LIST_VALUES:
         return f"has more than {MOST_LIST_VALUES} values"
-    return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted"
+    what = field.description if field else None
+    these = f": {what.partition(';')[0]}" if what else ""
+    return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted{these}"
 
 
 def ordinal(number: int) -> str:
