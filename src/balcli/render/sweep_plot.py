@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from ..errors import BalcliError
 from ..limits import MOST_PICTURE_VARIANTS
 from .plot import style
-from .plot.axes import MANY_LOOKS
 from .units import ShownUnit, name_with_unit, unit_of_name
 
 if TYPE_CHECKING:
@@ -79,7 +78,7 @@ def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array], name: str) ->
         if quantity.unit == name
     ]
     unit = max((_fit(name, value) for _, value in shown), key=lambda fitting: fitting.size)
-    for (label, value), (line, colour) in zip(shown, cycle(MANY_LOOKS), strict=False):
+    for (label, value), (line, colour) in zip(shown, cycle(style.MANY_LOOKS), strict=False):
         axes.plot(parameter.values, value / unit.size, color=colour, linestyle=line, label=label)
     axes.set(xlabel=name_with_unit(parameter.path, parameter.unit), ylabel=unit.name)
     axes.ticklabel_format(axis="y", useOffset=False, style="plain")

@@ -12,14 +12,12 @@ import numpy as np
 
 from ...core.phasors import Array, Complex, Phasors
 from ..units import ShownUnit
-from .style import BLUE, GREEN, INK, RED, SOFT
+from .style import BLUE, GREEN, RED, SOFT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 FINE = np.radians(np.arange(0, 360.5, 1))  # crank angles at which one order is drawn
-# Of up to twelve curves: neighbours are told apart in grey, too.
-MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
 LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
 
 

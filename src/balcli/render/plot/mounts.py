@@ -19,8 +19,19 @@ from ...mounting.response import MountingResponse
 from ..body_block import PROJECTION, find_corners
 from ..sheet import NAMELESS, number, order_name
 from ..units import ShownUnit, System
-from .axes import MANY_LOOKS
-from .style import BLUE, FAINT, INK, PAPER, RED, SOFT, Form, fit_name, open_figure, put_title
+from .style import (
+    BLUE,
+    FAINT,
+    INK,
+    MANY_LOOKS,
+    PAPER,
+    RED,
+    SOFT,
+    Form,
+    fit_name,
+    open_figure,
+    put_title,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

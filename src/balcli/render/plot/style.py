@@ -30,6 +30,8 @@ Form = Literal["svg", "png", "pdf"]
 INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
 _LETTER, _EASTERN_LETTER = 0.1, 0.19  # width in a title, inches
 BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
+# Of up to twelve curves: neighbours are told apart in grey, too.
+MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
 NAMES = {
     INK: "ink",
     SOFT: "soft",

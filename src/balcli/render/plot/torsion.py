@@ -15,8 +15,7 @@ from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
 from ..units import SI, System
-from .axes import MANY_LOOKS
-from .style import BLUE, FAINT, INK, RED, SOFT, Form, fit_name, open_figure, put_title
+from .style import BLUE, FAINT, INK, MANY_LOOKS, RED, SOFT, Form, fit_name, open_figure, put_title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
