@@ -96,7 +96,7 @@ def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
     lonely = write(tmp_path / "lonely.toml", GOOD)
     assert check(lonely) == (
         1,
-        "lonely: no result is recorded in expected/lonely.json; check --update records it\n"
+        f"{lonely}: no result is recorded in expected/lonely.json; check --update records it\n"
         "1 engine, 1 difference\n",
         "",
     )
@@ -114,7 +114,7 @@ def test_a_record_whose_engine_is_gone_is_a_difference(check, file, tmp_path):
     (hidden / "x.json").write_text("{}")
     lost.unlink()
     told = (
-        "lost: its result is recorded in expected/lost.json, but there is no lost.toml; bring it "
+        f"{lost}: its result is recorded in expected/lost.json, but there is no lost.toml; bring it "
         "back, or delete the record\n"
     )
     assert check(tmp_path) == (1, f"{told}1 engine, 1 difference\n", "")
@@ -130,7 +130,7 @@ def test_engines_of_one_name_are_told_apart_by_their_folders(check, file, tmp_pa
     second.write_bytes(file.read_bytes())
     told = f"no result is recorded in expected/{file.stem}.json; check --update records it\n"
     assert check(tmp_path)[1] == f"{second}: {told}2 engines, 1 difference\n"
-    assert check(second)[1] == f"{file.stem}: {told}1 engine, 1 difference\n"
+    assert check(second)[1] == f"{second}: {told}1 engine, 1 difference\n"
     check("--update", tmp_path)
     second.unlink()
     gone = (
@@ -146,7 +146,9 @@ def test_the_only_engine_of_a_folder_within_is_gone(check, file, tmp_path):
     shutil.copy(find_record(file), inner / "one.json")
     status, out, _ = check(tmp_path)
     assert (status, out.splitlines()[-1]) == (1, "1 engine, 1 difference")
-    assert out.startswith("one: its result is recorded in expected/one.json, but there is no")
+    assert out.startswith(
+        f"{tmp_path / 'inner' / 'one.toml'}: its result is recorded in expected/one.json, but there is no"
+    )
 
 
 @pytest.mark.parametrize("text", ['{"status": 200}', "[1, 2]", "not JSON", '{"format": 3}'])
@@ -171,14 +173,14 @@ def test_every_figure_that_moved_is_named(check, file):
     *lines, last = out.splitlines()
     assert last == f"1 engine, {len(lines)} differences"
     old = before[2, "force"]["forward"][0]
-    (line,) = [line for line in lines if line.startswith("four: force order 2 forward x, N: ")]
-    assert line.startswith(f"four: force order 2 forward x, N: {old:.10g} -> ")
+    (line,) = [line for line in lines if line.startswith(f"{file}: force order 2 forward x, N: ")]
+    assert line.startswith(f"{file}: force order 2 forward x, N: {old:.10g} -> ")
     new = float(line.split("-> ")[1].split(" (")[0])
     recip = 0.5 + 0.6 * 45 / 160
     assert new == pytest.approx(old * (recip + 0.0005) / recip, rel=1e-9)
-    assert any(line.startswith("four: force peak, N: ") for line in lines)
-    assert any(line.startswith("four: torque order 2 sin, N·m: ") for line in lines)
-    assert any(line.startswith("four: roll order 2 sin, N·m: ") for line in lines)
+    assert any(line.startswith(f"{file}: force peak, N: ") for line in lines)
+    assert any(line.startswith(f"{file}: torque order 2 sin, N·m: ") for line in lines)
+    assert any(line.startswith(f"{file}: roll order 2 sin, N·m: ") for line in lines)
     assert not any("moment" in line for line in lines)
     orders = [int(line.split("order ")[1].split()[0]) for line in lines if " order " in line]
     assert orders == sorted(orders)
@@ -231,7 +233,7 @@ def test_an_order_that_is_not_recorded_and_one_that_is_no_more(check, file):
     edited(file, lambda document: document["orders"].pop(1))
     status, out, _ = check(file)
     assert status == 1
-    assert "four: force order 2 forward x, N: 0 -> " in out
+    assert f"{file}: force order 2 forward x, N: 0 -> " in out
 
 
 def test_angles_are_not_compared(check, file):
@@ -259,8 +261,8 @@ def test_format_speed_and_number_of_cylinders(check, file):
     )
     assert check(file) == (
         1,
-        "four: format: balcli.analysis/2 -> balcli.analysis/1\nfour: number of cylinders: 5 -> 4\n"
-        "four: speed, rpm: 2999.0 -> 3000.0\n1 engine, 3 differences\n",
+        f"{file}: format: balcli.analysis/2 -> balcli.analysis/1\n{file}: number of cylinders: 5 -> 4\n"
+        f"{file}: speed, rpm: 2999.0 -> 3000.0\n1 engine, 3 differences\n",
         "",
     )
 
@@ -291,7 +293,7 @@ def test_a_broken_record_is_a_difference(check, file, text, reason):
     find_record(file).write_text(text)
     assert check(file) == (
         1,
-        f"four: the result recorded in expected/four.json cannot be read ({reason}); "
+        f"{file}: the result recorded in expected/four.json cannot be read ({reason}); "
         "check --update records it anew\n1 engine, 1 difference\n",
         "",
     )
@@ -319,7 +321,7 @@ def test_no_record_however_broken_brings_check_down(check, file, text):
     find_record(file).write_text(text, encoding="latin-1")
     status, out, err = check(file)
     assert (status, err) == (1, "")
-    assert out.startswith("four: ")
+    assert out.startswith(f"{file}: ")
 
 
 def test_a_bad_engine_file_among_good_ones(check, file, tmp_path):

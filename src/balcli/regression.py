@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -40,7 +39,7 @@ class Difference:
     """A figure that moved, or a reason why it could not be compared.
 
     Attributes:
-        engine: its name in messages.
+        engine: its file, in messages.
         figure: what moved, or why nothing could be compared.
         recorded, now: its values; None where it has none.
         share: by how much it moved, of the largest of its kind.
@@ -79,21 +78,12 @@ def find_engine_file(record: Path) -> Path:
     return record.parent.with_name(f"{record.stem}.toml")
 
 
-def tell_engines_apart(files: Iterable[Path]) -> dict[Path, str]:
-    """What messages call engine files: `i4`, or the path where several of them are called so."""
-    named = list(dict.fromkeys(files))
-    called = Counter(file.stem for file in named)
-    return {file: file.stem if called[file.stem] == 1 else str(file) for file in named}
-
-
-def find_abandoned(files: Iterable[Path], names: Mapping[Path, str]) -> list[Difference]:
-    """Recorded results (of `find_record`) among files, whose engine file is not there; `names`: in
-    messages, by engine file.
-    """
+def find_abandoned(files: Iterable[Path]) -> list[Difference]:
+    """Recorded results (of `find_record`) among files, whose engine file is not there."""
     gone = {record: find_engine_file(record) for record in files}
     return [
         Difference(
-            names[engine_file],
+            str(engine_file),
             f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
             f"{engine_file.name}; bring it back, or delete the record",
         )

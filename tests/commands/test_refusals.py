@@ -158,7 +158,12 @@ def test_balance(options, message):
         ),
         (
             "odd.toml --over firing_order --minimise force.1.major",
-            "these throws allow no even firing order",
+            "these throws allow no even firing order, and no others are looked for",
+        ),
+        (
+            f"{ENGINES / 'v6_90_common.toml'} --over firing_order --minimise force.1.major",
+            "these throws allow no even firing order, and no others are looked for; with split "
+            "pins they do: crank.splay = 30",
         ),
     ],
 )

@@ -169,7 +169,8 @@ def test_standard_input(monkeypatch):
         ),
         (
             GOOD + "[frame]\nreference = [0, 0]\n",
-            "frame.reference: [0, 0] has 2 values where 3 are wanted",
+            "frame.reference: [0, 0] has 2 values where 3 are wanted: x, y, z of the point about "
+            "which all moments are taken",
         ),
         (
             GOOD + "[shaft]\nratio = 1\n",
@@ -177,7 +178,7 @@ def test_standard_input(monkeypatch):
         ),
         (
             GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\nat = [80]\n",
-            "shaft.1.at: [80] has 1 value where 2 are wanted",
+            "shaft.1.at: [80] has 1 value where 2 are wanted: x, y of the shaft",
         ),
         (
             GOOD + "[[slider]]\nunbalance = 1\ndirection = 0\n",

@@ -56,6 +56,8 @@ def told(*changes, args=()):
         ("stroke = 90", "stroke 90", " (at line 3, column 8): stroke 90"),
         ("throws = [0, 180, 180, 0]", "throws = (0, 180, 180, 0)", ": throws = (0, 180, 180, 0): a list stands in square brackets: throws = [0, 180, 180, 0]"),
         ("throws = [0, 180, 180, 0]", "throws = 0 180 180 0", ": throws = 0 180 180 0: a list stands in brackets, with commas: throws = [0, 180, 180, 0]"),
+        ("throws = [0, 180, 180, 0]", "throws = [0°, 90 °]", ": throws = [0°, 90 °]: degrees are bare numbers: throws = [0, 90 ]"),
+        ("firing_order = [1, 3, 4, 2]", "firing_order = 1-3-4-2", ": firing_order = 1-3-4-2: a list stands in brackets: firing_order = [1, 3, 4, 2]"),
         ("throws = [0, 180, 180, 0]", "throws = 0 240 120", ": throws = 0 240 120: a list stands in brackets, with commas: throws = [0, 240, 120]"),
         ("throws = [0, 180, 180, 0]", "throws = 90 240 120", ": throws = 90 240 120: TOML writes this number throws = 90240120, a list throws = [90, 240, 120]"),
         ("stroke = 90", "stroke = 1 250 000", ": stroke = 1 250 000: TOML writes this number stroke = 1250000"),
@@ -178,6 +180,10 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"generator": {"inertia": 3}}, f"generator: unknown key in an engine file; {PART}"),
         ({"torsion": {"coupling": {"loss": 1}}}, f"torsion.coupling: unknown key in [torsion]; {PART}"),
         ({"torsion": {"damper": {"inertia": 3}}}, "torsion.damper: unknown key in [torsion]; a damper is written where it sits"),
+        ({"torsion": {"J": 1}}, "torsion.J: unknown key in [torsion]; did you mean throw_inertia?"),
+        ({"torsion": {"rear": [{"name": "disc", "stiffness": 1, "J": 1}]}}, "torsion.rear.1.J: unknown key in [torsion.rear]; did you mean inertia?"),
+        ({"torsion": {"psi": 0.9}}, "torsion.psi: unknown key in [torsion]; give loss, the loss factor: psi / (2 pi) of a relative damping psi, 1 / M of a magnifier M"),
+        ({"torsion": {"rear": [{"name": "disc", "inertia": 2, "stiffness": 1, "GD2": 8}]}}, "torsion.rear.1.GD2: unknown key in [torsion.rear]; give inertia, a quarter of GD^2"),
         ({"torsion": {"excitation": [{"order": 4}]}}, "torsion.excitation: unknown key in [torsion]; an engine is excited by"),
         ({"crank": {"rod": {"length": 3}}}, "crank.rod: rod is a table of its own, not one within [crank]; write [rod] and its keys below it"),
         ({"engine": {"rod": {"length": 3}}}, "engine.rod: rod is a table of its own, not one within [engine]; write [rod] and its keys below it"),
@@ -187,6 +193,8 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"gas": [WIEBE]}, "gas: stands once, in single brackets: [gas]"),
         ({"cylinder": [{"gas": 0}]}, "cylinder: has a table for each that differs, such as [cylinder.3]"),
         ({"operation": {"speed_ripple": 0.02}}, "operation.speed_ripple: 0.02 is no table; write [[operation.speed_ripple]] in double brackets"),
+        ({"layout": {"firing_order": ["B2", "A1", "B1", "A2"]}}, "layout.firing_order: names cylinders by bank and place; here they have numbers, bank by bank from the free end: [4, 1, 3, 2]"),
+        ({"layout": {"firing_order": "A1-B1"}}, "layout.firing_order: names cylinders by bank and place;"),
         ({"excitation": [{"order": 4}]}, "excitation: unknown key in an engine file; an engine is excited by"),
     ],
 )  # fmt: skip
@@ -280,7 +288,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
         "shows each\n"
     )
     told = run_here("tables", "kvasnikov").err
-    assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1 and kvasnikov-2: name one\n"
+    assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1, kvasnikov-2: name one\n"
     told = run_here("sweep", "i4.toml", "--vary", "rpm=1,2", "--scheme", "auto").err
     assert "balcli balance FILE --scheme NAME --write FITTED.toml" in told
     assert "FITTED.toml" not in run_here("engines", "--scheme", "auto").err

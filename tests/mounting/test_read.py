@@ -48,7 +48,8 @@ CASES = [
     ),
     (
         block().replace("[200, 150, 400]", "[200, 150]"),
-        "mount.4.stiffness: [200, 150] has 2 values where 3 are wanted",
+        "mount.4.stiffness: [200, 150] has 2 values where 3 are wanted: static, along its "
+        "three own axes",
     ),
     (
         block("loss = -0.1"),

@@ -45,16 +45,15 @@ def check(
     def compare_or_record(path: Path) -> list[regression.Difference]:
         engine, target = read_engine(str(path)).engine, regression.find_record(path)
         if not update:
-            return regression.find_differences(names[path], engine, target)
+            return regression.find_differences(str(path), engine, target)
         write_file(regression.record_result(engine), make_folder_of(target))
         return []
 
     files, expected = find_engine_files(paths), find_expected(paths)
-    names = regression.tell_engines_apart([*files, *map(regression.find_engine_file, expected)])
     with reporting_until_stopped("engines", len(files)) as progress:
         each, found = each_until_stopped(files, progress), {*files} - {*paths}
         results, errors = try_each(each, compare_or_record, found)
-    abandoned = regression.find_abandoned(expected, names)
+    abandoned = regression.find_abandoned(expected)
     moved = [difference for listed in (*results, abandoned) for difference in listed]
     done = " recorded" if update else f", {counted(len(moved), 'difference')}"
     emit(legible("\n".join([*map(str, moved), counted(len(results), "engine") + done])))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..limits import LONGEST_FILE_NAME, LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
@@ -50,11 +50,31 @@ def count_lambda_digits(ratio: float, usual: int = 4) -> int:
     return usual if ratio < 0.999 else max(usual, 7)
 
 
-def split_hyphens(value: object) -> object:
-    """A firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is."""
+def parse_firing_order(value: object) -> object:
+    """A firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is.
+
+    Raises:
+        ValueError: cylinders are named by bank and place, A1-B1-A2-B2, with their numbers.
+    """
     if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-, ]\s*\d{1,5})+\s*", value):
         return [int(number) for number in re.findall(r"\d+", value)]
+    names = re.split(r"[-, ]+", value.strip()) if isinstance(value, str) else value
+    if isinstance(names, (list, tuple)) and names:
+        named = [re.fullmatch(r"([A-Za-z])(\d{1,3})", str(name)) for name in names]
+        if all(named):
+            numbers = _count_through([(each[1].upper(), int(each[2])) for each in named if each])
+            raise ValueError(
+                "names cylinders by bank and place; here they have numbers, bank by bank from the "
+                f"free end: {numbers}"
+            )
     return value
+
+
+def _count_through(names: Sequence[tuple[str, int]]) -> list[int]:
+    """Numbers of cylinders that are named by the letter of the bank and the place in it."""
+    banks = sorted({bank for bank, _ in names})
+    size = max(place for _, place in names)
+    return [banks.index(bank) * size + place for bank, place in names]
 
 
 def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:

@@ -152,7 +152,9 @@ def _describe_length(
         )
     if len(value) > MOST_LIST_VALUES:
         return f"has more than {MOST_LIST_VALUES} values"
-    return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted"
+    what = field.description if field else None
+    these = f": {what.partition(';')[0]}" if what else ""
+    return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted{these}"
 
 
 def ordinal(number: int) -> str:

@@ -25,7 +25,7 @@ from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated, join_words
-from .fields import FileName, Flag, Halves, Label, Number, OneOf, Whole, counted, split_hyphens
+from .fields import FileName, Flag, Halves, Label, Number, OneOf, Whole, counted, parse_firing_order
 from .units import (
     ANGLE,
     ENERGY,
@@ -330,7 +330,7 @@ class Layout(FileTable):
         description="axial distance of adjacent rods on a throw, first bank towards the free end",
         examples=[22],
     )
-    firing_order: Annotated[Numbers | None, BeforeValidator(split_hyphens)] = Field(
+    firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = Field(
         None, description="numbers of the cylinders as they fire", examples=[[1, 3, 4, 2]]
     )
     firing_intervals: Intervals | None = Field(

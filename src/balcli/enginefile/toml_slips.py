@@ -16,7 +16,7 @@ _HEAD = r"\s*\[\s*([\w.-]{1,60})\s*\]\s*(?:#.*)?"  # of a table
 _ANY_HEAD = r"\s*(\[\[?)\s*([\w.-]{1,60})\s*\]\]?\s*(?:#.*)?"
 _OPEN_HEAD = r"\s*(?:([\w.-]{1,40})\s*:|\[([\w.-]{1,40}))\s*(?:#.*)?"
 _WITHOUT_EQUALS = r"\s*([\w.-]{1,40})\s*(?::=?|==)\s*([^:=#]{1,60}?)\s*(?:#.*)?"
-_WITHOUT_QUOTES = r"[^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,-]{1,60}\]"
+_WITHOUT_QUOTES = r"[^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,°-]{1,60}\]"
 _WITH_INCH_MARK = r"[\d./ -]{1,30}(?:\"|'')"
 _ASSIGNED = rf"\s*([\w.-]{{1,40}})\s*=\s*({_WITHOUT_QUOTES}|{_WITH_INCH_MARK})\s*(?:#.*)?"
 
@@ -62,10 +62,10 @@ def _name_strange_letter(line: str, error: str) -> str:
     that these have, such as a blank of another kind; else empty.
     """
     place = re.search(r"column (\d+)\)", error)
-    letter = (
-        line[int(place[1]) - 1 :][:1] if place and not error.startswith("Invalid value") else ""
-    )
-    if not letter or letter in "\t\r" or " " <= letter <= "~":
+    if place is None or error.startswith("Invalid value"):
+        return ""
+    before, letter = line[: int(place[1]) - 1], line[int(place[1]) - 1 :][:1]
+    if "=" in before or not letter or letter in "\t\r" or " " <= letter <= "~":
         return ""
     if letter == "\0":
         return ": there are zero bytes, as in UTF-16; save it as UTF-8"
@@ -128,6 +128,10 @@ def _tell_semicolons(key: str, match: re.Match[str]) -> str:
     return f"commas stand between the values of a list: {key} = {listed}"
 
 
+def _tell_degrees(key: str, match: re.Match[str]) -> str:
+    return f"degrees are bare numbers: {key} = {match[0].replace('°', '')}"
+
+
 def _tell_numbers(key: str, match: re.Match[str]) -> str:
     listed = _write_list(map(_write_number, re.findall(_NUMBER, match[0])))
     return f"TOML writes these numbers {key} = {listed}"
@@ -146,6 +150,7 @@ _SLIPS: tuple[tuple[str, Callable[[str, re.Match[str]], str]], ...] = (
     (_NUMBER, _tell_number),
     (rf"{_BARE}(?:\s+{_BARE})+", _tell_blanks),
     (rf"\(\s*{_BARE}(?:[\s,;]+{_BARE})*\s*\)", _tell_round_brackets),
+    (r"\[.*°.*\]", _tell_degrees),
     (
         r"[+-]?\d+,\d+",
         lambda key, match: (

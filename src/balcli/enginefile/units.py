@@ -197,9 +197,11 @@ def _measure_part(part: str, dimension: Dimension) -> Fraction:
 
 
 def _spell_out(figure: str, dimension: Dimension) -> str:
-    """A speed or an angle with its turns said."""
+    """A speed or an angle with its turns said; the kgm2 of a moment of inertia in two words."""
     if dimension is SPEED:
         return _count_turns(figure)
+    if dimension is INERTIA:
+        return re.sub(r"kg(?=[cm]?m(?:\^|\*\*)?[2²])", "kg ", figure)
     return _name_pi(figure) if dimension is ANGLE else figure
 
 

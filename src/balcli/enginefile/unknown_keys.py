@@ -50,6 +50,8 @@ SYNONYMS = {
     "order": ("firing_order",),
     "cycle": ("strokes",),
     "lambda": ("ratio",),
+    "j": ("inertia", "throw_inertia"),
+    "k": ("stiffness", "throw_stiffness"),
     "wrist_pin": ("pin",),
     "clips": ("locks",),
     **dict.fromkeys(("file", "csv", "diagram"), ("indicator",)),
@@ -84,6 +86,8 @@ _DAMPER = (
     "a damper is written where it sits, in [[torsion.front]] or [[torsion.rear]]: damper = "
     '{ kind = "viscous", inertia = 30000, damping = 12 }'
 )
+_LOSS = "give loss, the loss factor: psi / (2 pi) of a relative damping psi, 1 / M of a magnifier M"
+_GD2 = "give inertia, a quarter of GD^2"
 _TORQUES = (
     "an engine is excited by its masses and its gas; torques on other parts, such as a "
     "propeller's, stand in a chain of shafts: balcli new torsion"
@@ -103,9 +107,14 @@ INSTEAD = {
     **dict.fromkeys(("overbalance", "balance_factor", "factor"), _FACTOR),
     **dict.fromkeys(("coupling", "gearbox", "generator", "propeller", "pulley"), _PART),
     **dict.fromkeys(("damper", "dampers"), _DAMPER),
+    **dict.fromkeys(("psi", "relative_damping", "magnifier", "dynamic_magnifier"), _LOSS),
+    "gd2": _GD2,
     **dict.fromkeys(("excitation", "excitations"), _TORQUES),
 }
-_IN_CHAPTERS = {"gas": {_POWER}, "torsion": {_PART, _DAMPER, _TORQUES}}  # of these, what fits there
+_IN_CHAPTERS = {
+    "gas": {_POWER},
+    "torsion": {_PART, _DAMPER, _TORQUES, _LOSS, _GD2},
+}  # of these, what fits there
 
 
 class UnknownKey(NamedTuple):

@@ -53,7 +53,7 @@ def recompute(name: str, ranges: Ranges | None = None) -> Table:
     entry = REGISTRY.get(name)
     if entry is None:
         if several := [each for each in NAMES if each.startswith(f"{name.lower()}-")]:
-            raise BalcliError(f"{name!r} is the source of {' and '.join(several)}: name one")
+            raise BalcliError(f"{name!r} is the source of {', '.join(several)}: name one")
         near = nearest(name, NAMES)
         raise BalcliError(
             f"no table {name!r}{f'; the nearest name is {near!r}' if near else ''}. Tables: "

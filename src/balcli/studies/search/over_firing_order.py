@@ -9,6 +9,7 @@ import numpy as np
 from ...core.phasors import Array
 from ...engine.build import assemble
 from ...engine.layout import cycle_deg, plan_cylinders
+from ...engine.split_pins import find_fitting_splay
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from .designs import Found, rank_candidates
@@ -39,9 +40,16 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     slots = Slots(layout.cells, at_throw, cycle_deg(model.layout), sense)
     possible = [model.crank.throws] if model.crank.throws else slots.find_cranks()
     if not possible or next(slots.find_orders(possible[0]), None) is None:
-        raise BalcliError("these throws allow no even firing order")
+        raise BalcliError(_tell_that_none_is_even(model))
     throws = np.array(possible)
     return slots, count_from(throws[:, :1], throws)
+
+
+def _tell_that_none_is_even(model: EngineFile) -> str:
+    """With the split of the pins by which the file's own order were even, if there is one."""
+    told = "these throws allow no even firing order, and no others are looked for"
+    splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
+    return told if splay is None else f"{told}; with split pins they do: crank.splay = {splay:g}"
 
 
 def search_firing_order(task: Task) -> Iterator[Found]:
