@@ -186,6 +186,10 @@ def test_an_option_of_other_commands_is_told_with_them(balcli):
         (["analyze", V8, "--only"], "--only"),
         (["new"], "KIND"),
         (
+            ["search", V8, "--over", "throws", "--minimise", "force.1.major", "--require", "x"],
+            '"x": only even-firing can be required',
+        ),
+        (
             ["balance", V8, "--factor", "52", "%"],
             '(%): a value or a name with a blank goes in quotes, such as "52 %"',
         ),
