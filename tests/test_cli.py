@@ -192,6 +192,10 @@ def test_an_option_of_other_commands_is_told_with_them(balcli):
         (["analyze", V8, "--only"], "--only"),
         (["new"], "KIND"),
         (
+            ["search", V8, "--over", "throws", "--minimise", "force.1.major", "--require", "x"],
+            '"x": only even-firing can be required',
+        ),
+        (
             ["balance", V8, "--factor", "52", "%"],
             '(%): a value or a name with a blank goes in quotes, such as "52 %"',
         ),
@@ -212,41 +216,6 @@ def test_bad_usage_that_the_parser_words(balcli, args, told):
     [
         (["analyze", "no.toml"], "no.toml: no such file"),
         (["analyze", str(ENGINES)], f"{ENGINES}: is a folder; name a file in it"),
-        (
-            ["analyze", V8, "--orders", "0x"],
-            '--orders "0x": give orders such as 1-8, 1,2,4 or 0.5-8',
-        ),
-        (
-            ["analyze", V8, "--orders", "8-1"],
-            '--orders "8-1": 8-1 must rise and end at 4096 at most',
-        ),
-        (
-            ["analyze", V8, "--orders", "1,5000"],
-            '--orders "1,5000": 5000 must rise and end at 4096 at most',
-        ),
-        (["analyze", V8, "--orders", ""], '--orders "": give orders such as 1-8, 1,2,4 or 0.5-8'),
-        (
-            ["analyze", V8, "--orders", "-1"],
-            '--orders "-1": give orders such as 1-8, 1,2,4 or 0.5-8',
-        ),
-        (
-            ["analyze", V8, "--speed", "0"],
-            "--speed 0: the crank speed must be a positive number of rpm, below 1e9",
-        ),
-        (
-            ["analyze", V8, "--speed", "nan"],
-            "--speed nan: the crank speed must be a positive number of rpm, below 1e9",
-        ),
-        (
-            ["analyze", V8, "--only", "force,noise"],
-            "--only noise: choose from force, moment, couple, torque, roll, peak, sizing, gas, torque_total, "
-            "roll_total, inner, guide, xy, textbook, verdict",
-        ),
-        (
-            ["analyze", V8, "-o", "/nowhere/x.txt"],
-            "/nowhere/x.txt: cannot be written (there is no folder /nowhere)",
-        ),
-        (["analyze", V8, "-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
         (["check", "nowhere"], "nowhere: no such file or folder"),
         (["check", str(ROOT / "docs")], f"{ROOT / 'docs'}: has no engine files (*.toml)"),
         (
@@ -260,15 +229,47 @@ def test_bad_usage_that_the_parser_words(balcli, args, told):
             "w, mounts, field, torsion. That is torsion: balcli new torsion. A finished one may be "
             "among the examples: balcli engines.",
         ),
-        (
-            ["analyze", V8, "--only", "guide", "--guide-height", "0"],
-            "--guide-height 0: the distance from the crankshaft to the middle of the "
-            "guides must be positive, below 1000 m",
-        ),
     ],
 )
 def test_bad_input_is_told_in_one_line(balcli, args, message):
     assert balcli(*args) == (2, "", f"balcli: {message}\n")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--orders", "0x"], '--orders "0x": give orders such as 1-8, 1,2,4 or 0.5-8'),
+        (["--orders", ""], '--orders "": give orders such as 1-8, 1,2,4 or 0.5-8'),
+        (["--orders", "-1"], '--orders "-1": give orders such as 1-8, 1,2,4 or 0.5-8'),
+        (["--orders", "8-1"], '--orders "8-1": 8-1 must rise and end at 4096 at most'),
+        (["--orders", "1,5000"], '--orders "1,5000": 5000 must rise and end at 4096 at most'),
+        (
+            ["--speed", "0"],
+            "--speed 0: the crank speed must be a positive number of rpm, below 1e9",
+        ),
+        (
+            ["--speed", "nan"],
+            "--speed nan: the crank speed must be a positive number of rpm, below 1e9",
+        ),
+        (
+            ["--only", "force,noise"],
+            "--only noise: choose from force, moment, couple, torque, roll, peak, sizing, gas, "
+            "torque_total, roll_total, inner, guide, xy, textbook, verdict",
+        ),
+        (
+            ["--only", "guide", "--guide-height", "0"],
+            "--guide-height 0: the distance from the crankshaft to the middle of the guides must be "
+            "positive, below 1000 m",
+        ),
+        (
+            ["-o", "/nowhere/x.txt"],
+            "/nowhere/x.txt: cannot be written (there is no folder /nowhere)",
+        ),
+        (["-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
+    ],
+)
+def test_bad_options_are_told_in_one_line(balcli, options, message):
+    assert balcli("analyze", V8, *options) == (2, "", f"balcli: {message}\n")
 
 
 def test_mistakes_of_a_file(balcli, bad):

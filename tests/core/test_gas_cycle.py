@@ -177,152 +177,108 @@ def test_a_burn_that_ends_before_the_dead_centre_has_its_highest_pressure_there(
 
 
 # ---------------------------------------------------------------- what is refused
-REFUSED = {
-    "goal": (
-        {},
-        Diesel(),
-        ("max_pressure", 60e5),
-        "max_pressure: does not make the diesel cycle: give imep, heat or cut_off",
-    ),
-    "goal of an Otto cycle": (
-        {},
-        Otto(),
-        ("cut_off", 2),
-        "cut_off: does not make the otto cycle: give imep, heat or max_pressure",
-    ),
-    "ratio": (
-        {"compression_ratio": 0.9},
-        Otto(),
-        ("imep", 10e5),
-        "compression_ratio: is 0.9: give more than 1",
-    ),
-    "no intake": (
-        {"intake": 0.0},
-        Diesel(),
-        ("imep", 10e5),
-        "intake: is 0 bar: give more, for it is compressed",
-    ),
-    "compression index": (
-        {"compression_index": 0.5},
-        Otto(),
-        ("imep", 10e5),
-        "compression_index: is 0.5: give 1 or more",
-    ),
-    "expansion index": (
-        {"expansion_index": 1.0},
-        Otto(),
-        ("imep", 10e5),
-        "expansion_index: is 1: give more than 1",
-    ),
-    "exhaust": (
-        {"exhaust_opens_deg": 400.0},
-        Wiebe(-15, 50),
-        ("imep", 10e5),
-        "exhaust_opens: is 400°: give a cycle angle above 0° and up to 360°, the gas-exchange dead centre",
-    ),
-    "exhaust of a two-stroke": (
-        {"exhaust_opens_deg": 190.0, "strokes": 2},
-        Otto(),
-        ("imep", 10e5),
-        "exhaust_opens: is 190°: give a cycle angle above 0° and up to 180°, the lower dead centre",
-    ),
-    "intake": (
-        {"intake_closes_deg": 220.0},
-        Otto(),
-        ("imep", 10e5),
-        "intake_closes: is 220°: give a cycle angle from 360°, the gas-exchange dead centre, to below 720°",
-    ),
-    "intake of a two-stroke": (
-        {"intake_closes_deg": 240.0, "strokes": 2},
-        Otto(),
-        ("imep", 10e5),
-        "intake_closes: has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
-        "leave it out",
-    ),
-    "a burn past the exhaust": (
-        {"exhaust_opens_deg": 110.0},
-        Wiebe(10, 120),
-        ("imep", 10e5),
-        "burn_duration: a burn over 120° from 10° ends at 130°, past 110°, where the exhaust opens",
-    ),
-    "a burn before compression": (
-        {"intake_closes_deg": 600.0},
-        Wiebe(-130, 100),
-        ("imep", 10e5),
-        "burn_start: is -130°, before -120°, where compression begins",
-    ),
-    "no duration": ({}, Wiebe(-10, 0), ("imep", 10e5), "burn_duration: is 0°: give more than 0°"),
-    "shape": ({}, Wiebe(-10, 50, -0.5), ("imep", 10e5), "burn_shape: is -0.5: give 0 or more"),
-    "imep too low": (
-        {},
-        Otto(),
-        ("imep", -1e5),
-        "imep: is -1 bar: with the least heat the cycle has 0.1075 bar",
-    ),
-    "imep too high": (
-        {},
-        Diesel(),
-        ("imep", 40e5),
-        "imep: is 40 bar: with the most heat the cycle has 17.06 bar",
-    ),
-    "pressure too low": (
-        {},
-        Otto(),
-        ("max_pressure", 15e5),
-        "max_pressure: is 15 bar, below the 20.89 bar of compression alone",
-    ),
-    "pressure of a gradual burn too low": (
-        {},
-        Wiebe(-15, 50),
-        ("max_pressure", 15e5),
-        "max_pressure: is 15 bar, below the 20.74 bar of compression alone",
-    ),
-    "pressure of a late burn below that of compression": (
-        {},
-        Wiebe(20, 50),
-        ("max_pressure", 20e5),
-        "max_pressure: is 20 bar, below the 20.89 bar of compression alone",
-    ),
-    "limit too low": (
-        {},
-        Dual(15e5),
-        ("imep", 10e5),
-        "max_pressure: is 15 bar, below the 20.89 bar of compression alone",
-    ),
-    "heat too little": (
-        {},
-        Dual(60e5),
-        ("heat", 100.0),
-        "heat: is 100: this cycle needs 811.3 or more",
-    ),
-    "negative heat": ({}, Otto(), ("heat", -1.0), "heat: is -1: this cycle needs 0 or more"),
-    "cut-off too small": (
-        {},
-        Diesel(),
-        ("cut_off", 0.5),
-        "cut_off: is 0.5: this cycle needs 1 or more",
-    ),
-    "cut-off too large": (
-        {"exhaust_opens_deg": 110.0},
-        Diesel(),
-        ("cut_off", 12.0),
-        "cut_off: is 12: with more than 7.647 the exhaust opens during the burn",
-    ),
-    "heat too much": (
-        {"exhaust_opens_deg": 110.0},
-        Diesel(),
-        ("heat", 9000.0),
-        "heat: is 9000: with more than 3688 the exhaust opens during the burn",
-    ),
-}
+def refused(burn, *goal, **process):
+    with pytest.raises(GasError) as caught:
+        cycle_of(burn, *goal, **process)
+    return f"{caught.value.field}: {caught.value}"
 
 
-@pytest.mark.parametrize("case", REFUSED)
-def test_what_cannot_be_is_refused_by_the_name_of_the_value(case):
-    given, burn, goal, text = REFUSED[case]
-    with pytest.raises(GasError) as refused:
-        cycle_of(burn, *goal, **given)
-    assert f"{refused.value.field}: {refused.value}" == text
+@pytest.mark.parametrize(
+    ("process", "told"),
+    [
+        ({"compression_ratio": 0.9}, "compression_ratio: is 0.9: give more than 1"),
+        ({"intake": 0.0}, "intake: is 0 bar: give more, for it is compressed"),
+        ({"compression_index": 0.5}, "compression_index: is 0.5: give 1 or more"),
+        ({"expansion_index": 1.0}, "expansion_index: is 1: give more than 1"),
+        (
+            {"exhaust_opens_deg": 400.0},
+            "exhaust_opens: is 400°: give a cycle angle above 0° and up to 360°, the gas-exchange dead centre",
+        ),
+        (
+            {"exhaust_opens_deg": 190.0, "strokes": 2},
+            "exhaust_opens: is 190°: give a cycle angle above 0° and up to 180°, the lower dead centre",
+        ),
+        (
+            {"intake_closes_deg": 220.0},
+            "intake_closes: is 220°: give a cycle angle from 360°, the gas-exchange dead centre, to below 720°",
+        ),
+        (
+            {"intake_closes_deg": 240.0, "strokes": 2},
+            "intake_closes: has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
+            "leave it out",
+        ),
+    ],
+)
+@pytest.mark.parametrize("burn", [Otto(), Diesel(), Wiebe(-15, 50)])
+def test_a_process_that_cannot_be_is_refused_by_the_name_of_the_value(burn, process, told):
+    assert refused(burn, "imep", 10e5, **process) == told
+
+
+@pytest.mark.parametrize(
+    ("burn", "told"),
+    [
+        (
+            Wiebe(10, 120),
+            "burn_duration: a burn over 120° from 10° ends at 130°, past 110°, where the exhaust opens",
+        ),
+        (Wiebe(-130, 100), "burn_start: is -130°, before -120°, where compression begins"),
+        (Wiebe(-10, 0), "burn_duration: is 0°: give more than 0°"),
+        (Wiebe(-10, 50, -0.5), "burn_shape: is -0.5: give 0 or more"),
+    ],
+)
+def test_a_burn_that_cannot_be(burn, told):
+    valves = {"exhaust_opens_deg": 110.0, "intake_closes_deg": 600.0}
+    assert refused(burn, "imep", 10e5, **valves) == told
+
+
+def test_a_limit_that_compression_alone_exceeds():
+    told = "max_pressure: is 15 bar, below the 20.89 bar of compression alone"
+    assert refused(Dual(15e5), "imep", 10e5) == told
+
+
+@pytest.mark.parametrize(
+    ("burn", "goal", "value", "told"),
+    [
+        (
+            Diesel(),
+            "max_pressure",
+            60e5,
+            "does not make the diesel cycle: give imep, heat or cut_off",
+        ),
+        (Otto(), "cut_off", 2, "does not make the otto cycle: give imep, heat or max_pressure"),
+        (Otto(), "imep", -1e5, "is -1 bar: with the least heat the cycle has 0.1075 bar"),
+        (Diesel(), "imep", 40e5, "is 40 bar: with the most heat the cycle has 17.06 bar"),
+        (Otto(), "max_pressure", 15e5, "is 15 bar, below the 20.89 bar of compression alone"),
+        (
+            Wiebe(-15, 50),
+            "max_pressure",
+            15e5,
+            "is 15 bar, below the 20.74 bar of compression alone",
+        ),
+        (
+            Wiebe(20, 50),
+            "max_pressure",
+            20e5,
+            "is 20 bar, below the 20.89 bar of compression alone",
+        ),
+        (Dual(60e5), "heat", 100.0, "is 100: this cycle needs 811.3 or more"),
+        (Otto(), "heat", -1.0, "is -1: this cycle needs 0 or more"),
+        (Diesel(), "cut_off", 0.5, "is 0.5: this cycle needs 1 or more"),
+    ],
+)
+def test_a_goal_that_cannot_be_reached(burn, goal, value, told):
+    assert refused(burn, goal, value) == f"{goal}: {told}"
+
+
+@pytest.mark.parametrize(
+    ("goal", "value", "told"),
+    [
+        ("cut_off", 12.0, "is 12: with more than 7.647 the exhaust opens during the burn"),
+        ("heat", 9000.0, "is 9000: with more than 3688 the exhaust opens during the burn"),
+    ],
+)
+def test_a_burn_at_constant_pressure_that_lasts_too_long(goal, value, told):
+    assert refused(Diesel(), goal, value, exhaust_opens_deg=110.0) == f"{goal}: {told}"
 
 
 def test_all_mistakes_at_once():

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracle import momentum
-from support.engines import RADIAL
+from support.engines import RADIAL, build_text
 
 from balcli.core.mechanisms.articulated import Articulated
 from balcli.core.strokes import find_travel
@@ -27,7 +27,7 @@ def built(*changes: tuple[str, str], more: str = "") -> engine.Engine:
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
-    return engine.build(enginefile.parse(text + more))
+    return build_text(text + more)
 
 
 def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
@@ -182,7 +182,7 @@ def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
     line.
     """
     text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
-    found = find_travel(engine.build(enginefile.parse(text)).cylinders)
+    found = find_travel(build_text(text).cylinders)
     assert found.stroke[0] * 1e3 == pytest.approx(
         math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14
     )
@@ -197,8 +197,7 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
     """
     equal = RADIAL[: RADIAL.index("[articulation]")]
     before, after = (
-        spectrum.compute_spectra(e, [2.0], ["force"]).force
-        for e in (engine.build(enginefile.parse(equal)), built())
+        spectrum.compute_spectra(e, [2.0], ["force"]).force for e in (build_text(equal), built())
     )
     assert before is not None
     assert after is not None
@@ -236,7 +235,7 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
         ("knuckle_radius = 52", "knuckle_radius = 1e-11"),
         ("length = 188, mass = 0.62, cg = 90", "length = 240, mass = 1.9, cg = 55"),
     )
-    plain = engine.build(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
+    plain = build_text(RADIAL[: RADIAL.index("[articulation]")])
     orders = np.arange(1.0, 9.0)
     one, other = (
         spectrum.compute_spectra(articulated, orders),
@@ -317,12 +316,8 @@ def _radial(rod: str) -> str:
 
 
 def test_an_articulated_rod_weighed_at_its_ends_is_one_of_mass_and_cg():
-    ends = engine.build(
-        enginefile.parse(_radial("{ length = 188, small_end = 0.3, big_end = 0.32 }"))
-    )
-    whole = engine.build(
-        enginefile.parse(_radial(f"{{ length = 188, mass = 0.62, cg = {188 * 0.3 / 0.62} }}"))
-    )
+    ends = build_text(_radial("{ length = 188, small_end = 0.3, big_end = 0.32 }"))
+    whole = build_text(_radial(f"{{ length = 188, mass = 0.62, cg = {188 * 0.3 / 0.62} }}"))
     assert ends.cylinders.reciprocating == pytest.approx(whole.cylinders.reciprocating, rel=1e-14)
     assert ends.cylinders.linkage.mass == pytest.approx(whole.cylinders.linkage.mass, rel=1e-14)
     assert ends.cylinders.couple == pytest.approx(whole.cylinders.couple, abs=1e-17)
@@ -331,12 +326,8 @@ def test_an_articulated_rod_weighed_at_its_ends_is_one_of_mass_and_cg():
 def test_a_pendulum_test_of_an_articulated_rod_is_its_inertia():
     period = 2 * math.pi * math.sqrt((3.5e-3 + 0.62 * 0.09**2) / (0.62 * 9.80665 * 0.09))
     swung = f'pendulum = {{ pivot = "big_end", period = {period!r} }}'
-    found = engine.build(
-        enginefile.parse(_radial(f"{{ length = 188, mass = 0.62, cg = 90, {swung} }}"))
-    )
-    wanted = engine.build(
-        enginefile.parse(_radial("{ length = 188, mass = 0.62, cg = 90, inertia = 3500 }"))
-    )
+    found = build_text(_radial(f"{{ length = 188, mass = 0.62, cg = 90, {swung} }}"))
+    wanted = build_text(_radial("{ length = 188, mass = 0.62, cg = 90, inertia = 3500 }"))
     assert found.cylinders.couple == pytest.approx(wanted.cylinders.couple, rel=1e-12)
 
 
@@ -371,7 +362,7 @@ def test_a_pendulum_test_of_an_articulated_rod_is_its_inertia():
 )
 def test_mistakes_of_articulated_rods(rod, message):
     with pytest.raises(InputError) as found:
-        engine.build(enginefile.parse(_radial(rod)))
+        build_text(_radial(rod))
     assert str(found.value) == f"engine: {message}"
 
 

@@ -186,10 +186,8 @@ def test_unusual_but_allowed(text):
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180]")),
-            (
-                "layout: firing_intervals has 3 intervals for 4 firings; give one for "
-                "each, the last one back to the first cylinder"
-            ),
+            "layout: firing_intervals has 3 intervals for 4 firings; give one for "
+            "each, the last one back to the first cylinder",
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180, 160]")),
@@ -202,10 +200,8 @@ def test_unusual_but_allowed(text):
         ),
         (
             GOOD + "[[counterweight]]\nangle = 180\n",
-            (
-                "counterweight.1: has neither unbalance nor mass and radius; give either "
-                "unbalance or mass and radius"
-            ),
+            "counterweight.1: has neither unbalance nor mass and radius; give either "
+            "unbalance or mass and radius",
         ),
         (
             GOOD + "[[counterweight]]\nunbalance = 1\n[[counterweight]]\nmass = 1\n",

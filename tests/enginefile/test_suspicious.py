@@ -43,10 +43,8 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
             changed(
                 ("mass = 0.5", "mass = 65"), ("bore = 86", "bore = 80"), ("mass = 0.6", "mass = 60")
             ),
-            (
-                "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the "
-                "units right? Bare numbers are kg and mm"
-            ),
+            "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the "
+            "units right? Bare numbers are kg and mm",
         ),
         (
             changed(("spacing = 100\n", "")) + "[cylinder.2]\nposition = -50\n",
@@ -90,26 +88,20 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
         ),
         (
             changed(("length = 160", "length = 100")),
-            (
-                "crank radius / rod length is 0.45, where 0.15 to 0.4 is usual; crank.stroke is "
-                "twice the crank radius, rod.length the distance of its two centres"
-            ),
+            "crank radius / rod length is 0.45, where 0.15 to 0.4 is usual; crank.stroke is "
+            "twice the crank radius, rod.length the distance of its two centres",
         ),
         (
             changed(
                 ("length = 160", "ratio = 0.99999"), ("cg = 45", "cg = 15")
             ),  # not told as 1, which would lock
-            (
-                "crank radius / rod length is 0.99999, where 0.15 to 0.4 is usual; crank.stroke is "
-                "twice the crank radius, rod.length the distance of its two centres"
-            ),
+            "crank radius / rod length is 0.99999, where 0.15 to 0.4 is usual; crank.stroke is "
+            "twice the crank radius, rod.length the distance of its two centres",
         ),
         (
             changed(("length = 160", "ratio = 0.1")),
-            (
-                "crank radius / rod length is 0.1, where 0.15 to 0.4 is usual; crank.stroke is "
-                "twice the crank radius, rod.length the distance of its two centres"
-            ),
+            "crank radius / rod length is 0.1, where 0.15 to 0.4 is usual; crank.stroke is "
+            "twice the crank radius, rod.length the distance of its two centres",
         ),
         (
             changed(
@@ -133,10 +125,8 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
         ),
         (
             changed(("cg = 45", "cg = -45")),
-            (
-                "rod.cg is -45 mm, outside the rod (0 to 160 mm); it is measured from the big-end "
-                "centre towards the small end"
-            ),
+            "rod.cg is -45 mm, outside the rod (0 to 160 mm); it is measured from the big-end "
+            "centre towards the small end",
         ),
         (
             changed(("cg = 45", "cg = 115")),
@@ -149,10 +139,8 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
         ),
         (
             changed(("cg = 45", "cg = 45\ninertia = 0.0023")),
-            (
-                "rod.inertia is 0.0023 kg mm^2, where 310 to 6100 is usual for 0.6 kg and 160 "
-                "mm; it is taken about the centre of mass, in kg mm^2"
-            ),
+            "rod.inertia is 0.0023 kg mm^2, where 310 to 6100 is usual for 0.6 kg and 160 "
+            "mm; it is taken about the centre of mass, in kg mm^2",
         ),
         *(
             (
@@ -164,10 +152,8 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
         ),
         (
             changed(("speed = 3000", "speed = 30000")),
-            (
-                "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than 40; "
-                "are operation.speed and crank.stroke right?"
-            ),
+            "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than 40; "
+            "are operation.speed and crank.stroke right?",
         ),
         (
             changed(more="[[shaft]]\nratio = -2\nunbalance = 4500\nat = [0, 0.08]\n"),
@@ -183,10 +169,8 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
                 ("[layout]", "[layout]\nstagger = 220"),
                 ("spacing = 100", "positions = [-190, -90, 10, 90]"),
             ),
-            (
-                "layout.stagger is 220 mm, more than the distance of neighbouring throws (80 mm); "
-                "it is the distance of two rods on one throw"
-            ),
+            "layout.stagger is 220 mm, more than the distance of neighbouring throws (80 mm); "
+            "it is the distance of two rods on one throw",
         ),
         (
             changed(
@@ -194,17 +178,13 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
                 "60\n"
             ),
             # 5 x (4 x 0.8 + 4 x (0.5 + 0.6)) kg x 45 mm
-            (
-                "counterweight.2: its unbalance is 2.4e+06 g mm, more than 5 times all moving "
-                "masses at the crank radius (1.71e+06); is it in g mm?"
-            ),
+            "counterweight.2: its unbalance is 2.4e+06 g mm, more than 5 times all moving "
+            "masses at the crank radius (1.71e+06); is it in g mm?",
         ),
         (
             changed(more='[gas]\ncycle = "otto"\ncompression_ratio = 10\nimep = 130\n'),
-            (
-                "gas.imep is 130 bar, where at most 60 is usual; is it in bar? Another unit is said "
-                'as in "130 psi" or "0.9 MPa"'
-            ),
+            "gas.imep is 130 bar, where at most 60 is usual; is it in bar? Another unit is said "
+            'as in "130 psi" or "0.9 MPa"',
         ),
         (
             changed(("spacing = 100", "spacing = 4.4")),

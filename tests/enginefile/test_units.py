@@ -33,6 +33,8 @@ from balcli.enginefile.units import (
     read_unit,
 )
 
+A_LENGTH = 'a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'
+AN_ANGLE = 'an angle is wanted: a bare number in deg, or "30 deg" or "1.2 rad" or "1/7 turn"'
 A_MASS = 'a mass is wanted: a bare number in kg, or "650 g" or "0.8 lb"'
 
 
@@ -113,61 +115,25 @@ def test_rarer_units(text, dimension, expected):
 @pytest.mark.parametrize(
     ("text", "dimension", "message"),
     [
-        (
-            "90 zorks",
-            LENGTH,
-            'has the unknown unit "zorks"; a length is wanted: a bare number in mm, or "90 mm" or '
-            '"3.5 in"',
-        ),
-        (
-            "775 gr",
-            MASS,
-            'has the unit "gr": g, or grain (65 mg)? a mass is wanted: a bare number in kg, or '
-            '"650 g" or "0.8 lb"',
-        ),
-        (
-            "90 kg",
-            LENGTH,
-            'is a mass, but a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
-        ),
-        (
-            "30 rpm",
-            ANGLE,
-            (
-                'is a speed of rotation, but an angle is wanted: a bare number in deg, or "30 deg" '
-                'or "1.2 rad" or "1/7 turn"'
-            ),
-        ),
+        ("90 zorks", LENGTH, f'has the unknown unit "zorks"; {A_LENGTH}'),
+        ("775 gr", MASS, f'has the unit "gr": g, or grain (65 mg)? {A_MASS}'),
+        ("90 kg", LENGTH, f"is a mass, but {A_LENGTH}"),
+        ("30 rpm", ANGLE, f"is a speed of rotation, but {AN_ANGLE}"),
         (
             "300 1/s",  # turns, or radians
             SPEED,
             "is not a number followed by a unit; a speed of rotation is wanted: a bare number in "
             'rpm, or "6000 rpm" or "300 rad/s"',
         ),
-        (
-            "50 Hz",
-            ANGLE,
-            'is a frequency, but an angle is wanted: a bare number in deg, or "30 deg" or "1.2 '
-            'rad" or "1/7 turn"',
-        ),
-        (
-            "72 grad",
-            ANGLE,
-            'has the unit "grad": deg, or gon (0.9 deg)? an angle is wanted: a bare number in '
-            'deg, or "30 deg" or "1.2 rad" or "1/7 turn"',
-        ),
+        ("50 Hz", ANGLE, f"is a frequency, but {AN_ANGLE}"),
+        ("72 grad", ANGLE, f'has the unit "grad": deg, or gon (0.9 deg)? {AN_ANGLE}'),
         (
             "3 ampere",
             TIME,
             'is of another dimension, but a time is wanted: a bare number in s, or "0.82 s" or '
             '"820 ms"',
         ),
-        (
-            "20 degC",
-            MASS,
-            'is of another dimension, but a mass is wanted: a bare number in kg, or "650 g" or '
-            '"0.8 lb"',
-        ),
+        ("20 degC", MASS, f"is of another dimension, but {A_MASS}"),
         ("5 deg", PLAIN, "is an angle, but a plain number is wanted, without quotes"),
         ("0.25", PLAIN, "has no unit; a plain number is wanted, without quotes: 0.25"),
         ("2/7", PLAIN, "has no unit; a plain number is wanted, without quotes: 0.285714"),
@@ -179,22 +145,16 @@ def test_rarer_units(text, dimension, expected):
         (
             "3,5 in",
             LENGTH,
-            "is not a number followed by a unit; decimals take a point, thousands no comma; a "
-            'length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
+            f"is not a number followed by a unit; decimals take a point, thousands no comma; {A_LENGTH}",
         ),
         (
             "−30 mm",
             LENGTH,
-            "is not a number followed by a unit; a minus sign is a hyphen; a length is wanted: a bare "
-            'number in mm, or "90 mm" or "3.5 in"',
+            f"is not a number followed by a unit; a minus sign is a hyphen; {A_LENGTH}",
         ),
         ("1 lb 4", MASS, f"is not a number followed by a unit; {A_MASS}"),
         ("1.5 lb 4 oz", MASS, f"is not a number followed by a unit; {A_MASS}"),
-        (
-            "90",
-            LENGTH,
-            'has no unit; a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
-        ),
+        ("90", LENGTH, f"has no unit; {A_LENGTH}"),
         ("1e999 mm", LENGTH, "is too large a number"),
         ("1/0 turn", ANGLE, "divides by zero"),
     ],

@@ -6,11 +6,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.engines import INLINE, alone, inline_engine
+from support.engines import INLINE, alone, build_text, inline_engine
 from support.paths import ENGINES
 
 from balcli.core.peaks import find_peak
-from balcli.engine import build as engine
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
 from balcli.forces import spectrum
@@ -147,7 +146,7 @@ def test_one_throw_has_no_x_type():
 def test_heights_of_guides_are_told_by_the_numbers_of_cylinders():
     """A maker's numbers, 2 and 4 in the first bank, and a longer rod in cylinder 2."""
     layout = "bank_angle = 90\nnumbering = [[2, 4], [1, 3]]\n[cylinder.2]\nrod_length = 200"
-    subject = engine.build(enginefile.parse(INLINE.format(throws=[0, 180], layout=layout)))
+    subject = build_text(INLINE.format(throws=[0, 180], layout=layout))
     found = compute_guide_moments(subject, ORDERS)
     assert found.height_m.tolist() == [0.16, 0.2, 0.16, 0.16]
 
@@ -159,9 +158,7 @@ def test_the_x_type_is_the_moment_of_the_side_forces_on_the_pistons():
     text = INLINE.format(throws=[0, 120, 240, 240, 120, 0], layout="")
     theta, r, rod = np.arange(256) * 2 * np.pi / 256, 0.045, 0.160
     point_masses = 0.6 * 45 * (160 - 45)  # m a b: what the two ends have, in kg mm^2
-    subject = engine.build(
-        enginefile.parse(text.replace("inertia = 2000", f"inertia = {point_masses}"))
-    )
+    subject = build_text(text.replace("inertia = 2000", f"inertia = {point_masses}"))
     mass = 0.5 + 0.6 * 45 / 160
     couples = []
     for pin in np.radians([0, 120, 240, 240, 120, 0]):
@@ -210,7 +207,7 @@ def near_the_lock(throws, more=""):
         .replace("length = 160", "ratio = 0.999999")
         .replace("cg = 45\n", "cg = 20\n")
     )
-    return engine.build(enginefile.parse(text + more))
+    return build_text(text + more)
 
 
 @pytest.mark.stress

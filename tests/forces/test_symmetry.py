@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.engines import build_text
 from support.paths import ENGINE_FILES
 
 from balcli.engine import build as engine
@@ -31,7 +32,7 @@ mass = 0.5
 
 def sentences(throws, *, spacing=100, more="", orders=(1, 2)):
     text = BASE.format(throws=throws, spacing=spacing) + more
-    return explain_symmetry(engine.build(enginefile.parse(text)), orders).sentences
+    return explain_symmetry(build_text(text), orders).sentences
 
 
 def test_the_inline_four():
@@ -139,7 +140,7 @@ def test_balanced_by_figures_only():
 )
 def test_even_and_uneven_fire_in_words(layout, text):
     base = "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[layout]\n"
-    assert explain_symmetry(engine.build(enginefile.parse(base + layout)), [1]).firing == text
+    assert explain_symmetry(build_text(base + layout), [1]).firing == text
 
 
 @pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
@@ -172,12 +173,12 @@ def test_what_the_reasons_leave_out_is_said(more, left_out):
     assert told[0] == f"of the cylinders alone: {left_out}"
     assert told[1:] == sentences([0, 180], orders=[1])
     text = BASE.format(throws=[0, 180], spacing=100) + more
-    result = analysis.analyze(engine.build(enginefile.parse(text)), [1], ["force"], reasons=True)
+    result = analysis.analyze(build_text(text), [1], ["force"], reasons=True)
     assert analysis_document(result)["why"]["scope"] == told[0]
 
 
 def test_only_what_is_asked_and_as_json():
-    built = engine.build(enginefile.parse(BASE.format(throws=[0, 180], spacing=100)))
+    built = build_text(BASE.format(throws=[0, 180], spacing=100))
     result = analysis.analyze(built, [1, 2], ["force"], reasons=True)
     document = json.loads(json_text(analysis_document(result)))
     assert document["why"] == {

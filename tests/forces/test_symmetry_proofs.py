@@ -9,9 +9,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from support.engines import build_text
 
 from balcli.engine import build as engine
-from balcli.engine import load as enginefile
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.symmetry import Symmetry, explain_symmetry
 
@@ -71,7 +71,7 @@ LAYOUTS = {
 
 
 def explain(text: str) -> tuple[engine.Engine, Symmetry]:
-    built = engine.build(enginefile.parse(text))
+    built = build_text(text)
     return built, explain_symmetry(built, ORDERS)
 
 

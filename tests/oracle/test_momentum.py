@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from oracle import momentum
-from support.engines import alone
+from support.engines import alone, build_text
 from support.paths import ENGINE_FILES
 
-from balcli.engine import build as engine
-from balcli.engine import load as enginefile
 from balcli.forces import spectrum
 
 TOLERANCE = 1e-11  # of the largest first-order amplitude of one cylinder
@@ -172,7 +170,7 @@ def compare(text: str) -> None:
     """Every order of every quantity, in units of what one cylinder does."""
     oracle = momentum.Engine.read(text)
     curves, scales = oracle.curves(), oracle.scales()
-    found = spectrum.compute_spectra(engine.build(enginefile.parse(text)), ORDERS)
+    found = spectrum.compute_spectra(build_text(text), ORDERS)
     for kind, phasors in found.items():
         quantity = kind.name
         for row, n in enumerate(ORDERS):
@@ -201,7 +199,7 @@ def test_one_cylinder_of_an_articulated_engine_alone():
     cylinder`).
     """
     text = BASE.format(crank="", piston="", layout="radial = 5", operation="", more=ARTICULATED)
-    oracle, whole = momentum.Engine.read(text), engine.build(enginefile.parse(text))
+    oracle, whole = momentum.Engine.read(text), build_text(text)
     for number in (1, 3):
         curves = oracle.curves([number])
         force = spectrum.compute_spectra(alone(whole, number), ORDERS, ["force"]).force

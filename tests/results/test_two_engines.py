@@ -4,20 +4,17 @@ mirroring curves gives.
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from oracle import momentum
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES, write
 
-from balcli.engine import build as engine
-from balcli.engine import load as enginefile
 from balcli.forces import spectrum
 from balcli.results.two_engines import Arrangement, combine_engines
 
@@ -40,12 +37,10 @@ RIPPLE = "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"
 
 
 def built(crank="", more="", operation=""):
-    return engine.build(
-        enginefile.parse(
-            f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n"
-            + PARTS.format(operation=operation)
-            + more
-        )
+    return build_text(
+        f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n"
+        + PARTS.format(operation=operation)
+        + more
     )
 
 
@@ -72,9 +67,7 @@ def test_two_singles_behind_one_another_are_a_twin(operation):
 
 def test_two_singles_on_one_pin_are_a_vee():
     """Turned on by 70 degrees the second cylinder is reached by the pin 70 degrees later."""
-    single = engine.build(
-        enginefile.parse("[crank]\nstroke = 90\nthrow_mass = 0.4\n" + PARTS.format(operation=""))
-    )
+    single = build_text("[crank]\nstroke = 90\nthrow_mass = 0.4\n" + PARTS.format(operation=""))
     found = combine_engines(single, single, Arrangement(-70, turn_deg=70), ORDERS).spectra
     agree(found, spectrum.compute_spectra(built(more="[layout]\nbanks = [0, 70]\n"), ORDERS))
 
@@ -174,7 +167,7 @@ def test_kinetic_energies_of_geared_engines_add(reverse, load):
     """
     wanted = together(128, 0.2 - 0.3j, reverse)
     how = Arrangement(45, (0.2, -0.3, 0), 0, reverse, load)
-    one, other = (engine.build(enginefile.parse(text)) for text in (FIRST, SECOND))
+    one, other = (build_text(text) for text in (FIRST, SECOND))
     found = combine_engines(one, other, how, np.arange(0.0, 60.0)).spectra
     for name, curve in (
         ("torque", wanted["torque"]),
@@ -199,13 +192,11 @@ HALVES = np.arange(0.0, 8.5, 0.5)
 
 def with_gas(crank="", more="", strokes=4):
     layout = f"[layout]\nstrokes = {strokes}\n{more}"
-    return engine.build(
-        enginefile.parse(
-            f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n"
-            + PARTS.format(operation="").replace("mass = 0.5", "bore = 86\nmass = 0.5")
-            + layout
-            + GAS
-        )
+    return build_text(
+        f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n"
+        + PARTS.format(operation="").replace("mass = 0.5", "bore = 86\nmass = 0.5")
+        + layout
+        + GAS
     )
 
 
@@ -272,7 +263,7 @@ def test_whose_gas_counts_is_told(tmp_path):
         text = run(*map(str, pair)).out
         assert f"gas        {told}\n" in text
         assert "About the crank axis with gas" in text
-        document = json.loads(run(*map(str, pair), "--orders", "0.5-1", "-f", "json").out)
+        document = ask_json("sum", *pair, "--orders", "0.5-1")
         assert [entry["gas"] for entry in document["engines"]] == [path == gas for path in pair]
         assert not document["orders"][0]["gas_torque_Nm"]["balanced"]
         assert "roll_total_Nm" in document["orders"][1]
@@ -298,11 +289,7 @@ def run(*arguments):
 
 
 def test_the_json_says_how_the_second_engine_stands(file):
-    document = json.loads(
-        run(
-            file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2", "--format", "json"
-        ).out
-    )
+    document = ask_json("sum", file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2")
     assert document["format"] == "balcli.sum/1"
     assert document["arrangement"] == {
         "phase_deg": 180.0,
@@ -359,9 +346,10 @@ def test_engines_without_a_name_go_by_their_files(file, tmp_path):
     assert run(file, str(nameless)).out.startswith(
         "single and twin\n\nfirst      single, 1 cylinder\n"
     )
-    assert [
-        e["name"] for e in json.loads(run(str(nameless), file, "--format", "json").out)["engines"]
-    ] == ["twin", "single"]
+    assert [e["name"] for e in ask_json("sum", str(nameless), file)["engines"]] == [
+        "twin",
+        "single",
+    ]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from support.engines import build_text
-from support.remedies import write_engine
+from support.remedies import fit_scheme, write_engine
 
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.auto import size_auto
@@ -51,7 +51,7 @@ def test_reasons_name_what_turns_and_how_it_is_cancelled():
 
 def test_nothing_is_fitted_where_nothing_is_left():
     engine = build_text(write_engine(0, 240, 120))
-    assert not size_auto(fit_devices(engine, size_auto(engine))).devices
+    assert not size_auto(fit_scheme(engine)).devices
 
 
 def test_own_devices_count():
@@ -82,8 +82,6 @@ def test_devices_are_summed_in_the_order_of_the_file():
     engine = build_text(
         write_engine(0, 240, 120) + "[[slider]]\norder = 2\nunbalance = 3\ndirection = 10\n"
     )
-    kinds = [d.kind for d in fit_devices(engine, size_auto(engine)).devices]
+    kinds = [d.kind for d in fit_scheme(engine).devices]
     assert kinds == sorted(kinds)
-    assert compute_spectra(
-        fit_devices(engine, size_auto(engine)), [1], ("force",)
-    ).force.balanced.all()
+    assert compute_spectra(fit_scheme(engine), [1], ("force",)).force.balanced.all()

@@ -14,7 +14,7 @@ from oracle import momentum
 from support.commands import refusal, run_here
 from support.engines import build_text, changed
 from support.paths import ENGINES, write
-from support.remedies import SMALL, figures, write_engine
+from support.remedies import SMALL, figures, size_scheme, write_engine
 
 from balcli.commands.balance import balance
 from balcli.core.phasors import unit
@@ -309,7 +309,7 @@ def test_one_plane_does_not_take_the_moment_of_a_weight_beside_it(beside, planes
     """
     weight = f"[[counterweight]]\nunbalance = 40000\nangle = 180\nposition = {beside}\n"
     text = f"{TWIN}[frame]\nreference = [0, 0, 80]\n{weight}"
-    remedy = size(build_text(text), "factor", SchemeOptions(factor=(0.3,), planes=planes))
+    remedy = size_scheme(build_text(text), "factor", factor=(0.3,), planes=planes)
     assert remedy.note.startswith("one plane, or planes at the same z") == lost
 
 
@@ -385,7 +385,7 @@ def test_one_cylinder_of_unequal_ones_is_told_as_their_mean():
 def test_what_was_measured_is_the_factor_it_stands_for():
     """Rotating 2 x 450 g, reciprocating 2 x 720 g: 1375 g on the pin take 475/1440 of it."""
     engine = build_text(TWIN)
-    remedy = size(engine, "factor", SchemeOptions(measured=1.375))
+    remedy = size_scheme(engine, "factor", measured=1.375)
     assert figures(remedy)["factor"] == pytest.approx(475 / 1440, rel=1e-12)
     assert figures(remedy)["factor of one cylinder"] == pytest.approx(950 / 1440, rel=1e-12)
     assert figures(remedy)["measured"] == 1.375
@@ -394,7 +394,7 @@ def test_what_was_measured_is_the_factor_it_stands_for():
 
 
 def test_less_than_the_rotating_mass_is_told():
-    remedy = size(build_text(TWIN), "factor", SchemeOptions(measured=0.8))
+    remedy = size_scheme(build_text(TWIN), "factor", measured=0.8)
     assert figures(remedy)["factor"] == pytest.approx(-100 / 1440, rel=1e-12)
     assert remedy.note == "a factor below 0: not even all rotating mass is balanced"
 
@@ -409,14 +409,14 @@ def test_unequal_pins_share_what_was_measured():
     """The mean of all pins counts."""
     engine = build_text(UNEQUAL)
     mean = np.mean([one.bobweight_g for one in size(engine, "factor").card]) / 1e3
-    measured = size(engine, "factor", SchemeOptions(measured=float(mean)))
+    measured = size_scheme(engine, "factor", measured=float(mean))
     assert figures(measured)["factor"] == pytest.approx(0.5, rel=1e-12)
 
 
 def test_a_range_tells_bobweight_counterweight_and_what_is_left():
     factors = tuple(k / 100 for k in range(50, 55))
     engine = build_text(FORD)
-    rows = size(engine, "factor", SchemeOptions(factor=factors, planes=(-0.2, 0.25))).sweep
+    rows = size_scheme(engine, "factor", factor=factors, planes=(-0.2, 0.25)).sweep
     for factor, row in zip(factors, rows, strict=True):
         alone = fit(FORD, factor, planes=(-0.2, 0.25))
         assert row.factor == factor
@@ -670,14 +670,14 @@ def test_a_piston_a_little_heavier_does_not_decide_which_factor_is_best():
     """
     vee = write_engine(0, 240, 120, layout="bank_angle = 90") + "[cylinder.2]\npiston_mass = 1.01\n"
     factors = (0.4, 0.5, 0.6)
-    found = size(build_text(vee), "factor", SchemeOptions(factor=factors, planes="ends"))
+    found = size_scheme(build_text(vee), "factor", factor=factors, planes="ends")
     forces, moments = (
         [getattr(peaks, name) for peaks in found.sweep] for name in ("force", "moment")
     )
     assert max(forces) - min(forces) < 0.03 * find_cylinder_force(vee)
     assert moments[1] < 0.9 * min(moments[0], moments[2])
     assert figures(found)["factor"] == 0.5
-    one = size(build_text(SMALL["one"]), "factor", SchemeOptions(factor=factors))
+    one = size_scheme(build_text(SMALL["one"]), "factor", factor=factors)
     best = min(one.sweep, key=lambda peaks: peaks.force)
     assert figures(one)["factor"] == best.factor
 

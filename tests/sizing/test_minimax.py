@@ -8,13 +8,12 @@ import math
 import numpy as np
 import pytest
 from support.engines import build_text, rotary_engine
-from support.remedies import SMALL, figures, find_orders, write_engine
+from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
 from balcli.core import enclosing_circle as circle
 from balcli.core.peaks import find_peak
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 
@@ -34,7 +33,7 @@ def test_minimax_reaches_what_it_says_where_it_says(more):
         told["peak force"], rel=1e-9
     )
     plain = build_text(SMALL["one"])
-    half = find_peak(find_orders(fit_devices(plain, size(plain, "factor")))).value
+    half = find_peak(find_orders(fit_scheme(plain, "factor"))).value
     assert told["factor half peak"] == pytest.approx(
         half, rel=1e-12
     )  # without the engine's own weights
@@ -56,7 +55,7 @@ def test_minimax_puts_its_angles_in_order_after_they_are_wrapped(monkeypatch):
 
 def test_minimax_with_nothing_to_fit_says_so_and_fits_no_rounding():
     """An in-line four in two planes: neither a force nor a moment turns with the crank."""
-    remedy = size(build_text(SMALL["four"]), "minimax", SchemeOptions(planes="ends"))
+    remedy = size_scheme(build_text(SMALL["four"]), "minimax", planes="ends")
     assert remedy.devices == ()
     assert remedy.note.startswith("no counterweight makes the largest force smaller than it is: ")
     assert (figures(remedy)["improvement"], figures(remedy)["relative error bound"]) == (0, 0)
@@ -67,7 +66,7 @@ def test_minimax_of_a_crank_that_has_its_weight_already_gives_no_false_reason():
     no other weight leaves less.
     """
     engine = build_text(SMALL["one"])
-    fitted = fit_devices(engine, size(engine, "minimax"))
+    fitted = fit_scheme(engine, "minimax")
     force = find_orders(fitted)
     assert abs(force.forward[0]) > 0.01 * abs(force.backward[0])
     remedy = size(fitted, "minimax")
@@ -87,14 +86,14 @@ def test_a_gain_of_rounding_is_none(monkeypatch, slip):
         lambda curve: (found := exact(curve))._replace(radius=found.radius * (1 + slip)),
     )
     engine = build_text(SMALL["three"])
-    told = figures(size(engine, "minimax", SchemeOptions(planes="ends")))
+    told = figures(size_scheme(engine, "minimax", planes="ends"))
     assert told["improvement"] == 0
 
 
 def test_minimax_in_several_planes_takes_the_moment_too():
     engine = build_text(SMALL["vee"])
     one, several = (
-        size(engine, "minimax", SchemeOptions(planes=planes)) for planes in (None, (-0.1, 0.17))
+        size_scheme(engine, "minimax", planes=planes) for planes in (None, (-0.1, 0.17))
     )
     assert sum(
         cmath.rect(d.unbalance, math.radians(d.angle)) for d in several.devices
@@ -108,7 +107,7 @@ def test_minimax_in_several_planes_takes_the_moment_too():
         match=r"--planes: one plane, or planes at the same z, cannot take a moment; "
         r"choose two planes with some distance between them$",
     ):
-        size(engine, "minimax", SchemeOptions(planes=(0.1,)))
+        size_scheme(engine, "minimax", planes=(0.1,))
 
 
 def test_minimax_without_a_force():
@@ -117,7 +116,7 @@ def test_minimax_without_a_force():
     remedy = size(engine, "minimax")
     assert not remedy.devices
     assert "no counterweight makes the largest force smaller than it is" in remedy.note
-    in_planes = size(engine, "minimax", SchemeOptions(planes="ends"))
+    in_planes = size_scheme(engine, "minimax", planes="ends")
     assert [d.position for d in in_planes.counterweights] == [-100, 100]
     assert (figures(in_planes)["improvement"], figures(in_planes)["relative error bound"]) == (0, 0)
 
@@ -135,7 +134,7 @@ def test_minimax_of_an_engine_without_any_force():
     turns with the crank.
     """
     engine = build_text(write_engine(0, 180, layout='banks = [0, 180]\nrods = "alternating"'))
-    told = figures(size(engine, "minimax", SchemeOptions(planes="ends")))
+    told = figures(size_scheme(engine, "minimax", planes="ends"))
     assert (
         told["peak force"],
         told["relative error bound"],

@@ -8,6 +8,7 @@ import pytest
 from support.commands import ask_json, refusal, run_here
 from support.engines import STAGGERED_TWIN, build_text, engine
 from support.paths import ENGINES
+from support.remedies import fit_scheme, size_scheme
 
 from balcli.core.cylinders import DeviceKind
 from balcli.engine.load import load
@@ -56,11 +57,9 @@ def test_their_sizes_by_hand():
     wanted.
     """
     built = load(TWIN)
-    remedy = size(built, "single-shaft", SchemeOptions(planes=(-0.05, 0.02)))
+    remedy = size_scheme(built, "single-shaft", planes=(-0.05, 0.02))
     spectra = compute_spectra(
-        fit_devices(built, size(built, "counterweights", SchemeOptions(order=1))),
-        [1],
-        ("force", "moment"),
+        fit_scheme(built, "counterweights", order=1), [1], ("force", "moment")
     )
     square = built.omega**2
     force, moment = spectra.force.backward[0] / square, spectra.moment.backward[0] / 1j / square
@@ -70,7 +69,7 @@ def test_their_sizes_by_hand():
 
 
 def test_one_eccentric_promises_the_force_alone_where_a_moment_stays():
-    remedy = size(load(TWIN), "single-shaft", SchemeOptions(at=(-0.07 + 0.09j,)))
+    remedy = size_scheme(load(TWIN), "single-shaft", at=(-0.07 + 0.09j,))
     assert remedy.reasons[-1] == (
         "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; one "
         "eccentric on a shaft at -1 times crank speed can; a moment stays, which eccentrics in two "
@@ -94,13 +93,13 @@ def test_pairs_promise_no_more_either():
         for reason in remedy.reasons
     )
     assert all(reason.startswith("Order 1 force turning") for reason in remedy.reasons)
-    whole = size(load(I4), "two-shaft", SchemeOptions(order=2)).reasons
+    whole = size_scheme(load(I4), "two-shaft", order=2).reasons
     assert not any("stays" in reason for reason in whole)
 
 
 def test_two_planes_take_a_moment_alone_too():
     """A three has no force: two opposite eccentrics on one shaft."""
-    remedy = size(load(I3), "single-shaft", SchemeOptions(planes="ends"))
+    remedy = size_scheme(load(I3), "single-shaft", planes="ends")
     assert remedy.order == 1
     assert len(remedy.shafts) == 2
     assert left(I3, "single-shaft", SchemeOptions(planes="ends"), 1).moment.balanced.all()
@@ -150,14 +149,14 @@ def test_couple_shafts_stand_at_two_places():
 
 
 def test_one_place_is_that_of_the_shaft_against_the_crank():
-    shafts = size(load(I5), "couple-shaft", SchemeOptions(order=2, at=(0.1 + 0j,))).shafts
+    shafts = size_scheme(load(I5), "couple-shaft", order=2, at=(0.1 + 0j,)).shafts
     assert {(s.ratio, s.at) for s in shafts} == {(2, (0, 0)), (-2, (100, 0))}
 
 
 def test_a_moment_that_turns_in_one_sense_takes_one_place():
     """V6 of 60 degrees: its second order turns against the crank alone."""
     v6 = ENGINES / "v6_60.toml"
-    shafts = size(load(v6), "couple-shaft", SchemeOptions(order=2, at=(0.1 + 0j,))).shafts
+    shafts = size_scheme(load(v6), "couple-shaft", order=2, at=(0.1 + 0j,)).shafts
     assert [(s.ratio, s.at) for s in shafts] == [(-2, (100, 0))] * 2
     two = ["--scheme=couple-shaft", "--order=2", "--at=1,2", "--at=3,4"]
     message = "--at: this moment takes one shaft; give no more places"
@@ -217,7 +216,7 @@ def test_the_file_says_which_are_free(tmp_path):
 
 def test_shafts_on_the_crank_axis_are_drawn_beside_the_engine():
     built = load(I5)
-    fitted = fit_devices(built, size(built))
+    fitted = fit_scheme(built)
     radius = float(built.cylinders.radius)
     drawn = place_beside(fitted, 0.08)
     shafts = {row for row, device in enumerate(fitted.devices) if device.kind is DeviceKind.SHAFT}
@@ -239,7 +238,7 @@ def test_shafts_with_a_place_are_drawn_there():
 
 def test_the_page_has_no_shaft_inside_the_crank():
     built = load(I5)
-    now, after = (analyze(e, [1, 2]) for e in (built, fit_devices(built, size(built))))
+    now, after = (analyze(e, [1, 2]) for e in (built, fit_scheme(built)))
     shown = scene(now, after, SYSTEMS["si"])
     shafts = [device for device in shown["variants"][-1]["devices"] if device["beside"]]
     assert len(shafts) == 6
@@ -257,8 +256,8 @@ def test_lower_orders_that_stay_as_they_are_are_named():
         "(its force and moment turning with the crank: the scheme counterweights; its moment turning "
         "against the crank: eccentrics in two planes)."
     )
-    assert not size(twin, "single-shaft", SchemeOptions(order=2)).note
-    assert not size(twin, "single-shaft", SchemeOptions(planes=(-0.01, 0.01))).note
+    assert not size_scheme(twin, "single-shaft", order=2).note
+    assert not size_scheme(twin, "single-shaft", planes=(-0.01, 0.01)).note
     assert not size(load(I4), "single-shaft").note  # order 1 is balanced
 
 
@@ -287,7 +286,7 @@ def test_so_are_orders_whose_moment_is_left():
 
 def test_what_turns_with_the_crank_is_said_with_its_size():
     twin = build_text(STAGGERED_TWIN)
-    remedy = size(twin, "single-shaft", SchemeOptions(order=1))
+    remedy = size_scheme(twin, "single-shaft", order=1)
     assert remedy.note == (
         "order 1 has no free force turning against the crank: nothing to balance; its force and "
         "moment turning with the crank: the scheme counterweights; its moment turning against the "

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.engines import build_text, engine_text
-from support.remedies import SMALL, figures, find_orders, write_engine
+from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
 from balcli.enginefile.model import Counterweight
 from balcli.errors import BalcliError
@@ -103,7 +103,7 @@ def test_a_shaft_where_the_force_acts_is_at_no_distance_from_it():
         engine_text(crank="stroke = 100\nthrows = [0, 90]\npositions = [0, 33.3]")
         + "[cylinder.2]\npiston_mass = 1.7\n"
     )
-    remedy = size(engine, "single-shaft", SchemeOptions(order=1))
+    remedy = size_scheme(engine, "single-shaft", order=1)
     assert remedy.shafts[0].position > 0
     assert figures(remedy)["axial distance"] == 0
 
@@ -130,7 +130,7 @@ def test_what_is_in_the_middle_of_the_throws():
     )
     (weight,) = size(engine, "minimax").counterweights
     assert weight.position == 60
-    (weight,) = size(engine, "minimax", SchemeOptions(position=-0.02)).counterweights
+    (weight,) = size_scheme(engine, "minimax", position=-0.02).counterweights
     assert weight.position == -20
 
 
@@ -210,27 +210,27 @@ def test_planes_are_named_or_given():
     with pytest.raises(
         BalcliError, match=r'--planes "left": give ends, throws, or places along z$'
     ):
-        size(engine, "counterweights", SchemeOptions(planes="left"))
+        size_scheme(engine, "counterweights", planes="left")
     with pytest.raises(
         BalcliError,
         match=r"--planes: opposite eccentrics stand in two planes; give ends, or two places along "
         r"z$",
     ):
-        size(engine, "couple-shaft", SchemeOptions(planes=(-0.1, 0.0, 0.1)))
+        size_scheme(engine, "couple-shaft", planes=(-0.1, 0.0, 0.1))
     ends = [
-        devices(size(engine, "couple-shaft", SchemeOptions(planes=planes)))
+        devices(size_scheme(engine, "couple-shaft", planes=planes))
         for planes in (None, "ends", (-0.05, 0.05))
     ]
     assert ends[0] == ends[1] == ends[2]
     with pytest.raises(BalcliError, match=r"--at: this scheme has one place; give it once$"):
-        size(engine, "slider", SchemeOptions(at=(0j, 1j)))
+        size_scheme(engine, "slider", at=(0j, 1j))
 
 
 @pytest.mark.parametrize("place", [0.0, 0.1])
 def test_what_a_single_plane_leaves_is_said(place):
     """Away from the middle, force and moment both."""
     engine = build_text(SMALL["vee"])
-    remedy = size(engine, "counterweights", SchemeOptions(planes=(place,)))
+    remedy = size_scheme(engine, "counterweights", planes=(place,))
     after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
     assert figures(remedy)["force with crank left"] == pytest.approx(
         abs(after.force.forward[0]), rel=1e-9, abs=1e-9
@@ -254,7 +254,7 @@ def test_a_single_plane_near_the_point_of_reference_takes_no_huge_weight(name, p
     force, moment = before.force.forward[0], before.moment.forward[0] / 1j
     reach = max(abs(place), float(np.abs(engine.cylinders.z).max()), float(engine.cylinders.radius))
     best = -(force + place * moment / reach**2) / (1 + (place / reach) ** 2)
-    remedy = size(engine, "counterweights", SchemeOptions(planes=(place,)))
+    remedy = size_scheme(engine, "counterweights", planes=(place,))
     assert figures(remedy)["force with crank left"] == pytest.approx(abs(force + best), rel=1e-9)
     if place == 1e-4:
         assert figures(remedy)["force with crank left"] < 0.01 * abs(force)
@@ -280,7 +280,7 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
         max(place - 1e-3, -0.05),
         min(place + 1e-3, 0.05),
     ):  # between the throws
-        there = size(engine, "single-shaft", SchemeOptions(position=other))
+        there = size_scheme(engine, "single-shaft", position=other)
         assert figures(here)["couple left"] <= figures(there)["couple left"] * (1 + 1e-12) + 1e-12
         left = compute_spectra(fit_devices(engine, there), [here.order], ("moment", "roll"))
         assert figures(there)["couple left"] == pytest.approx(
@@ -296,12 +296,10 @@ def test_sliders_stand_where_the_stronger_part_acts(bank, order):
     engine = build_text(UNEVEN.replace("bank_angle = 50", f"bank_angle = {bank}"))
     force = compute_spectra(engine, [order], ("force",)).force
     stronger = "forward" if abs(force.forward[0]) > abs(force.backward[0]) else "backward"
-    place = size(engine, "slider", SchemeOptions(order=order)).sliders[0].position / 1e3
+    place = size_scheme(engine, "slider", order=order).sliders[0].position / 1e3
 
     def left(position):
-        after = fit_devices(
-            engine, size(engine, "slider", SchemeOptions(order=order, position=position))
-        )
+        after = fit_scheme(engine, "slider", order=order, position=position)
         return abs(getattr(compute_spectra(after, [order], ("moment",)).moment, stronger)[0])
 
     least = left(place) * (1 - 1e-9) - 1e-9
@@ -340,9 +338,7 @@ def test_no_roll_by_the_nearest_places(order, frame):
     near = sum(abs(complex(*s.at)) ** 2 for s in remedy.shafts)
     first = complex(*next(s.at for s in remedy.shafts if s.ratio < 0)) / 1e3
     for step in (1e-3, 1e-3j, -1e-3, -1e-3j):
-        other = size(
-            at_crank, "two-shaft", SchemeOptions(order=order, roll="zero", at=(first + step,))
-        )
+        other = size_scheme(at_crank, "two-shaft", order=order, roll="zero", at=(first + step,))
         assert sum(abs(complex(*s.at)) ** 2 for s in other.shafts) > near
 
 
@@ -355,7 +351,7 @@ def test_other_devices_do_so_too(scheme):
 def test_a_single_shaft_says_what_force_it_leaves():
     """Of an order that nothing on the crankshaft can take."""
     engine = build_text(UNEVEN)
-    remedy = size(engine, "single-shaft", SchemeOptions(order=2))
+    remedy = size_scheme(engine, "single-shaft", order=2)
     left = compute_spectra(fit_devices(engine, remedy), [2], ("force",)).force.forward[0]
     assert figures(remedy)["force with crank left"] == pytest.approx(abs(left), rel=1e-12)
     assert figures(remedy)["force with crank left"] > 1
@@ -370,7 +366,7 @@ def test_a_single_shaft_has_counterweights_at_both_throws():
 
 def test_the_geometry_of_a_pair_in_the_details():
     engine = build_text(SMALL["vee"])
-    remedy = size(engine, "two-shaft", SchemeOptions(order=2, at=(-0.03 + 0.04j, 0.12j)))
+    remedy = size_scheme(engine, "two-shaft", order=2, at=(-0.03 + 0.04j, 0.12j))
     told = figures(remedy, "order 2")
     assert (told["radius against crank"], told["radius with crank"]) == pytest.approx((0.05, 0.12))
     assert told["radius ratio"] == pytest.approx(120 / 50)
@@ -414,8 +410,8 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
         match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes "
         "it and none",
     ):
-        size(engine, "two-shaft", SchemeOptions(order=order, roll="zero"))
-    remedy = size(engine, "two-shaft", SchemeOptions(order=order, at=(0.03j,)))
+        size_scheme(engine, "two-shaft", order=order, roll="zero")
+    remedy = size_scheme(engine, "two-shaft", order=order, at=(0.03j,))
     assert [s.at for s in remedy.shafts] == [(0, 30), (0, -30)]
     assert {s.ratio for s in remedy.shafts} == {order if turning == "with" else -order}
     told = figures(remedy, f"order {order}")
@@ -428,7 +424,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
 
 def test_couple_shafts_say_what_they_do_and_what_is_left():
     engine = build_text(SMALL["vee"])
-    remedy = size(engine, "couple-shaft", SchemeOptions(order=1))
+    remedy = size_scheme(engine, "couple-shaft", order=1)
     assert list(remedy.reasons[::2]) == [
         f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at "
         f"{ratio} times crank speed make the opposite "
@@ -455,39 +451,36 @@ def test_the_lowest_order_that_is_there_up_to_8():
     assert size(star(11), "single-shaft").note.startswith(
         "there is no free force turning against the crank of orders 1 to 8: nothing to balance"
     )
-    assert size(star(11), "single-shaft", SchemeOptions(order=10)).order == 10
+    assert size_scheme(star(11), "single-shaft", order=10).order == 10
     ninth = build_text(
         write_engine(0, layout="radial = 10", piston="mass = 1\noffset = 3")
     )  # an offset makes odd orders
     assert "of orders 1 to 8" in size(ninth, "single-shaft").note
-    assert size(ninth, "single-shaft", SchemeOptions(order=9)).devices
-    weighted = fit_devices(star(3), size(star(3), "counterweights"))
+    assert size_scheme(ninth, "single-shaft", order=9).devices
+    weighted = fit_scheme(star(3), "counterweights")
     assert size(weighted, "two-shaft").order == 2
-    assert size(star(3), "two-shaft", SchemeOptions(order=1000)).note.startswith(
+    assert size_scheme(star(3), "two-shaft", order=1000).note.startswith(
         "order 1000 has no free force: nothing"
     )
-    assert [size(star(3), "two-shaft", SchemeOptions(order=order)).order for order in (1, 4)] == [
-        1,
-        4,
-    ]
+    assert [size_scheme(star(3), "two-shaft", order=order).order for order in (1, 4)] == [1, 4]
 
 
 def test_what_else_an_order_has_is_said():
     three, vee = (build_text(SMALL[name]) for name in ("three", "four"))
-    assert size(three, "two-shaft", SchemeOptions(order=1)).note == (
+    assert size_scheme(three, "two-shaft", order=1).note == (
         "order 1 has no free force: nothing to balance; it has a free moment: couple-shaft"
     )
-    assert size(vee, "couple-shaft", SchemeOptions(order=2)).note == (
+    assert size_scheme(vee, "couple-shaft", order=2).note == (
         "order 2 has no free moment: nothing to balance; it has a free force: two-shaft"
     )
     cross = build_text(
         write_engine(0, 90, 270, 180, layout="bank_angle = 90")
     )  # a moment with the crank alone
-    assert size(cross, "two-shaft", SchemeOptions(order=1)).note.endswith(
+    assert size_scheme(cross, "two-shaft", order=1).note.endswith(
         "; it has a free moment: couple-shaft"
     )
     assert (
-        size(three, "two-shaft", SchemeOptions(order=3)).note
+        size_scheme(three, "two-shaft", order=3).note
         == "order 3 has no free force: nothing to balance"
     )
 
@@ -496,13 +489,13 @@ def test_what_else_an_order_has_is_said():
 def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
     """One cylinder shakes along its axis, and needs no slider across."""
     single = write_engine(0, layout=f"banks = [{bank}]")
-    (along,) = size(build_text(single), "slider", SchemeOptions(order=2)).sliders
+    (along,) = size_scheme(build_text(single), "slider", order=2).sliders
     assert along.direction == pytest.approx(90 if bank == -90 else bank)
     for half in (25, 35):  # the long axis of the ellipse lies along the bisector, and across it
-        two = size(
+        two = size_scheme(
             build_text(write_engine(0, layout=f"banks = [{bank - half}, {bank + half}]")),
             "slider",
-            SchemeOptions(order=2),
+            order=2,
         ).sliders
         assert all(-90 < s.direction <= 90 for s in two)
         assert abs(two[0].direction - two[1].direction) == pytest.approx(90)
@@ -511,9 +504,9 @@ def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
 # ------------------------------------------------------------------ the shop's factor
 def test_a_single_factor_is_no_sweep():
     engine = build_text(SMALL["vee"])
-    remedy = size(engine, "factor", SchemeOptions(factor=(0.4,)))
+    remedy = size_scheme(engine, "factor", factor=(0.4,))
     assert not remedy.sweep
-    swept = size(engine, "factor", SchemeOptions(factor=(0.4, 0.5))).sweep
+    swept = size_scheme(engine, "factor", factor=(0.4, 0.5)).sweep
     assert [peaks.factor for peaks in swept] == [0.4, 0.5]
     assert not remedy.note
     assert [(entry.throw, entry.cylinders, entry.factor) for entry in remedy.card] == [
@@ -529,10 +522,8 @@ def test_peaks_along_and_across_are_those_of_the_curve():
     engine = build_text(
         SMALL["vee"].replace("mass = 1\n[layout]", "mass = 1\noffset = 6\n[layout]")
     )
-    for row in size(engine, "factor", SchemeOptions(factor=(0.3, 0.7))).sweep:
-        curve = find_orders(
-            fit_devices(engine, size(engine, "factor", SchemeOptions(factor=(row.factor,))))
-        )
+    for row in size_scheme(engine, "factor", factor=(0.3, 0.7)).sweep:
+        curve = find_orders(fit_scheme(engine, "factor", factor=(row.factor,)))
         seen = curve.values(np.linspace(0, 2 * np.pi, 36001)) * np.exp(
             1j * np.radians(25)
         )  # the first bank at -25 degrees
@@ -556,13 +547,13 @@ def test_rods_a_whole_turn_apart_are_on_one_pin():
 @pytest.mark.parametrize("share", [-2, 2])
 def test_factors_at_their_bounds(share):
     engine = build_text(SMALL["one"])
-    assert figures(size(engine, "factor", SchemeOptions(factor=(share,))))["factor"] == share
+    assert figures(size_scheme(engine, "factor", factor=(share,)))["factor"] == share
     with pytest.raises(
         BalcliError,
         match=r"--factor -?2: is no share of the reciprocating mass; (did you mean 2%\? )?give one such as 0.5 or 51%, "
         r"or a range such as 50%:54%:1%$",
     ):
-        size(engine, "factor", SchemeOptions(factor=(share * (1 + 1e-15), 0.5)))
+        size_scheme(engine, "factor", factor=(share * (1 + 1e-15), 0.5))
 
 
 @pytest.mark.parametrize("scheme", ["auto", "counterweights", "factor", "minimax"])
@@ -600,7 +591,7 @@ def test_dust_of_an_unbalance_is_no_device(scheme):
 def test_what_is_no_option_is_told_in_words(scheme, options, told):
     """In Python; nan once went through to the figures."""
     with pytest.raises(TypeError) as error:
-        size(build_text(SMALL["four"]), scheme, SchemeOptions(**options))
+        size_scheme(build_text(SMALL["four"]), scheme, **options)
     assert str(error.value).startswith(f"SchemeOptions: {told}")
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from support.engines import GOOD, SINGLE, build_text
 from support.paths import ENGINE_FILES
+from support.remedies import size_scheme
 
 from balcli.errors import BalcliError
 from balcli.results.analysis import analyze
-from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.sizing import size
@@ -84,7 +84,7 @@ def test_nothing_to_fit_leaves_the_text():
 
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_what_no_file_can_describe_is_not_written(scheme):
-    remedy = size(build_text(SINGLE), scheme, SchemeOptions())
+    remedy = size_scheme(build_text(SINGLE), scheme)
     with pytest.raises(
         BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"
     ):

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from support.engines import build_text, engine_text
-from support.remedies import figures
+from support.remedies import figures, fit_scheme, size_scheme
 
 from balcli.engine.build import Engine
 from balcli.errors import BalcliError
@@ -76,7 +76,7 @@ def random_engine(seed: int) -> Engine:
 @example(33446)
 def test_auto_leaves_nothing_in_any_engine(seed):
     engine = random_engine(seed)
-    after = compute_spectra(fit_devices(engine, size_auto(engine)), [1, 2], ("force", "moment"))
+    after = compute_spectra(fit_scheme(engine), [1, 2], ("force", "moment"))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
 
@@ -84,7 +84,7 @@ def test_auto_leaves_nothing_in_any_engine(seed):
 @given(st.integers(0, 2**32))
 def test_pairs_add_no_roll_in_any_engine(seed):
     engine = random_engine(seed)
-    remedy = size(engine, "two-shaft", SchemeOptions(order=2, at=(0.05 - 0.03j,)))
+    remedy = size_scheme(engine, "two-shaft", order=2, at=(0.05 - 0.03j,))
     before, after = (
         compute_spectra(e, [2], ("force", "roll", "torque", "couple"))
         for e in (engine, fit_devices(engine, remedy))
@@ -128,11 +128,11 @@ def test_a_gram_next_to_a_hundred_tonnes(light):
         engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston="mass = 1e5")
         + f"[cylinder.2]\npiston_mass = {light}\n"
     )
-    assert share_left(engine, fit_devices(engine, size_auto(engine))) <= LEFT
+    assert share_left(engine, fit_scheme(engine)) <= LEFT
     alone = build_text(
         engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston=f"mass = {light}")
     )
-    assert share_left(alone, fit_devices(alone, size_auto(alone))) <= LEFT
+    assert share_left(alone, fit_scheme(alone)) <= LEFT
 
 
 @pytest.mark.parametrize("apart", [100, 1, 0.1])
@@ -143,7 +143,7 @@ def test_planes_next_to_each_other(apart):
     engine = build_text(
         engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2")
     )
-    remedy = size(engine, "counterweights", SchemeOptions(planes=(0.05, 0.05 + apart / 1e3)))
+    remedy = size_scheme(engine, "counterweights", planes=(0.05, 0.05 + apart / 1e3))
     before, after = (
         compute_spectra(e, [1], ("force", "moment")) for e in (engine, fit_devices(engine, remedy))
     )
@@ -158,7 +158,7 @@ def test_hopeless_planes_are_refused_with_their_condition_number(apart):
     """A nanometre, or a micrometre: rounding alone would leave more than the promised 1e-12."""
     engine = build_text(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100"))
     with pytest.raises(BalcliError) as caught:
-        size(engine, "counterweights", SchemeOptions(planes=(0.05, 0.05 + apart)))
+        size_scheme(engine, "counterweights", planes=(0.05, 0.05 + apart))
     told = re.search(r"condition number ([0-9.e+]+)\)", str(caught.value))
     assert told is not None
     assert float(told[1]) == pytest.approx(

@@ -9,13 +9,13 @@ from itertools import groupby
 import numpy as np
 import pytest
 from docs_examples import ROOT
+from support.searches import search_least
 
 from balcli.engine.load import load, read
 from balcli.forces.crankshaft import compute_inner_loads
 from balcli.studies.deviations import Tolerances
 from balcli.studies.quantities import parse_quantities
-from balcli.studies.search.objective import Objective, parse_objective
-from balcli.studies.search.search import search_arrangements
+from balcli.studies.search.objective import Objective
 from balcli.studies.tolerances import Drawing, scatter_engine
 
 pytestmark = pytest.mark.stress
@@ -50,8 +50,8 @@ def test_equal_arrangements_of_a_search(name: str, monkeypatch: pytest.MonkeyPat
     def found() -> list[object]:
         return [
             one.design
-            for one in search_arrangements(
-                read(ENGINES / f"{name}.toml"), "throws", parse_objective("moment.1.major"), 10
+            for one in search_least(
+                read(ENGINES / f"{name}.toml"), "throws", "moment.1.major", count=10
             ).results
         ]
 

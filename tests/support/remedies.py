@@ -10,12 +10,24 @@ from support.engines import engine_text
 from balcli.core.phasors import Phasors
 from balcli.engine.build import Engine
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.remedy import Remedy
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import Remedy, fit_devices
+from balcli.sizing.sizing import size
 
 
 def figures(remedy: Remedy, group: str = "") -> dict[str, Any]:
     """The details of a group by their labels, SI."""
     return {detail.label: detail.value for detail in remedy.details if detail.group == group}
+
+
+def size_scheme(engine: Engine, scheme: str = "auto", **options: Any) -> Remedy:
+    """The devices of a scheme."""
+    return size(engine, scheme, SchemeOptions(**options))
+
+
+def fit_scheme(engine: Engine, scheme: str = "auto", **options: Any) -> Engine:
+    """The engine with them."""
+    return fit_devices(engine, size_scheme(engine, scheme, **options))
 
 
 def find_orders(engine: Engine, kind: str = "force") -> Phasors:

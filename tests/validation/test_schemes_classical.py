@@ -10,7 +10,7 @@ import math
 import numpy as np
 import pytest
 from support.engines import build_text, engine_text
-from support.remedies import figures
+from support.remedies import figures, fit_scheme, size_scheme
 
 from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine
@@ -53,7 +53,7 @@ def test_v_twin_at_90_degrees_needs_a_counterweight_alone():
     (weight,) = size_auto(e).counterweights
     assert weight.unbalance / 1e6 == pytest.approx((M + 1) * R, rel=1e-14)
     assert weight.angle == 180
-    assert left(fit_devices(e, size_auto(e)), [1]).force.balanced.all()
+    assert left(fit_scheme(e), [1]).force.balanced.all()
 
 
 def test_cross_plane_v8_needs_counterweights_alone():
@@ -77,14 +77,12 @@ def test_radial_engines_need_a_counterweight_alone(cylinders):
     e = engine([0], layout=f"radial = {cylinders}")
     (weight,) = size(e, "counterweights").counterweights
     assert weight.unbalance / 1e6 == pytest.approx((cylinders * M / 2 + 1) * R, rel=1e-13)
-    assert left(fit_devices(e, size(e, "counterweights")), [1]).force.balanced.all()
+    assert left(fit_scheme(e, "counterweights"), [1]).force.balanced.all()
 
 
 @pytest.mark.parametrize("planes", ["ends", "throws", (-0.22, 0.19), (-0.3, -0.1, 0.2)])
 def test_counterweights_in_any_planes(planes):
-    after = left(
-        fit_devices(INLINE_3, size(INLINE_3, "counterweights", SchemeOptions(planes=planes))), [1]
-    )
+    after = left(fit_scheme(INLINE_3, "counterweights", planes=planes), [1])
     assert (after.force.forward[0], after.moment.forward[0]) == (0, 0)
     assert abs(after.moment.backward[0]) == pytest.approx(
         abs(left(INLINE_3, [1]).moment.backward[0]), rel=1e-14
@@ -93,7 +91,7 @@ def test_counterweights_in_any_planes(planes):
 
 def test_a_single_plane_does_what_it_can():
     e = engine([0], layout="bank_angle = 60\nstagger = 20")
-    remedy = size(e, "counterweights", SchemeOptions(planes=(0.0,)))
+    remedy = size_scheme(e, "counterweights", planes=(0.0,))
     assert figures(remedy)["force with crank left"] == 0
     assert figures(remedy)["moment with crank left"] == pytest.approx(
         abs(left(e, [1]).moment.forward[0]), rel=1e-14
@@ -104,7 +102,7 @@ def test_a_single_plane_does_what_it_can():
 def test_factor_leaves_what_it_does_not_take():
     e = engine([0])
     for share in (0, 0.4, 0.5, 0.66, 1):
-        after = left(fit_devices(e, size(e, "factor", SchemeOptions(factor=(share,)))), [1]).force
+        after = left(fit_scheme(e, "factor", factor=(share,)), [1]).force
         unit = M * R * e.omega**2
         assert after.forward[0].real == pytest.approx((0.5 - share) * unit, abs=1e-13 * unit)
         assert after.backward[0] == pytest.approx(unit / 2, rel=1e-14)
@@ -127,7 +125,7 @@ def test_bobweight_card_of_a_cross_plane_v8():
     assert [entry.rotating_g for entry in card] == pytest.approx([2 * (430 + 47 + 4)] * 4)
     assert [entry.reciprocating_g for entry in card] == pytest.approx([2 * (700 + 170)] * 4)
     assert [entry.bobweight_g for entry in card] == pytest.approx([962 + 870] * 4)
-    assert left(fit_devices(e, size(e, "factor")), [1]).moment.balanced.all()
+    assert left(fit_scheme(e, "factor"), [1]).moment.balanced.all()
 
 
 def test_split_pins_have_a_card_each():
@@ -147,7 +145,7 @@ def test_factor_sweep_trades_along_for_across():
     units of m r omega^2.
     """
     e = build_text(engine_text(rod="ratio = 1e-7"))
-    remedy = size(e, "factor", SchemeOptions(factor=(0.0, 0.25, 0.5, 0.75, 1.0)))
+    remedy = size_scheme(e, "factor", factor=(0.0, 0.25, 0.5, 0.75, 1.0))
     unit = M * R * e.omega**2
     for row in remedy.sweep:
         share = row.factor
@@ -177,15 +175,13 @@ def test_shafts_at_different_heights_take_the_roll():
     """
     inertia_torque = 4 * M * R**2 * abs(float(closed_form.kinetic([2], LAM)[0]))  # per omega^2
     height = inertia_torque / (4 * A2 * M * R / 2)  # force of one shaft
-    remedy = size(INLINE_4, "two-shaft", SchemeOptions(roll="zero"))
+    remedy = size_scheme(INLINE_4, "two-shaft", roll="zero")
     place = {s.ratio: complex(*s.at) / 1e3 for s in remedy.shafts}
     assert place[2] - place[-2] == pytest.approx(height, rel=1e-13)
     after = left(fit_devices(INLINE_4, remedy), [2])
     assert abs(after.roll.forward[0]) <= 1e-14 * inertia_torque * INLINE_4.omega**2
     assert after.force.balanced.all()
-    halfway = size(
-        INLINE_4, "two-shaft", SchemeOptions(at=(-height / 4 + 0.03j, height / 4 - 0.03j))
-    )
+    halfway = size_scheme(INLINE_4, "two-shaft", at=(-height / 4 + 0.03j, height / 4 - 0.03j))
     assert figures(halfway, "order 2")["roll left"] == pytest.approx(
         inertia_torque * INLINE_4.omega**2 / 2, rel=1e-12
     )
@@ -193,7 +189,7 @@ def test_shafts_at_different_heights_take_the_roll():
 
 def test_roll_vanishes_with_the_first_shaft_given_and_the_reference_elsewhere():
     e = engine([0, 180, 180, 0], more="[frame]\nreference = [30, -20, 0]\n")
-    remedy = size(e, "two-shaft", SchemeOptions(at=(-0.04 + 0.06j,), roll="zero"))
+    remedy = size_scheme(e, "two-shaft", at=(-0.04 + 0.06j,), roll="zero")
     assert remedy.shafts[0].at == (-40.0, 60.0)
     rolls = [abs(left(x, [2]).roll.forward[0]) for x in (e, fit_devices(e, remedy))]
     assert rolls[1] <= 1e-13 * rolls[0]
@@ -212,7 +208,7 @@ def test_inline_three_needs_couples():
     after = left(fit_devices(INLINE_3, remedy))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
-    shafts = fit_devices(INLINE_3, size(INLINE_3, "couple-shaft"))
+    shafts = fit_scheme(INLINE_3, "couple-shaft")
     assert left(shafts, [1]).moment.balanced.all()
 
 
@@ -248,7 +244,7 @@ def test_eccentric_stands_where_the_force_acts():
     e = engine([0, 180], more="[cylinder.2]\npiston_mass = 3\n")
     at = {s.ratio: s for s in size_auto(e).shafts if abs(s.ratio) == 2}
     assert at[2].position == at[-2].position == pytest.approx((3 * 50 - 50) / 4, rel=1e-14)
-    after = left(fit_devices(e, size_auto(e)))
+    after = left(fit_scheme(e))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
 
@@ -322,7 +318,4 @@ def test_sizing_is_for_steady_speed():
     ripple = "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.02 }]\n"
     uneven = engine([0, 180, 180, 0], more=ripple)
     assert size_auto(uneven).shafts == size_auto(INLINE_4).shafts
-    assert np.any(
-        analyze(fit_devices(uneven, size_auto(uneven)), [1, 2, 4], ["force"]).spectra.force.major
-        > 0
-    )
+    assert np.any(analyze(fit_scheme(uneven), [1, 2, 4], ["force"]).spectra.force.major > 0)

@@ -14,13 +14,12 @@ import math
 import numpy as np
 import pytest
 from support.engines import build_text, engine_text
+from support.remedies import fit_scheme, size_scheme
 
 from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
-from balcli.sizing.sizing import size
 
 K = (
     4 * float(closed_form.piston([2], 0.25)[0]) * 1.0 * 0.05
@@ -40,7 +39,7 @@ def flat_plane(gamma: float) -> Engine:
 def unbalances(engine: Engine, **options: object) -> dict[int, complex]:
     """Sum of the unbalances (kg m) at each ratio."""
     found: dict[int, complex] = {}
-    for s in size(engine, "two-shaft", SchemeOptions(order=2, **options)).shafts:
+    for s in size_scheme(engine, "two-shaft", order=2, **options).shafts:
         found[s.ratio] = found.get(s.ratio, 0j) + cmath.rect(
             s.unbalance / 1e6, math.radians(s.angle)
         )
@@ -55,11 +54,7 @@ def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
         K * abs(math.cos(half)), abs=1e-13 * K
     )  # (2 omega)^2 = 4 omega^2
     assert abs(found.get(-2, 0j)) * 4 == pytest.approx(K * abs(math.cos(3 * half)), abs=1e-13 * K)
-    after = compute_spectra(
-        fit_devices(engine, size(engine, "two-shaft", SchemeOptions(order=2))),
-        [2],
-        ("force", "moment"),
-    )
+    after = compute_spectra(fit_scheme(engine, "two-shaft", order=2), [2], ("force", "moment"))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
 
@@ -67,7 +62,7 @@ def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
 @pytest.mark.parametrize("gamma", [g for g in EVERY_ANGLE if g not in (60, 180)])
 def test_places_that_add_no_roll(gamma):
     engine, half = flat_plane(gamma), math.radians(gamma / 2)
-    remedy = size(engine, "two-shaft", SchemeOptions(order=2, at=(0.06 + 0.08j,)))
+    remedy = size_scheme(engine, "two-shaft", order=2, at=(0.06 + 0.08j,))
     place = {s.ratio: complex(*s.at) for s in remedy.shafts}
     ratio = abs(place[2]) / abs(place[-2])
     assert ratio == pytest.approx(
@@ -88,12 +83,12 @@ def test_places_that_add_no_roll(gamma):
 
 def test_sixty_degrees_needs_one_shaft_on_the_crank_axis_or_two_halves():
     engine = flat_plane(60)
-    (one,) = size(engine, "two-shaft", SchemeOptions(order=2)).shafts
+    (one,) = size_scheme(engine, "two-shaft", order=2).shafts
     assert (one.ratio, one.at) == (2, (0.0, 0.0))
     assert 4 * one.unbalance / 1e6 == pytest.approx(
         2 * math.sqrt(3) * K / 4, rel=1e-14
     )  # 2 sqrt3 A2 m r omega^2
-    halves = size(engine, "two-shaft", SchemeOptions(order=2, at=(0.03 + 0.04j,))).shafts
+    halves = size_scheme(engine, "two-shaft", order=2, at=(0.03 + 0.04j,)).shafts
     assert sorted(h.at for h in halves) == [(-30.0, -40.0), (30.0, 40.0)]
     assert [h.unbalance for h in halves] == [one.unbalance / 2] * 2
 
@@ -105,7 +100,7 @@ def test_sliders(gamma):
     wanted = sorted(K / 4 * abs(math.cos(3 * half) + sign * math.cos(half)) for sign in (1, -1))
     found = {
         s.direction: s.unbalance / 1e6
-        for s in size(flat_plane(gamma), "slider", SchemeOptions(order=2)).sliders
+        for s in size_scheme(flat_plane(gamma), "slider", order=2).sliders
     }
     sizes = sorted([0.0] * (2 - len(found)) + list(found.values()))
     assert sizes == pytest.approx(wanted, abs=1e-13 * K)
@@ -119,14 +114,11 @@ def test_sliders(gamma):
 def test_largest_horizontal_slider():
     """|Z_x|max = 8/(3 sqrt3) at gamma = 2 arctan sqrt2."""
     gamma = math.degrees(2 * math.atan(math.sqrt(2)))
-    sizes = [
-        s.unbalance / 1e6 for s in size(flat_plane(gamma), "slider", SchemeOptions(order=2)).sliders
-    ]
+    sizes = [s.unbalance / 1e6 for s in size_scheme(flat_plane(gamma), "slider", order=2).sliders]
     assert max(sizes) == pytest.approx(K / 4 * 8 / (3 * math.sqrt(3)), rel=1e-14)
     assert np.all(
         [
-            max(s.unbalance for s in size(flat_plane(g), "slider", SchemeOptions(order=2)).sliders)
-            / 1e6
+            max(s.unbalance for s in size_scheme(flat_plane(g), "slider", order=2).sliders) / 1e6
             < max(sizes)
             for g in (gamma - 1, gamma + 1)
         ]

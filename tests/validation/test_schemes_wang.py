@@ -12,7 +12,7 @@ import math
 import numpy as np
 import pytest
 from support.engines import build_text, engine_text
-from support.remedies import figures
+from support.remedies import figures, fit_scheme, size_scheme
 
 from balcli.core.mechanisms import closed_form, slidercrank
 from balcli.engine.build import Engine
@@ -20,7 +20,6 @@ from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze
 from balcli.sizing.eccentric_slider import DESIGNS, find_optimum
-from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 
@@ -31,10 +30,6 @@ def single(lam: float = 0.25, more: str = "", **tables: str) -> Engine:
     return build_text(
         engine_text(rod=f"ratio = {lam}", crank="stroke = 100\nthrow_mass = 0.7", **tables) + more
     )
-
-
-def after(engine: Engine, scheme: str, **options: object):
-    return fit_devices(engine, size(engine, scheme, SchemeOptions(**options)))
 
 
 # lambda, design, criterion, force, k, mu, largest/J, mean/J to the digits of the independent search
@@ -186,9 +181,7 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-12)
     assert all(device.place == 0 for device in remedy.beyond)
     one, many = (
-        compute_spectra(
-            fit_devices(e, size(e, "eccentric-slider")), np.arange(0.0, 12), ("force", "moment")
-        )
+        compute_spectra(fit_scheme(e, "eccentric-slider"), np.arange(0.0, 12), ("force", "moment"))
         for e in (plain, other)
     )
     unit = [m * R * e.omega**2 for m, e in ((M, plain), (mass, other))]
@@ -243,9 +236,7 @@ def test_oldham_couplings_cancel_orders_1_and_2(bank):
 def test_oldham_couplings_suit_an_offset_too():
     """The two vectors of an order then differ in phase."""
     engine = single(0.3, layout="banks = [20]", piston="mass = 1\noffset = 6")
-    assert compute_spectra(
-        fit_devices(engine, size(engine, "oldham")), [1, 2], ("force",)
-    ).force.balanced.all()
+    assert compute_spectra(fit_scheme(engine, "oldham"), [1, 2], ("force",)).force.balanced.all()
 
 
 def test_two_and_four_shafts():
@@ -264,7 +255,7 @@ def test_single_shaft_leaves_a_couple():
     distance.
     """
     engine = single()
-    remedy = size(engine, "single-shaft", SchemeOptions(position=0.08))
+    remedy = size_scheme(engine, "single-shaft", position=0.08)
     couple = 0.08 * M * R / 2 * engine.omega**2
     assert figures(remedy)["couple left"] == pytest.approx(couple, rel=1e-14)
     assert figures(remedy)["axial distance"] == pytest.approx(0.08)
@@ -295,7 +286,9 @@ def test_overbalance_optimum_of_both_orders(lam, peak, k):
     """
     engine = single(lam)
     (weight,) = size(engine, "minimax").counterweights
-    found = analyze(after(engine, "minimax"), only=["peak"]).force.value / (M * R * engine.omega**2)
+    found = analyze(fit_scheme(engine, "minimax"), only=["peak"]).force.value / (
+        M * R * engine.omega**2
+    )
     rest = sum(abs(float(a)) for a in closed_form.piston([4, 6, 8], lam)) + abs(
         float(closed_form.piston([2], lam)[0]) - lam
     )
@@ -306,7 +299,7 @@ def test_overbalance_optimum_of_both_orders(lam, peak, k):
 
 def test_half_balance_leaves_half():
     """(36): k = 1/2 leaves J/2 turning against the crank."""
-    left = compute_spectra(after(single(), "factor", factor=(0.5,)), [1], ("force",)).force
+    left = compute_spectra(fit_scheme(single(), "factor", factor=(0.5,)), [1], ("force",)).force
     assert left.forward[0] == 0
     assert abs(left.backward[0]) == pytest.approx(M * R / 2 * single().omega ** 2, rel=1e-14)
 

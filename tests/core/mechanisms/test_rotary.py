@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.engines import GNOME, rotary_engine
+from support.engines import GNOME, build_text, rotary_engine
 
 from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
@@ -47,8 +47,7 @@ def test_the_throw_stands_still():
     text = GNOME.format(layout="banks = [0]", offset=0)
     light, heavy = (
         spectrum.compute_spectra(
-            engine.build(enginefile.parse(text.replace("throw_mass = 3", mass))),
-            np.arange(1.0, 4.0),
+            build_text(text.replace("throw_mass = 3", mass)), np.arange(1.0, 4.0)
         )
         for mass in ("throw_mass = 0", "throw_mass = 9")
     )
@@ -59,7 +58,7 @@ def test_the_throw_stands_still():
 def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
     text = GNOME.format(layout="radial = 5", offset=9)
     turning, still = (
-        find_travel(engine.build(enginefile.parse(text.replace("rotary = true", flag))).cylinders)
+        find_travel(build_text(text.replace("rotary = true", flag)).cylinders)
         for flag in ("", "rotary = true")
     )
     assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)

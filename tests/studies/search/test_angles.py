@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from support.engines import RADIAL
+from support.searches import search_least
 
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
@@ -234,9 +235,7 @@ def test_the_angle_at_which_a_vee_fires_evenly(pairs: int, over: str) -> None:
     interval = 720 / (2 * pairs)
     throws = [-2 * k * interval for k in range(pairs)]
     file = vee(throws=throws, bank=bank)
-    results = search_arrangements(
-        file, over, parse_objective("moment.1.major"), 100, even_firing=True
-    ).results
+    results = search_least(file, over, "moment.1.major", count=100, even_firing=True).results
     found = [r.design.given()[over] for r in results]
     for angle in found:
         engine = build(file, {PATHS[over]: angle})
@@ -264,7 +263,7 @@ def test_uneven_throws_fire_evenly_at_no_angle() -> None:
     file = vee(throws=[0, 100, 190])
     for over in PATHS:
         with pytest.raises(BalcliError, match="can fire evenly"):
-            search_arrangements(file, over, parse_objective("moment.1.major"), even_firing=True)
+            search_least(file, over, "moment.1.major", even_firing=True)
 
 
 @pytest.mark.parametrize(
@@ -288,23 +287,17 @@ def test_even_firing_is_required_of_a_number_too(throws, over, even) -> None:
 
 def test_a_throw_that_lets_a_three_fire_evenly() -> None:
     three = load(in_line("[0, 230, 120]"))
-    found = search_arrangements(
-        three, "crank.throws.2=200:250", parse_objective("moment.1.major"), even_firing=True
-    )
+    found = search_least(three, "crank.throws.2=200:250", "moment.1.major", even_firing=True)
     assert [one.design.number for one in found.results] == [("crank.throws.2", 240.0)]
 
 
 def test_even_firing_and_a_limit() -> None:
     """V6 of 72.4 degrees: splays of -47.6, -167.6 and 72.4 fire evenly; the limit leaves two."""
     file = vee(throws=[0, 240, 120], bank=72.4)
-    free = search_arrangements(
-        file, "splay", parse_objective("moment.1.major"), even_firing=True
-    ).results
+    free = search_least(file, "splay", "moment.1.major", even_firing=True).results
     assert sorted(r.design.splay for r in free) == [-167.6, -47.6, 72.4]
     limit = f"moment.1.major<{free[-1].objective!r}"
-    kept = search_arrangements(
-        file, "splay", parse_objective("moment.1.major", [limit]), even_firing=True
-    ).results
+    kept = search_least(file, "splay", "moment.1.major", [limit], even_firing=True).results
     assert sorted(r.design.splay for r in kept) == [-167.6, -47.6]
     impossible = parse_objective("moment.1.major", ["moment.1.major<1e-9"])
     with pytest.raises(BalcliError, match="no splay can keep these limits and fire evenly"):
@@ -317,18 +310,13 @@ def test_four_strokes_of_any_even_number_have_firing_orders(cylinders: int) -> N
     interval = 720 / cylinders
     half = cylinders // 2
     once = [k * interval for k in range(half)]
-    found = search_arrangements(
-        load(in_line(str([*once, *reversed(once)]))),
-        "firing_order",
-        parse_objective("moment.1.major"),
-        1,
+    found = search_least(
+        load(in_line(str([*once, *reversed(once)]))), "firing_order", "moment.1.major", count=1
     ).results
     assert sorted(found[0].design.firing_order) == list(range(1, cylinders + 1))
     twice = [2 * interval * k for k in range(half)]
     file = vee(throws=twice, bank=interval % 360)
-    (best, *_) = search_arrangements(
-        file, "firing_order", parse_objective("moment.1.major"), 1
-    ).results
+    (best, *_) = search_least(file, "firing_order", "moment.1.major", count=1).results
     ordered = file.layout.model_copy(update={"firing_order": tuple(best.design.firing_order)})
     built = build(file.model_copy(update={"layout": ordered}))
     fires = np.sort(np.mod([float(v) for v in built.fires_deg.values()], 720))
@@ -339,12 +327,10 @@ def test_four_strokes_of_any_even_number_have_firing_orders(cylinders: int) -> N
 def test_sevenths_of_a_turn_stay_such() -> None:
     turns = [f"{k}/7 turn" for k in range(7)]
     text = in_line(str(turns).replace("'", '"'))
-    (best, *_) = search_arrangements(
-        load(text), "throws", parse_objective("moment.1.major"), 1
-    ).results
+    (best, *_) = search_least(load(text), "throws", "moment.1.major", count=1).results
     assert sorted(best.design.throws) == [k * 360 / 7 for k in range(7)]
     written = build(load(write_design(text.encode(), best.design)))
-    found = search_arrangements(load(text), "throws", parse_objective("moment.1.major"), 1)
+    found = search_least(load(text), "throws", "moment.1.major", count=1)
     (line,) = rows(found, SYSTEMS["si"]).lines
     assert list(map(float, line[0].split("-"))) == list(best.design.throws)
     verdicts = [reason.verdict for reason in explain_symmetry(written, [1, 2], ["force"]).reasons]
@@ -353,9 +339,7 @@ def test_sevenths_of_a_turn_stay_such() -> None:
 
 def test_firing_orders_bring_cranks_of_exact_fractions() -> None:
     text = in_line("[0]").replace("throws = [0]\n", "") + "[layout]\nfiring_order = [1,2,3,4,5,6,7]"
-    results = search_arrangements(
-        load(text), "firing_order", parse_objective("force.1.major"), 3
-    ).results
+    results = search_least(load(text), "firing_order", "force.1.major", count=3).results
     for one in results:
         assert sorted(one.design.throws) == [k * 360 / 7 for k in range(7)]
 
@@ -426,18 +410,16 @@ def test_bank_angles_at_which_articulated_rods_lock_are_no_candidates() -> None:
 @pytest.mark.stress
 def test_even_firing_is_looked_for_where_nothing_locks() -> None:
     twelve = load(LOCKING.replace("[0, 120, 240]", "[0, 120, 240, 240, 120, 0]"))
-    found = search_arrangements(
-        twelve, "bank_angle", parse_objective("force.6.major"), even_firing=True
-    )
+    found = search_least(twelve, "bank_angle", "force.6.major", even_firing=True)
     assert [round(one.design.bank_angle, 9) for one in found.results] == [60.0]
 
 
 def test_locked_angles_are_told() -> None:
-    found = search_arrangements(load(LOCKING), "bank_angle", parse_objective("force.6.major"))
+    found = search_least(load(LOCKING), "bank_angle", "force.6.major")
     (grid,) = renderer.sheet(found, SYSTEMS["si"]).parts
     assert grid.note.startswith("No candidates: at 0 to 4.7 and 93.8 to 180 deg the articulated")
     assert renderer.document(found)["locked"] == [list(ends) for ends in found.locked]
-    plain = search_arrangements(vee(), "bank_angle", parse_objective("force.1.major"))
+    plain = search_least(vee(), "bank_angle", "force.1.major")
     assert "locked" not in renderer.document(plain)
 
 
@@ -451,13 +433,13 @@ def test_bank_angles_vary_beside_given_knuckle_angles() -> None:
 
 def test_an_articulated_radial_has_no_bank_angle_to_look_for() -> None:
     with pytest.raises(BalcliError, match="there is no bank angle to look for"):
-        search_arrangements(load(RADIAL), "bank_angle", parse_objective("force.6.major"))
+        search_least(load(RADIAL), "bank_angle", "force.6.major")
 
 
 def test_units_of_the_textbook_are_told_where_a_figure_has_them() -> None:
     """At 60 degrees of split nothing turns against the crank, and there is no multiple of F1."""
     for of, told in (("force.1.backward", False), ("force.1.backward,force.2.major", True)):
-        found = search_arrangements(vee(bank=60), "splay", parse_objective(of))
+        found = search_least(vee(bank=60), "splay", of)
         (grid,) = renderer.sheet(found, SYSTEMS["si"]).parts
         cells = " ".join(cell for row in grid.rows for cell in row)
         assert [" F2)" in cells, "Fn" in grid.note] == [told, told]

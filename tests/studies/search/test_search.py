@@ -7,6 +7,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 from support.engines import GOOD, changed, engine_text
+from support.searches import search_least
 
 from balcli.engine.build import build
 from balcli.engine.layout import plan_cylinders
@@ -34,9 +35,7 @@ def engine(throws: list[float], layout: str = "") -> EngineFile:
 
 
 def test_in_line_four() -> None:
-    found = search_arrangements(
-        load(SHUFFLED), "throws", parse_objective("moment.1.major,force.1.major=1")
-    ).results
+    found = search_least(load(SHUFFLED), "throws", "moment.1.major,force.1.major=1").results
     assert [r.design.throws for r in found] == [
         (0, 180, 180, 0),
         (0, 180, 0, 180),
@@ -82,8 +81,8 @@ def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layou
 
 
 def test_every_arrangement_of_a_five_once() -> None:
-    found = search_arrangements(
-        engine([0, 72, 144, 216, 288]), "throws", parse_objective("moment.1.major"), 100
+    found = search_least(
+        engine([0, 72, 144, 216, 288]), "throws", "moment.1.major", count=100
     ).results
     keys = {tuple(r.design.throws) for r in found}
     assert len(keys) == len(found) == 8  # 5!/5 rotations = 24 cranks, 8 but for mirror images
@@ -147,22 +146,16 @@ def evaluate_alone(file: EngineFile, throws: np.ndarray) -> float:
 
 def test_limits_are_kept() -> None:
     file = engine([0, 90, 270, 180], "bank_angle = 90")
-    free = search_arrangements(file, "throws", parse_objective("moment.1.major")).results
-    kept = search_arrangements(
-        file, "throws", parse_objective("moment.1.major", ["moment.2.major<1"])
-    ).results
+    free = search_least(file, "throws", "moment.1.major").results
+    kept = search_least(file, "throws", "moment.1.major", ["moment.2.major<1"]).results
     assert free[0].design != kept[0].design
     assert kept[0].figures["moment.2.major"] < 1
     with pytest.raises(BalcliError, match="no throws can keep these limits"):
-        search_arrangements(
-            file, "throws", parse_objective("moment.1.major", ["force.4.major<1e-9"])
-        )
+        search_least(file, "throws", "moment.1.major", ["force.4.major<1e-9"])
 
 
 def test_firing_orders_of_a_given_crank_once() -> None:
-    found = search_arrangements(
-        load(GOOD), "firing_order", parse_objective("moment.1.major")
-    ).results
+    found = search_least(load(GOOD), "firing_order", "moment.1.major").results
     assert [r.design.firing_order for r in found] in (
         [(1, 3, 4, 2)],
         [(1, 2, 4, 3)],
@@ -171,7 +164,7 @@ def test_firing_orders_of_a_given_crank_once() -> None:
 
 def test_firing_orders_bring_their_cranks() -> None:
     file = load(changed(("throws = [0, 180, 180, 0]\n", "")))
-    found = search_arrangements(file, "firing_order", parse_objective("moment.1.major")).results
+    found = search_least(file, "firing_order", "moment.1.major").results
     assert len(found) == 3
     assert found[0].objective == 0
     for r in found:
@@ -183,9 +176,7 @@ def test_firing_orders_bring_their_cranks() -> None:
 
 def test_v8_firing_orders_fit_their_crank() -> None:
     file = engine([0, 90, 270, 180], "bank_angle = 90")
-    found = search_arrangements(
-        file, "firing_order", parse_objective("moment.1.major"), 100
-    ).results
+    found = search_least(file, "firing_order", "moment.1.major", count=100).results
     orders = [r.design.firing_order for r in found]
     assert len(orders) == 4  # 16, but for mirror images
     common, from_the_other_end = (1, 5, 4, 2, 6, 3, 7, 8), (1, 3, 7, 2, 6, 5, 4, 8)
@@ -232,9 +223,7 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
     given = load(text(next(iter(every))))
     found = [
         r.design.firing_order
-        for r in search_arrangements(
-            given, "firing_order", parse_objective("moment.1.major"), 1000
-        ).results
+        for r in search_least(given, "firing_order", "moment.1.major", count=1000).results
     ]
     mirrored = {other for order in found for other in _images(order, given)}
     assert every <= mirrored
@@ -259,9 +248,7 @@ def test_millions_of_firing_orders_are_no_hindrance() -> None:
             ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}"),
         )
     )
-    found = search_arrangements(
-        file, "firing_order", parse_objective("moment.1.major,moment.2.major=1"), 3
-    ).results
+    found = search_least(file, "firing_order", "moment.1.major,moment.2.major=1", count=3).results
     assert [r.objective for r in found] == [0, 0, 0]
     assert all(
         fires_evenly(
@@ -287,17 +274,13 @@ def test_millions_of_firing_orders_are_no_hindrance() -> None:
 
 def test_ninety_degree_twin() -> None:
     file = engine([0], "bank_angle = 50")
-    (found, *_) = search_arrangements(
-        file, "bank_angle", parse_objective("force.1.backward")
-    ).results
+    (found, *_) = search_least(file, "bank_angle", "force.1.backward").results
     assert (found.design, found.objective) == (Design(bank_angle=90), 0)
 
 
 def test_splay_of_the_90_degree_v6_for_even_firing() -> None:
     file = engine([0, 240, 120], "bank_angle = 90")
-    found = search_arrangements(
-        file, "splay", parse_objective("moment.1.major"), even_firing=True
-    ).results
+    found = search_least(file, "splay", "moment.1.major", even_firing=True).results
     assert sorted(r.design.splay for r in found) == [-150, -30, 90]
 
 
@@ -338,7 +321,7 @@ CHOICES = (
 )
 def test_mistakes_in_words(over: str, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
-        search_arrangements(load(GOOD), over, parse_objective("force.1.major"))
+        search_least(load(GOOD), over, "force.1.major")
     assert str(caught.value) == message
 
 
@@ -352,7 +335,7 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
         )
     )
     with pytest.raises(BalcliError, match=r"give crank\.throws, so that the crank stays as it is"):
-        search_arrangements(file, over, parse_objective("force.1.major"))
+        search_least(file, over, "force.1.major")
 
 
 @pytest.mark.parametrize(
@@ -386,7 +369,7 @@ def test_mistakes_of_objectives(minimise: str, limits: tuple[str, ...], message:
 
 def test_peaks_do_not_add_up() -> None:
     with pytest.raises(BalcliError, match=r"which peak\.force does not allow"):
-        search_arrangements(load(SHUFFLED), "throws", parse_objective("peak.force"))
+        search_least(load(SHUFFLED), "throws", "peak.force")
 
 
 def test_written_file_keeps_its_comments() -> None:
@@ -437,7 +420,7 @@ def test_articulated_rods_count_once_for_their_throw() -> None:
     [("moment.1.major,force.1.major=2", True), ("moment.1.major,moment.2.major", False)],
 )
 def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool) -> None:
-    found = search_arrangements(load(SHUFFLED), "throws", parse_objective(minimise))
+    found = search_least(load(SHUFFLED), "throws", minimise)
     (grid,) = sheet(found, SYSTEMS["si"]).parts
     assert ("Objective: N·m and N added as plain numbers" in grid.note) is told
 
@@ -452,7 +435,7 @@ def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool
     ],
 )
 def test_what_counterweights_cannot_take_is_named(minimise: str, against: str) -> None:
-    found = search_arrangements(load(SHUFFLED), "throws", parse_objective(minimise))
+    found = search_least(load(SHUFFLED), "throws", minimise)
     note = sheet(found, SYSTEMS["si"]).parts[0].note
     assert note.partition("what they cannot take is ")[2].removesuffix(".") == against
 
