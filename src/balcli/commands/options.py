@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import BalcliError
-from ..forces.kinds import KINDS, VECTORS
+from ..forces.kinds import EVERY_KIND, KINDS, VECTORS
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER, LONGEST_SHOWN, SMALLEST_POSITIVE
 from ..render.formats import Format, Units
 from .amounts import doubt_thousands, read_length, read_speed
@@ -201,7 +201,7 @@ def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
     words = parse_only(text)
     if words is None:
         return None, frozenset()
-    if strangers := sorted({*words}.difference(WORDS_OF_ONLY)):
+    if strangers := sorted({*words}.difference(WORDS_OF_ONLY, EVERY_KIND)):
         named = ", ".join(stranger or '""' for stranger in strangers)
         raise BalcliError(f"--only {named}: choose from {', '.join(WORDS_OF_ONLY)}")
     quantities = [word for word in words if word not in PARTS]
