@@ -59,14 +59,14 @@ class Chapter(NamedTuple):
         return tuple(dict.fromkeys(form.pattern.partition(".")[0] for form in self.forms))
 
 
-_OF_VECTOR = "major, minor, forward, backward, axis, x, y, x_cos, x_sin, y_cos, y_sin"
+_OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
 _OF_SCALAR = "amplitude, cos, sin"
 
 ENGINE = Chapter(
     "forces.quantity",
     (
-        Form("force.N.PART", "N", f"free force: {_OF_VECTOR} (deg)"),
-        Form("moment.N.PART", "N·m", f"free moment: {_OF_VECTOR} (deg)"),
+        Form("force.N.PART", "N", f"free force: {_OF_VECTOR}"),
+        Form("moment.N.PART", "N·m", f"free moment: {_OF_VECTOR}"),
         Form("couple.N.PART", "N·m", f"free couple of the rods: {_OF_SCALAR}"),
         Form("torque.N.PART", "N·m", f"torque on the crank, gas included: {_OF_SCALAR}"),
         Form("roll.N.PART", "N·m", f"roll of the block by inertia: {_OF_SCALAR}"),
