@@ -392,7 +392,7 @@ def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
 
 
 class Bobweight(FileTable):
-    """What turns with a crank pin besides rod and throw, for each rod; it counts as rotating."""
+    """What turns with a crank pin besides rod and throw, for each rod on it; it rotates."""
 
     rod_bearing: Mass = Field(
         0.0, description="big-end bearing shells of one rod", examples=[0.047]
