@@ -93,6 +93,14 @@ CASES = [
         "rotaton: unknown key in a file of runs; did you mean rotation?",
     ),
     (
+        three_runs().replace("[[run]]", "[[runs]]"),
+        "runs: unknown key in a file of runs; did you mean run?",
+    ),
+    (
+        with_first('planes = ["front", "rear"]', "planes = []"),
+        "planes: is an empty list; give at least one value",
+    ),
+    (
         three_runs("rotation = 'left'"),
         'rotation: "left" is not "lag" or "lead"; lag: phases count against rotation, as most '
         "instruments do; lead: with it",

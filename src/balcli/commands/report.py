@@ -55,7 +55,8 @@ def report(
     Example:
       balcli report v8.toml v8.html
     """
-    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
+    writes = {"OUT": parse_output(target), "--output": parse_output(output)}
+    refuse_overwriting(reads=[path], writes=writes)
     output = parse_output(choose_target(target, output, "X.html"))
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
     from ..render.html import page
