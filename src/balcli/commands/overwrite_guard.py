@@ -12,6 +12,7 @@ from ..errors import BalcliError, tell_unwritable
 from .file_names import Place
 
 STANDARD_INPUT = "-"
+_OF_RESULTS = ("OUT", "--output")  # where - is standard output
 
 
 def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Place | None]) -> None:
@@ -20,8 +21,7 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
 
     Args:
         reads: paths of the engine files; `-` is standard input.
-        writes: by option (`--output`), where its result goes; None: nowhere, or onto standard
-            output.
+        writes: by option (`--output`), where its result goes; None: nowhere.
 
     Raises:
         BalcliError: with the option and its path.
@@ -35,7 +35,7 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
         if place is not None
     ]
     for option, target in targets:
-        if target == STANDARD_INPUT:
+        if target == "-" and option not in _OF_RESULTS:
             raise BalcliError(f"{option} -: name a file; standard output has the result")
     there = any(os.path.isfile(target) for _, target in targets)
     named = _list_named(sources) if there else []

@@ -10,7 +10,7 @@ import typer
 from ..render.formats import Units
 from . import scheme_options
 from .declare import optional
-from .file_names import choose_target, parse_output, picture_form
+from .file_names import choose_target, picture_form
 from .options import EnginePath, Orders, Speed, Target, UnitsOption
 from .overwrite_guard import refuse_overwriting
 from .plot_pages import What, complete_pages, name_files, parse_pages, write_pages
@@ -65,8 +65,7 @@ def plot(
     Example:
       balcli plot v8.toml v8.svg
     """
-    writes = {"OUT": parse_output(target), "--output": parse_output(output)}
-    refuse_overwriting(reads=[path], writes=writes)
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = choose_target(target, output, "X.svg")
     form, pages = picture_form(output), parse_pages(what)
     files = name_files(path, pages, output, form)

@@ -55,8 +55,7 @@ def report(
     Example:
       balcli report v8.toml v8.html
     """
-    writes = {"OUT": parse_output(target), "--output": parse_output(output)}
-    refuse_overwriting(reads=[path], writes=writes)
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = parse_output(choose_target(target, output, "X.html"))
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
     from ..render.html import page
