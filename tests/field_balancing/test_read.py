@@ -219,6 +219,16 @@ def test_several_mistakes_are_told_at_once():
     ]
 
 
+def test_a_broken_key_of_the_head_hides_nothing_else():
+    head = "most = [60, 60, 60]\ndrill = [0, 1]\ngrade = 6.3\nmass = 'x'\nspeed = 3000"
+    assert [message.partition(";")[0] for message in mistakes(three_runs(head))] == [
+        "drill: the 1st value 0 is not above 0",
+        'mass: "x" is not a number followed by a unit',
+        "most: has 3 values, but there are 2 planes",
+        "radius: is missing",
+    ]
+
+
 def test_a_run_without_readings_hides_no_wrong_plane():
     found = mistakes(
         'planes = ["front"]\nrun = [{ readings = ["5 @ 3"] }, { weights.fornt = "3 @ 0" }]'

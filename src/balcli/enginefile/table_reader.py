@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 
 from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN
-from .conflicts import examine_refused
+from .conflicts import RefusedTable, examine_refused
 from .fields import nearest, shorten
 from .messages import join_path
 from .model import FileTable
@@ -30,6 +30,7 @@ class TableReader:
 
     Attributes:
         problems: the mistakes so far.
+        refused: tables with mistakes in them, by their paths.
     """
 
     def __init__(
@@ -37,6 +38,7 @@ class TableReader:
     ) -> None:
         self._file_kind, self._describe = file_kind, describe
         self.problems: list[Problem] = []
+        self.refused: dict[str, RefusedTable] = {}
         self._meant: set[str] = set()  # paths of keys that are there, misspelt
 
     def read_list(self, key: str, value: object, table: type[T], most: int) -> tuple[T | None, ...]:
@@ -63,7 +65,7 @@ class TableReader:
         try:
             return table.model_validate(known)
         except ValidationError as error:
-            refused = examine_refused(path, table, known, error)
+            refused = self.refused[path] = examine_refused(path, table, known, error)
         described = [self._describe(path, finding, table) for finding in refused.findings]
         for problem in (*refused.conflicts, *described):
             missing = tuple(each.lstrip(".") for each in problem.missing)
