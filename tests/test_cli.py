@@ -199,6 +199,10 @@ def test_an_option_of_other_commands_is_told_with_them(balcli):
             ["balance", V8, "--factor", "52", "%"],
             '(%): a value or a name with a blank goes in quotes, such as "52 %"',
         ),
+        (
+            ["balance", V8, "other.toml"],
+            "(other.toml): no more files are read; balcli analyze and balcli compare read several.",
+        ),
     ],
 )
 def test_bad_usage_that_the_parser_words(balcli, args, told):
@@ -215,6 +219,18 @@ def test_bad_usage_that_the_parser_words(balcli, args, told):
     ("args", "message"),
     [
         (["analyze", "no.toml"], "no.toml: no such file"),
+        (
+            ["analyze", "no.svg"],
+            "no.svg: no such file; balcli plot FILE no.svg draws into it",
+        ),
+        (
+            ["analyze", V8, "--only", "force,all"],
+            "--only all: without --only there is all that is usual, with --all more",
+        ),
+        (
+            ["balance", V8, "--write", "-"],
+            "--write -: name a file; standard output has the result",
+        ),
         (["analyze", str(ENGINES)], f"{ENGINES}: is a folder; name a file in it"),
         (["check", "nowhere"], "nowhere: no such file or folder"),
         (["check", str(ROOT / "docs")], f"{ROOT / 'docs'}: has no engine files (*.toml)"),
@@ -1076,3 +1092,11 @@ def test_an_internal_error_is_told_as_one(options):
         assert told.endswith(FAULT)
         assert (told == FAULT) is whole
         assert ("Traceback" in told) is not whole
+
+
+def test_quantities_with_blanks_between_them(balcli):
+    assert balcli("analyze", V8, "--only", "force  peak") == balcli(
+        "analyze", V8, "--only", "force, peak"
+    )
+    assert "Verdict" not in balcli("analyze", V8, "--orders", "0").out
+    assert "Verdict" in balcli("analyze", V8, "--orders", "1").out

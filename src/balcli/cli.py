@@ -328,6 +328,8 @@ def _usage(error: Any) -> str:
         return f"{told}: each number that varies has a --vary of its own."
     if re.match(r"Usage: balcli (sweep|scatter) ", told) and re.match(r"[a-z_]+\.", extra):
         return told + ": names of quantities stand after -q, with commas between them."
+    if re.search(r"\.toml\b", extra):
+        return told + ": no more files are read; balcli analyze and balcli compare read several."
     return told + ': a value or a name with a blank goes in quotes, such as "52 %".'
 
 

@@ -146,6 +146,12 @@ INLINE = "# mine\nlayout = { bank_angle = 75, firing_order = [1, 2] }   # as bui
             "stagger = 3, firing_order = [1, 2] }   # as built (a note)",
         ),
         (
+            INLINE.replace("as built", "{as built}"),
+            {"bank_angle": 60},
+            "bank_angle = 75, firing_order = [1, 2] }   # {as built}",
+            "bank_angle = 60, firing_order = [1, 2] }   # {as built} (a note)",
+        ),
+        (
             INLINE.replace("   # as built", ""),
             {"bank_angle": 60},
             "bank_angle = 75, firing_order = [1, 2] }",

@@ -93,6 +93,14 @@ CASES = [
         "rotaton: unknown key in a file of runs; did you mean rotation?",
     ),
     (
+        three_runs().replace("[[run]]", "[[runs]]"),
+        "runs: unknown key in a file of runs; did you mean run?",
+    ),
+    (
+        with_first('planes = ["front", "rear"]', "planes = []"),
+        "planes: is an empty list; give at least one value",
+    ),
+    (
         three_runs("rotation = 'left'"),
         'rotation: "left" is not "lag" or "lead"; lag: phases count against rotation, as most '
         "instruments do; lead: with it",
@@ -208,6 +216,16 @@ def test_several_mistakes_are_told_at_once():
         "run.1.readings",
         "run.2.weights.front",
         "run.3.weights.rear",
+    ]
+
+
+def test_a_broken_key_of_the_head_hides_nothing_else():
+    head = "most = [60, 60, 60]\ndrill = [0, 1]\ngrade = 6.3\nmass = 'x'\nspeed = 3000"
+    assert [message.partition(";")[0] for message in mistakes(three_runs(head))] == [
+        "drill: the 1st value 0 is not above 0",
+        'mass: "x" is not a number followed by a unit',
+        "most: has 3 values, but there are 2 planes",
+        "radius: is missing",
     ]
 
 

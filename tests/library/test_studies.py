@@ -462,6 +462,22 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
             lambda: balcli.compare(V8, V8, only=5),
             'only: 5 (int): give words, such as ["force", "moment"]',
         ),
+        (
+            lambda: balcli.plot(V8, np.array(["polar", "bars"])),
+            "what: array(['polar', 'bars'], dtype='<U5') (ndarray): give the name of a page, such as",
+        ),
+        (
+            lambda: balcli.scatter(V8, distribution=np.zeros(2)),
+            'distribution: array([0., 0.]) (ndarray): give "uniform" or "normal"',
+        ),
+        (
+            lambda: balcli.balance_rotor(three_runs(), np.zeros(2)),
+            'minimise: array([0., 0.]) (ndarray): give "squares" or "max"',
+        ),
+        (
+            lambda: balcli.analyze_torsion(V8, damper=np.zeros(2)),
+            "damper: array([0., 0.]) (ndarray): give a kind of damper, such as",
+        ),
         (lambda: balcli.curves(V8, "x"), "step_deg: 'x' (str): give a step in degrees"),
         (
             lambda: balcli.analyze_torque(GAS, fluctuation="1/200"),

@@ -317,3 +317,8 @@ def test_the_schema_knows_all_keys():
     assert set(document["properties"]) >= {"node", "shaft", "gear", "excitation", "fixed", "loss"}
     assert set(document["$defs"]["ChainShaft"]["properties"]) >= {"from", "to", "stiffness", "bore"}
     assert document["$defs"]["Node"]["properties"]["inertia"]["unit"] == "kg mm^2"
+
+
+def test_a_key_that_is_like_no_other_is_not_taken_for_one():
+    (told,) = mistakes("[[damper]]\nx = 1\n[[node]]\nname = 'a'\ninertia = 5\n")
+    assert "damper: unknown key in a chain file; it has name, " in told

@@ -182,10 +182,16 @@ def _count_halves(text: str) -> int | None:
 
 
 def parse_only(text: str | None) -> list[str] | None:
-    """The quantities of `--only`, by name; a plural names the same."""
+    """The quantities of `--only`, by name, with commas or blanks between; a plural names the same.
+
+    Raises:
+        BalcliError: all of them.
+    """
     if text is None:
         return None
-    words = [word.strip().lower() for word in text.split(",")]
+    words = [word.lower() for word in re.split(r"\s*,\s*|\s+", text.strip())]
+    if "all" in words:
+        raise BalcliError("--only all: without --only there is all that is usual, with --all more")
     return [word[:-1] if word[:-1] in (*KINDS, "peak", "guide") else word for word in words]
 
 

@@ -12,11 +12,12 @@ from ..errors import BalcliError, tell_unwritable
 from .file_names import Place
 
 STANDARD_INPUT = "-"
+_OF_RESULTS = ("OUT", "--output")  # where - is standard output
 
 
 def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Place | None]) -> None:
     """Refuse to write onto a file that is read, two results into one file, or one where there is no
-    folder; and to read standard input twice.
+    folder; to read standard input twice, and to write a second result onto standard output.
 
     Args:
         reads: paths of the engine files; `-` is standard input.
@@ -33,6 +34,9 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
         for option, place in writes.items()
         if place is not None
     ]
+    for option, target in targets:
+        if target == "-" and option not in _OF_RESULTS:
+            raise BalcliError(f"{option} -: name a file; standard output has the result")
     there = any(os.path.isfile(target) for _, target in targets)
     named = _list_named(sources) if there else []
     for k, (option, target) in enumerate(targets):

@@ -123,7 +123,7 @@ def _change_line(lines: str, key: str, value: Any, note: str) -> str | None:
 
 def _change_inline(text: str, table: str, key: str, value: Any, note: str) -> str:
     """Within `table = { key = value, ... }`; a new key comes first."""
-    braces = rf"(?m)^([ \t]*{table}[ \t]*=[ \t]*\{{)(.*)\}}(?:{_COMMENT})"
+    braces = rf"(?m)^([ \t]*{table}[ \t]*=[ \t]*\{{)([^#\n]*)\}}(?:{_COMMENT})"
     old = re.search(braces, text)
     if old is None:
         return text

@@ -12,12 +12,13 @@ from pydantic_core import ErrorDetails
 
 from ..errors import InputError, Problem
 from ..limits import MOST_MISTAKES_SHOWN
-from .conflicts import examine_refused
-from .fields import nearest, shorten, suggest_nearest
+from .conflicts import RefusedTable, examine_refused
+from .fields import nearest, shorten
 from .messages import join_path
 from .model import FileTable
 
 T = TypeVar("T", bound=FileTable)
+_NEAR = 0.65  # of a key and one that is meant: "damper" is no "name"
 
 
 class TableReader:
@@ -29,6 +30,7 @@ class TableReader:
 
     Attributes:
         problems: the mistakes so far.
+        refused: tables with mistakes in them, by their paths.
     """
 
     def __init__(
@@ -36,6 +38,8 @@ class TableReader:
     ) -> None:
         self._file_kind, self._describe = file_kind, describe
         self.problems: list[Problem] = []
+        self.refused: dict[str, RefusedTable] = {}
+        self._meant: set[str] = set()  # paths of keys that are there, misspelt
 
     def read_list(self, key: str, value: object, table: type[T], most: int) -> tuple[T | None, ...]:
         """The tables under a key, of which there may be so many; None for those with mistakes."""
@@ -57,29 +61,32 @@ class TableReader:
         unknown = [key for key in value if key not in keys]
         for key in unknown:
             self._refuse_key(path, key, table)
-        meant = {nearest(key, keys) for key in unknown}
         known = {key: value[key] for key in value if key in keys}
         try:
             return table.model_validate(known)
         except ValidationError as error:
-            refused = examine_refused(path, table, known, error)
-        paths = {join_path(path, [key]) for key in meant}
-        found = [one for one in refused.conflicts if paths.isdisjoint(one.missing)]
-        for finding in refused.findings:
-            if finding["type"] != "missing" or finding["loc"][-1] not in meant:
-                found.append(self._describe(path, finding, table))
-        self.problems += (problem._replace(path=problem.path.lstrip(".")) for problem in found)
+            refused = self.refused[path] = examine_refused(path, table, known, error)
+        described = [self._describe(path, finding, table) for finding in refused.findings]
+        for problem in (*refused.conflicts, *described):
+            missing = tuple(each.lstrip(".") for each in problem.missing)
+            self.problems.append(Problem(problem.path.lstrip("."), problem.message, missing))
         return None
 
     def refusal(self, name: str) -> InputError:
-        """The error that lists the mistakes of the file with this name, or of one without."""
-        more = max(len(self.problems) - MOST_MISTAKES_SHOWN, 0)
+        """The error that lists the mistakes of the file with this name, or of one without. A key
+        that is missing is not told where it is there, misspelt.
+        """
+        problems = [one for one in self.problems if self._meant.isdisjoint(one.missing)]
+        more = max(len(problems) - MOST_MISTAKES_SHOWN, 0)
         named = name or self._file_kind.removeprefix("a ")
-        return InputError(self.problems[:MOST_MISTAKES_SHOWN], named, more)
+        return InputError(problems[:MOST_MISTAKES_SHOWN], named, more)
 
     def _refuse_key(self, path: str, key: str, table: type[FileTable]) -> None:
         place = f"in {_heading(path)}" if path else f"in {self._file_kind}"
-        hint = suggest_nearest(key, table.keys(), f"it has {', '.join(table.keys())}")
+        near = nearest(key, table.keys(), _NEAR)
+        if near:
+            self._meant.add(join_path(path, [near]).lstrip("."))
+        hint = f"did you mean {near}?" if near else f"it has {', '.join(table.keys())}"
         self._add(join_path(path, [key]), f"unknown key {place}; {hint}")
 
     def _add(self, path: str, message: str) -> None:

@@ -56,12 +56,18 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
         runs = reader.read_list("run", data["run"], Run, MOST_RUNS)
     if not reader.problems and model is not None:
         model = model.model_copy(update={"run": runs})
-    if model is not None:
+    head, broken = model, set[str]()
+    if model is None:
+        refused = reader.refused[""]
+        if isinstance(refused.draft, RunsFile) and "planes" not in refused.broken:
+            head, broken = refused.draft, refused.broken  # as far as it can be read
+    if head is not None:
         numbered = [(k, run) for k, run in enumerate(runs, 1) if run is not None]
-        reader.problems += _find_misfits(model, numbered, len(numbered) == len(runs))
+        misfits = [*_find_misfits(head, numbered, len(numbered) == len(runs))]
         for k, run in enumerate(runs, 1):  # what could not be read may name no planes, too
             weights = _find_weights(data["run"][k - 1]) if run is None else ()
-            reader.problems += _check_planes(model, k, weights)
+            misfits += _check_planes(head, k, weights)
+        reader.problems += (misfit for misfit in misfits if broken.isdisjoint(misfit.missing))
     if reader.problems or model is None:
         raise reader.refusal(file)
     return model

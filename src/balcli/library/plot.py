@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from types import NoneType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..engine.build import Engine, take_model
 from ..enginefile.fields import nearest
-from ..errors import BalcliError, wrong_type
+from ..errors import BalcliError, check_type, wrong_type
 from ..field_balancing.balance import FieldBalance
 from ..forces.orders import check_orders
 from ..mounting.report import MountReport
@@ -80,6 +81,7 @@ def plot(
     Example:
         >>> plot(load("v8.toml"), "polar").savefig("v8.png")
     """
+    check_type("what", what, (str, NoneType), 'give the name of a page, such as "polar"')
     match shown:
         case Engine():
             return _plot_engine(shown, what or "all", orders, scheme, speeds_rpm)

@@ -44,6 +44,7 @@ def balance_rotor(
     Example:
         >>> balance_rotor("fan.toml", "max").to_pandas()
     """
+    check_type("minimise", minimise, str, 'give "squares" or "max"')
     if minimise not in ("squares", "max"):
         raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
     without = [without] if isinstance(without, str) else without

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from ..engine.build import Engine, check_engine, take_model
-from ..errors import BalcliError
+from ..errors import BalcliError, check_type
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..forces.quantity import leave_out_unknown
 from ..studies.cycle_scatter import scatter_cycles
@@ -73,6 +73,7 @@ def scatter(
     usual = RANDOM_ENGINES if of_engine else RANDOM_SINGLES
     count = usual if samples is None else check_count("samples", samples)
     seed = None if seed is None else check_count("seed", seed, 0)
+    check_type("distribution", distribution, str, 'give "uniform" or "normal"')
     if distribution not in ("uniform", "normal"):
         raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')
     drawing = Drawing(count, seed, distribution)

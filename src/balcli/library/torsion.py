@@ -63,6 +63,7 @@ def analyze_torsion(
     Example:
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
     """
+    check_type("damper", damper, (str, NoneType), 'give a kind of damper, such as "viscous"')
     if damper not in (None, *KINDS_OF_DAMPERS):
         raise BalcliError(f"damper {damper!r}: choose from {', '.join(KINDS_OF_DAMPERS)}")
     asked = check_torsion_orders(orders)

@@ -156,7 +156,10 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         told = verdict(spectra, system, result.of_one_cylinder, steady=steady)
         if rocking := tell_rocking(spectra, system, tell_pivot(result.engine)):
             told = (*told, rocking)
-        yield Text("Verdict", told if known else (*told, sentence(MOMENTS_UNKNOWN)))
+        if not known:
+            told = (*told, sentence(MOMENTS_UNKNOWN))
+        if told:  # order 0 alone says nothing
+            yield Text("Verdict", told)
 
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
