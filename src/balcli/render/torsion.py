@@ -156,10 +156,9 @@ def _criticals(result: TorsionAnalysis) -> Grid:
     system = result.system
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
     if dampers:
-        note += f" Without {' and '.join(dampers)}, which shift them"
-        note += (
-            "; those of the order that pendulums are tuned to vanish." if system.pendulums else "."
-        )
+        note += f" Without {' and '.join(dampers)}, which shift them."
+    if system.pendulums:
+        note += " The order that pendulums are tuned to meets modes in which their node is at rest."
     if result.response is None:
         note += _tell_gas(result)
     left = len(result.criticals) - len(shown)
