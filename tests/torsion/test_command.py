@@ -315,6 +315,19 @@ def test_an_excitation_without_torque_is_doubted():
     )
 
 
+def test_an_excitation_that_a_fixing_takes_is_doubted():
+    text = """
+        loss = 0.02
+        fixed = ["hull"]
+        node = [{ name = "a", inertia = 2e5 }, { name = "hull" }]
+        shaft = [{ from = "a", to = "hull", stiffness = 1e6 }]
+        excitation = [{ node = "a", order = 2, cos = 9 }, { node = "hull", order = 2, sin = 3 }]
+        """
+    assert run_here("torsion", "-", stdin=text).err == (
+        "warning: standard input: excitation.2 is on 'hull', which is fixed: it moves nothing\n"
+    )
+
+
 def test_loss_factors_of_a_chain_in_percent_are_doubted():
     text = """
         loss = 2
