@@ -302,6 +302,22 @@ def test_a_tuned_pendulum_holds_its_node_still():
     assert ask_torsion(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
 
 
+def test_that_no_order_is_critical_is_said():
+    """It was not, and the table left out."""
+    chain = """
+        node = [{ name = "a", inertia = 2e5 }, { name = "b", inertia = 3e5 }]
+        shaft = [{ from = "a", to = "b", stiffness = 1e6 }]
+        """
+    driven = chain + 'excitation = [{ node = "a", order = 2, sin = 3 }]'
+    none = (
+        "Critical speeds, 100 to 200 rpm\nNone: no order meets a mode that it drives. Of order 2."
+    )
+    slow = ("torsion", "-", "--speeds", "100:200:100")
+    assert none in run_here(*slow, stdin=driven).out
+    assert "Critical" not in run_here("torsion", "-", stdin=chain).out
+    assert "Critical" not in run_here("torsion", "-", "--orders", "3", stdin=driven).out
+
+
 def test_an_excitation_without_torque_is_doubted():
     text = """
         loss = 0.02
