@@ -297,6 +297,22 @@ def test_a_tuned_pendulum_holds_its_node_still():
     assert ask_torsion(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
 
 
+def test_that_no_order_is_critical_is_said():
+    """It was not, and the table left out."""
+    chain = """
+        node = [{ name = "a", inertia = 2e5 }, { name = "b", inertia = 3e5 }]
+        shaft = [{ from = "a", to = "b", stiffness = 1e6 }]
+        """
+    driven = chain + 'excitation = [{ node = "a", order = 2, sin = 3 }]'
+    none = (
+        "Critical speeds, 100 to 200 rpm\nNone: no order meets a mode that it drives. Of order 2."
+    )
+    slow = ("torsion", "-", "--speeds", "100:200:100")
+    assert none in run_here(*slow, stdin=driven).out
+    assert "Critical" not in run_here("torsion", "-", stdin=chain).out
+    assert "Critical" not in run_here("torsion", "-", "--orders", "3", stdin=driven).out
+
+
 def test_an_excitation_without_torque_is_doubted():
     text = """
         loss = 0.02
@@ -307,6 +323,19 @@ def test_an_excitation_without_torque_is_doubted():
     assert run_here("torsion", "-", stdin=text).err == (
         "warning: standard input: excitation.1 on 'a' has neither cos nor sin, and so no torque; "
         "give one of them, such as cos = 150 (N m)\n"
+    )
+
+
+def test_an_excitation_that_a_fixing_takes_is_doubted():
+    text = """
+        loss = 0.02
+        fixed = ["hull"]
+        node = [{ name = "a", inertia = 2e5 }, { name = "hull" }]
+        shaft = [{ from = "a", to = "hull", stiffness = 1e6 }]
+        excitation = [{ node = "a", order = 2, cos = 9 }, { node = "hull", order = 2, sin = 3 }]
+        """
+    assert run_here("torsion", "-", stdin=text).err == (
+        "warning: standard input: excitation.2 is on 'hull', which is fixed: it moves nothing\n"
     )
 
 
@@ -621,6 +650,7 @@ def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
 
 RING = 'damper = { kind = "viscous", inertia = 2e5, damping = 50 }'
 PENDULUMS = 'damper = { kind = "pendulum", mass = 2, radius = 160, length = 10 }'
+HELD = "The order that pendulums are tuned to meets modes in which their node is at rest."
 
 
 @pytest.mark.parametrize(
@@ -635,15 +665,13 @@ PENDULUMS = 'damper = { kind = "pendulum", mass = 2, radius = 160, length = 10 }
         (
             ("", PENDULUMS),
             " Pendulums are left out; they follow the order.",
-            " Without pendulums, which shift them; those of the order that pendulums are tuned to "
-            "vanish.",
+            f" Without pendulums, which shift them. {HELD}",
         ),
         (
             (RING, PENDULUMS),
             " Rings in oil are left out, as if they were not there. So are pendulums, which follow "
             "the order.",
-            " Without rings in oil and pendulums, which shift them; those of the order that pendulums "
-            "are tuned to vanish.",
+            f" Without rings in oil and pendulums, which shift them. {HELD}",
         ),
     ],
 )

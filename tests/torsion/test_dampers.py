@@ -582,3 +582,25 @@ def test_of_several_stiffnesses_that_are_best_nearby_the_best_of_all_is_taken():
     assert sized.after == pytest.approx(stress(ring), rel=1e-9)
     others = [ring | {"stiffness": share * sized.start} for share in np.geomspace(1 / 4, 4, 65)]
     assert sized.after <= min(map(stress, others))
+
+
+def test_the_order_that_pendulums_are_tuned_to_meets_modes_with_their_node_at_rest():
+    """They hold it, as a wall would, and have the rest of the chain swing against it."""
+    pendulums = {"kind": "pendulum", "mass": 3, "radius": 72, "length": 18}  # R/L = 4: order 2
+    turning = [("pulley", 5e4), ("crank", 2e5), ("flywheel", 1.5e6)]
+    pulley, *others = ({"name": name, "inertia": inertia} for name, inertia in turning)
+    chain = {
+        "loss": 1e-4,
+        "shaft": [
+            {"from": "pulley", "to": "crank", "stiffness": 1e6},
+            {"from": "crank", "to": "flywheel", "stiffness": 2e6},
+        ],
+        "excitation": [{"node": "crank", "order": 2, "cos": 300}],
+    }
+    damped = chain | {"node": [pulley | {"damper": pendulums}, *others]}
+    held = chain | {"node": [pulley, *others], "fixed": ["pulley"]}
+    for mode in analyze_torsion(held).modes:
+        rpm = 60 * mode.frequency_hz / 2
+        worst = analyze_torsion(damped, [0.9 * rpm, 1.1 * rpm]).response.worst
+        assert worst.speeds_rpm == pytest.approx(np.full(2, rpm), rel=1e-4)
+        assert worst.torque.min() > 30 * 300, "of the 300 N m that drive it"

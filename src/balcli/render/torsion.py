@@ -13,7 +13,7 @@ from ..core.singular_values import Real
 from ..torsion.analysis import BEYOND, HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.response import TorsionResponse
-from ..torsion.system import TorsionalSystem
+from ..torsion.system import Excitation, TorsionalSystem
 from .engine_facts import list_silent
 from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
 from .torsion_document import DAMPER_UNITS, choose_units, convert_to_si, document, rows
@@ -35,8 +35,9 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     if result.damper is not None:
         parts.append(_damper(result.damper, system))
     parts += [_modes(result), _shapes(result, system)]
-    if result.criticals:
-        parts.append(_criticals(result))
+    excitation = result.system.excitation
+    if result.modes and excitation is not None and len(excitation.orders):
+        parts.append(_criticals(result, excitation))
     parts += [_holzer(result, table, system) for table in result.holzer]
     if result.response is not None:
         parts.append(_response(result, result.response, system))
@@ -132,7 +133,11 @@ def _shapes(result: TorsionAnalysis, system: System) -> Grid:
     return Grid("Inertias and shapes", tuple(heads), tuple(rows), note)
 
 
-def _criticals(result: TorsionAnalysis) -> Grid:
+def _criticals(result: TorsionAnalysis, excitation: Excitation) -> Grid | Text:
+    span = "" if result.response is None else f", {_tell_span(result.response)}"
+    title, scope = f"Critical speeds{span}", _tell_scope(result, excitation)
+    if not result.criticals:
+        return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
     shown = result.criticals[:_MOST_CRITICALS]
     rows = tuple(
         (
@@ -144,10 +149,17 @@ def _criticals(result: TorsionAnalysis) -> Grid:
         )
         for each in shown
     )
-    note = "Those that do most work first; share: of all work done on the mode."
-    if excitation := result.system.excitation:
-        several = "s to" * (len(excitation.orders) > 1)
-        note += f" Of order{several} {order_name(float(excitation.orders.max()))}."
+    note = f"Those that do most work first; share: of all work done on the mode. {scope}"
+    left = len(result.criticals) - len(shown)
+    if left:
+        note += f" JSON has {left} more."
+    return Grid(title, ("mode", "order", "rpm", "phase sum", "share"), rows, note)
+
+
+def _tell_scope(result: TorsionAnalysis, excitation: Excitation) -> str:
+    """Which orders, speeds, dampers and torques critical speeds are of."""
+    several = "s to" * (len(excitation.orders) > 1)
+    note = f"Of order{several} {order_name(float(excitation.orders.max()))}."
     rated = result.system.rated_rpm
     if result.response is None and rated:
         note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's."
@@ -156,18 +168,12 @@ def _criticals(result: TorsionAnalysis) -> Grid:
     system = result.system
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
     if dampers:
-        note += f" Without {' and '.join(dampers)}, which shift them"
-        note += (
-            "; those of the order that pendulums are tuned to vanish." if system.pendulums else "."
-        )
+        note += f" Without {' and '.join(dampers)}, which shift them."
+    if system.pendulums:
+        note += " The order that pendulums are tuned to meets modes in which their node is at rest."
     if result.response is None:
         note += _tell_gas(result)
-    left = len(result.criticals) - len(shown)
-    if left:
-        note += f" JSON has {left} more."
-    heads = ("mode", "order", "rpm", "phase sum", "share")
-    span = "" if result.response is None else f", {_tell_span(result.response)}"
-    return Grid(f"Critical speeds{span}", heads, rows, note)
+    return note
 
 
 def _holzer(result: TorsionAnalysis, asked: HolzerTable, system: System) -> Grid:

@@ -100,13 +100,15 @@ class EngineSource:
 
 
 def _doubt_torques(model: ChainFile) -> Iterator[str]:
-    """Excitations of which only node and order are given."""
+    """Excitations of which only node and order are given, and those that a fixing takes."""
     for number, torque in enumerate(model.excitation, 1):
         if not {"cos", "sin"} & torque.model_fields_set:
             yield (
                 f"excitation.{number} on '{torque.node}' has neither cos nor sin, and so no "
                 "torque; give one of them, such as cos = 150 (N m)"
             )
+        elif torque.node in model.fixed:
+            yield f"excitation.{number} is on '{torque.node}', which is fixed: it moves nothing"
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
