@@ -452,6 +452,10 @@ def test_pins_that_are_split_the_wrong_way_are_doubted():
 @pytest.mark.parametrize(
     "parts",
     [
+        {  # split by 180 - 2 * 60: nothing of order 1 turns against the crank
+            "crank": {"throws": [0], "splay": -60},
+            "layout": {"bank_angle": 60, "firing_order": [1, 2]},
+        },
         {  # less than even firing takes, and more even than common pins
             "crank": {"throws": [0, 240, 120], "splay": -18},
             "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]},

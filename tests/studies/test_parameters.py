@@ -176,3 +176,14 @@ def test_names_that_begin_as_an_unknown_one_are_told():
         "bank: unknown parameter; did you mean layout.bank_angle or cylinder.1.bank or "
         "cylinder.2.bank?"
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [("rod_length", "rod.length?"), ("rod", "rod.length or rod.ratio or rod.mass or ")],
+)
+def test_a_name_of_the_whole_engine_comes_before_that_of_one_cylinder(name, meant):
+    """Every cylinder has a `rod_length` of its own, too: with one of them varied, the others stay."""
+    with pytest.raises(BalcliError) as caught:
+        parse_parameter(f"{name}=120,130", load(GOOD))
+    assert str(caught.value).startswith(f"{name}: unknown parameter; did you mean {meant}")

@@ -71,7 +71,7 @@ Orders = Annotated[
     optional(
         "1-8|0.5-8|1,2,4",
         "Orders to show, halves too where a range begins or ends with one; default: all to 12, "
-        "and of very many cylinders that of firing and its double.",
+        "and of an engine that fires more than 12 times a turn this order and its double.",
         "--orders",
     ),
 ]

@@ -56,9 +56,11 @@ def doubt_firing_order(model: EngineFile) -> Iterator[str]:
 
 
 def _doubt_splay(model: EngineFile, gaps: list[float]) -> Iterator[str]:
-    """A warning where pins are split against the way in which they would fire evenly."""
-    even = find_fitting_splay(model)
-    if even is not None and even * model.crank.splay < 0:
+    """A warning where pins are split by as much as they would have to be for even firing, the other
+    way. A twin's one pin may be split so on purpose: to balance its first order.
+    """
+    even = find_fitting_splay(model) if len(model.crank.throws or ()) > 1 else None
+    if even and abs(even + model.crank.splay) <= TOLERANCE_DEG:
         yield (
             f"crank.splay is {model.crank.splay:g}, with which the cylinders fire after "
             f"{_write(gaps)} deg, and with {even:g} they would evenly; change it, or say "

@@ -207,13 +207,17 @@ def _read_one(path: str, value: Any, number: Number) -> float:
 
 
 def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
-    """With those called so, or beginning so; or with the nearest name, or some of the table."""
+    """With `rod.length` of rod_length, all of a table, or those called so or beginning so; or with
+    the nearest name, or some of the table.
+    """
     if path.startswith("layout.firing_intervals."):
         return f"{path}: firing intervals add up to a cycle, so that none varies alone"
     if _list_idle_paths(model, [path]) and model.gas is not None:
         return f"{path}: changes nothing of the gas in this file"
+    dotted = path.replace("_", ".", 1)
+    own = [name for name in known if name == dotted or name.startswith(f"{path}.")]
     inside = [name for name in known if f"{name}_".rpartition(".")[2].startswith(f"{path}_")]
-    if near := (" or ".join(inside[:6]) or nearest(path, known)):
+    if near := (" or ".join((own or inside)[:6]) or nearest(path, known)):
         hint = f"did you mean {near}?"
     else:
         first = path.partition(".")[0]
