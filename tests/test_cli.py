@@ -513,15 +513,14 @@ def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
     assert out.index("in-line four") < out.index("90-degree cross-plane V8")
 
 
-def test_rows_of_several_engines_can_be_told_apart(balcli, good, tmp_path):
+def test_rows_of_several_engines_can_be_told_apart(good, tmp_path):
     """By name, or by file where a name is missing or stands for several."""
     again, nameless = tmp_path / "again.toml", tmp_path / "nameless.toml"
     again.write_text(GOOD)
     nameless.write_text(changed(('name = "in-line four"', "")))
 
     def engines(*files, stdin=""):
-        status, out, _ = balcli("analyze", *files, "--only", "peak", "--format", "csv", stdin=stdin)
-        assert status == 0
+        out = ask("analyze", *files, "--only", "peak", "--format", "csv", stdin=stdin)
         return list(dict.fromkeys(row["engine"] for row in csv.DictReader(io.StringIO(out))))
 
     assert engines(good) == ["in-line four"]

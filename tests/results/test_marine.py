@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.commands import ask
 from support.engines import build_text
 from support.paths import ENGINES, write
 
@@ -129,12 +130,12 @@ def test_json_says_whether_gas_is_in_it(balcli, engine, includes) -> None:
     assert json.loads(balcli(*given)[1])["includes"] == includes
 
 
-def test_names_of_orders_head_the_columns_over_speed(balcli, tmp_path) -> None:
+def test_names_of_orders_head_the_columns_over_speed(tmp_path) -> None:
     file = write(tmp_path / "four.toml", TEXT)
-    _, at_one, _ = balcli("analyze", file, "--format", "marine")
+    at_one = ask("analyze", file, "--format", "marine")
     assert re.search("order +FnV, kN +FnH, kN +MnV, kN·m +MnH, kN·m\n", at_one)
     assert "V is along the cylinders (x), H across them (y)." in at_one
-    _, over, _ = balcli("analyze", file, "--format", "marine", "--speed", "80:110:15")
+    over = ask("analyze", file, "--format", "marine", "--speed", "80:110:15")
     heads = [line.split() for line in over.splitlines() if line.lstrip().startswith("rpm")]
     assert heads[0][:4] == ["rpm", "F1V", "F1H", "F2V"]
     assert heads[1][:4] == ["rpm", "M1V", "M1H", "M2V"]
@@ -171,8 +172,8 @@ def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
         ("banks = [90]", "(banks at 90 deg), H along y."),
     ],
 )
-def test_where_vertical_is_told_by_the_banks(balcli, banks, told) -> None:
-    _, out, _ = balcli("analyze", "-", "--format", "marine", stdin=f"{TEXT}[layout]\n{banks}\n")
+def test_where_vertical_is_told_by_the_banks(banks, told) -> None:
+    out = ask("analyze", "-", "--format", "marine", stdin=f"{TEXT}[layout]\n{banks}\n")
     assert told in out
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
-from support.commands import ask, ask_csv
+from support.commands import ask, ask_csv, refusal
 from support.paths import ENGINES
 
 from balcli import analyze, load
@@ -15,7 +15,7 @@ FIVE, DIESEL = ENGINES / "i5.toml", ENGINES / "i6_diesel.toml"
 
 
 def test_a_range_has_its_ends_and_every_analysis_is_that_of_its_speed(balcli):
-    _, out, _ = balcli("analyze", FIVE, "--speed", "60:124:8", "-f", "json", "--only", "moment")
+    out = ask("analyze", FIVE, "--speed", "60:124:8", "-f", "json", "--only", "moment")
     found = json.loads(out)
     assert found["format"] == "balcli.speeds/1"
     assert [one["speed_rpm"] for one in found["analyses"]] == list(range(60, 125, 8))
@@ -57,8 +57,8 @@ def test_a_table_a_kind_a_row_a_speed():
     assert max(map(len, out.splitlines())) <= 80
 
 
-def test_what_was_named_is_shown_and_why_is_said_once(balcli):
-    _, out, _ = balcli(
+def test_what_was_named_is_shown_and_why_is_said_once():
+    out = ask(
         *("analyze", FIVE, "--speed", "3000,6000", "--only", "guide,inner", "--orders", "1-4"),
         "--why",
     )
@@ -96,10 +96,8 @@ def test_one_speed_in_a_list_is_one_speed(balcli):
         ),
     ],
 )
-def test_what_does_not_go_together_is_refused(balcli, given, told):
-    status, out, err = balcli("analyze", FIVE, *given)
-    assert (status, out) == (2, "")
-    assert told in err
+def test_what_does_not_go_together_is_refused(given, told):
+    assert told in refusal("analyze", FIVE, *given)
 
 
 def test_an_order_that_is_asked_for_has_a_column_balanced_or_not(balcli):

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from oracle import momentum
-from support.commands import ask_json, refusal, run_here
+from support.commands import ask, ask_json, refusal, run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES, write
@@ -387,7 +387,7 @@ def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
 def test_orders_that_are_asked_for_have_a_row_balanced_or_not():
     """Two in-line fours have no odd order of force, moment or torque of inertia."""
     four = str(ENGINES / "i4.toml")
-    _, table, _ = run_here("sum", four, four, "--orders", "3,4,7")
+    table = ask("sum", four, four, "--orders", "3,4,7")
     for order in ("3", "7"):
         rows = [line.split() for line in table.splitlines() if line.startswith(f"{order} ")]
         assert [set(row[1:]) for row in rows] == [{"balanced"}] * 3
