@@ -824,4 +824,4 @@ def test_what_a_flywheel_needs_is_told_without_the_crankshaft(tmp_path):
 
 def test_help_tells_the_orders_that_there_are():
     help_text = " ".join(ask("torque", "--help").split())
-    assert "default: all to 12, and of very many cylinders" in help_text
+    assert "default: all to 12, and of an engine that fires more than 12 times a turn" in help_text
