@@ -329,7 +329,7 @@ def test_every_misfit_of_torsion_is_told_by_its_path():
     [
         (
             "[torsion]\nfront = 3",
-            "torsion.front: 3 is not a list; write it in square brackets, such as [0, 180]",
+            "torsion.front: 3 is no table; write [[torsion.front]] in double brackets",
         ),
         (
             "[torsion.front]\nname = 3",
@@ -337,7 +337,7 @@ def test_every_misfit_of_torsion_is_told_by_its_path():
         ),
         (
             '[[torsion.front]]\nname = "a"\nstiffness = 1\ninertja = 3',
-            "torsion.front.1.inertja: unknown key in [torsion]; did you mean inertia?",
+            "torsion.front.1.inertja: unknown key in [torsion.front]; did you mean inertia?",
         ),
         (
             '[[torsion.front]]\nname = "a"\ninertia = 0\nstiffness = 1',
