@@ -50,7 +50,8 @@ def _insert_devices(text: str, remedy: Remedy) -> str:
     added to, it is written anew, without its comments.
     """
     end_of_line = "" if text.endswith("\n") or not text else "\n"
-    new = text + end_of_line + "".join(_write_tables(remedy))
+    tables = end_of_line + "".join(_write_tables(remedy))
+    new = text + (tables.replace("\n", "\r\n") if "\r\n" in text else tables)
     try:
         parse(new)
     except InputError:
