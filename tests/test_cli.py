@@ -229,7 +229,7 @@ def test_bad_usage_that_the_parser_words(balcli, args, told):
         ),
         (
             ["balance", V8, "--write", "-"],
-            "--write -: name a file; standard output has the result",
+            "--write -: name a file; standard output is for results alone",
         ),
         (["analyze", str(ENGINES)], f"{ENGINES}: is a folder; name a file in it"),
         (["check", "nowhere"], "nowhere: no such file or folder"),

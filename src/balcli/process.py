@@ -96,7 +96,7 @@ def keep_freed_memory() -> None:
     large ones, to be cleared again for every array; in the workers of a dask cluster, whose
     environment says so, all of them, which takes four times as long as what sweeps compute.
     """
-    from ctypes import CDLL  # who sweeps needs it
+    from ctypes import CDLL  # which numpy loads, too
 
     with suppress(AttributeError, OSError, TypeError):  # only glibc has it
         mallopt = CDLL(None).mallopt

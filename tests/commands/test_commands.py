@@ -14,7 +14,7 @@ from contextlib import nullcontext
 from types import ModuleType
 
 import pytest
-from support.commands import ask, ask_csv, refusal, run_here
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, tables
 from support.paths import ENGINES, write
 
@@ -187,8 +187,7 @@ def test_bench_in_every_format(balcli, tmp_path):
         "ratio": "",
     }
     assert lines[-1]["ratio"] == "1.25"
-    text = ask("bench", "--format", "json")
-    assert json.loads(text)["ratios"] == [{"what": "one to other", "value": 1.25}]
+    assert ask_json("bench")["ratios"] == [{"what": "one to other", "value": 1.25}]
     assert balcli("bench", "-o", tmp_path / "x.svg")[0] == 0
     assert "two-term formula" in (tmp_path / "x.svg").read_text()
     assert "exp alone" not in (tmp_path / "x.svg").read_text()  # has no error to be drawn over

@@ -118,8 +118,8 @@ def test_what_is_written_turns_as_unevenly(four, tmp_path):
     out = tmp_path / "uneven.toml"
     ask("torque", four, "--write", out)
     assert "order = 2, amplitude = 0.0" in out.read_text()
-    text = ask("analyze", out, "--format", "json", "--only", "force")
-    assert json.loads(text)["orders"][0]["order"] == 0, "an uneven speed has a mean force"
+    found = ask_json("analyze", out, "--only", "force")
+    assert found["orders"][0]["order"] == 0, "an uneven speed has a mean force"
     again = ask_json("torque", out)
     assert again == ask_json("torque", four), "torque is that of the mean speed"
 
@@ -240,8 +240,8 @@ def test_a_curve_of_a_thousand_turns_ends_soon(tmp_path):
         "order 66: of a period of 1000 turns there are orders to 65.5"
     )
     # Slopes jump by 4 b/(a (b - a)) at 0 and back at a, in turns of a period b.
-    found = ask("torque", "--curve", path, "--orders", "0.5,65.5", "-f", "json")
-    sizes = [entry["torque_Nm"]["amplitude"] for entry in json.loads(found)["orders"]]
+    found = ask_json("torque", "--curve", path, "--orders", "0.5,65.5")
+    sizes = [entry["torque_Nm"]["amplitude"] for entry in found["orders"]]
     a, b = 0.5, 1000
     for order, size in zip((0.5, 65.5), sizes, strict=True):
         wave = 2 * math.pi * order
@@ -315,8 +315,8 @@ def test_a_curve_may_begin_at_any_angle(tmp_path):
         assert [one["energy"][key] for key in ("from_deg", "to_deg")] == pytest.approx(
             [30 - 30 * (1 - 1 / 12), 30 + 30 * (1 - 1 / 12)]
         )
-    both = ask("torque", "--curve", paths["a.csv"], "--load", paths["b.csv"], "-f", "json")
-    assert json.loads(both)["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
+    both = ask_json("torque", "--curve", paths["a.csv"], "--load", paths["b.csv"])
+    assert both["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
 
 
 IN_OTHER_UNITS = {  # NIST SP 811 (2008), appendix B.8, but for the last: pound times square inch
@@ -491,13 +491,13 @@ def test_curves_of_an_engine_have_the_gas_torque_over_the_cycle(four, tmp_path):
     found = ask_json("curves", four, "--step", "4")
     curves = found["curves"]
     assert len(found["crank_deg"]) == 180
-    text = ask("torque", four, "--orders", "0-80", "-f", "json")
+    orders = ask_json("torque", four, "--orders", "0-80")["orders"]
     for name in ("gas_torque_Nm", "inertia_torque_Nm", "torque_Nm"):
         angle = np.radians(found["crank_deg"])
         waves = [
             entry[name]["cos"] * np.cos(entry["order"] * angle)
             + entry[name]["sin"] * np.sin(entry["order"] * angle)
-            for entry in json.loads(text)["orders"]
+            for entry in orders
         ]
         size = np.abs(curves[name]).max()
         assert sum(waves) == pytest.approx(curves[name], abs=5e-3 * size)
@@ -654,8 +654,8 @@ def test_engines_of_different_cycles_are_compared_by_the_orders_of_both(tmp_path
     four, two = tmp_path / "four.toml", tmp_path / "two.toml"
     four.write_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
     two.write_text(FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2") + WIEBE)
-    out = ask("compare", four, two, "--only", only, "-f", "json")
-    halves = [line for line in json.loads(out)["figures"] if (line["order"] or 0) % 1]
+    found = ask_json("compare", four, two, "--only", only)
+    halves = [line for line in found["figures"] if (line["order"] or 0) % 1]
     assert halves
     assert all(line["values"][0] > 0 and line["values"][1] == 0 for line in halves)
 

@@ -430,3 +430,5 @@ def test_a_flywheel_that_torsion_lacks():
     ]
     assert find_suspicious(parse(changed(more=wheel + twist))) == []
     assert find_suspicious(parse(changed(more=alone))) == []
+    propeller = '[[torsion.front]]\nname = "propeller"\ninertia = 250000\nstiffness = 500000\n'
+    assert find_suspicious(parse(changed(more=wheel + alone + propeller))) == []

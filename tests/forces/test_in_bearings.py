@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.commands import ask
+from support.commands import ask, ask_json
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import ENGINES, write
@@ -231,9 +231,9 @@ def test_where_it_is_not_known_the_reason_stands_there(tmp_path, change, why):
 
 def test_engines_with_gas_are_compared_by_it():
     files = [str(ENGINES / name) for name in ("i4_wiebe.toml", "v8_wiebe.toml")]
-    out = ask("compare", *files, "--only", "inner", "--orders", "1", "-f", "json")
+    found = ask_json("compare", *files, "--only", "inner", "--orders", "1")
     keys = {"shaft_shear_N", "shaft_bending_Nm", "main_N", "block_shear_N", "block_bending_Nm"}
-    assert keys <= {line["quantity"] for line in json.loads(out)["figures"]}
+    assert keys <= {line["quantity"] for line in found["figures"]}
 
 
 def test_so_many_cylinders_that_they_would_fill_the_memory_are_refused(monkeypatch):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
-from support.commands import ask, ask_csv, refusal
+from support.commands import ask, ask_csv, ask_json, refusal
 from support.paths import ENGINES
 
 from balcli import analyze, load
@@ -15,8 +15,7 @@ FIVE, DIESEL = ENGINES / "i5.toml", ENGINES / "i6_diesel.toml"
 
 
 def test_a_range_has_its_ends_and_every_analysis_is_that_of_its_speed(balcli):
-    out = ask("analyze", FIVE, "--speed", "60:124:8", "-f", "json", "--only", "moment")
-    found = json.loads(out)
+    found = ask_json("analyze", FIVE, "--speed", "60:124:8", "--only", "moment")
     assert found["format"] == "balcli.speeds/1"
     assert [one["speed_rpm"] for one in found["analyses"]] == list(range(60, 125, 8))
     own = balcli("analyze", FIVE, "--speed", "84", "-f", "json", "--only", "moment")[1]

@@ -93,6 +93,6 @@ def test_what_no_file_can_describe_is_not_written(scheme):
 
 def test_lines_end_as_those_of_the_file_do():
     text = GOOD.replace("\n", "\r\n")
-    new = insert_remedy(text.encode(), size(build(parse(text)), "auto"))
+    new = insert_remedy(text.encode(), size(build_text(text), "auto"))
     assert new.count("[[") >= 1
     assert new.count("\n") == new.count("\r\n")

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
-from support.commands import ask, ask_json, refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.diesel import INERTIAS, STIFFNESSES, write_diesel
 from support.paths import ENGINES, write
 
@@ -144,8 +142,7 @@ def test_crank_inertia_is_shared_by_the_throws():
     """Instead of throw_inertia; that of the whole [crank], its throws included."""
     text = write_diesel().replace("throw_inertia = ", "# ")
     text = text.replace("spacing = 120", "spacing = 120\ninertia = 240000")
-    out = ask("torsion", "-", "--format", "json", stdin=text)
-    nodes = json.loads(out)["nodes"][2:8]
+    nodes = ask_json("torsion", "-", stdin=text)["nodes"][2:8]
     assert {node["inertia_kg_m2"] for node in nodes} == {nodes[0]["inertia_kg_m2"]}
     assert nodes[0]["inertia_kg_m2"] == pytest.approx(0.04 + 0.006086026, rel=1e-7)
 
@@ -155,8 +152,8 @@ def test_two_strokes_have_whole_orders(tmp_path):
     text = text.replace(
         "[torsion]", '[gas]\ncycle = "wiebe"\ncompression_ratio = 15\nimep = 8\n[torsion]'
     ).replace("firing_order = [1, 5, 3, 6, 2, 4]", "firing_order = [1, 6, 2, 4, 3, 5]")
-    out = ask("torsion", "-", "--format", "json", stdin=text)
-    assert all(isinstance(c["order"], int) for c in json.loads(out)["criticals"])
+    criticals = ask_json("torsion", "-", stdin=text)["criticals"]
+    assert all(isinstance(c["order"], int) for c in criticals)
 
 
 def test_without_gas_the_figures_are_told_as_of_inertia_alone(tmp_path, diesel):

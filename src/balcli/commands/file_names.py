@@ -140,7 +140,8 @@ def format_of(
         return usual
     can = _listed(list(endings))
     said = f"{ending} cannot be written here" if ending else "has no ending that says its format"
-    instead = f"; {INSTEAD[ending]}" if ".csv" in endings and ending in INSTEAD else ""
+    told = ending in INSTEAD and (".md" if ending == ".tex" else ".csv") in endings
+    instead = f"; {INSTEAD[ending]}" if told else ""
     raise BalcliError(f"{option} {output}: {said}; give a name that ends in {can}{instead}")
 
 

@@ -36,7 +36,7 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
     ]
     for option, target in targets:
         if target == "-" and option not in _OF_RESULTS:
-            raise BalcliError(f"{option} -: name a file; standard output has the result")
+            raise BalcliError(f"{option} -: name a file; standard output is for results alone")
     there = any(os.path.isfile(target) for _, target in targets)
     named = _list_named(sources) if there else []
     for k, (option, target) in enumerate(targets):

@@ -64,8 +64,8 @@ def parse_firing_order(value: object) -> object:
         if all(named):
             numbers = _count_through([(each[1].upper(), int(each[2])) for each in named if each])
             raise ValueError(
-                "names cylinders by bank and place; here they have numbers, bank by bank from the "
-                f"free end: {numbers}"
+                "names cylinders by bank and place; here they have numbers: without "
+                f"layout.numbering, bank by bank from the free end, they are {numbers}"
             )
     return value
 

@@ -17,7 +17,7 @@ from .model import Counterweight, EngineFile, Layout
 from .units import ask_unit
 
 if TYPE_CHECKING:
-    from .torsion_tables import Torsion
+    from .torsion_tables import Part, Torsion
 
 # Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
 # kg per m^3 of bore^3 (racing to lorry), in cast iron up to 3000. The limits leave room beyond; a
@@ -391,11 +391,16 @@ def _flywheels(torsion: Torsion, model: EngineFile) -> Iterator[str]:
                 f"{own}, and the part '{name}' of [torsion] {inertia / 1e6:.4g}: `torque` takes "
                 "the one, `torsion` the other"
             )
-    elif not named and not torsion.rear:
+    elif not named and not torsion.rear and not _has_inertia(torsion.front, flywheel):
         yield (
             f"{own}, and [torsion] nothing behind the throws: `torsion` has no flywheel; write "
             "it as [[torsion.rear]], too"
         )
+
+
+def _has_inertia(parts: Iterable[Part], inertia: float) -> bool:
+    """Whether one of them is as heavy: a propeller or rotor at the free end is a flywheel, too."""
+    return any(abs((part.inertia or 0.0) - inertia) <= SAME_INERTIA * inertia for part in parts)
 
 
 def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:

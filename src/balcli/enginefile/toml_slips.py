@@ -37,9 +37,10 @@ def explain(line: str, error: str, above: Sequence[str] = ()) -> str:
         return f": {twice[1]} is given twice; write it once"
     if (head := re.fullmatch(_HEAD, line)) and error.startswith("Cannot declare"):
         return f": [{head[1]}] stands twice; put all its keys below the first one"
-    if error.startswith("Unclosed array") and "]" not in (value := line.partition("=")[2]):
+    if error.startswith("Unclosed array") and "]" not in (value := line.rpartition("=")[2]):
         return f": {'this list' if '[' in value else 'a list above'} has no ] at its end"
-    if error.startswith("Invalid initial character for a key part") and "{" in line:
+    over_lines = re.search(r"\{\s*(?:#.*)?$|,\s*\}", line)
+    if error.startswith("Invalid initial character for a key part") and over_lines:
         return ": a table in braces stands on one line, without a comma at its end"
     if misfit := re.fullmatch(_WITHOUT_EQUALS, line):
         return f": a key and its value have = between them: {misfit[1]} = {misfit[2]}"
@@ -62,7 +63,7 @@ def _name_strange_letter(line: str, error: str) -> str:
     that these have, such as a blank of another kind; else empty.
     """
     place = re.search(r"column (\d+)\)", error)
-    if place is None or error.startswith("Invalid value"):
+    if place is None or error.startswith(("Invalid value", "Unclosed array")):
         return ""
     before, letter = line[: int(place[1]) - 1], line[int(place[1]) - 1 :][:1]
     if "=" in before or not letter or letter in "\t\r" or " " <= letter <= "~":

@@ -53,7 +53,7 @@ def find_near_file(source: str | Path) -> str:
     from .examples import is_example  # after a mistake alone
 
     with_ending, asked = f"{source}.toml", Path(source)
-    if asked.suffix.lower() in (".svg", ".png"):
+    if asked.suffix.lower() in (".svg", ".png", ".pdf"):
         return f"; balcli plot FILE {source} draws into it"
     if Path(with_ending).is_file():
         return f"; {with_ending} is there: did you mean it?"

@@ -105,7 +105,7 @@ INSTEAD = {
     **dict.fromkeys(("power", "torque", "kw", "hp", "ps"), _POWER),
     **dict.fromkeys(("unit", "units"), _UNITS),
     **dict.fromkeys(("overbalance", "balance_factor", "factor"), _FACTOR),
-    **dict.fromkeys(("coupling", "gearbox", "generator", "propeller", "pulley"), _PART),
+    **dict.fromkeys(("coupling", "flywheel", "gearbox", "generator", "propeller", "pulley"), _PART),
     **dict.fromkeys(("damper", "dampers"), _DAMPER),
     **dict.fromkeys(("psi", "relative_damping", "magnifier", "dynamic_magnifier"), _LOSS),
     "gd2": _GD2,
@@ -135,7 +135,9 @@ class UnknownKey(NamedTuple):
 
     @property
     def is_misplaced(self) -> bool:
-        """Whether it is a table of its own, written within another one."""
+        """Whether it is a table of its own, written within another one where it does not count."""
+        if (self.path, self.key) == ("torsion", "flywheel"):  # one of the parts of [torsion]
+            return False
         return bool(self.path) and self.holds_table and self.key in {*KNOWN} - {*TEXTS}
 
 
