@@ -37,7 +37,8 @@ def explain(line: str, error: str, above: Sequence[str] = ()) -> str:
         return f": {twice[1]} is given twice; write it once"
     if (head := re.fullmatch(_HEAD, line)) and error.startswith("Cannot declare"):
         return f": [{head[1]}] stands twice; put all its keys below the first one"
-    if error.startswith("Unclosed array") and "]" not in (value := line.rpartition("=")[2]):
+    value = "" if re.fullmatch(_ANY_HEAD, line) else line.rpartition("=")[2]
+    if error.startswith("Unclosed array") and "]" not in value:
         return f": {'this list' if '[' in value else 'a list above'} has no ] at its end"
     over_lines = re.search(r"\{\s*(?:#.*)?$|,\s*\}", line)
     if error.startswith("Invalid initial character for a key part") and over_lines:
