@@ -598,7 +598,15 @@ IMPERIAL = {  # SI units of the CSV: what stands instead, and its size
     ["viscous", *(pytest.param(kind, marks=pytest.mark.stress) for kind in ("rubber", "pendulum"))],
 )
 def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
-    asked = ("torsion", "-q", ENGINES / "i6_diesel.toml", "--speeds", "1000:2000:50", "--holzer", "1")
+    asked = (
+        "torsion",
+        "-q",
+        ENGINES / "i6_diesel.toml",
+        "--speeds",
+        "1000:2000:50",
+        "--holzer",
+        "1",
+    )
     metric, imperial = (
         ask_csv(*asked, "--damper", kind, "--units", units) for units in ("si", "imperial")
     )
