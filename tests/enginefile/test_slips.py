@@ -182,6 +182,8 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"generator": {"inertia": 3}}, f"generator: unknown key in an engine file; {PART}"),
         ({"torsion": {"coupling": {"loss": 1}}}, f"torsion.coupling: unknown key in [torsion]; {PART}"),
         ({"torsion": {"flywheel": {"inertia": 3}}}, "torsion.flywheel: unknown key in [torsion]; what turns with the crankshaft is a [[torsion.rear]]"),
+        ({"crank": {"flywheel": {"inertia": 3}}}, "crank.flywheel: flywheel is a table of its own, not one within [crank]; write [flywheel]"),
+        ({"crank": {"flywheel": 3}}, "crank.flywheel: unknown key in [crank]; it has stroke,"),
         ({"torsion": {"damper": {"inertia": 3}}}, "torsion.damper: unknown key in [torsion]; a damper is written where it sits"),
         ({"torsion": {"J": 1}}, "torsion.J: unknown key in [torsion]; did you mean throw_inertia?"),
         ({"torsion": {"rear": [{"name": "disc", "stiffness": 1, "J": 1}]}}, "torsion.rear.1.J: unknown key in [torsion.rear]; did you mean inertia?"),

@@ -12,8 +12,7 @@ _LONGEST_LINE = 80  # that is shown
 _BARE = r"[+-]?\d+(?:\.\d+)?"  # a number as TOML writes one
 # As people write one: .5, 5., 007, 1 000.
 _NUMBER = r"[+-]?(?:\d{1,3}(?: \d{3})+\.?\d*|\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
-_HEAD = r"\s*\[\s*([\w.-]{1,60})\s*\]\s*(?:#.*)?"  # of a table
-_ANY_HEAD = r"\s*(\[\[?)\s*([\w.-]{1,60})\s*\]\]?\s*(?:#.*)?"
+_HEAD = r"\s*(\[\[?)\s*([\w.-]{1,60})\s*\]\]?\s*(?:#.*)?"  # of a table
 _OPEN_HEAD = r"\s*(?:([\w.-]{1,40})\s*:|\[([\w.-]{1,40}))\s*(?:#.*)?"
 _WITHOUT_EQUALS = r"\s*([\w.-]{1,40})\s*(?::=?|==)\s*([^:=#]{1,60}?)\s*(?:#.*)?"
 _WITHOUT_QUOTES = r"[^#\"'\[\]{}]{1,60}?|\[[\d.+\s;,°-]{1,60}\]"
@@ -30,14 +29,15 @@ def explain(line: str, error: str, above: Sequence[str] = ()) -> str:
     """
     if strange := _name_strange_letter(line, error):
         return strange
-    if (head := re.fullmatch(_ANY_HEAD, line)) and (told := _tell_other_brackets(head, above)):
+    head = re.fullmatch(_HEAD, line)
+    if head and (told := _tell_other_brackets(head, above)):
         return told
     twice = re.match(r"\s*([\w.-]{1,60})\s*=", line)
     if twice and error.startswith("Cannot overwrite"):
         return f": {twice[1]} is given twice; write it once"
-    if (head := re.fullmatch(_HEAD, line)) and error.startswith("Cannot declare"):
-        return f": [{head[1]}] stands twice; put all its keys below the first one"
-    value = "" if re.fullmatch(_ANY_HEAD, line) else line.rpartition("=")[2]
+    if head and error.startswith("Cannot declare"):
+        return f": [{head[2]}] stands twice; put all its keys below the first one"
+    value = "" if head else line.rpartition("=")[2]
     if error.startswith("Unclosed array") and "]" not in value:
         return f": {'this list' if '[' in value else 'a list above'} has no ] at its end"
     over_lines = re.search(r"\{\s*(?:#.*)?$|,\s*\}", line)
@@ -82,7 +82,7 @@ def _tell_other_brackets(head: re.Match[str], above: Iterable[str]) -> str:
     """
     brackets, name = head[1], head[2]
     other = "[" if brackets == "[[" else "[["
-    heads = filter(None, (re.fullmatch(_ANY_HEAD, line) for line in above))
+    heads = filter(None, (re.fullmatch(_HEAD, line) for line in above))
     if not any(one[1] == other and one[2] == name for one in heads):
         return ""
     return (

@@ -82,6 +82,7 @@ _PART = (
     "what turns with the crankshaft is a [[torsion.rear]], behind the throws, or a "
     "[[torsion.front]], with its name, inertia and stiffness"
 )
+_WHEEL_OF_TORSION = ("torsion", "flywheel")  # one of its parts: `torsion` reads no [flywheel]
 _DAMPER = (
     "a damper is written where it sits, in [[torsion.front]] or [[torsion.rear]]: damper = "
     '{ kind = "viscous", inertia = 30000, damping = 12 }'
@@ -105,7 +106,7 @@ INSTEAD = {
     **dict.fromkeys(("power", "torque", "kw", "hp", "ps"), _POWER),
     **dict.fromkeys(("unit", "units"), _UNITS),
     **dict.fromkeys(("overbalance", "balance_factor", "factor"), _FACTOR),
-    **dict.fromkeys(("coupling", "flywheel", "gearbox", "generator", "propeller", "pulley"), _PART),
+    **dict.fromkeys(("coupling", "gearbox", "generator", "propeller", "pulley"), _PART),
     **dict.fromkeys(("damper", "dampers"), _DAMPER),
     **dict.fromkeys(("psi", "relative_damping", "magnifier", "dynamic_magnifier"), _LOSS),
     "gd2": _GD2,
@@ -136,7 +137,7 @@ class UnknownKey(NamedTuple):
     @property
     def is_misplaced(self) -> bool:
         """Whether it is a table of its own, written within another one where it does not count."""
-        if (self.path, self.key) == ("torsion", "flywheel"):  # one of the parts of [torsion]
+        if (self.path, self.key) == _WHEEL_OF_TORSION:
             return False
         return bool(self.path) and self.holds_table and self.key in {*KNOWN} - {*TEXTS}
 
@@ -215,6 +216,8 @@ def _suggest(first: str, key: str, own: list[str]) -> tuple[str, str]:
     """
     if (first, key) == ("cylinder", "bore"):
         return _BORE, ""
+    if (first, key) == _WHEEL_OF_TORSION:
+        return _PART, ""
     instead = INSTEAD.get(key.lower(), "")
     of_engine = first not in {*DEVICES, *CHAPTERS, *CHAPTER_LISTS}
     if instead and (of_engine or instead in _IN_CHAPTERS.get(first, ())):

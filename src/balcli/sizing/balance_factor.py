@@ -320,8 +320,8 @@ def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
 
 
 def _share_out(engine: Engine, loads: list[PinUnbalance]) -> list[list[PinUnbalance]]:
-    """The pins that ask for a weight together: each by itself, or where the file has counterweights
-    all in one plane, for nobody knows opposite which of them a weight in their plane belongs.
+    """The pins that ask for a weight together: each by itself, or, where the file has
+    counterweights, all pins of a plane, for nobody knows to which of them a weight there belongs.
     """
     if not _find_counterweights(engine)[1].any():
         return [[load] for load in loads]

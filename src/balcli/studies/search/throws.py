@@ -173,7 +173,8 @@ class _Tree:
         for key, own in self._table.items():
             ahead, astern = own.add_throws([places.fixed], np.zeros((1, 1), np.int8))
             self._start[key] = ahead + own.devices[0], astern + own.devices[1]
-        # What ends a crank adds the same, whatever it begins with: few orders of a beginning apart.
+        # The last throws add the same whatever the crank begins with: other orders of the same
+        # beginning, which soon follow, leave the same throws.
         most = _KEPT // (math.factorial(BLOCK) * len(self._table))
         self._add_endings = lru_cache(most)(partial(_sum_endings, self._table, places.free))
 
