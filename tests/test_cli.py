@@ -20,15 +20,7 @@ from pathlib import Path
 
 import pytest
 import typer
-from support.commands import (
-    ask,
-    ask_csv,
-    ask_json,
-    refusal,
-    run_command,
-    run_in_terminal,
-    run_python,
-)
+from support.commands import ask, ask_csv, ask_json, refusal, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
 from support.paths import ENGINES, ROOT, SOURCE, write
 
@@ -108,11 +100,7 @@ def usage(command: str, message: str) -> str:
         (["mine.toml"], "", "No such command 'mine.toml'. Did you mean balcli analyze mine.toml?"),
         (["version"], "", "No such command 'version'. That is balcli --version."),
         (["Flywheel"], "", "No such command 'Flywheel'. That is balcli torque FILE."),
-        (
-            ["bobweights"],
-            "",
-            "No such command 'bobweights'. That is balcli balance FILE --factor 51% --format card.",
-        ),
+        (["bobweights"], "", "No such command 'bobweights'. That is balcli balance FILE --factor 51% --format card."),
         (["--frob"], "", "No such option: --frob"),
         (["check", I4, "--json"], "check", "No such option: --json"),
         (
@@ -131,19 +119,13 @@ def usage(command: str, message: str) -> str:
             "Invalid value for '--format' / '-f': 'latex' is not one of 'table', 'json', 'csv', "
             "'markdown', 'marine'; for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex).",
         ),
-        (
-            ["analyze", V8, "--by", "bank"],
-            "analyze",
-            'Invalid value for --by: "bank": only "cylinder" can be chosen',
-        ),
+        (["analyze", V8, "--by", "bank"], "analyze", 'Invalid value for --by: "bank": only "cylinder" can be chosen'),
     ],
 )
 def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message):
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
-    assert re.sub(r"\{?(FILE|PATH)\.\.\.\}?(\.\.\.)?", r"{\1...}...", err) == usage(
-        command, message
-    )
+    assert re.sub(r"\{?(FILE|PATH)\.\.\.\}?(\.\.\.)?", r"{\1...}...", err) == usage(command, message)
 
 
 def test_an_option_given_twice_is_told_so(balcli, good):
@@ -179,8 +161,7 @@ def test_an_option_of_other_commands_is_told_with_them(balcli):
     *_, last = balcli("sweep", I4, "--units=imperial").err.splitlines()
     assert last.startswith("Error: No such option: --units")
     assert last.endswith(
-        ". Commands that have it: analyze, compare, sum, torque, plot, report, balance, field, "
-        "mounts, torsion"
+        ". Commands that have it: analyze, compare, sum, torque, plot, report, balance, field, mounts, torsion"
     )
 
 
@@ -195,10 +176,7 @@ def test_an_option_of_other_commands_is_told_with_them(balcli):
             ["search", V8, "--over", "throws", "--minimise", "force.1.major", "--require", "x"],
             '"x": only even-firing can be required',
         ),
-        (
-            ["balance", V8, "--factor", "52", "%"],
-            '(%): a value or a name with a blank goes in quotes, such as "52 %"',
-        ),
+        (["balance", V8, "--factor", "52", "%"], '(%): a value or a name with a blank goes in quotes, such as "52 %"'),
         (
             ["balance", V8, "other.toml"],
             "(other.toml): no more files are read; balcli analyze and balcli compare read several.",
@@ -219,18 +197,12 @@ def test_bad_usage_that_the_parser_words(balcli, args, told):
     ("args", "message"),
     [
         (["analyze", "no.toml"], "no.toml: no such file"),
-        (
-            ["analyze", "no.svg"],
-            "no.svg: no such file; balcli plot FILE no.svg draws into it",
-        ),
+        (["analyze", "no.svg"], "no.svg: no such file; balcli plot FILE no.svg draws into it"),
         (
             ["analyze", V8, "--only", "force,all"],
             "--only all: without --only there is all that is usual, with --all more",
         ),
-        (
-            ["balance", V8, "--write", "-"],
-            "--write -: name a file; standard output is for results alone",
-        ),
+        (["balance", V8, "--write", "-"], "--write -: name a file; standard output is for results alone"),
         (["analyze", str(ENGINES)], f"{ENGINES}: is a folder; name a file in it"),
         (["check", "nowhere"], "nowhere: no such file or folder"),
         (["check", str(ROOT / "docs")], f"{ROOT / 'docs'}: has no engine files (*.toml)"),
@@ -259,14 +231,8 @@ def test_bad_input_is_told_in_one_line(balcli, args, message):
         (["--orders", "-1"], '--orders "-1": give orders such as 1-8, 1,2,4 or 0.5-8'),
         (["--orders", "8-1"], '--orders "8-1": 8-1 must rise and end at 4096 at most'),
         (["--orders", "1,5000"], '--orders "1,5000": 5000 must rise and end at 4096 at most'),
-        (
-            ["--speed", "0"],
-            "--speed 0: the crank speed must be a positive number of rpm, below 1e9",
-        ),
-        (
-            ["--speed", "nan"],
-            "--speed nan: the crank speed must be a positive number of rpm, below 1e9",
-        ),
+        (["--speed", "0"], "--speed 0: the crank speed must be a positive number of rpm, below 1e9"),
+        (["--speed", "nan"], "--speed nan: the crank speed must be a positive number of rpm, below 1e9"),
         (
             ["--only", "force,noise"],
             "--only noise: choose from force, moment, couple, torque, roll, peak, sizing, gas, "
@@ -277,10 +243,7 @@ def test_bad_input_is_told_in_one_line(balcli, args, message):
             "--guide-height 0: the distance from the crankshaft to the middle of the guides must be "
             "positive, below 1000 m",
         ),
-        (
-            ["-o", "/nowhere/x.txt"],
-            "/nowhere/x.txt: cannot be written (there is no folder /nowhere)",
-        ),
+        (["-o", "/nowhere/x.txt"], "/nowhere/x.txt: cannot be written (there is no folder /nowhere)"),
         (["-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
     ],
 )
@@ -319,20 +282,8 @@ def test_a_format_is_what_its_name_says(good, form):
             assert json.loads(out)["format"] == "balcli.analysis/1"
         case Format.CSV:
             rows = list(csv.DictReader(io.StringIO(out)))
-            assert set(rows[0]) == {
-                "engine",
-                "cylinder",
-                "quantity",
-                "order",
-                "figure",
-                "value",
-                "unit",
-            }
-            (major,) = (
-                r
-                for r in rows
-                if (r["quantity"], r["order"], r["figure"]) == ("force", "2", "major")
-            )
+            assert set(rows[0]) == {"engine", "cylinder", "quantity", "order", "figure", "value", "unit"}
+            (major,) = (r for r in rows if (r["quantity"], r["order"], r["figure"]) == ("force", "2", "major"))
             assert (float(major["value"]), major["unit"]) == (force, "N")
         case Format.MARKDOWN:
             assert out.startswith("# in-line four\n")
@@ -346,41 +297,17 @@ def test_json_of_analyze_has_the_keys_of_the_contract():
     document = ask_json("analyze", V8, "--orders", "1-4")
     vector = {"forward", "backward", "major", "minor", "axis_deg", "balanced", "x", "y"}
     scalar = {"cos", "sin", "amplitude", "peak_deg", "balanced"}
-    assert list(document) == [
-        "format",
-        "version",
-        "engine",
-        "speed_rpm",
-        "reference_mm",
-        "orders",
-        "peak",
-        "sizing",
-    ]
+    assert list(document) == ["format", "version", "engine", "speed_rpm", "reference_mm", "orders", "peak", "sizing"]
     assert set(document["engine"]) == {"name", "cylinders", "displacement_m3"}
     assert [entry["order"] for entry in document["orders"]] == [1, 2, 3, 4]
     for entry in document["orders"]:
-        assert set(entry) == {
-            "order",
-            "force_N",
-            "moment_Nm",
-            "couple_Nm",
-            "inertia_torque_Nm",
-            "roll_Nm",
-        }
+        assert set(entry) == {"order", "force_N", "moment_Nm", "couple_Nm", "inertia_torque_Nm", "roll_Nm"}
         assert all(set(entry[key]) == vector for key in ("force_N", "moment_Nm"))
-        assert all(
-            set(entry[key]) == scalar for key in ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
-        )
-        assert (
-            set(entry["force_N"]["x"]) == set(entry["force_N"]["y"]) == {"amplitude", "phase_deg"}
-        )
+        assert all(set(entry[key]) == scalar for key in ("couple_Nm", "inertia_torque_Nm", "roll_Nm"))
+        assert set(entry["force_N"]["x"]) == set(entry["force_N"]["y"]) == {"amplitude", "phase_deg"}
     assert set(document["peak"]) == {"force_N", "force_deg", "moment_Nm", "moment_deg"}
     assert set(document["sizing"]) == {"scheme", "counterweights", "shafts", "sliders", "after"}
-    assert set(document["sizing"]["counterweights"][0]) == {
-        "unbalance_kg_m",
-        "angle_deg",
-        "position_mm",
-    }
+    assert set(document["sizing"]["counterweights"][0]) == {"unbalance_kg_m", "angle_deg", "position_mm"}
 
 
 @pytest.mark.parametrize(
@@ -397,10 +324,7 @@ def test_json_of_analyze_has_the_keys_of_the_contract():
 def test_what_is_left_out_is_no_key(only, keys, whole):
     document = ask_json("analyze", V8, "--only", only)
     assert set(document["orders"][0]) == keys
-    assert (
-        set(document) - {"format", "version", "engine", "speed_rpm", "reference_mm", "orders"}
-        == whole
-    )
+    assert set(document) - {"format", "version", "engine", "speed_rpm", "reference_mm", "orders"} == whole
 
 
 def test_shares_of_the_cylinders_add_up(balcli, good):
@@ -442,9 +366,7 @@ def test_imperial_figures_are_the_metric_ones_in_other_units(balcli, good):
 
 # ------------------------------------------------------------------ files in, files out
 def test_standard_input(balcli, good):
-    assert balcli("analyze", "-", "--format", "json", stdin=GOOD) == balcli(
-        "analyze", good, "--format", "json"
-    )
+    assert balcli("analyze", "-", "--format", "json", stdin=GOOD) == balcli("analyze", good, "--format", "json")
     status, out, err = balcli("analyze", "-", stdin="[crank]\nstroke = 90\n")
     assert (status, out) == (2, "")
     assert err.startswith("balcli: standard input: ")
@@ -453,9 +375,7 @@ def test_standard_input(balcli, good):
 @pytest.mark.parametrize("form", ["table", "markdown"])
 def test_an_engines_name_cannot_colour_the_output(balcli, form):
     name = '"in-line \\u001b[31mfour\\u009b2J"'
-    status, out, err = balcli(
-        "analyze", "-", "--format", form, stdin=changed(('"in-line four"', name))
-    )
+    status, out, err = balcli("analyze", "-", "--format", form, stdin=changed(('"in-line four"', name)))
     assert (status, out) == (2, "")
     assert "name: " in err
     assert not {"\x1b", "\x9b"} & set(err)
@@ -524,12 +444,7 @@ def test_rows_of_several_engines_can_be_told_apart(good, tmp_path):
         return list(dict.fromkeys(row["engine"] for row in csv.DictReader(io.StringIO(out))))
 
     assert engines(good) == ["in-line four"]
-    assert engines(good, again, V8, nameless) == [
-        str(good),
-        str(again),
-        "90-degree cross-plane V8",
-        str(nameless),
-    ]
+    assert engines(good, again, V8, nameless) == [str(good), str(again), "90-degree cross-plane V8", str(nameless)]
     assert engines("-", stdin=nameless.read_text()) == ["standard input"]
 
 
@@ -549,9 +464,7 @@ def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, file
     assert sorted(p.name for p in tmp_path.iterdir()) == ["bad.toml", "good.toml", "out.json"]
 
 
-def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(
-    balcli, good, tmp_path, monkeypatch
-):
+def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(balcli, good, tmp_path, monkeypatch):
     target = write(tmp_path / "out.txt", "old")
     target.chmod(0o640)
     assert balcli("analyze", good, "-o", target)[0] == 0
@@ -600,19 +513,14 @@ def test_a_pipe_gets_no_escape_codes_and_no_width(balcli, monkeypatch):
 def test_headings_of_rows_stay_whole_in_a_narrow_terminal(balcli, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     out = balcli(
-        "compare",
-        *(ENGINES / f"{name}.toml" for name in ("i3", "i4", "i5", "i6")),
-        "--orders",
-        "1,2",
-        terminal=True,
+        "compare", *(ENGINES / f"{name}.toml" for name in ("i3", "i4", "i5", "i6")), "--orders", "1,2", terminal=True
     )[1]
     assert re.findall(r"(?m)^order \d", ESCAPE.sub("", out)) == ["order 1", "order 2"] * 5
 
 
 @pytest.mark.parametrize("columns", [80, 140])
 @pytest.mark.parametrize(
-    "name",
-    ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "car/tsinghua_12v135q"],
+    "name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "car/tsinghua_12v135q"]
 )
 def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
     """No line is wider, and no figure that stands in it without a width is broken."""
@@ -674,9 +582,7 @@ def test_a_closed_pipe_ends_quietly(args):
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@pytest.mark.parametrize(
-    "args", [["analyze", "nowhere.toml"], ["balance", "nowhere.toml"], ["analyze", "--wrong"]]
-)
+@pytest.mark.parametrize("args", [["analyze", "nowhere.toml"], ["balance", "nowhere.toml"], ["analyze", "--wrong"]])
 def test_mistakes_that_nobody_reads_have_their_status(args):
     reading, writing = os.pipe()
     os.close(reading)
@@ -690,12 +596,7 @@ def test_any_locale_gets_utf_8():
         "analyze",
         V8,
         "--all",
-        env={
-            "LC_ALL": "C",
-            "PYTHONUTF8": "0",
-            "PYTHONCOERCECLOCALE": "0",
-            "PYTHONIOENCODING": "ascii",
-        },
+        env={"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "PYTHONIOENCODING": "ascii"},
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert "F1 = m r ω² = " in done.stdout
@@ -781,10 +682,7 @@ for command in {list(COMMANDS)}:
     assert all("balcli" in line for line in lines)
 
 
-CHAPTERS = (
-    *("bench", "field_balancing", "mounting", "printed_tables"),
-    *("studies", "torque", "torsion"),
-)
+CHAPTERS = (*("bench", "field_balancing", "mounting", "printed_tables"), *("studies", "torque", "torsion"))
 FOR_WHO_ASKS = (
     *("core.strokes", "forces.crankshaft", "forces.guide_moments", "forces.symmetry"),
     "sizing.scheme_figures",
@@ -818,18 +716,15 @@ IMPORTED = {
     "": "__main__ cli errors limits process result",
     "commands": "amounts analysis_answer analysis_options analyze declare defaults file_names "
     "format_names inputs options output overwrite_guard speed_range",
-    "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors "
-    "speed_ripple speeds",
+    "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple speeds",
     "core.mechanisms": "closed_form distinct fourier harmonics",
-    "engine": "arrays assembly build devices even_order figures firing layout load positions rods rules "
-    "split_pins",
+    "engine": "arrays assembly build devices even_order figures firing layout load positions rods rules split_pins",
     "enginefile": "conflicts exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
     "units unknown_keys",
     "forces": "kinds orders spectrum",
     "render": "analyses analysis_document csv devices figures formats json sheet units view",
     "results": "analysis",
-    "sizing": "auto details device_tables effects fitting options planes reasons remedy "
-    "residual schemes",
+    "sizing": "auto details device_tables effects fitting options planes reasons remedy residual schemes",
 }
 
 
@@ -895,10 +790,7 @@ def test_linear_algebra_has_one_thread_unless_a_user_asks_for_more(monkeypatch, 
 def test_help_that_cannot_be_written_is_no_success(args):
     with Path("/dev/full").open("wb") as full:
         done = run_command(*args, stdout=full, stderr=subprocess.PIPE)
-    assert (done.returncode, done.stderr) == (
-        2,
-        "balcli: standard output: No space left on device\n",
-    )
+    assert (done.returncode, done.stderr) == (2, "balcli: standard output: No space left on device\n")
 
 
 def run_in_shell(redirected: str, *args: object) -> subprocess.CompletedProcess:
@@ -1094,8 +986,6 @@ def test_an_internal_error_is_told_as_one(options):
 
 
 def test_quantities_with_blanks_between_them(balcli):
-    assert balcli("analyze", V8, "--only", "force  peak") == balcli(
-        "analyze", V8, "--only", "force, peak"
-    )
+    assert balcli("analyze", V8, "--only", "force  peak") == balcli("analyze", V8, "--only", "force, peak")
     assert "Verdict" not in balcli("analyze", V8, "--orders", "0").out
     assert "Verdict" in balcli("analyze", V8, "--orders", "1").out

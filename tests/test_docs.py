@@ -18,10 +18,7 @@ README = guide.ROOT / "README.md"
 
 @pytest.mark.parametrize(
     "document",
-    [
-        pytest.param(path, marks=[] if path == README else pytest.mark.stress, id=path.name)
-        for path in guide.DOCUMENTS
-    ],
+    [pytest.param(path, marks=[] if path == README else pytest.mark.stress, id=path.name) for path in guide.DOCUMENTS],
 )
 def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> None:
     text, folder = document.read_text(encoding="utf-8"), guide.project(tmp_path)
@@ -61,9 +58,7 @@ def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> 
 
 @pytest.mark.parametrize("document", guide.DOCUMENTS, ids=lambda path: path.name)
 def test_nothing_shown_is_rounding(document: Path) -> None:
-    lines = [
-        line for one in guide.shown(document.read_text(encoding="utf-8")) for line in one.expected
-    ]
+    lines = [line for one in guide.shown(document.read_text(encoding="utf-8")) for line in one.expected]
     assert [line for line in lines if re.search(r"\de-(1[3-9]|[2-9]\d)\b", line)] == []
 
 
@@ -104,9 +99,7 @@ def test_engine_file_reference_is_up_to_date() -> None:
 
 
 def test_every_json_format_is_described() -> None:
-    source = "".join(
-        file.read_text(encoding="utf-8") for file in (guide.ROOT / "src").rglob("*.py")
-    )
+    source = "".join(file.read_text(encoding="utf-8") for file in (guide.ROOT / "src").rglob("*.py"))
     described = (guide.ROOT / "docs" / "json.md").read_text(encoding="utf-8")
     formats = set(re.findall(r"balcli\.[a-z]+/\d+", source))
     assert len(formats) > 5

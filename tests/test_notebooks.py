@@ -25,9 +25,7 @@ def test_a_notebook_shows_what_it_computes(path: Path, tmp_path: Path) -> None:
     found = notebooks.run(path, tmp_path)
     wrong = [
         f"{cell.source}\n=> " + "\n".join(now)
-        for cell, before, now in zip(
-            found.cells, notebooks.texts(shown), notebooks.texts(found), strict=True
-        )
+        for cell, before, now in zip(found.cells, notebooks.texts(shown), notebooks.texts(found), strict=True)
         if not guide.agrees(before, now)
     ]
     assert not wrong, "python tools/notebooks.py renews:\n" + "\n\n".join(wrong)
@@ -43,14 +41,9 @@ def kinds(cell) -> list[list[str]]:
 def test_a_notebook_holds_no_more_than_what_it_shows(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert len(text) < LARGEST
-    assert json.loads(text)["metadata"] == {
-        "kernelspec": notebooks.KERNEL,
-        "language_info": {"name": "python"},
-    }
+    assert json.loads(text)["metadata"] == {"kernelspec": notebooks.KERNEL, "language_info": {"name": "python"}}
     lines = [line for lines in notebooks.texts(nbformat.read(path, as_version=4)) for line in lines]
-    assert [
-        line for line in lines if re.search(r"\de-(1[3-9]|[2-9]\d)\b| at 0x|/(home|tmp)/", line)
-    ] == []
+    assert [line for line in lines if re.search(r"\de-(1[3-9]|[2-9]\d)\b| at 0x|/(home|tmp)/", line)] == []
 
 
 def test_there_are_notebooks() -> None:

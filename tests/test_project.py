@@ -48,9 +48,7 @@ def test_where_the_project_lives_is_said_in_one_place():
     addresses = PROJECT["tool"]["hatch"]["metadata"]["hooks"]["custom"]
     owner = re.match(r"https://[^/]+/[^/]+/", addresses["repository"])[0]
     written = [*ROOT.glob("*.*"), *ROOT.glob("docs/*.md"), *ROOT.glob(".github/**/*.*")]
-    assert [
-        file.name for file in written if file.is_file() and owner in file.read_text("utf-8")
-    ] == ["pyproject.toml"]
+    assert [file.name for file in written if file.is_file() and owner in file.read_text("utf-8")] == ["pyproject.toml"]
 
 
 @pytest.mark.parametrize("workflow", WORKFLOWS)
@@ -99,9 +97,7 @@ def test_site_turns_the_links_of_the_readme_to_its_pages():
 def test_gallery_shows_what_its_commands_write():
     gallery = text("docs/gallery.md")
     commands = re.findall(r"^balcli .+", gallery, re.MULTILINE)
-    shown = docs_site.on_page_markdown(
-        gallery, SimpleNamespace(file=SimpleNamespace(src_uri="gallery.md"))
-    )
+    shown = docs_site.on_page_markdown(gallery, SimpleNamespace(file=SimpleNamespace(src_uri="gallery.md")))
     pictures = re.findall(r"!\[.+\]\(gallery/(.+\.svg)\)", shown)
     assert len(pictures) == len(set(pictures)) == len(commands) > 10
     for picture, command in zip(pictures, commands, strict=True):

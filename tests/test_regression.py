@@ -72,18 +72,13 @@ def test_files_of_other_kinds_in_a_folder_are_passed_over(check, file, tmp_path)
 def test_recorded_results_are_the_product_of_todays_program(tmp_path, check):
     """check --update writes the same file again: keys, digits and layout."""
     for suffix in (".toml", ".json"):
-        source = ENGINES / (
-            "v8_crossplane.toml" if suffix == ".toml" else "expected/v8_crossplane.json"
-        )
+        source = ENGINES / ("v8_crossplane.toml" if suffix == ".toml" else "expected/v8_crossplane.json")
         target = tmp_path / ("" if suffix == ".toml" else "expected") / source.name
         target.parent.mkdir(exist_ok=True)
         shutil.copy(source, target)
     assert check("--update", tmp_path) == (0, "1 engine recorded\n", "")
     assert check(tmp_path) == (0, "1 engine, 0 differences\n", "")
-    old, new = (
-        json.loads(p.joinpath("expected/v8_crossplane.json").read_text())
-        for p in (ENGINES, tmp_path)
-    )
+    old, new = (json.loads(p.joinpath("expected/v8_crossplane.json").read_text()) for p in (ENGINES, tmp_path))
     assert old.keys() == new.keys()
     assert [o.keys() for o in old["orders"]] == [n.keys() for n in new["orders"]]
 
@@ -96,8 +91,7 @@ def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
     lonely = write(tmp_path / "lonely.toml", GOOD)
     assert check(lonely) == (
         1,
-        f"{lonely}: no result is recorded in expected/lonely.json; check --update records it\n"
-        "1 engine, 1 difference\n",
+        f"{lonely}: no result is recorded in expected/lonely.json; check --update records it\n1 engine, 1 difference\n",
         "",
     )
     assert not (tmp_path / "expected").exists()
@@ -163,10 +157,7 @@ def test_every_figure_that_moved_is_named(check, file):
     """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new
     figure are told.
     """
-    before = {
-        (e["order"], "force"): e["force_N"]
-        for e in json.loads(find_record(file).read_text())["orders"]
-    }
+    before = {(e["order"], "force"): e["force_N"] for e in json.loads(find_record(file).read_text())["orders"]}
     file.write_text(changed(("mass = 0.5", "mass = 0.5005")))
     status, out, err = check(file)
     assert (status, err) == (1, "")
@@ -191,10 +182,7 @@ def test_the_tolerance_is_a_share_of_the_largest_order(file, share, moved):
     """What matters is the size of the quantity: the same change in a small order counts the
     same.
     """
-    largest = max(
-        max(map(abs, e["force_N"]["forward"]))
-        for e in json.loads(find_record(file).read_text())["orders"]
-    )
+    largest = max(max(map(abs, e["force_N"]["forward"])) for e in json.loads(find_record(file).read_text())["orders"])
     peak = json.loads(find_record(file).read_text())["peak"]["force_N"]
 
     def edit(document):
@@ -274,18 +262,9 @@ def test_format_speed_and_number_of_cylinders(check, file):
         ("{}", "orders is missing"),
         ("[]", "it is no result of balcli analyze"),
         ('{"orders": [{"order": 1}]}', "force_N is missing"),
-        (
-            '{"orders": [], "peak": {"force_N": Infinity, "moment_Nm": 0}}',
-            "a figure is not finite",
-        ),
-        (
-            '{"orders": [], "peak": {"force_N": 1e999, "moment_Nm": 0}}',
-            "a figure is not finite",
-        ),
-        (
-            f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}',
-            "it is no result of balcli analyze",
-        ),
+        ('{"orders": [], "peak": {"force_N": Infinity, "moment_Nm": 0}}', "a figure is not finite"),
+        ('{"orders": [], "peak": {"force_N": 1e999, "moment_Nm": 0}}', "a figure is not finite"),
+        (f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}', "it is no result of balcli analyze"),
     ],
     ids=["text", "object", "list", "order", "infinity", "too large", "whole, too large"],
 )

@@ -20,10 +20,7 @@ from balcli.render import exchange
 from balcli.result import Result
 from balcli.results.analysis import QUANTITIES
 
-FILES = {
-    name: str(ENGINES / f"{name}.toml")
-    for name in ("i3", "i4", "i4_wiebe", "i6_diesel", "i4_mounts")
-}
+FILES = {name: str(ENGINES / f"{name}.toml") for name in ("i3", "i4", "i4_wiebe", "i6_diesel", "i4_mounts")}
 SPREAD = "force.2.major"
 ROUND = ["force.2.major", "force.1.axis"]  # the second is of a circle, and has no value
 SPEEDS = np.array([1500.0, 2000.0])
@@ -44,10 +41,7 @@ ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
         lambda: balcli.combine(load("i3"), load("i4"), phase_deg=90, at_m=(0.3, 0, 0)),
         ("sum", FILES["i3"], FILES["i4"], "--phase", "90", "--at", "300,0,0"),
     ),
-    "Comparison": (
-        lambda: balcli.compare(load("i3"), load("i4")),
-        ("compare", FILES["i3"], FILES["i4"]),
-    ),
+    "Comparison": (lambda: balcli.compare(load("i3"), load("i4")), ("compare", FILES["i3"], FILES["i4"])),
     "Curves": (lambda: balcli.curves(load("i3"), 30), ("curves", FILES["i3"], "--step", "30")),
     "FieldBalance": (lambda: balcli.balance_rotor(three_runs()), ("field", "-")),
     "MountReport": (
@@ -56,19 +50,14 @@ ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
     ),
     "Scatter": (
         lambda: balcli.scatter(load("i4"), SPREAD, mass=0.01, samples=100, seed=1),
-        (
-            *("scatter", FILES["i4"], "-q", SPREAD, "--mass-scatter", "1%"),
-            *("--samples", "100", "--seed", "1"),
-        ),
+        (*("scatter", FILES["i4"], "-q", SPREAD, "--mass-scatter", "1%"), *("--samples", "100", "--seed", "1")),
     ),
     "Search": (
         lambda: balcli.search(load("i4"), "throws", SPREAD),
         ("search", FILES["i4"], "--over", "throws", "--minimise", SPREAD),
     ),
     "Swept": (
-        lambda: balcli.sweep(
-            load("i4"), {"rod.ratio": [0.25, 0.3], "piston.mass": "0.4:0.5:0.05"}, ROUND
-        ),
+        lambda: balcli.sweep(load("i4"), {"rod.ratio": [0.25, 0.3], "piston.mass": "0.4:0.5:0.05"}, ROUND),
         (
             *("sweep", FILES["i4"], "--vary", "rod.ratio=0.25,0.3"),
             *("--vary", "piston.mass=0.4:0.5:0.05", "-q", ",".join(ROUND)),
@@ -226,8 +215,7 @@ def test_orders_of_an_analysis_are_a_table_with_units():
     assert rows[0]["roll.amplitude"] == found.spectra.roll.major[0]
     theta = 0.3
     value = sum(
-        r["torque.cos"] * np.cos(r["order"] * theta) + r["torque.sin"] * np.sin(r["order"] * theta)
-        for r in rows
+        r["torque.cos"] * np.cos(r["order"] * theta) + r["torque.sin"] * np.sin(r["order"] * theta) for r in rows
     )
     assert value == pytest.approx(found.spectra.torque.values(np.array([theta]))[0].real, rel=1e-12)
     units = found.to_pandas().attrs["units"]
@@ -236,9 +224,7 @@ def test_orders_of_an_analysis_are_a_table_with_units():
 
 def test_columns_of_one_name_stay_apart():
     four = load("i4")
-    rows = balcli.compare(
-        four, four.vary({"operation.speed": 2 * four.speed_rpm}), names=["order", "order"]
-    ).rows()
+    rows = balcli.compare(four, four.vary({"operation.speed": 2 * four.speed_rpm}), names=["order", "order"]).rows()
     largest = next(row for row in rows if row["quantity"] == "force" and row["order"] == 2)
     assert largest["order (5)"] == pytest.approx(4 * largest["order (4)"])
 

@@ -68,12 +68,7 @@ def test_a_command_is_a_module_with_a_function_of_its_name(command):
 def test_a_command_computes_nothing_and_prints_by_way_of_output(command):
     """It imports no library that computes or writes, and no call of it prints."""
     file = PACKAGE / "commands" / f"{command}.py"
-    assert not {module.partition(".")[0] for module, _ in imported(file)} & {
-        "numpy",
-        "rich",
-        "matplotlib",
-        "csv",
-    }
+    assert not {module.partition(".")[0] for module, _ in imported(file)} & {"numpy", "rich", "matplotlib", "csv"}
     calls = [ast.unparse(n.func) for n in ast.walk(tree(file)) if isinstance(n, ast.Call)]
     assert "print" not in calls
     assert "sys.stdout.write" not in calls
@@ -99,10 +94,9 @@ def test_what_reads_engines_and_writes_files_first_refuses_to_overwrite(command)
     assert ast.unparse(call.func) == "refuse_overwriting"
     told = {keyword.arg: keyword.value for keyword in call.keywords}
     assert {n.id for n in ast.walk(told["reads"]) if isinstance(n, ast.Name)} == reads
-    assert {
-        key.value: value.id
-        for key, value in zip(told["writes"].keys, told["writes"].values, strict=True)
-    } == {"OUT" if name == "target" else f"--{name}": name for name in writes}
+    assert {key.value: value.id for key, value in zip(told["writes"].keys, told["writes"].values, strict=True)} == {
+        "OUT" if name == "target" else f"--{name}": name for name in writes
+    }
 
 
 def test_the_readme_names_every_format():
@@ -116,9 +110,7 @@ def test_modules_of_commands_are_commands_or_their_helpers():
     """
     forgotten = []
     for file in (PACKAGE / "commands").glob("*.py"):
-        functions = [
-            n for n in tree(file).body if isinstance(n, ast.FunctionDef) and n.name == file.stem
-        ]
+        functions = [n for n in tree(file).body if isinstance(n, ast.FunctionDef) and n.name == file.stem]
         if functions and file.stem not in COMMANDS:
             forgotten.append(file.stem)
     assert forgotten == []
@@ -154,10 +146,7 @@ ON_REQUEST = {
     ),
     "balcli.commands.defaults": ("balcli.enginefile.toml_text",),
     "balcli.commands.overwrite_guard": ("balcli.commands.named_files",),
-    "balcli.core.mechanisms.harmonics": (
-        "balcli.core.mechanisms.sampled",
-        "balcli.core.mechanisms.slidercrank",
-    ),
+    "balcli.core.mechanisms.harmonics": ("balcli.core.mechanisms.sampled", "balcli.core.mechanisms.slidercrank"),
     "balcli.engine.assembly": (
         "balcli.core.mechanisms.rotary",
         "balcli.engine.articulation",
@@ -174,10 +163,7 @@ ON_REQUEST = {
         *("balcli.render.crankshaft", "balcli.render.guide_moments"),
         *("balcli.render.strokes", "balcli.render.symmetry"),
     ),
-    "balcli.render.formats": (
-        *(f"balcli.render.{form}" for form in Format),
-        "balcli.render.terminal",
-    ),
+    "balcli.render.formats": (*(f"balcli.render.{form}" for form in Format), "balcli.render.terminal"),
     "balcli.results.analysis": (
         "balcli.core.strokes",
         "balcli.forces.crankshaft",
@@ -324,17 +310,13 @@ def test_files_speak_for_themselves(file):
         assert ast.get_docstring(module)
     for node in ast.walk(module):
         assert not isinstance(node, ast.Assert), f"line {node.lineno}"
-        assert not (isinstance(node, ast.ExceptHandler) and node.type is None), (
-            f"line {node.lineno}"
-        )
+        assert not (isinstance(node, ast.ExceptHandler) and node.type is None), f"line {node.lineno}"
         assert not (
             isinstance(node, ast.ExceptHandler)
             and file.name != "__main__.py"
             and ast.unparse(node.type) in ("Exception", "BaseException")
         ), f"line {node.lineno}"
-        assert not (isinstance(node, ast.Call) and ast.unparse(node.func) in ("eval", "exec")), (
-            f"line {node.lineno}"
-        )
+        assert not (isinstance(node, ast.Call) and ast.unparse(node.func) in ("eval", "exec")), f"line {node.lineno}"
 
 
 def names_for_type_checkers() -> set[str]:

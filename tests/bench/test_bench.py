@@ -9,15 +9,8 @@ from support.paths import DOCS
 from balcli.bench import cold_start, methods
 from balcli.bench.bench import LAM, cases
 
-ROUNDING = (
-    1e-13  # of the first order: errors below it are rounding, and differ from machine to machine
-)
-ORDERS = {
-    "A_2": 2,
-    "A_8": 8,
-    "one V8, force and moment": 8,
-    "sweep of a V8, a variant": 2,
-}  # the smallest of each task
+ROUNDING = 1e-13  # of the first order: errors below it are rounding, and differ from machine to machine
+ORDERS = {"A_2": 2, "A_8": 8, "one V8, force and moment": 8, "sweep of a V8, a variant": 2}  # the smallest of each task
 
 
 def coefficient(order: int, lam: float) -> mpmath.mpf:
@@ -27,11 +20,7 @@ def coefficient(order: int, lam: float) -> mpmath.mpf:
 
         def acceleration(psi: mpmath.mpf) -> mpmath.mpf:
             cos_beta = mpmath.sqrt(1 - (x * mpmath.sin(psi)) ** 2)
-            return (
-                mpmath.cos(psi)
-                - x * mpmath.sin(psi) ** 2 / cos_beta
-                + x * mpmath.cos(psi) ** 2 / cos_beta**3
-            )
+            return mpmath.cos(psi) - x * mpmath.sin(psi) ** 2 / cos_beta + x * mpmath.cos(psi) ** 2 / cos_beta**3
 
         count = 256  # equal steps: exact for a periodic function but for terms below 1e-60
         psi = [2 * mpmath.pi * k / count for k in range(count)]
@@ -65,12 +54,10 @@ def test_closed_form_is_exact_where_sampling_is_not() -> None:
     folded = (coefficient(14, LAM) + coefficient(18, LAM)) / coefficient(2, LAM)
     assert found["A_2", "FFT, 16 points"] == pytest.approx(float(folded), rel=0.01)
     assert found["A_8", "FFT, 64 points"] < rounding("A_8")
-    assert found["A_2", "two-term formula"] == pytest.approx(
-        LAM**2 / 4, rel=0.05
-    )  # the next term of the series
-    assert found["A_2", "time stepping, 360 steps"] / found[
-        "A_2", "time stepping, 720 steps"
-    ] == pytest.approx(4, rel=0.01)
+    assert found["A_2", "two-term formula"] == pytest.approx(LAM**2 / 4, rel=0.05)  # the next term of the series
+    assert found["A_2", "time stepping, 360 steps"] / found["A_2", "time stepping, 720 steps"] == pytest.approx(
+        4, rel=0.01
+    )
 
 
 # ------------------------------------------------------------------ docs/accuracy.md

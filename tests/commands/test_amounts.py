@@ -70,9 +70,7 @@ def test_speeds_of_a_range_have_units_too():
         (WEIGHTS, "--mass", "60", 'a mass needs its unit: "60 lb" or "60 kg"'),
     ],
 )
-def test_with_imperial_units_a_bare_length_or_mass_asks_for_its_unit(
-    command, option, text, message
-):
+def test_with_imperial_units_a_bare_length_or_mass_asks_for_its_unit(command, option, text, message):
     told = refusal(*command, option, text, *IMPERIAL)
     assert told == f'{option} "{text}": with --units imperial {message}'
 
@@ -102,8 +100,7 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
         (
             WEIGHTS,
             ["--radius", "2.5 kg"],
-            '--radius "2.5 kg": is a mass, but a length is wanted: a bare number in mm, or "90 mm" '
-            'or "3.5 in"',
+            '--radius "2.5 kg": is a mass, but a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"',
         ),
         (
             WEIGHTS,
@@ -117,18 +114,10 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
             '--speed "90 mm": is a length, but a speed of rotation is wanted: a bare number in '
             'rpm, or "6000 rpm" or "300 rad/s"',
         ),
-        (
-            WEIGHTS,
-            ["--planes=-10,12 in"],
-            '--planes "-10,12 in": give every number its unit, or none',
-        ),
+        (WEIGHTS, ["--planes=-10,12 in"], '--planes "-10,12 in": give every number its unit, or none'),
         (SHAFT, ["--at", "x,2"], '--at "x,2": give x,y of a shaft in mm, such as -40,60'),
         (SUM, ["--at", "x,2,3"], '--at "x,2,3": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-        (
-            SHAFT,
-            ["--at", "1in,2in,3in"],
-            '--at "1in,2in,3in": give x,y of a shaft in mm, such as -40,60',
-        ),
+        (SHAFT, ["--at", "1in,2in,3in"], '--at "1in,2in,3in": give x,y of a shaft in mm, such as -40,60'),
         (
             CURVES,
             ["--step", "1 mm"],
@@ -141,16 +130,8 @@ def test_speeds_angles_and_nothing_need_no_unit_there():
             '--measured "812 gramms of": has the unknown unit "gramms"; did you mean gramme? a '
             'mass is wanted: a bare number in g, or "812 g" or "1.8 lb"',
         ),
-        (
-            FACTOR,
-            ["--factor", "0,5"],
-            '--factor "0,5": decimals take a point, such as 0.5',
-        ),
-        (
-            FACTOR,
-            ["--factor", "51,5%"],
-            '--factor "51,5%": decimals take a point, such as 51.5%',
-        ),
+        (FACTOR, ["--factor", "0,5"], '--factor "0,5": decimals take a point, such as 0.5'),
+        (FACTOR, ["--factor", "51,5%"], '--factor "51,5%": decimals take a point, such as 51.5%'),
         (
             FACTOR,
             ["--factor", "51%%"],
@@ -185,19 +166,12 @@ def test_a_place_that_is_named_twice_is_asked_back():
         0,
         'warning: --planes "-40,5,40,5": names a place twice; decimals take a point, not a comma\n',
     )
-    assert (
-        run_here("balance", ENGINES / "i4.toml", "--factor", "50%", "--planes=-40,0,40").err == ""
-    )
+    assert run_here("balance", ENGINES / "i4.toml", "--factor", "50%", "--planes=-40,0,40").err == ""
 
 
 @pytest.mark.parametrize(
     ("asked", "doubted"),
-    [
-        ([], True),
-        (["--only", "force"], True),
-        (["--only", "force,guide"], False),
-        (["--all"], False),
-    ],
+    [([], True), (["--only", "force"], True), (["--only", "force,guide"], False), (["--all"], False)],
 )
 def test_a_guide_height_where_no_guides_are_asked_for(asked, doubted):
     status, _, err = run_here("analyze", ENGINES / "i4.toml", "--guide-height", "300", *asked)

@@ -15,16 +15,8 @@ OF_ORDER_2 = ("--minimise", "force.2.major")
     ("command", "options", "others"),
     [
         ("balance", [], ["--speed", "3000"]),
-        (
-            "sweep",
-            ["-f", "table", "--vary", "rod.ratio=0.25,0.3"],
-            ["-f", "table", "--vary", "rpm=1000,3000"],
-        ),
-        (
-            "search",
-            ["--over", "rod.length=150:170", *OF_ORDER_2],
-            ["--over", "rpm=1000:3000", *OF_ORDER_2],
-        ),
+        ("sweep", ["-f", "table", "--vary", "rod.ratio=0.25,0.3"], ["-f", "table", "--vary", "rpm=1000,3000"]),
+        ("search", ["--over", "rod.length=150:170", *OF_ORDER_2], ["--over", "rpm=1000:3000", *OF_ORDER_2]),
         ("scatter", ["--samples", "10"], []),
     ],
 )

@@ -45,22 +45,13 @@ def four(tmp_path):
 @pytest.mark.parametrize(("name", "beginning"), [("x.png", b"\x89PNG"), ("x.pdf", b"%PDF")])
 def test_plot_writes_the_form_that_the_name_says(balcli, tmp_path, name, beginning):
     assert balcli(
-        "plot",
-        ENGINES / "single.toml",
-        "-o",
-        tmp_path / name,
-        "--what",
-        "factor",
-        "--units",
-        "imperial",
+        "plot", ENGINES / "single.toml", "-o", tmp_path / name, "--what", "factor", "--units", "imperial"
     ) == (0, "", "")
     assert (tmp_path / name).read_bytes().startswith(beginning)
 
 
 def test_plot_compares_before_and_after(balcli, four, tmp_path):
-    assert balcli(
-        "plot", four, "-o", tmp_path / "x.svg", "--what", "spectrum", "--scheme", "two-shaft"
-    ) == (0, "", "")
+    assert balcli("plot", four, "-o", tmp_path / "x.svg", "--what", "spectrum", "--scheme", "two-shaft") == (0, "", "")
     assert "before" in (tmp_path / "x.svg").read_text()
 
 
@@ -100,10 +91,7 @@ def test_pictures_take_the_options_of_schemes(balcli, tmp_path, command, options
 
 @pytest.mark.parametrize("command", ["plot", "report", "mounts"])
 def test_options_of_schemes_are_judged_as_in_balance(balcli, tmp_path, command):
-    four, file = (
-        ENGINES / "i4_mounts.toml",
-        tmp_path / ("x.html" if command == "report" else "x.svg"),
-    )
+    four, file = (ENGINES / "i4_mounts.toml", tmp_path / ("x.html" if command == "report" else "x.svg"))
     where = ["--plot", file] if command == "mounts" else ["-o", file]
     for options in (["--planes=nowhere"], ["--at=1,2"], ["--scheme=factor", "--factor=51"]):
         status, _, wanted = balcli("balance", four, *options)
@@ -123,23 +111,16 @@ def test_options_of_schemes_are_heard_in_the_mounts(balcli):
 
 
 def test_plot_of_no_free_force_says_so(balcli, tmp_path):
-    assert balcli(
-        "plot",
-        ENGINES / "v12_60.toml",
-        "-o",
-        tmp_path / "x.svg",
-        "--what",
-        "orders",
-        "--orders",
-        "1",
-    ) == (0, "", "")
+    assert balcli("plot", ENGINES / "v12_60.toml", "-o", tmp_path / "x.svg", "--what", "orders", "--orders", "1") == (
+        0,
+        "",
+        "",
+    )
     assert (tmp_path / "x.svg").read_text().count(">balanced<") == 2
 
 
 def test_a_report_is_the_engine_before_and_after(balcli, four, tmp_path):
-    assert balcli(
-        "report", four, "-o", tmp_path / "x.html", "--orders", "1,2", "--speed", "4500"
-    ) == (0, "", "")
+    assert balcli("report", four, "-o", tmp_path / "x.html", "--orders", "1,2", "--speed", "4500") == (0, "", "")
     page = (tmp_path / "x.html").read_text(encoding="utf-8")
     assert page.lower().startswith("<!doctype html>")
     assert "in-line four" in page
@@ -179,13 +160,7 @@ def test_bench_in_every_format(balcli, tmp_path):
     assert table.count("rounding") == 3
     assert "e-1" not in table
     lines = ask_csv("bench")
-    assert lines[1] == {
-        "task": "A_2",
-        "method": "two-term formula",
-        "seconds": "1e-06",
-        "error": "0.032",
-        "ratio": "",
-    }
+    assert lines[1] == {"task": "A_2", "method": "two-term formula", "seconds": "1e-06", "error": "0.032", "ratio": ""}
     assert lines[-1]["ratio"] == "1.25"
     assert ask_json("bench")["ratios"] == [{"what": "one to other", "value": 1.25}]
     assert balcli("bench", "-o", tmp_path / "x.svg")[0] == 0
@@ -212,11 +187,7 @@ def test_two_times_are_taken_in_turn_and_compared_by_their_medians(monkeypatch):
 
     def timed(run, number):
         taken.append(run())
-        return (
-            {"one": 0.6, "other": 0.2}[taken[-1]]
-            * number
-            * (50 if len(taken) in (4, 9, 12, 15) else 1)
-        )
+        return {"one": 0.6, "other": 0.2}[taken[-1]] * number * (50 if len(taken) in (4, 9, 12, 15) else 1)
 
     monkeypatch.setattr(stopwatch.timeit, "timeit", timed)
     assert stopwatch.compare_times(lambda: "one", lambda: "other") == pytest.approx(3)
@@ -236,9 +207,7 @@ def test_programs_are_compared_by_processor_time_and_by_the_clock(monkeypatch):
         clocks["processor"] += computing * disturbed
         clocks["clock"] += (computing + waiting) * disturbed
 
-    spent = stopwatch.compare_programs(
-        lambda: start("one", 0.4, 0.6), lambda: start("other", 0.2, 0.0)
-    )
+    spent = stopwatch.compare_programs(lambda: start("one", 0.4, 0.6), lambda: start("other", 0.2, 0.0))
     assert spent == pytest.approx((2, 5))
     assert started == ["one", "other"] * 9
 
@@ -294,10 +263,7 @@ def test_a_cluster_that_does_not_answer(monkeypatch):
 
     monkeypatch.setitem(sys.modules, "distributed", dask(Client=refuse))
     with (
-        pytest.raises(
-            BalcliError,
-            match=r"--dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)",
-        ),
+        pytest.raises(BalcliError, match=r"--dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)"),
         cluster.connect_cluster("tcp://host:1"),
     ):
         pass
@@ -332,9 +298,7 @@ def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
     monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
     monkeypatch.setattr(cluster, "size_boxes", lambda sweep: BoxSize(1, 1))
     sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
-    with pytest.raises(
-        BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"
-    ):
+    with pytest.raises(BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"):
         list(cluster.evaluate_on_cluster(sweep, client))
     assert [(part.variants, again) for part, again in client.given] == [(1, True), (1, True)]
     values = [part.parameters[0].values.tolist() for part, _ in client.given]
@@ -371,21 +335,11 @@ def test_row_groups_of_a_parquet_file_hold_all_rows(balcli, four, tmp_path, monk
     assert parquet.read_table(tmp_path / "x.parquet")["rod.ratio"].to_pylist() == [0.2, 0.25, 0.3]
 
 
-@pytest.mark.parametrize(
-    "vary", [("rod.ratio=0.2,0.3",), ("rod.ratio=0.2,0.3", "crank.stroke=80,90,100")]
-)
+@pytest.mark.parametrize("vary", [("rod.ratio=0.2,0.3",), ("rod.ratio=0.2,0.3", "crank.stroke=80,90,100")])
 def test_pictures_of_one_and_two_parameters(balcli, four, tmp_path, vary):
     options = [word for one in vary for word in ("--vary", one)]
     status, *_ = balcli(
-        "sweep",
-        four,
-        *options,
-        "--quantity",
-        "force.2.major",
-        "-o",
-        tmp_path / "x.csv",
-        "--plot",
-        tmp_path / "x.svg",
+        "sweep", four, *options, "--quantity", "force.2.major", "-o", tmp_path / "x.csv", "--plot", tmp_path / "x.svg"
     )
     assert status == 0
     words = set(re.findall(r">([^<>]+)</text>", (tmp_path / "x.svg").read_text("utf-8")))
@@ -399,41 +353,19 @@ def test_curves_of_one_picture_have_one_unit(balcli, tmp_path):
     assert balcli("sweep", ENGINES / "v6_60.toml", *asked)[0] == 0
     wanted = r">((?:force|moment)\.[^<]*|k?N(?:·m)?)<"
     told = re.findall(wanted, picture.read_text(encoding="utf-8"))
-    assert told == [
-        *("N", "force.1.major", "force.2.major"),
-        *("kN·m", "moment.1.major", "moment.2.major"),
-    ]
+    assert told == [*("N", "force.1.major", "force.2.major"), *("kN·m", "moment.1.major", "moment.2.major")]
 
 
 def test_no_picture_of_three_parameters(four, tmp_path):
     assert "a picture shows one or two parameters with several values each, not 3" in refusal(
-        "sweep",
-        four,
-        *SWEEP,
-        "--vary",
-        "crank.stroke=80,90",
-        "--vary",
-        "rod.cg=30,40",
-        "--plot",
-        tmp_path / "x.svg",
+        "sweep", four, *SWEEP, "--vary", "crank.stroke=80,90", "--vary", "rod.cg=30,40", "--plot", tmp_path / "x.svg"
     )
 
 
 def test_a_search_and_a_scatter_in_csv(four):
     out = ask("search", four, "--over", "throws", "--minimise", "moment.1.major", "--format", "csv")
     assert out.splitlines()[0] == "throws,objective,moment.1.major"
-    out = ask(
-        "scatter",
-        four,
-        "--mass-scatter",
-        "1%",
-        "--samples",
-        "100",
-        "-q",
-        "force.1.major",
-        "-f",
-        "csv",
-    )
+    out = ask("scatter", four, "--mass-scatter", "1%", "--samples", "100", "-q", "force.1.major", "-f", "csv")
     assert out.startswith("quantity,nominal,mean,")
 
 
@@ -466,12 +398,7 @@ def test_a_search_and_a_scatter_in_csv(four):
             "--scheme single-shaft --at 1,2 --at 3,4",
             "--at: this scheme has one place; give it once",
         ),
-        (
-            "balance",
-            "i4",
-            "--scheme two-shaft --at 1,2 --at 3,4 --at 5,6",
-            "--at: a pair of shafts has two places",
-        ),
+        ("balance", "i4", "--scheme two-shaft --at 1,2 --at 3,4 --at 5,6", "--at: a pair of shafts has two places"),
         (
             "sweep",
             "single",
@@ -496,21 +423,12 @@ def test_a_minimax_weight_in_two_planes_leaves_the_moment_that_turns_with_the_cr
     distance of a single.
     """
     status, out, _ = balcli(
-        "balance",
-        ENGINES / "single.toml",
-        "--scheme",
-        "minimax",
-        "--planes",
-        "-50,50",
-        "--format",
-        "json",
+        "balance", ENGINES / "single.toml", "--scheme", "minimax", "--planes", "-50,50", "--format", "json"
     )
     alone = ask("balance", ENGINES / "single.toml", "--scheme", "minimax", "--format", "json")
     assert status == 0
     halves, (whole,) = (json.loads(text)["counterweights"] for text in (out, alone))
-    assert [h["unbalance_kg_m"] for h in halves] == pytest.approx(
-        [whole["unbalance_kg_m"] / 2] * 2, rel=1e-9
-    )
+    assert [h["unbalance_kg_m"] for h in halves] == pytest.approx([whole["unbalance_kg_m"] / 2] * 2, rel=1e-9)
 
 
 def test_mistakes_of_a_built_model_name_its_file():
@@ -529,9 +447,8 @@ def test_more_devices_than_any_engine_has():
 
     from balcli.limits import MOST_PARTS
 
-    assert (
-        f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}"
-        in refused(counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1))
+    assert f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}" in refused(
+        counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1)
     )
 
 

@@ -23,9 +23,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("typed", "offered"), CASES, ids=[typed or "nothing" for typed, _ in CASES]
-)
+@pytest.mark.parametrize(("typed", "offered"), CASES, ids=[typed or "nothing" for typed, _ in CASES])
 def test_tab_offers(typed: str, offered: set[str]) -> None:
     asking = {
         "_BALCLI_COMPLETE": "complete_bash",

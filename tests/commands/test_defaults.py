@@ -102,9 +102,7 @@ def test_digits_of_what_is_told_in_brief(folder, digits):
     assert cells[2:] == [f"{size:.{digits}g}" for size in (moment["major"], *parts)]
     assert f"moment of up to {moment['major']:.{digits}g} N·m" in brief
     peak = result["peak"]["moment_Nm"]
-    assert (
-        f"moment      {peak:.{digits}g} N·m" in brief or digits == 3
-    )  # no fewer than before the point
+    assert f"moment      {peak:.{digits}g} N·m" in brief or digits == 3  # no fewer than before the point
     assert "4321.5 rpm" in brief
 
 
@@ -124,9 +122,7 @@ def test_every_mistake_of_a_file_is_told_by_its_path(folder):
     file.unlink()
     project = folder / "pyproject.toml"
     project.write_text('[tool.balcli]\nunits = "metric"')
-    assert refusal("layouts") == (
-        f'{project}: tool.balcli.units: "metric": choose from si, imperial'
-    )
+    assert refusal("layouts") == (f'{project}: tool.balcli.units: "metric": choose from si, imperial')
 
 
 @pytest.mark.parametrize(

@@ -61,10 +61,7 @@ def test_a_format_that_is_said_needs_no_ending_that_is_known(name):
 
 
 PICTURES = ".svg, .png or .pdf"
-DRAWN = (
-    "; pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and "
-    "field"
-)
+DRAWN = "; pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and field"
 
 
 @pytest.mark.parametrize(
@@ -88,8 +85,7 @@ def test_an_ending_that_cannot_be_is_refused(args, can):
     name, *rest = args
     option, target = {"-o": "--output"}.get(rest[-2], rest[-2]), rest[-1]
     assert refusal(name, "good.toml", *rest) == (
-        f"{option} {target}: {Path(target).suffix.lower()} cannot be written here; give a name "
-        f"that ends in {can}"
+        f"{option} {target}: {Path(target).suffix.lower()} cannot be written here; give a name that ends in {can}"
     )
     assert os.listdir() == ["good.toml"]
 
@@ -100,26 +96,19 @@ def test_an_ending_that_cannot_be_is_refused(args, can):
         (("analyze", "-f", "csv", "-o", "r.json"), ".json is json, but --format says csv"),
         (("analyze", "-f", "table", "-o", "r.md"), ".md is markdown, but --format says table"),
         (("curves", "-f", "json", "-o", "r.csv"), ".csv is csv, but --format says json"),
-        (
-            ("sweep", *VARY, "-f", "json", "-o", "r.PARQUET"),
-            ".parquet is parquet, but --format says json",
-        ),
+        (("sweep", *VARY, "-f", "json", "-o", "r.PARQUET"), ".parquet is parquet, but --format says json"),
     ],
 )
 def test_a_contradiction_is_refused(args, said):
     name, *rest = args
-    assert refusal(name, "good.toml", *rest) == (
-        f"--output {rest[-1]}: {said}; leave one of them out"
-    )
+    assert refusal(name, "good.toml", *rest) == (f"--output {rest[-1]}: {said}; leave one of them out")
     assert os.listdir() == ["good.toml"]
 
 
 @pytest.mark.parametrize("name", ["new", "engines"])
 def test_an_engine_file_is_toml(name):
     kind = {"new": "inline", "engines": "i4"}[name]
-    assert refusal(name, kind, "x.csv") == (
-        "FILE x.csv: .csv cannot be written here; give a name that ends in .toml"
-    )
+    assert refusal(name, kind, "x.csv") == ("FILE x.csv: .csv cannot be written here; give a name that ends in .toml")
     assert run_here(name, kind, "-") == run_here(name, kind)
     assert os.listdir() == ["good.toml"]
 
@@ -128,9 +117,7 @@ def test_the_schema_is_json():
     assert "ends in .json" in refusal("schema", "-o", "x.toml")
 
 
-@pytest.mark.parametrize(
-    ("name", "begins"), [("p.svg", b"<?xml"), ("p.PNG", b"\x89PNG"), ("p.pdf", b"%PDF")]
-)
+@pytest.mark.parametrize(("name", "begins"), [("p.svg", b"<?xml"), ("p.PNG", b"\x89PNG"), ("p.pdf", b"%PDF")])
 def test_pictures_of_a_sweep_have_the_forms_of_all_pictures(name, begins):
     assert written("sweep", "good.toml", *VARY, "-o", "x.csv", "--plot", name).startswith(begins)
 
@@ -173,9 +160,7 @@ def test_a_pipe_that_has_no_name():
 
 @pytest.mark.parametrize("args", [("analyze", "-", "-"), ("compare", "-", "-"), ("sum", "-", "-")])
 def test_standard_input_is_read_once(args):
-    assert refusal(*args, stdin=GOOD) == (
-        "standard input (-) is named twice, and can be read only once"
-    )
+    assert refusal(*args, stdin=GOOD) == ("standard input (-) is named twice, and can be read only once")
 
 
 def test_nothing_is_written_where_one_of_two_results_has_no_folder():
@@ -259,9 +244,7 @@ def test_parquet_says_nothing_where_there_is_nothing_and_what_it_is():
     assert table.schema.metadata[b"balcli.version"] == __version__.encode()
 
 
-@pytest.mark.parametrize(
-    ("command", "name"), [("plot", "x.png"), ("plot", "x.svg"), ("report", "x.html")]
-)
+@pytest.mark.parametrize(("command", "name"), [("plot", "x.png"), ("plot", "x.svg"), ("report", "x.html")])
 def test_the_second_name_is_the_file_to_write(command, name):
     status, out, _ = run_here(command, "good.toml", name)
     assert (status, out) == (0, "")

@@ -39,9 +39,7 @@ mount = [{ name = "all", at = [0, 0, 0], stiffness = [100, 100, 100] }]
 )
 def test_every_command_that_reads_an_engine_doubts_what_is_unlikely(args):
     err = run_here(*args, stdin=HEAVY).err
-    assert err.startswith(
-        "warning: standard input: piston.mass is 500 kg in a bore of 80 mm, where "
-    )
+    assert err.startswith("warning: standard input: piston.mass is 500 kg in a bore of 80 mm, where ")
 
 
 @pytest.mark.parametrize(

@@ -34,9 +34,7 @@ def test_every_number_of_the_file_can_be_varied(file):
 def test_a_rigid_stiffness_is_told_as_the_file_says_it():
     """JSON failed of infinity, and the table said "inf"."""
     text = (ENGINES / "i6_diesel.toml").read_text().replace("1.106e6", '"rigid"')
-    said = {
-        form: run_here("numbers", "-", "-f", form, stdin=text) for form in ("json", "csv", "txt")
-    }
+    said = {form: run_here("numbers", "-", "-f", form, stdin=text) for form in ("json", "csv", "txt")}
     assert {outcome.status for outcome in said.values()} == {0}
     path = "torsion.front.2.stiffness"
     (number,) = (n for n in json.loads(said["json"].out)["numbers"] if n["path"] == path)
@@ -56,8 +54,7 @@ def test_every_quantity_can_be_asked_for(file):
     names = [quantity["name"] for quantity in listed(file)["quantities"]]
     parts = {"force": "major", "moment": "major"}
     asked = [
-        name.replace(".N.", ".2.").replace("PART", parts.get(name.partition(".")[0], "amplitude"))
-        for name in names
+        name.replace(".N.", ".2.").replace("PART", parts.get(name.partition(".")[0], "amplitude")) for name in names
     ]
     file = ENGINES / file
     out = ask("sweep", file, "--vary", "piston.offset=0", "--quantity", ",".join(asked))

@@ -27,9 +27,7 @@ def test_a_range_that_begins_or_ends_with_a_half_goes_in_halves(text, orders):
     assert parse_orders(text) == parse_half_orders(text).tolist() == orders
 
 
-@pytest.mark.parametrize(
-    ("order", "name"), [(0, "0"), (0.5, "½"), (1, "1"), (1.5, "1½"), (12.5, "12½")]
-)
+@pytest.mark.parametrize(("order", "name"), [(0, "0"), (0.5, "½"), (1, "1"), (1.5, "1½"), (12.5, "12½")])
 def test_what_tables_call_an_order(order, name):
     assert order_name(order) == name
 
@@ -41,9 +39,7 @@ def test_a_format_has_a_short_name_and_any_case(balcli, name):
 
 @pytest.mark.parametrize("name", ["txt", "text", "Table"])
 def test_a_table_is_a_text(balcli, name):
-    assert balcli("balance", ENGINES / "i4.toml", "-f", name) == balcli(
-        "balance", ENGINES / "i4.toml"
-    )
+    assert balcli("balance", ENGINES / "i4.toml", "-f", name) == balcli("balance", ENGINES / "i4.toml")
 
 
 @pytest.mark.parametrize(

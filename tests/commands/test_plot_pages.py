@@ -54,9 +54,7 @@ def test_nothing_is_written_unless_all_of_it_can_be(tmp_path):
 
 
 def test_each_page_has_its_own_mind_about_schemes(tmp_path):
-    told = refusal(
-        *("plot", FOUR, "--what", "polar,pin", "--scheme", "two-shaft"), *("-o", tmp_path / "x.svg")
-    )
+    told = refusal(*("plot", FOUR, "--what", "polar,pin", "--scheme", "two-shaft"), *("-o", tmp_path / "x.svg"))
     assert told == "--what pin shows the engine as it is: leave --scheme and its options out"
 
 
@@ -72,9 +70,7 @@ def test_standard_input_is_read_once(tmp_path):
 def test_no_page_goes_onto_the_engine_file(tmp_path):
     path = write(tmp_path / "x-pin.svg", FOUR.read_text(encoding="utf-8"))
     told = refusal("plot", path, "--what", "torque,pin", "-o", tmp_path / "x.svg")
-    assert told == (
-        f"--what pin {path}: this is a file that is read, which stays as it is; choose another name"
-    )
+    assert told == (f"--what pin {path}: this is a file that is read, which stays as it is; choose another name")
 
 
 def test_names_of_pages():

@@ -101,16 +101,11 @@ def stop_in_the_middle(done: float) -> None:
 
 @unix
 @pytest.mark.usefixtures("interruptible")
-def test_ctrl_c_ends_what_can_be_whole_with_what_there_is(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_ctrl_c_ends_what_can_be_whole_with_what_there_is(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(typer.Exit) as ended:
         stop_in_the_middle(3)
     assert ended.value.exit_code == 130
-    assert capsys.readouterr() == (
-        "what there is\n",
-        "balcli: stopped after 3 of 8 engines; they are here\n",
-    )
+    assert capsys.readouterr() == ("what there is\n", "balcli: stopped after 3 of 8 engines; they are here\n")
     stop_in_the_middle(8)  # all was done by then
     assert capsys.readouterr() == ("what there is\n", "")
 
@@ -181,17 +176,11 @@ with reporting("speeds", 200) as tell:
 LONG = {
     "sweep": ("sweep", ENGINES / "i4.toml", "--vary", "rod.ratio=0.2:0.3:0.001", "-o", "x.csv"),
     "scatter": ("scatter", ENGINES / "i4.toml", "--samples", "20000"),
-    "search": (
-        *("search", ENGINES / "v8_crossplane.toml"),
-        *("--over", "throws", "--minimise", "moment.1.major"),
-    ),
+    "search": (*("search", ENGINES / "v8_crossplane.toml"), *("--over", "throws", "--minimise", "moment.1.major")),
     "check": ("check", ENGINES / "i4.toml"),
     "mounts": ("mounts", ENGINES / "i4_mounts.toml"),
     "torsion": ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1200:10"),
-    "damper": (
-        *("torsion", ENGINES / "i6_diesel.toml"),
-        *("--speeds", "1000:2500:500", "--damper", "viscous"),
-    ),
+    "damper": (*("torsion", ENGINES / "i6_diesel.toml"), *("--speeds", "1000:2500:500", "--damper", "viscous")),
     "report": ("report", ENGINES / "single.toml", "-o", "x.html"),
 }
 
@@ -216,9 +205,7 @@ def test_all_that_may_take_long_tells_how_far_it_is_to_the_end(
 
 
 @pytest.mark.parametrize("on_mounts", [False, True])
-def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(
-    on_mounts: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(on_mounts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same as of so many samples asked for."""
     file, what, all_of_them, some = (
         (ENGINES / "i4_mounts.toml", "mode.1.Hz", 30, 7)
@@ -240,16 +227,12 @@ def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(
     else:
         assert out == whole.out
     assert status == 130
-    assert err == (
-        f"balcli: stopped after {some} of {all_of_them} samples; the figures are of these\n"
-    )
+    assert err == (f"balcli: stopped after {some} of {all_of_them} samples; the figures are of these\n")
 
 
 @unix
 def test_a_terminal_gets_the_line_and_then_the_result() -> None:
-    done = run_in_terminal(
-        *("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1100:10", "--progress")
-    )
+    done = run_in_terminal(*("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1100:10", "--progress"))
     assert done.status == 0
     line, _, result = done.out.partition("\r\r")
     assert line.startswith("\rbalcli: ")

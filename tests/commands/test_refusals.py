@@ -10,23 +10,17 @@ from support.paths import ENGINES
 TWO_STROKE = FOUR.replace("0, 180, 180, 0", "0, 180").replace("1, 3, 4, 2", "1, 2")
 FILES = {
     "four.toml": FOUR,
-    "offset.toml": (ENGINES / "single.toml")
-    .read_text(encoding="utf-8")
-    .replace("[piston]", "[piston]\noffset = 2"),
+    "offset.toml": (ENGINES / "single.toml").read_text(encoding="utf-8").replace("[piston]", "[piston]\noffset = 2"),
     "own.toml": FOUR + "[cylinder.2]\nthrow = 181\n",
-    "odd.toml": FOUR.replace("0, 180, 180, 0", "0, 10, 20, 30").replace(
-        "firing_order = [1, 3, 4, 2]", ""
-    ),
+    "odd.toml": FOUR.replace("0, 180, 180, 0", "0, 10, 20, 30").replace("firing_order = [1, 3, 4, 2]", ""),
     "diagram.toml": FOUR + '[gas]\nindicator = "latin.csv"\n',
     "workbook.toml": FOUR + '[gas]\nindicator = "p.xlsx"\n',
     "blank.toml": FOUR + '[gas]\nindicator = "  "\n',
     "exchange.toml": TWO_STROKE.replace("[layout]", "[layout]\nstrokes = 2")
     + '[gas]\nindicator = "latin.csv"\nzero = "gas-exchange"\n',
     "harmonics.toml": FOUR + '[gas]\nharmonics = "heads.csv"\n',
-    "bmep.toml": FOUR
-    + '[gas]\ncycle = "otto"\ncompression_ratio = 9\nbmep = -3\nmechanical_efficiency = 0.8\n',
-    "nowhere.toml": FOUR.replace("spacing = 100\n", "")
-    + '[gas]\ncycle = "otto"\ncompression_ratio = 9\nimep = 8\n',
+    "bmep.toml": FOUR + '[gas]\ncycle = "otto"\ncompression_ratio = 9\nbmep = -3\nmechanical_efficiency = 0.8\n',
+    "nowhere.toml": FOUR.replace("spacing = 100\n", "") + '[gas]\ncycle = "otto"\ncompression_ratio = 9\nimep = 8\n',
     "heads.csv": "order,cos,sin\n",
     "still.csv": "angle_deg,torque_Nm\n0,5\n0,7\n",
 }
@@ -45,43 +39,27 @@ def files(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("command", "message"),
     [
-        (
-            "analyze diagram.toml",
-            "diagram.toml: gas.indicator: latin.csv: is not UTF-8 text; save it as UTF-8",
-        ),
+        ("analyze diagram.toml", "diagram.toml: gas.indicator: latin.csv: is not UTF-8 text; save it as UTF-8"),
         (
             "analyze workbook.toml",
-            "workbook.toml: gas.indicator: p.xlsx: is a workbook or another packed file; save the "
-            "sheet as CSV",
+            "workbook.toml: gas.indicator: p.xlsx: is a workbook or another packed file; save the sheet as CSV",
         ),
-        (
-            "analyze p.xlsx",
-            "p.xlsx: is a workbook or another packed file, no text; write TOML, as `balcli new` "
-            "does",
-        ),
+        ("analyze p.xlsx", "p.xlsx: is a workbook or another packed file, no text; write TOML, as `balcli new` does"),
         (
             "analyze blank.toml",
-            'blank.toml: gas.indicator: "  " is no name of a file; give the name of a file, such as '
-            '"p_2000rpm.csv"',
+            'blank.toml: gas.indicator: "  " is no name of a file; give the name of a file, such as "p_2000rpm.csv"',
         ),
         (
             "analyze exchange.toml",
-            "exchange.toml: gas.zero: a two-stroke cycle has no gas-exchange dead centre; give "
-            '"firing"',
+            'exchange.toml: gas.zero: a two-stroke cycle has no gas-exchange dead centre; give "firing"',
         ),
-        (
-            "analyze harmonics.toml",
-            "harmonics.toml: gas.harmonics: heads.csv: has no rows; give order,cos,sin in each",
-        ),
+        ("analyze harmonics.toml", "harmonics.toml: gas.harmonics: heads.csv: has no rows; give order,cos,sin in each"),
         (
             "analyze bmep.toml",
             "bmep.toml: gas.bmep: over mechanical_efficiency, the imep, is -3.75 bar: with the "
             "least heat the cycle has 0.09318 bar",
         ),
-        (
-            "torque --curve still.csv",
-            "still.csv: has no two angles; the last row has to close the period",
-        ),
+        ("torque --curve still.csv", "still.csv: has no two angles; the last row has to close the period"),
         (
             "torsion four.toml",
             "four.toml: has no [torsion]; write it with throw_stiffness, throw_inertia and "
@@ -100,10 +78,7 @@ def test_files(command, message):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (
-            "four.toml --radius 0 --max-depth=-2",
-            "--radius: 0 mm, --max-depth: -2 mm; give figures above 0",
-        ),
+        ("four.toml --radius 0 --max-depth=-2", "--radius: 0 mm, --max-depth: -2 mm; give figures above 0"),
         (
             "four.toml --radius 50 --thickness 10 --disc 60",
             "a semicircular disc has its radius or its thickness given, not both: the other follows",
@@ -119,18 +94,14 @@ def test_files(command, message):
             "them: there is no rotating mass to balance opposite a pin; counterweights or auto can "
             "balance what is left",
         ),
-        (
-            f"{ENGINES / 'i4.toml'} --scheme two-shaft --roll none",
-            '--roll "none": only "zero" can be asked for',
-        ),
+        (f"{ENGINES / 'i4.toml'} --scheme two-shaft --roll none", '--roll "none": only "zero" can be asked for'),
         (
             f"{ENGINES / 'i4.toml'} --scheme two-shaft --at=-60,50 --at=60,50 --roll zero",
             "--roll zero fixes the place of the second shaft; give one --at, or two without --roll",
         ),
         (
             f"{ENGINES / 'boxer6.toml'} --scheme two-shaft --order 1 --roll zero",
-            "order 1 has no free force: nothing to balance; shafts without unbalance can do "
-            "nothing about the roll",
+            "order 1 has no free force: nothing to balance; shafts without unbalance can do nothing about the roll",
         ),
     ],
 )
@@ -143,13 +114,11 @@ def test_balance(options, message):
     [
         (
             f"{ENGINES / 'i4.toml'} --over throws --minimise peak.force",
-            "a search over throws adds up orders, which peak.force does not allow; name orders, "
-            "such as force.1.major",
+            "a search over throws adds up orders, which peak.force does not allow; name orders, such as force.1.major",
         ),
         (
             "own.toml --over firing_order --minimise force.1.major",
-            "cylinders with throws of their own leave no firing order to look for: give "
-            "crank.throws and splay alone",
+            "cylinders with throws of their own leave no firing order to look for: give crank.throws and splay alone",
         ),
         (
             "own.toml --over throws --minimise force.1.major",
@@ -175,7 +144,5 @@ def test_bearings_without_places():
     """Beside a warning that moments are not known."""
     status, out, err = run_here("torque", "nowhere.toml", "--loads", "main")
     assert (status, out) == (2, "")
-    wanted = (
-        "balcli: main bearings: crank.spacing is missing, so that no bearing is known to stand\n"
-    )
+    wanted = "balcli: main bearings: crank.spacing is missing, so that no bearing is known to stand\n"
     assert err.endswith(wanted)

@@ -37,12 +37,7 @@ def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
         run_command("sweep", engine, *SWEEP),
         run_command("sweep", engine, *SWEEP, "-o", str(target), "--progress"),
     )
-    assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (
-        0,
-        0,
-        "",
-        "",
-    )
+    assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (0, 0, "", "")
     assert printed.stdout == target.read_text()
     assert printed.stdout.startswith("rod.ratio,force.2.major\n0.2,")
 
@@ -50,14 +45,7 @@ def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
 def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> None:
     target = write(tmp_path / "x.csv", "old\n")
     done = run_command(
-        "sweep",
-        engine,
-        "--vary",
-        "crank.stroke=80:400:10",
-        "--quantity",
-        "force.2.major",
-        "-o",
-        str(target),
+        "sweep", engine, "--vary", "crank.stroke=80:400:10", "--quantity", "force.2.major", "-o", str(target)
     )
     assert done.returncode == 2
     assert "the crank cannot turn" in done.stderr
@@ -74,12 +62,7 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
         "{ order = 1, amplitude = 0.6 }, { order = 2, amplitude = 0.5 }]\n",
     )
     done = run_command(
-        "sweep",
-        str(file),
-        "--vary",
-        "operation.speed_ripple.2.angle=0:360:30",
-        "--quantity",
-        "force.1.major",
+        "sweep", str(file), "--vary", "operation.speed_ripple.2.angle=0:360:30", "--quantity", "force.1.major"
     )
     assert (done.returncode, done.stdout) == (2, "")
     theta = np.radians(np.arange(0, 360, 0.1))
@@ -130,20 +113,13 @@ def test_ctrl_c_leaves_a_valid_part_beside_the_older_file(engine: str, tmp_path:
         stderr=subprocess.PIPE,
         encoding="utf-8",
     )
-    until(
-        lambda: (
-            process.poll() is not None
-            or any(p.stat().st_size > HEAD for p in tmp_path.glob(".x.json*"))
-        )
-    )
+    until(lambda: process.poll() is not None or any(p.stat().st_size > HEAD for p in tmp_path.glob(".x.json*")))
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=HANGS)
     assert process.returncode == 130
     part = tmp_path / "x.json.part"
     rows = json.loads(part.read_text())["rows"]
-    assert errors == (
-        f"balcli: stopped after {len(rows)} of 100020001 variants; they are in {part}\n"
-    )
+    assert errors == (f"balcli: stopped after {len(rows)} of 100020001 variants; they are in {part}\n")
     assert len(rows) > 0
     assert target.read_text() == "old"
 
@@ -154,9 +130,7 @@ def test_a_folder_where_the_part_would_go_costs_no_variants(engine: str, tmp_pat
     sweep = read_sweep(engine, [SWEEP[1]], SWEEP[3])
     progress = Progress("variants", sweep.variants, at_once=False, shown=False)
     progress.stopped, progress.done = True, 1
-    place = sweep_output.write_sweep(
-        sweep, evaluate_chunks(sweep), VariantsFormat.CSV, target, progress
-    )
+    place = sweep_output.write_sweep(sweep, evaluate_chunks(sweep), VariantsFormat.CSV, target, progress)
     assert place == f"they are in {target}.part2"
     assert len((tmp_path / "x.csv.part2").read_text().splitlines()) == 3
     assert sorted(p.name for p in tmp_path.iterdir()) == ["four.toml", "x.csv.part", "x.csv.part2"]
@@ -166,15 +140,7 @@ def test_parquet_and_pictures(engine: str, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     target, picture = tmp_path / "x.parquet", tmp_path / "x.svg"
     done = run_command(
-        "sweep",
-        engine,
-        *SWEEP,
-        "--vary",
-        "crank.stroke=80,90,100",
-        "-o",
-        str(target),
-        "--plot",
-        str(picture),
+        "sweep", engine, *SWEEP, "--vary", "crank.stroke=80,90,100", "-o", str(target), "--plot", str(picture)
     )
     assert (done.returncode, done.stderr) == (0, "")
     table = parquet.read_table(target)
@@ -248,16 +214,7 @@ def test_a_terminal_shows_a_table_and_a_pipe_csv(engine: str) -> None:
 def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "best.toml"
     done = run_command(
-        "search",
-        engine,
-        "--over",
-        "throws",
-        "--minimise",
-        "moment.1.major",
-        "-f",
-        "json",
-        "--write",
-        str(target),
+        "search", engine, "--over", "throws", "--minimise", "moment.1.major", "-f", "json", "--write", str(target)
     )
     assert (done.returncode, done.stderr) == (0, "")
     document = json.loads(done.stdout)
@@ -275,18 +232,7 @@ def test_a_refused_search_names_the_file(engine: str) -> None:
 
 
 def test_scatter_as_json_and_table(engine: str) -> None:
-    options = (
-        "scatter",
-        engine,
-        "--mass-scatter",
-        "1%",
-        "--samples",
-        "1000",
-        "--seed",
-        "1",
-        "-q",
-        "force.1.major",
-    )
+    options = ("scatter", engine, "--mass-scatter", "1%", "--samples", "1000", "--seed", "1", "-q", "force.1.major")
     document = json.loads(run_command(*options, "-f", "json").stdout)
     assert document["format"] == "balcli.scatter/1"
     assert document["samples"] == 1000
@@ -297,13 +243,9 @@ def test_scatter_as_json_and_table(engine: str) -> None:
 
 def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: Path) -> None:
     """One piston: 3 standard deviations are its tolerance, and 1 of 370 samples lies beyond."""
-    file = write(
-        tmp_path / "one.toml", "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n"
-    )
+    file = write(tmp_path / "one.toml", "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n")
     command = ["scatter", str(file), "--mass-scatter=1%", "--seed=1", "-q", "force.1.major"]
-    texts = {
-        shape: run_here(*command, f"--distribution={shape}").out for shape in ("uniform", "normal")
-    }
+    texts = {shape: run_here(*command, f"--distribution={shape}").out for shape in ("uniform", "normal")}
     assert "bound: no combination exceeds it (exact for masses" in texts["uniform"]
     assert "bound: no combination within the tolerances exceeds it (exact" in texts["normal"]
     told = " ".join(texts["normal"].split())
@@ -316,9 +258,7 @@ def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: P
 
 def test_compare_in_every_format(engine: str) -> None:
     document = json.loads(
-        run_command(
-            "compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json"
-        ).stdout
+        run_command("compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json").stdout
     )
     (figure,) = document["figures"]
     assert (figure["quantity"], figure["order"], figure["ratios"]) == ("force_N", 2, [1.0, 1.0])

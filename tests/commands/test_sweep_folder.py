@@ -64,9 +64,7 @@ def test_workers_of_a_cluster_write_the_same_files():
     sweep = read_sweep("good.toml", [VARY[1], VARY[3]], FIGURES[1])
     progress = Progress("variants", sweep.variants, at_once=False, shown=False)
     with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
-        ) as local,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as local,
         distributed.Client(local) as client,
     ):
         share = nullcontext(partial(run_on_cluster, client))
@@ -97,14 +95,11 @@ def test_an_empty_folder_is_taken_and_another_mans_is_not():
     Path("out/notes.txt").write_text("mine")
     for force in ((), ("--force",)):
         assert refuse_sweep(*ASKED, "-o", "out/", *force) == (
-            "out/: holds notes.txt, which is no part of a sweep; choose a folder that is empty or "
-            "not there"
+            "out/: holds notes.txt, which is no part of a sweep; choose a folder that is empty or not there"
         )
     assert refuse_sweep(*ASKED, "-o", "good.toml/").endswith("choose another name")
     Path("file").write_text("mine")
-    assert refuse_sweep(*ASKED, "-o", "file/") == (
-        "file/: is a file; choose another name for the folder"
-    )
+    assert refuse_sweep(*ASKED, "-o", "file/") == ("file/: is a file; choose another name for the folder")
 
 
 def test_what_does_not_go_into_a_folder_is_refused():
@@ -112,12 +107,9 @@ def test_what_does_not_go_into_a_folder_is_refused():
         "--output out/: a folder takes Parquet files, but --format says csv; leave one of them out"
     )
     assert refuse_sweep(*ASKED, "-o", "out/", "--plot", "a.svg") == (
-        "--plot a.svg: figures that go into a folder are not kept for a picture; write one file, "
-        "or leave --plot out"
+        "--plot a.svg: figures that go into a folder are not kept for a picture; write one file, or leave --plot out"
     )
-    assert refuse_sweep(*ASKED, "-o", "nowhere/out/") == (
-        "nowhere/out: cannot be written (there is no folder nowhere)"
-    )
+    assert refuse_sweep(*ASKED, "-o", "nowhere/out/") == ("nowhere/out: cannot be written (there is no folder nowhere)")
     assert run_here("sweep", "good.toml", *ASKED, "-o", "out/", "-f", "parquet")[0] == 0
 
 
@@ -208,9 +200,7 @@ def test_an_earlier_sweep_stays_where_the_new_one_cannot_take_its_place(monkeypa
 
     monkeypatch.setattr(Path, "rename", busy)
     few = ("--vary", "rod.ratio=0.2,0.3", "-q", "force.2.major")
-    assert refuse_sweep(*few, "-o", "out/", "--force") == (
-        "out/: cannot be written (Device or resource busy)"
-    )
+    assert refuse_sweep(*few, "-o", "out/", "--force") == ("out/: cannot be written (Device or resource busy)")
     assert sorted(os.listdir("out")) == before
     assert sorted(os.listdir()) == ["good.toml", "out"]
 

@@ -68,15 +68,12 @@ def test_never_onto_the_engine_file(good, command, target):
     before, option = contents(), command[-1] if command[-1].startswith("--") else "--output"
     name, *rest = command if command[-1] != option else command[:-1]
     assert refusal(name, good, *rest, option, target) == (
-        f"{option} {Path(target)}: this is a file that is read, which stays as it "
-        "is; choose another name"
+        f"{option} {Path(target)}: this is a file that is read, which stays as it is; choose another name"
     )
     assert contents() == before
 
 
-@pytest.mark.parametrize(
-    "table", ['[gas]\nindicator = "p.csv"', '[gas]\nharmonics = "p.csv"', "[cylinder.2]\n{}"]
-)
+@pytest.mark.parametrize("table", ['[gas]\nindicator = "p.csv"', '[gas]\nharmonics = "p.csv"', "[cylinder.2]\n{}"])
 @pytest.mark.parametrize("command", [["curves"], ["sweep", "--vary", "crank.stroke=80,90"]])
 def test_never_onto_a_file_that_the_engine_file_names(good, command, table):
     """Whatever else is wrong with either file: a diagram that was measured is not there twice."""
@@ -149,17 +146,8 @@ def test_a_pipe_is_written_to_and_stays_a_pipe(balcli, good):
     ],
 )
 def test_places_that_cannot_be(balcli, good, target, reason):
-    for command in (
-        ["analyze", good, "-o"],
-        ["balance", good, "--write"],
-        ["new", "single"],
-        ["engines", "i4"],
-    ):
-        assert balcli(*command, target) == (
-            2,
-            "",
-            f"balcli: {target}: cannot be written ({reason})\n",
-        )
+    for command in (["analyze", good, "-o"], ["balance", good, "--write"], ["new", "single"], ["engines", "i4"]):
+        assert balcli(*command, target) == (2, "", f"balcli: {target}: cannot be written ({reason})\n")
 
 
 @pytest.mark.parametrize("path", ["x" * 300, "x" * 300 + "/y"])
@@ -207,11 +195,7 @@ def test_a_disk_that_fills_up_midway(balcli, good, monkeypatch, command):
     before = contents()
     monkeypatch.setattr(Path, "write_bytes", _partly)
     status, out, err = balcli(name, good, option, target)
-    assert (status, out, err) == (
-        2,
-        "",
-        f"balcli: {target}: cannot be written (No space left on device)\n",
-    )
+    assert (status, out, err) == (2, "", f"balcli: {target}: cannot be written (No space left on device)\n")
     assert contents() == before
 
 
@@ -248,12 +232,7 @@ def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 @pytest.mark.parametrize(
     "command",
-    [
-        ["analyze"],
-        ["analyze", "--format", "json"],
-        ["sweep", "--vary", "crank.stroke=1:90:0.01"],
-        ["curves"],
-    ],
+    [["analyze"], ["analyze", "--format", "json"], ["sweep", "--vary", "crank.stroke=1:90:0.01"], ["curves"]],
     ids=" ".join,
 )
 def test_standard_output_that_is_full(good, command):
@@ -261,10 +240,7 @@ def test_standard_output_that_is_full(good, command):
     with Path("/dev/full").open("wb") as full:
         running = start_command(name, good, *rest, stdout=full, stderr=subprocess.PIPE)
         err = running.communicate(timeout=HANGS)[1].decode()
-    assert (running.returncode, err) == (
-        2,
-        "balcli: standard output: cannot be written (No space left on device)\n",
-    )
+    assert (running.returncode, err) == (2, "balcli: standard output: cannot be written (No space left on device)\n")
 
 
 @unix
@@ -272,9 +248,7 @@ def test_a_reader_who_leaves_early_ends_a_sweep_quietly(good):
     reading, writing = os.pipe()
     os.close(reading)
     running = start_command(
-        *("sweep", good, "--vary", "crank.stroke=1:90:0.001"),
-        stdout=writing,
-        stderr=subprocess.PIPE,
+        *("sweep", good, "--vary", "crank.stroke=1:90:0.001"), stdout=writing, stderr=subprocess.PIPE
     )
     os.close(writing)
     assert (running.communicate(timeout=HANGS)[1], running.returncode) == (b"", 0)
@@ -286,11 +260,7 @@ def test_an_interrupt_is_no_traceback():
     # Jobs in the background of a script ignore it.
     heeded = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
     running = start_command(
-        *("analyze", "-"),
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        preexec_fn=heeded,
+        *("analyze", "-"), stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=heeded
     )
     assert running.stdin is not None
     running.stdin.write(b"#\n" * 200_000)

@@ -15,24 +15,13 @@ from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES, write
 
 TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
-WHOLE = {
-    "format",
-    "version",
-    "speed_rpm",
-    "cycle_deg",
-    "imep_Pa",
-    "max_pressure_Pa",
-    "max_pressure_deg",
-}
+WHOLE = {"format", "version", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
 WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
 
 
 @pytest.fixture
 def four(tmp_path):
-    path = write(
-        tmp_path / "four.toml",
-        FOUR + WIEBE + "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n",
-    )
+    path = write(tmp_path / "four.toml", FOUR + WIEBE + "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n")
     return str(path)
 
 
@@ -59,9 +48,7 @@ def test_the_table_says_of_which_speed_it_is(four, tmp_path):
     same = text.replace(", the file's uneven one does not count", "")
     assert same.splitlines()[1:] == ask("torque", four).splitlines()[1:]
     nameless.write_text(FOUR.replace("speed = 3000", "") + WIEBE, encoding="utf-8")
-    assert "\nspeed             1000 rpm, assumed: the file gives none\n" in ask(
-        "torque", str(nameless)
-    )
+    assert "\nspeed             1000 rpm, assumed: the file gives none\n" in ask("torque", str(nameless))
 
 
 def test_json_has_what_the_file_allows(four):
@@ -141,8 +128,7 @@ def test_lines_that_no_engine_file_may_have_are_not_written(tmp_path):
     throws = [360 / count * k for k in range(count)]
     path.write_text(
         FOUR.replace("[0, 180, 180, 0]", str(throws)).replace(
-            "firing_order = [1, 3, 4, 2]",
-            f"strokes = 2\nfiring_order = {[1, *range(count, 1, -1)]}",
+            "firing_order = [1, 3, 4, 2]", f"strokes = 2\nfiring_order = {[1, *range(count, 1, -1)]}"
         )
         + WIEBE.replace("wiebe", "otto")
         + "[flywheel]\ninertia = 900000\n"
@@ -164,10 +150,7 @@ def test_what_a_crank_needs_that_stalls(four, tmp_path):
 
 
 def test_a_crank_that_stalls_is_an_error_with_the_angle_beside_all_else(four, curve):
-    for arguments in (
-        (four, "--speed", "100"),
-        ("--curve", curve, "--inertia", "1", "--speed", "9"),
-    ):
+    for arguments in ((four, "--speed", "100"), ("--curve", curve, "--inertia", "1", "--speed", "9")):
         status, out, err = run_here("torque", *arguments)
         assert status == 2
         assert "Torque over the cycle" in out
@@ -182,15 +165,7 @@ def test_a_crank_that_stalls_is_an_error_with_the_angle_beside_all_else(four, cu
 
 def test_a_curve_needs_no_engine(curve):
     found = ask_json("torque", "--curve", curve)
-    assert set(found) == {
-        "format",
-        "version",
-        "cycle_deg",
-        "mean_torque_Nm",
-        "torque",
-        "orders",
-        "energy",
-    }
+    assert set(found) == {"format", "version", "cycle_deg", "mean_torque_Nm", "torque", "orders", "energy"}
     assert found["mean_torque_Nm"] == pytest.approx(250)
     assert found["cycle_deg"] == 360
     assert found["torque"]["max_Nm"] == 1000
@@ -211,15 +186,7 @@ def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
 
 @pytest.mark.parametrize(
     ("last", "doubted"),
-    [
-        (359, True),
-        (719, True),
-        (6.2832, True),
-        (360, False),
-        (240, False),
-        (1080, False),
-        (102.86, False),
-    ],
+    [(359, True), (719, True), (6.2832, True), (360, False), (240, False), (1080, False), (102.86, False)],
 )
 def test_a_period_that_nothing_has_is_doubted(tmp_path, last, doubted):
     """A curve sampled from 0 to 359 deg lacks the row that closes it."""
@@ -281,14 +248,8 @@ def test_the_load_takes_its_share(curve, tmp_path):
         ("0,1000\n60,1000\n60,0\n360,0", "166.67 N·m in the mean, and 33.333 N·m evenly"),
         ("0,2000\n60,2000\n60,0\n360,0", "333.33 N·m in the mean, and -133.33 N·m evenly"),
         ("0,400\n180,400\n180,0\n360,0", "200 N·m in the mean"),
-        (
-            "0,0.1\n70,0.8\n140,0.1\n290,-0.6\n360,0.1",
-            "0.022222 N·m in the mean, and 199.98 N·m evenly",
-        ),
-        (
-            "0,0\n70,0.7\n140,0\n250,-0.7\n320,0\n360,0",
-            "-0.038889 N·m in the mean, and 200.04 N·m evenly",
-        ),
+        ("0,0.1\n70,0.8\n140,0.1\n290,-0.6\n360,0.1", "0.022222 N·m in the mean, and 199.98 N·m evenly"),
+        ("0,0\n70,0.7\n140,0\n250,-0.7\n320,0\n360,0", "-0.038889 N·m in the mean, and 200.04 N·m evenly"),
         ("0,0\n70,0.7\n140,0\n210,-0.7\n280,0\n360,0", "0 N·m in the mean, and 200 N·m evenly"),
     ],
 )
@@ -297,9 +258,7 @@ def test_what_the_mean_of_a_load_leaves_is_told(tmp_path, load, told):
     motor.write_text("angle_deg,torque_Nm\n0,200\n360,200\n")
     press.write_text(f"angle_deg,torque_Nm\n{load}\n")
     out = ask("torque", "--curve", motor, "--load", press)
-    assert [line for line in out.splitlines() if line.startswith("load")] == [
-        f"load         {told}"
-    ]
+    assert [line for line in out.splitlines() if line.startswith("load")] == [f"load         {told}"]
 
 
 def test_a_curve_may_begin_at_any_angle(tmp_path):
@@ -357,9 +316,7 @@ def test_imperial_figures_are_the_metric_ones_in_other_units(four):
 
 def test_with_imperial_units_a_bare_inertia_asks_for_its_unit(curve):
     asked = ("torque", "--curve", curve, "--speed", "3000", "--units", "imperial", "--inertia")
-    told = (
-        '"3": with --units imperial a moment of inertia needs its unit: "3 lb in^2" or "3 kg mm^2"'
-    )
+    told = '"3": with --units imperial a moment of inertia needs its unit: "3 lb in^2" or "3 kg mm^2"'
     assert refusal(*asked, "3") == f"--inertia {told}"
     assert "inertia      800 lb·in²" in run_here(*asked, "800 lb in^2").out
 
@@ -389,10 +346,7 @@ def test_with_imperial_units_a_bare_inertia_asks_for_its_unit(curve):
             "--fluctuation needs the mean speed; give it, such as --speed 300",
         ),
         (["--curve", "{four}"], "the heading"),
-        (
-            ["--curve", "{curve}", "--orders", "0.5"],
-            "order 0.5: a period of 360 deg has multiples of 1",
-        ),
+        (["--curve", "{curve}", "--orders", "0.5"], "order 0.5: a period of 360 deg has multiples of 1"),
     ],
 )
 def test_what_is_refused(four, curve, arguments, told):
@@ -495,8 +449,7 @@ def test_curves_of_an_engine_have_the_gas_torque_over_the_cycle(four, tmp_path):
     for name in ("gas_torque_Nm", "inertia_torque_Nm", "torque_Nm"):
         angle = np.radians(found["crank_deg"])
         waves = [
-            entry[name]["cos"] * np.cos(entry["order"] * angle)
-            + entry[name]["sin"] * np.sin(entry["order"] * angle)
+            entry[name]["cos"] * np.cos(entry["order"] * angle) + entry[name]["sin"] * np.sin(entry["order"] * angle)
             for entry in orders
         ]
         size = np.abs(curves[name]).max()
@@ -510,12 +463,8 @@ def test_curves_of_an_engine_have_the_gas_torque_over_the_cycle(four, tmp_path):
 
 def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     """Each variant as if the file said so."""
-    asked = (
-        "gas.1.5.amplitude,torque.2.amplitude,roll_total.2.cos,torque.mean,torque.max,fluctuation"
-    )
-    lines = run_here(
-        "sweep", four, "--vary", "gas.imep=6,9", "--vary", "cylinder.3.gas=0,1", "--quantity", asked
-    )
+    asked = "gas.1.5.amplitude,torque.2.amplitude,roll_total.2.cos,torque.mean,torque.max,fluctuation"
+    lines = run_here("sweep", four, "--vary", "gas.imep=6,9", "--vary", "cylinder.3.gas=0,1", "--quantity", asked)
     assert lines.err == ""
     header, *rows = lines.out.splitlines()
     assert header == f"gas.imep,cylinder.3.gas,{asked}"
@@ -666,9 +615,7 @@ def test_guide_moments_include_the_gas(four, tmp_path):
     assert found["includes"] == "inertia and gas"
     roll = ask_json("analyze", four, "--orders", "2", "--only", "gas")
     by_order = {entry["order"]: entry for entry in found["orders"]}
-    assert by_order[2]["h_Nm"]["amplitude"] == pytest.approx(
-        roll["orders"][0]["roll_total_Nm"]["amplitude"], rel=1e-12
-    )
+    assert by_order[2]["h_Nm"]["amplitude"] == pytest.approx(roll["orders"][0]["roll_total_Nm"]["amplitude"], rel=1e-12)
     assert by_order[0.5]["h_Nm"]["balanced"]
     assert by_order[0.5]["x_Nm"]["amplitude"] > 1
 
@@ -677,10 +624,7 @@ def test_guide_moments_include_the_gas(four, tmp_path):
     ("content", "told"),
     [
         ("angle_deg,torque_Nm\n0,1\n", "has no two angles; the last row has to close the period"),
-        (
-            "angle_deg,torque_Nm\n0,1\n90,2\n80,2\n360,1\n",
-            "line 4: the angle 80 deg is below the 90",
-        ),
+        ("angle_deg,torque_Nm\n0,1\n90,2\n80,2\n360,1\n", "line 4: the angle 80 deg is below the 90"),
         ("angle_deg,torque_Nm\n0,1\n90\n", "line 3: has 1 of 2 columns"),
         ("angle_deg,torque\n0,1\n", 'the heading "angle_deg,torque" has no torque_Nm; head the'),
         ("angle_deg,torque_Nm\n0,inf\n", 'line 2: "inf" is not a number'),
@@ -702,16 +646,11 @@ def test_curves_that_cannot_be(tmp_path, content, told):
     "text",
     [
         pytest.param(
-            "angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n",
-            id="semicolons part columns, and commas decimals",
+            "angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n", id="semicolons part columns, and commas decimals"
         ),
+        pytest.param("angle_deg\ttorque_Nm\n0\t1,5\n90,5\t-2,25\n360\t1.5\n", id="so do tabs"),
         pytest.param(
-            "angle_deg\ttorque_Nm\n0\t1,5\n90,5\t-2,25\n360\t1.5\n",
-            id="so do tabs",
-        ),
-        pytest.param(
-            "angle_deg,\t\ttorque_Nm\n0,\t\t1.5\n90.5,\t\t-2.25\n360,\t\t1.5\n",
-            id="tabs after commas are room",
+            "angle_deg,\t\ttorque_Nm\n0,\t\t1.5\n90.5,\t\t-2.25\n360,\t\t1.5\n", id="tabs after commas are room"
         ),
         pytest.param(
             "angle_deg,torque_Nm\n0,1.5,first\n90.5,-2.25,,idle\n360,1.5,\n",
@@ -759,18 +698,12 @@ def test_quantities_that_are_none(four, text, message):
 
 def test_a_fluctuation_needs_inertia():
     arguments = ("--vary", "gas.imep=6,9", "--quantity", "fluctuation")
-    assert (
-        "fluctuation: the file gives no inertia"
-        in run_here("sweep", "-", *arguments, stdin=FOUR + WIEBE).err
-    )
+    assert "fluctuation: the file gives no inertia" in run_here("sweep", "-", *arguments, stdin=FOUR + WIEBE).err
 
 
 def test_the_torque_is_drawn_in_a_table(four, curve):
     """And nowhere else, which is said."""
-    for arguments, what in (
-        ((four,), "Gas and inertia"),
-        (("--curve", curve), "Torque over the p"),
-    ):
+    for arguments, what in (((four,), "Gas and inertia"), (("--curve", curve), "Torque over the p")):
         for terminal in (True, False):
             seen = run_here("torque", *arguments, "--plot", terminal=terminal).out
             assert what in seen

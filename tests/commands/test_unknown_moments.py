@@ -34,9 +34,7 @@ def boxer(tmp_path):
     """Two opposed cylinders, without any force."""
     file = tmp_path / "boxer.toml"
     opposed = ("[operation]", '[layout]\nbanks = [-90, 90]\nrods = "alternating"\n\n[operation]')
-    file.write_text(
-        changed(FLAT_CRANK, ("[layout]\nfiring_order = [1, 3, 4, 2]", ""), NO_SPACING, opposed)
-    )
+    file.write_text(changed(FLAT_CRANK, ("[layout]\nfiring_order = [1, 3, 4, 2]", ""), NO_SPACING, opposed))
     return file
 
 
@@ -75,9 +73,7 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
 def test_what_shafts_leave_of_the_roll_is_known_without_places(balcli, twin):
     """Moments alone need them: the roll is about the crankshaft."""
     told = balcli("balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80")[1]
-    document = balcli(
-        "balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80", "-f", "json"
-    )
+    document = balcli("balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80", "-f", "json")
     details = json.loads(document[1])["details"]["order_2"]
     assert re.search(r"^order 2 moment left +–$", told, re.MULTILINE)
     for label in ("roll left", "roll before"):
@@ -130,8 +126,7 @@ def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_pa
     twin.write_text(twin.read_text() + "[cylinder.1]\nposition = -50\n[cylinder.2]\nposition = 50")
     assert balcli("analyze", twin, "--only", "moment")[::2] == (0, "")
     single = write(
-        tmp_path / "single.toml",
-        changed(("throws = [0, 180, 180, 0]", "throws = [0]"), NO_ORDER, NO_SPACING),
+        tmp_path / "single.toml", changed(("throws = [0, 180, 180, 0]", "throws = [0]"), NO_ORDER, NO_SPACING)
     )
     assert balcli("analyze", single, "--only", "moment")[::2] == (0, "")
 
@@ -142,11 +137,7 @@ def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_pa
         ("analyze", ["--only", "force,moment"], "{file}: moment: "),
         ("analyze", ["--only", "inner"], "{file}: inner: "),
         ("compare", ["{file}", "--only", "moment"], "{file}: moment: "),
-        (
-            "search",
-            ["--over", "throws", "--minimise", "force.1.major,moment.1.major"],
-            "moment.1.major: ",
-        ),
+        ("search", ["--over", "throws", "--minimise", "force.1.major,moment.1.major"], "moment.1.major: "),
         (
             "search",
             ["--over", "throws", "--minimise", "force.1.major", "--limit", "moment.2.major<9"],
@@ -180,9 +171,7 @@ def test_so_is_what_is_sized_by_moments(balcli, twin, command, args):
 
 def test_a_weight_in_one_plane_takes_the_whole_force(balcli, tmp_path):
     """What moment it makes is not known, and lessens nothing."""
-    file = write(
-        tmp_path / "skew.toml", changed((FLAT_CRANK[0], "throws = [0, 90]"), NO_ORDER, NO_SPACING)
-    )
+    file = write(tmp_path / "skew.toml", changed((FLAT_CRANK[0], "throws = [0, 90]"), NO_ORDER, NO_SPACING))
     out = balcli("balance", file, "--scheme", "counterweights", "--planes=20", "-f", "json")[1]
     first = json.loads(out)["after"]["orders"][0]
     assert first["force_N"]["forward"] == [0, 0]
@@ -263,9 +252,7 @@ def test_compare_has_dashes_where_no_engine_has_known_moments(balcli, twin):
     status, out, _ = balcli("compare", twin, twin)
     assert status == 0
     moments = out.partition("Free moment, N·m")[2].partition("\n\n")[0]
-    rows = [
-        line.split()[-3:] for line in moments.splitlines() if line.startswith(("order", "peak"))
-    ]
+    rows = [line.split()[-3:] for line in moments.splitlines() if line.startswith(("order", "peak"))]
     assert rows == [["–"] * 3] * 3
 
 
@@ -279,9 +266,7 @@ def test_compare_and_sum_have_dashes_beside_what_is_known(balcli, twin, tmp_path
     out = balcli("sum", known, twin)[1]
     assert "reference  moments are not known" in out
     assert "moment  –" in out
-    assert json.loads(balcli("sum", known, twin, "--format", "json")[1])["assumed"] == [
-        "crank.spacing = 0"
-    ]
+    assert json.loads(balcli("sum", known, twin, "--format", "json")[1])["assumed"] == ["crank.spacing = 0"]
 
 
 def test_a_report_draws_no_moments(balcli, twin, tmp_path):

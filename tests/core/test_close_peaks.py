@@ -10,9 +10,7 @@ from balcli.core.close_peaks import find_highest, find_peaks_between
 
 def find_each(function, low, high):
     """One function for each interval."""
-    return find_peaks_between(
-        lambda x, which: function(x, which), low, high, np.arange(len(low), dtype=np.intp)
-    )
+    return find_peaks_between(lambda x, which: function(x, which), low, high, np.arange(len(low), dtype=np.intp))
 
 
 def test_a_parabola_is_found_exactly_and_an_end_is_an_end():

@@ -22,8 +22,7 @@ def random_phasors(seed, *shape):
 
 
 @pytest.mark.parametrize(
-    "orders",
-    [[0.5], [1, 2], [0, 0.5, 1.5], [3, 6, 9, 12], np.arange(1, 25) / 2, [7.5, 40], [12, 0.5, 3]],
+    "orders", [[0.5], [1, 2], [0, 0.5, 1.5], [3, 6, 9, 12], np.arange(1, 25) / 2, [7.5, 40], [12, 0.5, 3]]
 )
 def test_highest_and_lowest_of_many_curves(orders):
     phasors = random_phasors(3, len(orders), 5, 4)
@@ -37,10 +36,7 @@ def test_highest_and_lowest_of_many_curves(orders):
     assert np.all(swing.lowest.value >= curve.min(axis=0) - slack)
     assert swing.half == pytest.approx((swing.highest.value - swing.lowest.value) / 2)
     for peak in swing:
-        there = [
-            values(orders, phasors[:, i, j], peak.angle[i, j : j + 1])[0]
-            for i, j in np.ndindex(5, 4)
-        ]
+        there = [values(orders, phasors[:, i, j], peak.angle[i, j : j + 1])[0] for i, j in np.ndindex(5, 4)]
         assert peak.value.ravel() == pytest.approx(there, rel=1e-12)
         assert np.all((peak.angle >= 0) & (peak.angle < 4 * np.pi))
 
@@ -113,9 +109,7 @@ def test_longest_vector(components):
 
 def test_longest_of_one_order_is_the_semi_axis():
     phasors = random_phasors(7, 1, 20, 3)
-    assert find_longest([2.5], phasors).value == pytest.approx(
-        largest_of_ellipse(phasors[0]), rel=RELATIVE
-    )
+    assert find_longest([2.5], phasors).value == pytest.approx(largest_of_ellipse(phasors[0]), rel=RELATIVE)
 
 
 def test_ellipse_of_a_circle_and_of_a_line():
@@ -129,9 +123,7 @@ def test_sum_of_amplitudes_is_a_bound():
     orders = np.arange(1, 9) / 2
     phasors = random_phasors(11, 8, 30)
     assert np.all(find_swing(orders, phasors).half <= sum_amplitudes(phasors))
-    assert sum_amplitudes(np.abs(phasors)) == pytest.approx(
-        find_swing(orders, np.abs(phasors) + 0j).highest.value
-    )
+    assert sum_amplitudes(np.abs(phasors)) == pytest.approx(find_swing(orders, np.abs(phasors) + 0j).highest.value)
 
 
 @pytest.mark.parametrize("orders", [[0.25, 1], [-1, 1], [1, 1]])

@@ -12,13 +12,7 @@ from support.pistons import slider_crank_piston
 
 from balcli import load
 from balcli.core.combustion import Wiebe
-from balcli.core.cylinder_pressure import (
-    CylinderPressure,
-    GasError,
-    PressureOnPiston,
-    crank_torque,
-    pistons,
-)
+from balcli.core.cylinder_pressure import CylinderPressure, GasError, PressureOnPiston, crank_torque, pistons
 from balcli.core.gas_cycle import Goal, Process, gas_cycle
 from balcli.core.mechanisms import harmonics
 from balcli.core.piecewise import polyline
@@ -184,9 +178,7 @@ def test_the_highest_pressure_beside_a_corner_is_at_the_corner():
 
 # ---------------------------------------------------------------- measured diagrams
 ROWS = np.array([-180, -90, -40, -12, 0, 7, 15, 40, 90, 130, 165, 200, 300, 359, 420, 500])
-BAR = np.array(
-    [1.1, 1.9, 6.4, 22.7, 34.9, 51.3, 47.0, 20.2, 6.1, 3.9, 2.2, 1.3, 1.1, 1.1, 0.9, 1.0]
-)
+BAR = np.array([1.1, 1.9, 6.4, 22.7, 34.9, 51.3, 47.0, 20.2, 6.1, 3.9, 2.2, 1.3, 1.1, 1.1, 0.9, 1.0])
 
 
 @pytest.mark.parametrize("offset", [0.0, -0.03])
@@ -215,9 +207,7 @@ def test_a_fine_diagram_of_a_known_pressure():
     found = PressureOnPiston(TORQUE.piston, diagram)
     error = np.abs(found.harmonics(HALVES) - TORQUE.harmonics(HALVES)).max()
     assert error < 3e-4 * np.abs(TORQUE.harmonics(HALVES)).max()
-    assert found.harmonics([0])[0].real == pytest.approx(
-        found.imep * found.piston.swept / (4 * np.pi)
-    )
+    assert found.harmonics([0])[0].real == pytest.approx(found.imep * found.piston.swept / (4 * np.pi))
     highest = CYCLE.at(np.radians(rows)).max()
     assert found.pressure.highest().value == pytest.approx(highest, rel=1e-14)
 
@@ -255,16 +245,8 @@ WRONG = {
         np.where(BAR == 6.1, -0.2, BAR) * 1e5,
         [(8, "the absolute pressure is -0.2 bar: give 0 or more")],
     ),
-    "falling": (
-        np.where(ROWS == 7, -5, ROWS),
-        BAR,
-        [(5, "the angle -5° does not exceed the 0° before it")],
-    ),
-    "too long": (
-        np.arange(0, 760, 20),
-        np.ones(38),
-        [(None, "covers 740°; a cycle of 4 strokes has 720°")],
-    ),
+    "falling": (np.where(ROWS == 7, -5, ROWS), BAR, [(5, "the angle -5° does not exceed the 0° before it")]),
+    "too long": (np.arange(0, 760, 20), np.ones(38), [(None, "covers 740°; a cycle of 4 strokes has 720°")]),
     "gap": (
         np.delete(np.arange(0, 720, 20), [4, 5]),
         np.ones(34),
@@ -290,9 +272,7 @@ def test_mistakes_of_a_diagram(case):
 
 # ---------------------------------------------------------------- builders' tables
 def test_a_table_of_tangential_pressures():
-    given = tangential_torque(
-        [0, 0.5, 1, 4], [2e5, 1e5, -3e4, 0], [7.0, 2e5, 1e4, 5e3], area=0.005, radius=0.04
-    )
+    given = tangential_torque([0, 0.5, 1, 4], [2e5, 1e5, -3e4, 0], [7.0, 2e5, 1e4, 5e3], area=0.005, radius=0.04)
     assert given.harmonics([0, 1, 2, 3, 8]) == pytest.approx(
         0.005 * 0.04 * np.array([2e5, 1e5 - 2e5j, -3e4 - 1e4j, 0, -5e3j])
     )
@@ -302,9 +282,7 @@ def test_a_table_of_tangential_pressures():
     np.testing.assert_allclose(given.at(angle), 2e-4 * table, rtol=1e-12)
     assert given.work == pytest.approx(2e-4 * 2e5 * 4 * np.pi)
     assert given.curve.integral == pytest.approx(given.work)
-    np.testing.assert_allclose(
-        given.curve.harmonics(np.arange(9)), given.harmonics(np.arange(9)), atol=1e-12
-    )
+    np.testing.assert_allclose(given.curve.harmonics(np.arange(9)), given.harmonics(np.arange(9)), atol=1e-12)
 
 
 @pytest.mark.parametrize(

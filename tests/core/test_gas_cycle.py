@@ -103,9 +103,7 @@ PISTON = slider_crank_piston(*LENGTHS)
 
 
 def cycle_of(burn, name, value, **given):
-    return gas_cycle(
-        PISTON, Process(**({"compression_ratio": 10.0} | given)), burn, Goal(name, value)
-    )
+    return gas_cycle(PISTON, Process(**({"compression_ratio": 10.0} | given)), burn, Goal(name, value))
 
 
 def test_pressures_of_an_otto_cycle():
@@ -217,10 +215,7 @@ def test_a_process_that_cannot_be_is_refused_by_the_name_of_the_value(burn, proc
 @pytest.mark.parametrize(
     ("burn", "told"),
     [
-        (
-            Wiebe(10, 120),
-            "burn_duration: a burn over 120° from 10° ends at 130°, past 110°, where the exhaust opens",
-        ),
+        (Wiebe(10, 120), "burn_duration: a burn over 120° from 10° ends at 130°, past 110°, where the exhaust opens"),
         (Wiebe(-130, 100), "burn_start: is -130°, before -120°, where compression begins"),
         (Wiebe(-10, 0), "burn_duration: is 0°: give more than 0°"),
         (Wiebe(-10, 50, -0.5), "burn_shape: is -0.5: give 0 or more"),
@@ -239,28 +234,13 @@ def test_a_limit_that_compression_alone_exceeds():
 @pytest.mark.parametrize(
     ("burn", "goal", "value", "told"),
     [
-        (
-            Diesel(),
-            "max_pressure",
-            60e5,
-            "does not make the diesel cycle: give imep, heat or cut_off",
-        ),
+        (Diesel(), "max_pressure", 60e5, "does not make the diesel cycle: give imep, heat or cut_off"),
         (Otto(), "cut_off", 2, "does not make the otto cycle: give imep, heat or max_pressure"),
         (Otto(), "imep", -1e5, "is -1 bar: with the least heat the cycle has 0.1075 bar"),
         (Diesel(), "imep", 40e5, "is 40 bar: with the most heat the cycle has 17.06 bar"),
         (Otto(), "max_pressure", 15e5, "is 15 bar, below the 20.89 bar of compression alone"),
-        (
-            Wiebe(-15, 50),
-            "max_pressure",
-            15e5,
-            "is 15 bar, below the 20.74 bar of compression alone",
-        ),
-        (
-            Wiebe(20, 50),
-            "max_pressure",
-            20e5,
-            "is 20 bar, below the 20.89 bar of compression alone",
-        ),
+        (Wiebe(-15, 50), "max_pressure", 15e5, "is 15 bar, below the 20.74 bar of compression alone"),
+        (Wiebe(20, 50), "max_pressure", 20e5, "is 20 bar, below the 20.89 bar of compression alone"),
         (Dual(60e5), "heat", 100.0, "is 100: this cycle needs 811.3 or more"),
         (Otto(), "heat", -1.0, "is -1: this cycle needs 0 or more"),
         (Diesel(), "cut_off", 0.5, "is 0.5: this cycle needs 1 or more"),

@@ -25,9 +25,7 @@ def conditioned(seed: int, readings: int, unknowns: int, condition: float) -> np
 def exact(matrix, target, weights=None) -> np.ndarray:
     """The least squares in fifty digits: by the normal equations of a matrix of full rank."""
     with mpmath.workdps(50):
-        scale = mpmath.diag(
-            [mpmath.mpf(w) for w in (np.ones(len(target)) if weights is None else weights)]
-        )
+        scale = mpmath.diag([mpmath.mpf(w) for w in (np.ones(len(target)) if weights is None else weights)])
         a, b = scale * mpmath.matrix(matrix.tolist()), scale * mpmath.matrix(target.tolist())
         x = mpmath.lu_solve(a.H * a, a.H * b)
         return np.array([complex(v) for v in x])
@@ -35,9 +33,7 @@ def exact(matrix, target, weights=None) -> np.ndarray:
 
 def residual_in_fifty_digits(matrix, x, target) -> np.ndarray:
     with mpmath.workdps(50):
-        left = mpmath.matrix(target.tolist()) - mpmath.matrix(matrix.tolist()) * mpmath.matrix(
-            x.tolist()
-        )
+        left = mpmath.matrix(target.tolist()) - mpmath.matrix(matrix.tolist()) * mpmath.matrix(x.tolist())
         return np.array([complex(v) for v in left])
 
 

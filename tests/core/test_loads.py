@@ -36,9 +36,7 @@ def test_every_order_has_a_bound_of_its_rounding(name, along):
     """Real, and not below the rounding of what is there; about a far point that of the arms too."""
     parts = ENGINES[name]
     built = engine(
-        **parts,
-        crank={"stroke": 100, "throws": [0], "positions": [100]},
-        frame={"reference": [20, 30, along]},
+        **parts, crank={"stroke": 100, "throws": [0], "positions": [100]}, frame={"reference": [20, 30, along]}
     )
     found = compute_spectra(built, np.arange(0.0, 9.0), QUANTITIES)
     for quantity in QUANTITIES:
@@ -57,8 +55,7 @@ def test_what_balances_does_so_about_any_point():
     """
     for reference in ([0, 0, 1e6], [3e5, -2e5, 250], [0, 0, -250]):
         six = engine(
-            crank={"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100},
-            frame={"reference": reference},
+            crank={"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100}, frame={"reference": reference}
         )
         found = compute_spectra(six, np.arange(1.0, 6.0), ("force", "moment"))
         assert found.force.balanced.all()
@@ -70,8 +67,7 @@ def test_each_cylinder_has_its_own_crank_angle():
     for variants side by side.
     """
     text = engine_text(
-        crank="stroke = 100\nthrows = [0, 100]\nsplay = 10",
-        layout="banks = [-20, 50]\nnumbering = [[4, 2], [3, 1]]",
+        crank="stroke = 100\nthrows = [0, 100]\nsplay = 10", layout="banks = [-20, 50]\nnumbering = [[4, 2], [3, 1]]"
     )
     built = build_text(text)
     assert dict(zip(built.numbers, built.cylinders.angle_deg, strict=True)) == pytest.approx(
@@ -121,35 +117,27 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
         for quantity, single in compute_spectra(build(file, values), LOW, QUANTITIES).items():
             found = together[quantity.name]
             for name in ("forward", "backward", "noise"):
-                whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[
-                    (slice(None), *place)
-                ]
+                whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[(slice(None), *place)]
                 error = np.abs(whole - getattr(single, name))
-                assert np.all(
-                    error <= (0.01 * single.noise if name == "noise" else single.noise)
-                ), (quantity, name, place)
+                assert np.all(error <= (0.01 * single.noise if name == "noise" else single.noise)), (
+                    quantity,
+                    name,
+                    place,
+                )
 
 
-@pytest.mark.parametrize(
-    "ripple", ["", "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"]
-)
+@pytest.mark.parametrize("ripple", ["", "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"])
 def test_an_engine_does_what_its_cylinders_do(ripple):
     """Unlike cylinders: the sum of what each does alone, with a bound no smaller than that of any
     of them.
     """
-    text = (
-        VEE
-        + ripple
-        + "\n[cylinder.2]\npiston_mass = 3\nrod_length = 170\n[cylinder.5]\npiston_offset = 9\n"
-    )
+    text = VEE + ripple + "\n[cylinder.2]\npiston_mass = 3\nrod_length = 170\n[cylinder.5]\npiston_offset = 9\n"
     built = build_text(text)
     parts = [compute_spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
     for quantity, whole in compute_spectra(built, LOW, QUANTITIES).items():
         each = [part[quantity.name] for part in parts]
         assert np.all(np.abs(sum(p.forward for p in each) - whole.forward) <= whole.noise), quantity
-        assert np.all(np.abs(sum(p.backward for p in each) - whole.backward) <= whole.noise), (
-            quantity
-        )
+        assert np.all(np.abs(sum(p.backward for p in each) - whole.backward) <= whole.noise), quantity
         assert np.all(max(p.noise.max() for p in each) <= whole.noise.max()), quantity
 
 
@@ -175,20 +163,14 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
     built = engine(**ENGINES[name])
     c = built.cylinders
     few, which = c.linkage.find_distinct_harmonics(LOW, c.lam, c.eps, SERIES)
-    exact = few.select_cylinders(which)._replace(
-        piston=Series(0 * few.select_cylinders(which).piston.c)
-    )
+    exact = few.select_cylinders(which)._replace(piston=Series(0 * few.select_cylinders(which).piston.c))
     for turn in (1, -1, 1j, -1j):
         curve = exact.curve._replace(
-            along=Series(exact.curve.along.c, size * np.ones(1)),
-            across=Series(exact.curve.across.c, 3 * size),
+            along=Series(exact.curve.along.c, size * np.ones(1)), across=Series(exact.curve.across.c, 3 * size)
         )
-        off = curve._replace(
-            along=Series(curve.along.c + size), across=Series(curve.across.c + 3 * turn * size)
-        )
+        off = curve._replace(along=Series(curve.along.c + size), across=Series(curve.across.c + 3 * turn * size))
         here, there = (
-            Loads(c, (), 0j, 0.0, Phases(c, LOW), exact._replace(curve=it), 1.0).force
-            for it in (curve, off)
+            Loads(c, (), 0j, 0.0, Phases(c, LOW), exact._replace(curve=it), 1.0).force for it in (curve, off)
         )
         assert np.all(here.noise >= EPS * here.major)
         assert np.all(np.abs(there.forward - here.forward) <= here.noise)

@@ -29,9 +29,7 @@ def random_curves(orders, count: int, seed: int = 3) -> Phasors:
 
 
 @pytest.mark.parametrize(
-    "orders",
-    [[1, 2, 4, 6], [0, 1, 2], [3, 6, 12, 18], [0.5, 1, 1.5, 3], [7], range(1, 40), [0]],
-    ids=str,
+    "orders", [[1, 2, 4, 6], [0, 1, 2], [3, 6, 12, 18], [0.5, 1, 1.5, 3], [7], range(1, 40), [0]], ids=str
 )
 def test_against_a_dense_grid_and_the_peak_of_each_alone(orders):
     many = random_curves([*orders], 25)

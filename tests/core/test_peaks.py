@@ -14,12 +14,7 @@ RELATIVE = 1e-14
 def curve(*terms: tuple[float, complex, complex]) -> Phasors:
     """Phasors of (order, forward, backward)."""
     orders, forward, backward = zip(*terms, strict=True)
-    return Phasors.of(
-        np.array(orders, float),
-        np.array(forward, complex),
-        np.array(backward, complex),
-        np.zeros(1),
-    )
+    return Phasors.of(np.array(orders, float), np.array(forward, complex), np.array(backward, complex), np.zeros(1))
 
 
 def test_nothing_has_no_peak():
@@ -112,18 +107,14 @@ def test_a_narrow_peak_between_samples():
     itself.
     """
     orders, at = np.arange(1, 41), 1.2345678
-    found = find_peak(
-        curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders])
-    )
+    found = find_peak(curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders]))
     assert found.value == pytest.approx(40, rel=RELATIVE)
     assert found.theta == pytest.approx(at, abs=1e-9)
 
 
 def test_the_highest_of_hundreds():
     """cos 100 t + 0.01 cos t: two hundred peaks, all within 2 %."""
-    assert find_peak(curve((1, 0.005, 0.005), (100, 0.5, 0.5))).value == pytest.approx(
-        1.01, rel=RELATIVE
-    )
+    assert find_peak(curve((1, 0.005, 0.005), (100, 0.5, 0.5))).value == pytest.approx(1.01, rel=RELATIVE)
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -140,8 +131,7 @@ def test_random_curves_against_many_samples(seed):
     there = np.exp(1j * orders * found.theta)
     rate = np.sum(1j * orders * (phasors.forward * there - phasors.backward / there))
     assert (
-        abs((np.conj(phasors.values(found.theta)) * rate).real)
-        <= 1e-13 * orders[-1] * found.value**2
+        abs((np.conj(phasors.values(found.theta)) * rate).real) <= 1e-13 * orders[-1] * found.value**2
     )  # level to rounding
 
 
@@ -149,12 +139,7 @@ def test_of_equal_peaks_the_first_counts():
     """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not
     choose.
     """
-    for turned, first in (
-        (1, 0.0),
-        (1j, 30.0),
-        (1 - 1e-13j, 0.0),
-        (1 + 1e-13j, 0.0),
-    ):  # the last a whole turn, nearly
+    for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0), (1 + 1e-13j, 0.0)):  # the last a whole turn, nearly
         half = np.array([turned / 2])
         found = find_peak(Phasors.of(np.array([3.0]), half, np.conj(half), np.zeros(1)))
         assert found.value == pytest.approx(1, rel=1e-14)
@@ -166,11 +151,7 @@ def test_more_near_maxima_than_are_climbed(order):
     """Two neighbouring orders against each other, and a little of a first that says which of their
     maxima, hundreds within 8 % of the top, is the highest: its sample is none of the highest 64.
     """
-    many = curve(
-        (1, 0.0242 * np.exp(0.7j), 0),
-        (order - 1, 0, np.exp(1.7453j)),
-        (order, np.exp(0.2967j), 0),
-    )
+    many = curve((1, 0.0242 * np.exp(0.7j), 0), (order - 1, 0, np.exp(1.7453j)), (order, np.exp(0.2967j), 0))
     found = find_peak(many)
     theta = np.linspace(0, 2 * np.pi, 400 * order, endpoint=False)
     dense = max(np.abs(many.values(part)).max() for part in np.array_split(theta, 100))

@@ -12,15 +12,7 @@ from balcli.core.phasors import EPS, Phasors, unit, wrap_degrees
 
 RELATIVE = 4 * EPS
 THETA = np.linspace(0, 2 * np.pi, 7201)
-VECTORS = [
-    (3 + 4j, 1 - 2j),
-    (1 + 0j, 1 + 0j),
-    (1j, -1j),
-    (2, 0.5j),
-    (-0.3 + 0.1j, 2 - 1j),
-    (1e-3, 5),
-    (2 + 2j, 2 - 2j),
-]
+VECTORS = [(3 + 4j, 1 - 2j), (1 + 0j, 1 + 0j), (1j, -1j), (2, 0.5j), (-0.3 + 0.1j, 2 - 1j), (1e-3, 5), (2 + 2j, 2 - 2j)]
 
 
 def one(forward: complex, backward: complex, order: float = 2, noise: float = 0.0) -> Phasors:
@@ -61,9 +53,7 @@ def test_roots_of_unity_sum_to_zero_where_they_stand_on_the_table():
 def test_ellipse_against_the_curve(forward, backward, order):
     """Longest and shortest distance from the centre, and where the longest one points."""
     phasors = one(forward, backward, order)
-    curve = np.array(
-        [forward * cmath.exp(1j * order * t) + backward * cmath.exp(-1j * order * t) for t in THETA]
-    )
+    curve = np.array([forward * cmath.exp(1j * order * t) + backward * cmath.exp(-1j * order * t) for t in THETA])
     assert phasors.values(THETA) == pytest.approx(curve, abs=1e-12)
     size = np.abs(curve)
     assert phasors.major[0] == pytest.approx(size.max(), rel=1e-5)
@@ -93,24 +83,18 @@ def test_axis_lies_above_minus_90_up_to_90(forward, backward, axis):
 
 @pytest.mark.parametrize("slip", [-1e-15, -1e-16, 0, 1e-16, 1e-15])
 def test_an_axis_across_is_at_90_degrees_whatever_the_rounding(slip):
-    assert one(cmath.exp(1j * (math.pi / 3 + slip)), cmath.exp(2j * math.pi / 3)).axis_deg[
-        0
-    ] == pytest.approx(90, abs=1e-9)
-    assert one(cmath.exp(-1j * (math.pi / 3 + slip)), cmath.exp(-2j * math.pi / 3)).axis_deg[
-        0
-    ] == pytest.approx(90, abs=1e-9)
+    assert one(cmath.exp(1j * (math.pi / 3 + slip)), cmath.exp(2j * math.pi / 3)).axis_deg[0] == pytest.approx(
+        90, abs=1e-9
+    )
+    assert one(cmath.exp(-1j * (math.pi / 3 + slip)), cmath.exp(-2j * math.pi / 3)).axis_deg[0] == pytest.approx(
+        90, abs=1e-9
+    )
 
 
 @pytest.mark.parametrize("turn", [180, 360])
 def test_a_direction_is_reduced_to_half_a_turn_either_way(turn):
     barely = math.nextafter(turn / 2, math.inf)  # its remainder rounds to a whole turn
-    assert list(wrap_degrees([barely, -turn / 2, 1.5 * turn, 0, turn], turn)) == [
-        turn / 2,
-        turn / 2,
-        turn / 2,
-        0,
-        0,
-    ]
+    assert list(wrap_degrees([barely, -turn / 2, 1.5 * turn, 0, turn], turn)) == [turn / 2, turn / 2, turn / 2, 0, 0]
 
 
 @pytest.mark.parametrize(("forward", "backward"), [(1, 0), (0, 1j), (0, 0)])
@@ -155,9 +139,7 @@ def test_sums_scales_and_turns_are_those_of_the_curve():
     assert (a - b).values(THETA) == pytest.approx(a.values(THETA) - b.values(THETA), abs=1e-13)
     assert (2j * a).values(THETA) == pytest.approx(2j * a.values(THETA), abs=1e-13)
     assert np.array_equal((np.array([2.0]) * a).forward, 2 * a.forward)
-    assert [float(p.noise[0]) for p in (a + b, a - b, 2j * a, -3.0 * a)] == pytest.approx(
-        [3e-3, 3e-3, 2e-3, 3e-3]
-    )
+    assert [float(p.noise[0]) for p in (a + b, a - b, 2j * a, -3.0 * a)] == pytest.approx([3e-3, 3e-3, 2e-3, 3e-3])
 
 
 @pytest.mark.parametrize("order", [0, 1, 3])
@@ -194,15 +176,8 @@ def test_at_takes_rows_in_any_order():
 
 def test_trailing_axes_are_variants():
     orders = np.array([0.0, 1.0])
-    many = Phasors.of(
-        orders,
-        np.arange(6.0).reshape(2, 3) + 1j,
-        np.array([[0, 0, 0], [1, 2j, 3]]),
-        np.zeros((2, 1)),
-    )
+    many = Phasors.of(orders, np.arange(6.0).reshape(2, 3) + 1j, np.array([[0, 0, 0], [1, 2j, 3]]), np.zeros((2, 1)))
     for k in range(3):
         single = Phasors.of(orders, many.forward[:, k], many.backward[:, k], np.zeros(2))
         for name in ("major", "minor", "axis_deg", "x", "y", "balanced"):
-            assert np.array_equal(
-                getattr(many, name)[:, k], getattr(single, name), equal_nan=name == "axis_deg"
-            ), name
+            assert np.array_equal(getattr(many, name)[:, k], getattr(single, name), equal_nan=name == "axis_deg"), name

@@ -7,13 +7,7 @@ import numpy as np
 import pytest
 
 from balcli.core import piecewise
-from balcli.core.piecewise import (
-    PiecewiseCurve,
-    gauss,
-    merged_breaks,
-    polyline,
-    resolved,
-)
+from balcli.core.piecewise import PiecewiseCurve, gauss, merged_breaks, polyline, resolved
 
 EPS = float(np.finfo(float).eps)
 RELATIVE = 1e-13
@@ -97,10 +91,7 @@ def test_many_pieces_have_few_terms_and_lose_nothing():
     curve = resolved(smooth, breaks)
     assert len(curve.series) == piecewise._FEW_TERMS
     np.testing.assert_allclose(
-        curve.harmonics(np.arange(25))[1:],
-        [2 * bessel(k) for k in range(1, 25)],
-        rtol=0,
-        atol=1e-14,
+        curve.harmonics(np.arange(25))[1:], [2 * bessel(k) for k in range(1, 25)], rtol=0, atol=1e-14
     )
 
 
@@ -166,9 +157,7 @@ def test_the_highest_value_is_sought_only_where_it_can_be(monkeypatch):
     curve = resolved(lambda x: np.exp(-20 * (x - 1.2) ** 2), [0, TURN])
     searched = []
     roots = piecewise._roots
-    monkeypatch.setattr(
-        piecewise, "_roots", lambda series: searched.append(series.shape[1]) or roots(series)
-    )
+    monkeypatch.setattr(piecewise, "_roots", lambda series: searched.append(series.shape[1]) or roots(series))
     assert curve.highest() == pytest.approx((1.2, 1.0), abs=1e-8)
     assert searched[0] <= 3 < 12 < curve.series.shape[1]
 
@@ -178,10 +167,7 @@ def test_reversals_are_changes_of_sign_jumps_included_and_rounding_errors_not():
     assert resolved(lambda x: np.cos(3 * x) + 1.01, [0, TURN]).reversals() == 0
     assert polyline([0, 1, 1, 2], [1, 1, -1, -1]).reversals() == 2
     noise = np.random.default_rng(2)
-    flat = resolved(
-        lambda x: np.where(x < np.pi, np.sin(x), 1e-13 * noise.uniform(-1, 1, x.shape)),
-        [0, np.pi, TURN],
-    )
+    flat = resolved(lambda x: np.where(x < np.pi, np.sin(x), 1e-13 * noise.uniform(-1, 1, x.shape)), [0, np.pi, TURN])
     assert flat.reversals() == 0
 
 
@@ -240,9 +226,7 @@ def test_a_breakpoint_is_itself_however_many_turns_off_and_however_rounded(turns
 def test_breakpoints_of_a_sum():
     a, b = np.array([-1.0, 0.0, 2.0, 3.0]), np.array([0.0, 1.0, 4.0])
     assert merged_breaks([(a, 0.0)], 4.0).tolist() == [0, 2, 3, 4]
-    assert merged_breaks([(a, 0.5), (b, 1e-13), (b, 3.0)], 4.0) == pytest.approx(
-        [0, 0.5, 1, 2.5, 3, 3.5, 4]
-    )
+    assert merged_breaks([(a, 0.5), (b, 1e-13), (b, 3.0)], 4.0) == pytest.approx([0, 0.5, 1, 2.5, 3, 3.5, 4])
 
 
 def test_nothing_but_rounding_errors_has_an_end():

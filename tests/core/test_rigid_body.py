@@ -227,9 +227,7 @@ def test_response_against_50_digits():
     for at in np.ndindex(3, 2):
         k, c = stiffness_matrix(BODY, mounts), damping_matrix(BODY, mounts)
         dynamic = k + 1j * w[at] * c - w[at] ** 2 * mass_matrix(BODY)
-        exact = high_precision.solve(
-            high_precision.to_matrix(dynamic), high_precision.to_matrix(load[at][:, None])
-        )
+        exact = high_precision.solve(high_precision.to_matrix(dynamic), high_precision.to_matrix(load[at][:, None]))
         assert response.motion[at] == pytest.approx(exact, rel=1e-11)
 
 
@@ -271,9 +269,7 @@ def test_soft_mounts_leave_a_free_body():
 
 def test_a_slow_load_is_a_static_one():
     mounts, load = mounts_of(3), random_load(8).real
-    assert respond_body(BODY, mounts, 0.0, load).forces == pytest.approx(
-        settle_body(BODY, mounts, load).forces
-    )
+    assert respond_body(BODY, mounts, 0.0, load).forces == pytest.approx(settle_body(BODY, mounts, load).forces)
 
 
 def test_one_speed_is_a_thousand():
@@ -287,9 +283,7 @@ def test_one_speed_is_a_thousand():
     assert one.forces == pytest.approx(many.forces[3, 9], rel=1e-12)
     assert largest_of_ellipse(many.forces).shape == (24, 240, 3)
     assert find_longest(orders, many.forces).value.shape == (240, 3)
-    assert np.array_equal(
-        press_mounts(BODY, mounts, frequencies(orders, speeds), many.motion), many.forces
-    )
+    assert np.array_equal(press_mounts(BODY, mounts, frequencies(orders, speeds), many.motion), many.forces)
 
 
 def test_undamped_resonance_is_an_error_with_its_frequency():

@@ -51,11 +51,7 @@ def polygons(rng: random.Random, divisors: list[int]) -> tuple[list[int], list[F
     """
     weights, angles = [], []
     for _ in range(rng.randint(1, 3)):
-        corners, weight, start = (
-            rng.choice(divisors),
-            rng.choice([-2, -1, 1, 2]),
-            Fraction(rng.randrange(120), 120),
-        )
+        corners, weight, start = (rng.choice(divisors), rng.choice([-2, -1, 1, 2]), Fraction(rng.randrange(120), 120))
         weights += [weight] * corners
         angles += [start + Fraction(k, corners) for k in range(corners)]
     if rng.random() < 0.5:
@@ -102,10 +98,7 @@ def test_what_floating_point_cannot_settle(k):
     fibonacci = [0, 1]
     while len(fibonacci) <= k:
         fibonacci.append(fibonacci[-1] + fibonacci[-2])
-    weights, angles = (
-        [-fibonacci[k], -fibonacci[k], fibonacci[k - 1]],
-        [Fraction(1, 5), Fraction(4, 5), Fraction(0)],
-    )
+    weights, angles = ([-fibonacci[k], -fibonacci[k], fibonacci[k - 1]], [Fraction(1, 5), Fraction(4, 5), Fraction(0)])
     numeric = abs(np.dot(np.array(weights, float), np.exp(2j * np.pi * np.array(angles, float))))
     assert numeric < 1e-15 * fibonacci[k] * 4
     assert not vanishes(weights, angles)
@@ -124,8 +117,7 @@ def test_denominators_whose_common_multiple_is_in_the_millions():
     assert not vanishes(weights, angles)
     assert vanishes(
         [1] * 7 + [-1] * 7,
-        [primes[0] + primes[1] + Fraction(k, 7) for k in range(7)]
-        + [Fraction(k, 7) for k in range(7)],
+        [primes[0] + primes[1] + Fraction(k, 7) for k in range(7)] + [Fraction(k, 7) for k in range(7)],
     )
 
 

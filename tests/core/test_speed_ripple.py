@@ -30,9 +30,7 @@ LINES = {
 ORDERS = np.arange(0.0, 15.0)
 RANDOM = np.random.default_rng(4)
 FORWARD, BACKWARD = (RANDOM.normal(size=(2, 15)) + 1j * RANDOM.normal(size=(2, 15))) * 0.5**ORDERS
-FORWARD, BACKWARD = (
-    np.where((ORDERS > 0) & (ORDERS <= 8), v, 0) for v in (FORWARD, BACKWARD)
-)  # then room for W^2
+FORWARD, BACKWARD = (np.where((ORDERS > 0) & (ORDERS <= 8), v, 0) for v in (FORWARD, BACKWARD))  # then room for W^2
 
 
 def speed(lines, theta):
@@ -43,13 +41,7 @@ def speed(lines, theta):
 def rate(function, theta):
     """Derivative by the sixth-order central difference."""
     weights = {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
-    return (
-        sum(
-            w * (function(theta + k * STEP) - function(theta - k * STEP))
-            for k, w in weights.items()
-        )
-        / STEP
-    )
+    return sum(w * (function(theta + k * STEP) - function(theta - k * STEP)) for k, w in weights.items()) / STEP
 
 
 def momentum(theta, backward=BACKWARD):
@@ -106,23 +98,15 @@ def test_torque(lines):
         return mean / 2 + integral(theta)
 
     want = -rate(lambda t: half_inertia(t) * speed(lines, t) ** 2, THETA)
-    found = ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean).values(
-        THETA
-    )
+    found = ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean).values(THETA)
     assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
     assert (
-        abs(ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean).forward[0])
-        < 1e-14
+        abs(ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean).forward[0]) < 1e-14
     )  # T has no mean
 
 
 @pytest.mark.parametrize(
-    "lines",
-    [
-        *LINES.values(),
-        [(1, 0.9, 0.0), (2, 0.4, 180.0)],
-        [(3, 0.7, 10.0), (256, 0.6, -50.0), (4, -0.4, 0.0)],
-    ],
+    "lines", [*LINES.values(), [(1, 0.9, 0.0), (2, 0.4, 180.0)], [(3, 0.7, 10.0), (256, 0.6, -50.0), (4, -0.4, 0.0)]]
 )
 def test_the_least_speed_is_that_of_a_dense_grid(lines):
     theta = np.linspace(0, 2 * np.pi, 400_001)
@@ -136,9 +120,7 @@ def test_the_least_speed_is_that_of_a_dense_grid(lines):
 def test_amplitudes_of_more_than_one_may_leave_the_crank_turning():
     """0.7 cos t + 0.4 cos 2t: where the first is -0.7 the second is +0.4."""
     lines = [{"order": 1, "amplitude": 0.7, "angle": 0}, {"order": 2, "amplitude": 0.4, "angle": 0}]
-    assert (
-        len(engine(operation={"speed": 60, "speed_ripple": lines}).ripple) == 2
-    )  # least: 0.4469 at 116 deg
+    assert len(engine(operation={"speed": 60, "speed_ripple": lines}).ripple) == 2  # least: 0.4469 at 116 deg
 
 
 @pytest.mark.parametrize(
@@ -146,10 +128,7 @@ def test_amplitudes_of_more_than_one_may_leave_the_crank_turning():
     [
         ([(2, 1.0, 0.0)], "stop: at crank angle 90 deg its speed is 0 of the mean"),
         ([(1, -1.0, 30.0)], "stop: at crank angle 30 deg its speed is 0 of the mean"),
-        (
-            [(1, 0.7, 0.0), (2, 0.4, 180.0)],
-            "turn back: at crank angle 180 deg its speed is -0.1 of the mean",
-        ),
+        ([(1, 0.7, 0.0), (2, 0.4, 180.0)], "turn back: at crank angle 180 deg its speed is -0.1 of the mean"),
     ],
 )
 def test_a_crank_that_stops_or_turns_back_is_refused(lines, what):
@@ -166,10 +145,7 @@ def test_a_crank_that_stops_is_told_with_the_other_mistakes():
         operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]},
     )
     assert "crank: positions" in said
-    said = refused(
-        rod={"ratio": 1.0 - 1e-9},
-        operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]},
-    )
+    said = refused(rod={"ratio": 1.0 - 1e-9}, operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]})
     assert "the crank cannot turn" in said
     assert "operation.speed_ripple: the crank would stop" in said
 
@@ -205,10 +181,7 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
     """Errors of the size that the parts' noise tells, with signs as they come, move no order by
     more than the bound; and the bound knows of lines no more than their sizes.
     """
-    w, level = (
-        ripple.find_speed(lines),
-        ripple.find_speed([(order, size, 0.0) for order, size, _ in lines]),
-    )
+    w, level = (ripple.find_speed(lines), ripple.find_speed([(order, size, 0.0) for order, size, _ in lines]))
     random = np.random.default_rng(7)
     for rule in (ripple.apply_to_force, ripple.apply_to_torque):
         backward = np.conj(FORWARD) if rule is ripple.apply_to_torque else BACKWARD
@@ -218,16 +191,10 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
             rule(Phasors.of(ORDERS, FORWARD, backward, noise), level, mean).noise, rel=1e-12, abs=0
         )
         for _ in range(20):
-            errors = [
-                noise * np.where(ORDERS > 0, np.exp(2j * np.pi * random.random(15)), 0)
-                for _ in range(2)
-            ]
+            errors = [noise * np.where(ORDERS > 0, np.exp(2j * np.pi * random.random(15)), 0) for _ in range(2)]
             if rule is ripple.apply_to_torque:
                 errors[1] = np.conj(errors[0])
-            moved = (
-                rule(Phasors.of(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean)
-                - found
-            )
+            moved = rule(Phasors.of(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean) - found
             assert np.all(np.abs(moved.forward) <= found.noise + 1e-13)
             assert np.all(np.abs(moved.backward) <= found.noise + 1e-13)
 
@@ -262,17 +229,12 @@ def test_at_steady_speed_nothing_changes_not_even_the_bound():
 def test_variants_side_by_side_are_what_each_is_alone():
     """Trailing axes, as sweeps have them, of the series and of the mean."""
     w = ripple.find_speed(LINES["two"])[:, None, None]
-    scales, means = (
-        np.array([[1.0, -2.0, 0.5], [3.0, 1.5, 7.0]]),
-        np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]]),
-    )
+    scales, means = (np.array([[1.0, -2.0, 0.5], [3.0, 1.5, 7.0]]), np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]]))
     many = [v[:, None, None] * scales for v in (FORWARD, BACKWARD)]
     whole = ripple.apply_to_force(Phasors.of(ORDERS, *many, np.zeros(1)), w, means)
     for i, j in np.ndindex(scales.shape):
         one = ripple.apply_to_force(
-            Phasors.of(ORDERS, FORWARD * scales[i, j], BACKWARD * scales[i, j], np.zeros(1)),
-            w[:, 0, 0],
-            means[i, j],
+            Phasors.of(ORDERS, FORWARD * scales[i, j], BACKWARD * scales[i, j], np.zeros(1)), w[:, 0, 0], means[i, j]
         )
         assert whole.forward[:, i, j] == pytest.approx(one.forward, rel=1e-14)
         assert whole.backward[:, i, j] == pytest.approx(one.backward, rel=1e-14)
@@ -316,11 +278,7 @@ def test_orders_of_the_speed_are_halves_of_whole_numbers():
 
 @pytest.mark.parametrize(
     ("lines", "step"),
-    [
-        ([(2, 0.2, 30.0), (1, 0.05, 0.0)], 1.0),
-        ([(0.5, 0.1, -70.0), (2, 0.2, 30.0)], 0.5),
-        ([(1, 0.6, 200.0)], 0.5),
-    ],
+    [([(2, 0.2, 30.0), (1, 0.05, 0.0)], 1.0), ([(0.5, 0.1, -70.0), (2, 0.2, 30.0)], 0.5), ([(1, 0.6, 200.0)], 0.5)],
 )
 def test_orders_of_the_time(lines, step):
     """Phasors of a curve over equal steps of time: mean, halves where there are some, in both

@@ -7,14 +7,7 @@ import numpy as np
 import pytest
 
 from balcli.core.piecewise import polyline, resolved
-from balcli.core.speed_variation import (
-    StallError,
-    energy,
-    needed_inertia,
-    small_fluctuation,
-    speed_variation,
-    surplus,
-)
+from balcli.core.speed_variation import StallError, energy, needed_inertia, small_fluctuation, speed_variation, surplus
 
 TURN = 2 * np.pi
 MEAN = 30.0  # rad/s
@@ -46,12 +39,7 @@ def test_surplus_is_no_single_loop_and_no_work_of_a_cycle():
     """Two loops of 2 and 3 with a dip of 1 between them make 4, not 3 and not the sum of gains."""
     loops = polyline([0, 1, 1, 2, 2, 3, 3, 5], [2, 2, -1, -1, 3, 3, -2, -2])
     found = surplus(loops)
-    assert found == (
-        pytest.approx(4),
-        pytest.approx(0),
-        pytest.approx(3),
-        pytest.approx(0, abs=1e-15),
-    )
+    assert found == (pytest.approx(4), pytest.approx(0), pytest.approx(3), pytest.approx(0, abs=1e-15))
 
 
 def test_of_equal_extremes_the_first():
@@ -151,9 +139,7 @@ def test_moving_parts_are_part_of_it():
 
 
 def test_moving_parts_that_do_better_alone():
-    assert needed_inertia(TORQUE, MEAN, 0.1, 50.0) == pytest.approx(
-        needed_inertia(TORQUE, MEAN, 0.1) - 50, rel=1e-10
-    )
+    assert needed_inertia(TORQUE, MEAN, 0.1, 50.0) == pytest.approx(needed_inertia(TORQUE, MEAN, 0.1) - 50, rel=1e-10)
     assert needed_inertia(TORQUE, MEAN, 0.1, 50.0) < 0
     assert needed_inertia(polyline([0, TURN], [9.0, 9.0]), MEAN, 0.1, 2.0) == pytest.approx(-2)
 
@@ -170,9 +156,7 @@ def test_a_shaft_stalls_where_it_is_slowest():
     with pytest.raises(StallError) as stalled:
         speed_variation(TORQUE, 0.5, MEAN)
     assert np.degrees(stalled.value.angle) == pytest.approx(334.8246, abs=1e-3)
-    assert str(stalled.value) == (
-        "the shaft stalls at 334.8°: with this inertia it needs a mean speed above 327.7 rpm"
-    )
+    assert str(stalled.value) == ("the shaft stalls at 334.8°: with this inertia it needs a mean speed above 327.7 rpm")
     barely = stalled.value.least * (1 + 1e-9)
     assert speed_variation(TORQUE, 0.5, barely).lowest.value < 0.01 * barely
 

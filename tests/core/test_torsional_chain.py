@@ -55,9 +55,7 @@ def test_rigid_motions_turn_at_the_ratios():
 
 
 def test_independent_angles():
-    chain = join_chain(
-        [1, 1, 1, 1], [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 7), ChainShaft(2, 3, 7)], [3]
-    )
+    chain = join_chain([1, 1, 1, 1], [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 7), ChainShaft(2, 3, 7)], [3])
     follow, independent = follow_gears(chain)
     assert independent.tolist() == [0, 2]
     assert follow.tolist() == [[1, 0], [-2, 0], [0, 1], [0, 0]]

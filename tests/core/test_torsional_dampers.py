@@ -7,12 +7,7 @@ import pytest
 from support.chains import no_damping
 
 from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
-from balcli.core.torsional_dampers import (
-    best_viscous_damping,
-    pendulum_inertia,
-    pendulum_swing,
-    viscous_inertia,
-)
+from balcli.core.torsional_dampers import best_viscous_damping, pendulum_inertia, pendulum_swing, viscous_inertia
 from balcli.core.torsional_response import respond_chain
 
 W = np.array([50.0, 300, 1000])
@@ -30,8 +25,7 @@ def at_first_node(inertia):
 def with_a_ring(inertia, stiffness, loss, dashpot):
     """The same chain with the damper as a fourth node on a shaft of its own."""
     chain = join_chain(
-        [0.1, 0.2, 2, inertia],
-        [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 3, stiffness)],
+        [0.1, 0.2, 2, inertia], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 3, stiffness)]
     )
     damping = Damping(np.array([0.02, 0.02, loss]), np.array([0, 0, dashpot]), np.zeros(4))
     return respond_chain(chain, damping, W, np.append(LOAD, 0))
@@ -89,9 +83,7 @@ def test_the_best_viscous_damper_magnifies_by_1_plus_2_over_its_ratio(ratio):
     def peak(damping):
         attached = np.zeros((len(w), 2), complex)
         attached[:, 1] = viscous_inertia(ratio, damping, w)
-        return abs(
-            respond_chain(chain, no_damping(chain), w, np.array([0, 1]), attached).angle[:, 1]
-        )
+        return abs(respond_chain(chain, no_damping(chain), w, np.array([0, 1]), attached).angle[:, 1])
 
     best = best_viscous_damping(ratio, ratio, 1.0)
     assert peak(best).max() == pytest.approx(1 + 2 / ratio, rel=1e-9)

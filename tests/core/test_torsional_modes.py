@@ -4,24 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.chains import (
-    KINDS,
-    chain_matrices,
-    chain_of,
-    exact_frequencies,
-    no_damping,
-    random_chain,
-    random_damping,
-)
+from support.chains import KINDS, chain_matrices, chain_of, exact_frequencies, no_damping, random_chain, random_damping
 
-from balcli.core.torsional_chain import (
-    ChainShaft,
-    Damping,
-    follow_gears,
-    incidence,
-    join_chain,
-    rigid_motions,
-)
+from balcli.core.torsional_chain import ChainShaft, Damping, follow_gears, incidence, join_chain, rigid_motions
 from balcli.core.torsional_modes import chain_loss, count_nodes, find_chain_modes, find_chain_poles
 from balcli.core.vibration import modal_loss, scale_shapes
 
@@ -40,12 +25,7 @@ def test_frequencies_against_50_digits(kind, seed, spread):
 
 def test_frequencies_that_spread_over_5e5():
     """Light inertias on stiff shafts and heavy ones on soft shafts, in one chain with a branch."""
-    shafts = [
-        ChainShaft(0, 1, 1e9),
-        ChainShaft(1, 2, 1e2),
-        ChainShaft(2, 3, 1e7, 4.0),
-        ChainShaft(1, 4, 3e3),
-    ]
+    shafts = [ChainShaft(0, 1, 1e9), ChainShaft(1, 2, 1e2), ChainShaft(2, 3, 1e7, 4.0), ChainShaft(1, 4, 3e3)]
     chain = join_chain([1e-4, 3e-3, 70, 2000, 5e2], shafts)
     found, exact = find_chain_modes(chain).omega, exact_frequencies(chain)
     assert exact[-1] > 5e5 * exact[1]
@@ -82,8 +62,7 @@ def test_modes_fit_the_matrices(kind):
 def test_rigid_gears_are_one_inertia(ratio):
     """A wheel on another is an inertia ratio^2 times its own."""
     geared = join_chain(
-        [0.2, 0.1, 0.3, 0.5],
-        [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, np.inf, ratio), ChainShaft(2, 3, 2e5)],
+        [0.2, 0.1, 0.3, 0.5], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, np.inf, ratio), ChainShaft(2, 3, 2e5)]
     )
     single = chain_of([0.2, 0.1 + 0.3 * ratio**2, 0.5 * ratio**2], [1e5, 2e5 * ratio**2])
     found, expected = find_chain_modes(geared), find_chain_modes(single)
@@ -106,9 +85,7 @@ def test_a_massless_node_moves_with_its_shafts():
     """Of two shafts in line the twist divides as their flexibilities; a dangling one does not
     count.
     """
-    chain = join_chain(
-        [2, 0, 3, 0], [ChainShaft(0, 1, 30), ChainShaft(1, 2, 60), ChainShaft(2, 3, 5)]
-    )
+    chain = join_chain([2, 0, 3, 0], [ChainShaft(0, 1, 30), ChainShaft(1, 2, 60), ChainShaft(2, 3, 5)])
     modes = find_chain_modes(chain)
     assert modes.omega == pytest.approx([0, np.sqrt(20 * (1 / 2 + 1 / 3))])
     left, middle, right, end = modes.shapes[1]
@@ -150,9 +127,7 @@ def test_loss_of_modes(kind):
     damping, modes = random_damping(chain, 6), find_chain_modes(chain)
     matrices = chain_matrices(chain, damping)
     _, independent = follow_gears(chain)
-    expected = modal_loss(
-        modes._replace(shapes=modes.shapes[:, independent]), matrices.stiffness, matrices.damping
-    )
+    expected = modal_loss(modes._replace(shapes=modes.shapes[:, independent]), matrices.stiffness, matrices.damping)
     assert chain_loss(chain, damping, modes) == pytest.approx(expected, rel=1e-10)
     assert np.all(expected[modes.rigid :] > 0)
     ring = np.zeros(len(chain.inertia), complex)
@@ -165,9 +140,7 @@ def test_poles_of_two_inertias_and_a_massless_node():
     """Loss, dashpot and massless node, by hand: `s^2 + (k (1 + i loss) + s c)(1/J1 + 1/J2) = 0`,
     springs of 2 k in series; a loss factor is meant for `Im s > 0` alone.
     """
-    chain = join_chain(
-        [2.0, 0.0, 3.0], [ChainShaft(0, 1, 2e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 2, 0.0)]
-    )
+    chain = join_chain([2.0, 0.0, 3.0], [ChainShaft(0, 1, 2e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 2, 0.0)])
     loss, oil = np.array([0.02, 0.02, 0.0]), np.array([0.0, 0.0, 5.0])
     poles = find_chain_poles(chain, Damping(loss, oil, np.zeros(3)))
     per_inertia = 1 / 2 + 1 / 3

@@ -18,16 +18,9 @@ from support.chains import (
 from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
 from balcli.core.torsional_modes import chain_loss, find_chain_modes
 from balcli.core.torsional_response import respond_chain
-from balcli.core.vibration import (
-    UndampedResonanceError,
-    find_resonances,
-    frequencies,
-    solve_response,
-)
+from balcli.core.vibration import UndampedResonanceError, find_resonances, frequencies, solve_response
 
-RESPONSE = (
-    1e-11  # relative error of every angle, and of torques against the largest; contract: 1e-10
-)
+RESPONSE = 1e-11  # relative error of every angle, and of torques against the largest; contract: 1e-10
 
 
 def compared(chain, damping, w, load, attached=0.0):
@@ -37,9 +30,7 @@ def compared(chain, damping, w, load, attached=0.0):
         here = np.broadcast_to(attached, (*w.shape, len(chain.inertia)))[at]
         angle, torque = exact_response(chain, damping, w[at], load[at], here)
         assert twist.angle[at] == pytest.approx(angle, rel=RESPONSE, abs=0)
-        assert twist.torque[at] == pytest.approx(
-            torque, rel=RESPONSE, abs=RESPONSE * biggest(torque)
-        )
+        assert twist.torque[at] == pytest.approx(torque, rel=RESPONSE, abs=RESPONSE * biggest(torque))
     return twist
 
 
@@ -116,20 +107,14 @@ def test_dense_equations_agree_with_the_tree():
     damping, w = random_damping(chain, 3), frequencies([0.5, 1, 6], [100.0, 200])
     load = random_load(chain, 9, 3, 1)
     matrices = chain_matrices(chain, damping)
-    motion = solve_response(
-        matrices.stiffness, matrices.damping, matrices.mass, w, load @ matrices.follow
-    )
+    motion = solve_response(matrices.stiffness, matrices.damping, matrices.mass, w, load @ matrices.follow)
     angle = respond_chain(chain, damping, w, load).angle
     assert angle == pytest.approx(motion @ matrices.follow.T, rel=1e-9)
 
 
 def test_one_speed_is_a_thousand():
     chain = random_chain("plain", 1)
-    damping, orders, speeds = (
-        random_damping(chain, 1),
-        np.arange(1, 25) / 2,
-        np.linspace(50, 300, 40),
-    )
+    damping, orders, speeds = (random_damping(chain, 1), np.arange(1, 25) / 2, np.linspace(50, 300, 40))
     load = random_load(chain, 1, 24, 1)
     many = respond_chain(chain, damping, frequencies(orders, speeds), load)
     nodes = len(chain.inertia)
@@ -198,10 +183,7 @@ def test_resonances_between_the_speeds_are_found():
     modes = find_chain_modes(chain)
     loss = chain_loss(chain, no_damping(chain), modes)
     found = find_resonances(modes, loss, np.array([1.0]), np.array([2.0, 4]), np.array([0, 1, 3]))
-    assert [(r.mode, r.speed) for r in found] == [
-        (1, pytest.approx(5**0.5)),
-        (2, pytest.approx(10**0.5)),
-    ]
+    assert [(r.mode, r.speed) for r in found] == [(1, pytest.approx(5**0.5)), (2, pytest.approx(10**0.5))]
 
 
 def test_nodes_held_at_both_ends_of_a_shaft():

@@ -26,11 +26,7 @@ def random_system(seed, springs, dof, spread):
     """Springs, stiffness and diagonal mass over `spread` powers of ten either way."""
     rng = np.random.default_rng(seed)
     rows = np.eye(springs, dof) - np.eye(springs, dof, 1) * rng.uniform(0.5, 2, (springs, 1))
-    return (
-        rows,
-        10 ** rng.uniform(-spread, spread, springs),
-        10 ** rng.uniform(-spread, spread, dof),
-    )
+    return (rows, 10 ** rng.uniform(-spread, spread, springs), 10 ** rng.uniform(-spread, spread, dof))
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -105,9 +101,7 @@ def test_response_against_50_digits():
     motion = solve_response(k, c, m, w, load)
     for at in np.ndindex(3, 2):
         dynamic = k + 1j * w[at] * c - w[at] ** 2 * m
-        exact = high_precision.solve(
-            high_precision.to_matrix(dynamic), high_precision.to_matrix(load[at][:, None])
-        )
+        exact = high_precision.solve(high_precision.to_matrix(dynamic), high_precision.to_matrix(load[at][:, None]))
         assert motion[at] == pytest.approx(exact, rel=1e-12)
 
 
@@ -141,9 +135,7 @@ def twins():
 
 
 def test_an_undamped_resonance_is_an_error_with_its_frequency():
-    with pytest.raises(
-        UndampedResonanceError, match=r"^undamped resonance at 2\.23607 rad/s$"
-    ) as at:
+    with pytest.raises(UndampedResonanceError, match=r"^undamped resonance at 2\.23607 rad/s$") as at:
         solve_response(*twins(), np.array([1, np.sqrt(5)]), np.array([1, 0]))
     assert at.value.frequency == pytest.approx(np.sqrt(5))
 
@@ -161,9 +153,7 @@ def test_one_undamped_mode_among_damped_ones():
     exact = np.array([[4.0, -4], [-4, 4]])
     with pytest.raises(UndampedResonanceError):
         solve_response(exact, c, m, np.sqrt(8) * np.ones(1), np.array([1, 0]))
-    assert solve_response(k, c, m, 2.0, np.array([1, 1])) == pytest.approx(
-        np.full(2, 1 / (3 - 4 + 4j)), rel=1e-12
-    )
+    assert solve_response(k, c, m, 2.0, np.array([1, 1])) == pytest.approx(np.full(2, 1 / (3 - 4 + 4j)), rel=1e-12)
 
 
 def test_singular_equations_with_a_solution_have_their_least():
@@ -222,7 +212,5 @@ def test_what_rounding_leaves_of_a_shape_is_not_driven():
     """
     shapes = np.array([[1.0, 1e-16], [-1e-16, 0.1]])
     modes = twin_modes()._replace(omega=np.array([1.0, 1.5]), shapes=shapes)
-    found = find_resonances(
-        modes, np.zeros(2), np.array([1.0]), np.array([0.8, 2]), np.array([0, 1])
-    )
+    found = find_resonances(modes, np.zeros(2), np.array([1.0]), np.array([0.8, 2]), np.array([0, 1]))
     assert [r.mode for r in found] == [1]

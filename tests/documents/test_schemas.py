@@ -163,11 +163,7 @@ def test_a_bench() -> None:
     """Of a document as `bench` prints it: running it takes seconds."""
     row = {"task": "a", "method": "b", "seconds": 1e-3, "error": None}
     ratios = [{"what": "a / b", "value": 2.0}]
-    check(
-        json.dumps(
-            {"format": "balcli.bench/1", "version": __version__, "rows": [row], "ratios": ratios}
-        )
-    )
+    check(json.dumps({"format": "balcli.bench/1", "version": __version__, "rows": [row], "ratios": ratios}))
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
@@ -182,20 +178,14 @@ def test_the_command_prints_the_schema_with_its_address_and_units(name: str) -> 
 
 def test_units_come_from_the_names() -> None:
     node = describe_document("torsion")["$defs"]
-    shown = {
-        key: field.get("description", "")
-        for part in node.values()
-        for key, field in part["properties"].items()
-    }
+    shown = {key: field.get("description", "") for part in node.values() for key, field in part["properties"].items()}
     assert shown["inertia_kg_m2"] == "[kg·m²]"
     assert shown["stiffness_Nm_per_rad"] == "[N·m/rad]"
     assert shown["node_in"] == ""
 
 
 def test_a_result_that_there_is_not() -> None:
-    assert refusal("schema", "--of", "serach") == (
-        "--of serach: there is no such result; did you mean search?"
-    )
+    assert refusal("schema", "--of", "serach") == ("--of serach: there is no such result; did you mean search?")
     assert refusal("schema", "--of", "zzz").startswith(
         "--of zzz: there is no such result; there are analysis, balance, "
     )

@@ -64,19 +64,12 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
         (
             [("[articulation]", "[articulation]\nknuckle_angles = [0, 72]")],
             "",
-            "articulation.knuckle_angles: has 2 angles for 7 banks: give one for each, the "
-            "master's own is 0",
+            "articulation.knuckle_angles: has 2 angles for 7 banks: give one for each, the master's own is 0",
         ),
         (
-            [
-                (
-                    "[articulation]",
-                    "[articulation]\nknuckle_angles = [3, 50, 100, 150, 200, 250, 300]",
-                )
-            ],
+            [("[articulation]", "[articulation]\nknuckle_angles = [3, 50, 100, 150, 200, 250, 300]")],
             "",
-            "articulation.knuckle_angles: has 3 for bank 1, which carries the master rod: its own "
-            "is 0",
+            "articulation.knuckle_angles: has 3 for bank 1, which carries the master rod: its own is 0",
         ),
         (
             [("stroke = 120", "stroke = 120\nsplay = 10")],
@@ -98,13 +91,10 @@ def test_what_does_not_fit_together(changes, more, message):
 
 def test_the_masters_own_knuckle_angle_does_not_vary():
     file = enginefile.parse(
-        RADIAL.replace(
-            "[articulation]", "[articulation]\nknuckle_angles = [0, 50, 100, 150, 200, 250, 300]"
-        )
+        RADIAL.replace("[articulation]", "[articulation]\nknuckle_angles = [0, 50, 100, 150, 200, 250, 300]")
     )
     with pytest.raises(
-        InputError,
-        match="knuckle_angles: has -2 for bank 1, which carries the master rod: its own is 0",
+        InputError, match="knuckle_angles: has -2 for bank 1, which carries the master rod: its own is 0"
     ):
         engine.build(file, {"articulation.knuckle_angles.1": np.array([0.0, -2.0])})
 
@@ -116,9 +106,7 @@ def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
     degrees = np.arange(0, 360, 0.25)
     theta, bank = np.radians(degrees), math.radians(720 / 7)
     lean = np.arcsin(60 / 240 * np.sin(theta))
-    beside = np.abs(
-        ((60 * np.exp(1j * theta) + 52 * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)).imag
-    )
+    beside = np.abs(((60 * np.exp(1j * theta) + 52 * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)).imag)
     first, *rest = mistakes(("length = 188", "length = 60"), ("cg = 90", "cg = 30"))
     found = re.fullmatch(
         r"articulation\.rod\.length: the crank cannot turn: at crank angle ([\d.]+) deg the "
@@ -140,9 +128,7 @@ def test_one_cylinder_with_too_short_a_rod_of_its_own():
 
 
 @pytest.mark.parametrize(("length", "looked_at"), [(188, 0), (120, 3), (110, 9)])
-def test_only_variants_that_might_lock_are_looked_at_all_the_way_round(
-    monkeypatch, length, looked_at
-):
+def test_only_variants_that_might_lock_are_looked_at_all_the_way_round(monkeypatch, length, looked_at):
     """9 knuckle radii; a pin is at most a crank radius (60 mm) and a knuckle radius away."""
     seen = 0
     move = Articulated.move
@@ -167,9 +153,7 @@ def test_strokes_and_dead_centres_against_fine_sampling(offset):
     found = find_travel(built(("mass = 1.3", f"mass = 1.3\noffset = {offset}")).cylinders)
     for k in range(7):
         bank = 2 * math.pi * k / 7
-        knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(
-            -1j * bank
-        )
+        knuckle = (60 * np.exp(1j * psi) + 52 * (k > 0) * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)
         place = knuckle.real + np.sqrt((188 if k else 240) ** 2 - (knuckle.imag - offset) ** 2)
         assert found.stroke[k] * 1e3 == pytest.approx(np.ptp(place), abs=1e-7)
         top, bottom = (math.degrees(psi[at] - bank) for at in (place.argmax(), place.argmin()))
@@ -183,9 +167,7 @@ def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
     """
     text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
     found = find_travel(build_text(text).cylinders)
-    assert found.stroke[0] * 1e3 == pytest.approx(
-        math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14
-    )
+    assert found.stroke[0] * 1e3 == pytest.approx(math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14)
     assert found.top_deg[0] == pytest.approx(math.degrees(math.asin(10 / 180)), rel=1e-14)
     assert found.bottom_deg[0] == pytest.approx(math.degrees(math.asin(10 / 100)), rel=1e-14)
 
@@ -196,9 +178,7 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
     crank, and little against it.
     """
     equal = RADIAL[: RADIAL.index("[articulation]")]
-    before, after = (
-        spectrum.compute_spectra(e, [2.0], ["force"]).force for e in (build_text(equal), built())
-    )
+    before, after = (spectrum.compute_spectra(e, [2.0], ["force"]).force for e in (build_text(equal), built()))
     assert before is not None
     assert after is not None
     assert before.balanced[0]
@@ -237,14 +217,9 @@ def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
     )
     plain = build_text(RADIAL[: RADIAL.index("[articulation]")])
     orders = np.arange(1.0, 9.0)
-    one, other = (
-        spectrum.compute_spectra(articulated, orders),
-        spectrum.compute_spectra(plain, orders),
-    )
+    one, other = (spectrum.compute_spectra(articulated, orders), spectrum.compute_spectra(plain, orders))
     for (quantity, a), (_, b) in zip(one.items(), other.items(), strict=True):
-        assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), (
-            quantity
-        )
+        assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), quantity
 
 
 def highest(c):
@@ -270,22 +245,16 @@ def test_variants_on_a_trailing_axis():
     """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an
     uneven speed.
     """
-    file = enginefile.parse(
-        RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n"
-    )
+    file = enginefile.parse(RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n")
     radii, lengths = np.array([40.0, 52.0, 60.0]), np.array([180.0, 188.0, 230.0])
 
     def variant(radius, length):
-        return engine.build(
-            file, {"articulation.knuckle_radius": radius, "articulation.rod.length": length}
-        )
+        return engine.build(file, {"articulation.knuckle_radius": radius, "articulation.rod.length": length})
 
     orders = np.arange(1.0, 7.0)
     many = variant(radii, lengths)
     together = spectrum.compute_spectra(many, orders)
-    of_each = [
-        variant(radius, length).cylinders for radius, length in zip(radii, lengths, strict=True)
-    ]
+    of_each = [variant(radius, length).cylinders for radius, length in zip(radii, lengths, strict=True)]
     assert highest(many.cylinders) == max(map(highest, of_each))
     for k in range(3):
         alone = spectrum.compute_spectra(variant(radii[k], lengths[k]), orders)
@@ -305,9 +274,7 @@ def test_many_variants_are_taken_some_angles_at_a_time():
         np.zeros((1, 1)),
         np.linspace(0, 7, 1440),
     )
-    assert np.array_equal(
-        linkage.sample(lambda m: m.lean, psi, lam, eps), linkage.motion(psi, lam, eps).lean
-    )
+    assert np.array_equal(linkage.sample(lambda m: m.lean, psi, lam, eps), linkage.motion(psi, lam, eps).lean)
 
 
 # ------------------------------------------------------------------ what articulated rods may say
@@ -336,21 +303,15 @@ def test_a_pendulum_test_of_an_articulated_rod_is_its_inertia():
     [
         (
             "{ length = 188, small_end = 0.3 }",
-            "articulation.rod: has small_end without big_end; weigh the rod at both ends, or give "
-            "mass and cg",
+            "articulation.rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg",
         ),
-        (
-            "{ mass = 0.62, cg = 90 }",
-            "articulation.rod: has neither length nor ratio; give either length or ratio",
-        ),
+        ("{ mass = 0.62, cg = 90 }", "articulation.rod: has neither length nor ratio; give either length or ratio"),
         (
             "{ length = 188, mass = 0.6, small_end = 0.3, big_end = 0.3 }",
-            "articulation.rod: has mass, small_end and big_end; give either mass and cg or "
-            "small_end and big_end",
+            "articulation.rod: has mass, small_end and big_end; give either mass and cg or small_end and big_end",
         ),
         (
-            '{ length = 188, mass = 0.6, cg = 90, inertia = 1, pendulum = { pivot = "big_end", '
-            "period = 0.9 } }",
+            '{ length = 188, mass = 0.6, cg = 90, inertia = 1, pendulum = { pivot = "big_end", period = 0.9 } }',
             "articulation.rod: has inertia and pendulum; give either inertia or pendulum",
         ),
         (

@@ -33,9 +33,7 @@ def test_si_values_of_a_whole_file():
     )
     c = e.cylinders
     assert (e.name, e.source, e.numbers, e.strokes, c.count) == ("x", "y", (1, 2, 3, 4), 4, 4)
-    assert (float(c.radius), only(c.lam), only(c.eps)) == pytest.approx(
-        (0.045, 0.3, 0.02), rel=TIGHT
-    )
+    assert (float(c.radius), only(c.lam), only(c.eps)) == pytest.approx((0.045, 0.3, 0.02), rel=TIGHT)
     assert only(c.offset) == pytest.approx(0.003, rel=TIGHT)
     assert only(c.reciprocating) == pytest.approx(0.5 + 0.6 * 50 / 150, rel=TIGHT)
     assert only(c.rotating) == pytest.approx(1.2 / 2 + 0.6 * 100 / 150, rel=TIGHT)
@@ -56,9 +54,7 @@ def test_without_a_bore_there_is_no_displacement():
 def test_two_masses_have_no_couple():
     """H = 0 exactly, not a rounding error that would show as a couple."""
     assert only(engine(rod={"length": 171, "mass": 0.83, "cg": 47.3}).cylinders.couple) == 0
-    assert (
-        only(engine(rod={"length": 171, "small_end": 0.31, "big_end": 0.52}).cylinders.couple) == 0
-    )
+    assert only(engine(rod={"length": 171, "small_end": 0.31, "big_end": 0.52}).cylinders.couple) == 0
     assert only(engine().cylinders.couple) == 0
 
 
@@ -78,9 +74,7 @@ WEIGHED = {"length": 200, "small_end": 0.15, "big_end": 0.45, "inertia": 4000}
 def test_ways_to_say_the_same_rod(rod):
     one, other = engine(rod=rod).cylinders, engine(rod=WEIGHED).cylinders
     for name in ("lam", "reciprocating", "rotating", "couple"):
-        assert only(getattr(one, name)) == pytest.approx(only(getattr(other, name)), rel=1e-13), (
-            name
-        )
+        assert only(getattr(one, name)) == pytest.approx(only(getattr(other, name)), rel=1e-13), name
 
 
 @pytest.mark.parametrize(("pivot", "arm"), [("small_end", 0.15), ("big_end", 0.05)])
@@ -88,9 +82,7 @@ def test_pendulum(pivot, arm):
     """J_g = m (g h T^2 / 4 pi^2 - h^2), h from the pivot to the centre of mass."""
     inertia = 4000e-6
     period = 2 * math.pi * math.sqrt((inertia + 0.6 * arm**2) / (0.6 * STANDARD_GRAVITY * arm))
-    swung = engine(
-        rod={"length": 200, "mass": 0.6, "cg": 50, "pendulum": {"pivot": pivot, "period": period}}
-    ).cylinders
+    swung = engine(rod={"length": 200, "mass": 0.6, "cg": 50, "pendulum": {"pivot": pivot, "period": period}}).cylinders
     assert only(swung.couple) == pytest.approx(0.6 * 0.05 * 0.15 - inertia, rel=1e-12)
 
 
@@ -125,9 +117,7 @@ def test_a_pendulum_test_of_its_own_displaces_the_inertia():
 
 
 def test_overrides_that_change_nothing_leave_the_cylinders_equal():
-    assert engine(
-        crank={"throws": [0, 180]}, cylinder={"2": {"piston_mass": 1, "rod_length": 200}}
-    ).equal
+    assert engine(crank={"throws": [0, 180]}, cylinder={"2": {"piston_mass": 1, "rod_length": 200}}).equal
 
 
 # ------------------------------------------------------------------ where cylinders stand
@@ -152,28 +142,21 @@ def test_a_free_layout():
 
 
 def test_cylinders_on_equal_axes_are_one_bank_however_the_file_says_so():
-    turned = engine(
-        crank={"throws": [0, 180, 180, 0]},
-        cylinder={str(number): {"bank": 45} for number in range(1, 5)},
-    )
+    turned = engine(crank={"throws": [0, 180, 180, 0]}, cylinder={str(number): {"bank": 45} for number in range(1, 5)})
     assert list(turned.cylinders.axis_deg) == [45]
     assert list(engine(layout={"banks": [30, -30, 30]}).cylinders.axis_deg) == [30, -30]
     assert list(engine(layout={"bank_angle": 0}).cylinders.axis_deg) == [0]
 
 
 def test_pins_count_from_cylinder_1s_which_may_be_in_the_second_bank():
-    e = engine(
-        crank={"throws": [0, 90]}, layout={"banks": [-45, 45], "numbering": [[2, 4], [1, 3]]}
-    )
+    e = engine(crank={"throws": [0, 90]}, layout={"banks": [-45, 45], "numbering": [[2, 4], [1, 3]]})
     assert e.numbers == (2, 4, 1, 3)
     assert e.first_axis_deg == 45
     assert {n: float(p) for n, p in e.pins_deg.items()} == {2: 0, 4: 90, 1: 0, 3: 90}
 
 
 def test_reference_of_the_file():
-    assert engine(frame={"reference": [10, -20, "0.3 m"]}).reference_m == pytest.approx(
-        (0.01, -0.02, 0.3), rel=TIGHT
-    )
+    assert engine(frame={"reference": [10, -20, "0.3 m"]}).reference_m == pytest.approx((0.01, -0.02, 0.3), rel=TIGHT)
     uneven = engine(crank={"positions": [-10, 0, 50], "throws": [0, 0, 0]})
     assert uneven.reference_m == pytest.approx((0, 0, 0.02))
 
@@ -181,12 +164,9 @@ def test_reference_of_the_file():
 def test_a_throw_mass_is_shared_by_the_pins_of_its_throw():
     shared = engine(crank={"throw_mass": 6}, layout={"banks": [0, 60, 120]})
     alternating = engine(
-        crank={"throw_mass": 6, "throws": [0, 120, 240]},
-        layout={"banks": [0, 60, 120], "rods": "alternating"},
+        crank={"throw_mass": 6, "throws": [0, 120, 240]}, layout={"banks": [0, 60, 120], "rods": "alternating"}
     )
-    assert (only(shared.cylinders.rotating), only(alternating.cylinders.rotating)) == pytest.approx(
-        (2, 6)
-    )
+    assert (only(shared.cylinders.rotating), only(alternating.cylinders.rotating)) == pytest.approx((2, 6))
 
 
 # ------------------------------------------------------------------ devices
@@ -197,24 +177,12 @@ def test_devices():
     e = engine(
         crank={"throws": [0]},
         layout={"banks": [45, -45]},
-        counterweight=[
-            {"unbalance": 40000, "angle": 180, "position": -50},
-            {"mass": 0.5, "radius": 60},
-        ],
+        counterweight=[{"unbalance": 40000, "angle": 180, "position": -50}, {"mass": 0.5, "radius": 60}],
         shaft=[
             {"ratio": -2, "unbalance": 9000, "angle": 90, "at": [-40, 60], "position": 7},
             {"ratio": 3, "unbalance": 1000},
         ],
-        slider=[
-            {
-                "order": 2,
-                "unbalance": 8000,
-                "direction": 90,
-                "angle": 60,
-                "at": [1, 2],
-                "position": 3,
-            }
-        ],
+        slider=[{"order": 2, "unbalance": 8000, "direction": 90, "angle": 60, "at": [1, 2], "position": 3}],
     )
     weight, light, against, ahead, slider = e.devices
     assert [d.order for d in e.devices] == [1, 1, 2, 3, 2]
@@ -224,17 +192,13 @@ def test_devices():
     assert (ahead.forward, ahead.backward) == (pytest.approx(0.001, rel=TIGHT), 0)
     assert slider.forward == pytest.approx(0.004 * unit(150), rel=TIGHT)
     assert slider.backward == pytest.approx(0.004 * unit(30), rel=TIGHT)
-    assert [d.place for d in e.devices] == pytest.approx(
-        [0, 0, -0.04 + 0.06j, 0, 0.001 + 0.002j], rel=TIGHT
-    )
+    assert [d.place for d in e.devices] == pytest.approx([0, 0, -0.04 + 0.06j, 0, 0.001 + 0.002j], rel=TIGHT)
     assert [d.z for d in e.devices] == pytest.approx([-0.05, 0, 0.007, 0, 0.003], rel=TIGHT)
 
 
 def test_uneven_speed():
     e = engine(operation={"speed_ripple": [{"order": 4, "amplitude": 0.01, "angle": "0.5 turn"}]})
-    assert [(line.order, line.amplitude, line.angle_deg) for line in e.ripple] == [
-        (4, 0.01, pytest.approx(180))
-    ]
+    assert [(line.order, line.amplitude, line.angle_deg) for line in e.ripple] == [(4, 0.01, pytest.approx(180))]
 
 
 # ------------------------------------------------------------------ what cannot be
@@ -243,8 +207,7 @@ def test_uneven_speed():
     [
         (
             {"operation": {"speed_ripple": [{"order": 1.5, "amplitude": 0.01}]}},
-            "operation.speed_ripple.1.order: 1.5 is no whole number; half orders take four strokes "
-            "and [gas]",
+            "operation.speed_ripple.1.order: 1.5 is no whole number; half orders take four strokes and [gas]",
         ),
         (
             {"cylinder": {"3": {"piston_mass": 1}}},
@@ -296,23 +259,14 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
 @pytest.mark.parametrize(
     ("parts", "message"),
     [
-        (
-            {"rod": {"length": 200, "mass": 1, "cg": 230}},
-            "rod.cg: 230 mm is outside the rod of 200 mm",
-        ),
-        (
-            {"rod": {"length": 200, "mass": 1, "cg": -10}},
-            "rod.cg: -10 mm is outside the rod of 200 mm",
-        ),
+        ({"rod": {"length": 200, "mass": 1, "cg": 230}}, "rod.cg: 230 mm is outside the rod of 200 mm"),
+        ({"rod": {"length": 200, "mass": 1, "cg": -10}}, "rod.cg: -10 mm is outside the rod of 200 mm"),
         (
             {"rod": {"length": 200}, "cylinder": {"1": {"rod_mass": 1, "rod_cg": 230}}},
             "cylinder.1.rod_cg: 230 mm is outside the rod of 200 mm",
         ),
         (
-            {
-                "rod": {"length": 240, "mass": 1, "cg": 230},
-                "cylinder": {"1": {"rod_length": 200}},
-            },
+            {"rod": {"length": 240, "mass": 1, "cg": 230}, "cylinder": {"1": {"rod_length": 200}}},
             "cylinder.1.rod_length: rod.cg = 230 mm is outside the rod of 200 mm",
         ),
     ],
@@ -332,11 +286,7 @@ def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
     """Its own cylinder and all others are looked at, whatever else is wrong with the lay-out or
     with one table.
     """
-    cylinders = {
-        "1": {"rod_small_end": 0.2},
-        "2": {"rod_length": 30},
-        "3": {"rod_big_end": 0.4, "rod_length": 35},
-    }
+    cylinders = {"1": {"rod_small_end": 0.2}, "2": {"rod_length": 30}, "3": {"rod_big_end": 0.4, "rod_length": 35}}
     found = [
         "cylinder.1.rod_small_end: needs rod_big_end beside it: weigh the rod at both ends",
         "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm is "
@@ -350,9 +300,7 @@ def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
         "engine: 4 mistakes",
         *(f"  {line}" for line in found),
     ]
-    assert refused(
-        crank=crank, layout={"numbering": [[1, 2]]}, cylinder=cylinders
-    ).splitlines() == [
+    assert refused(crank=crank, layout={"numbering": [[1, 2]]}, cylinder=cylinders).splitlines() == [
         "engine: 5 mistakes",
         "  layout.numbering: has rows of 2, but the banks have 3 cylinders: give one row a bank, "
         "from the free end to the flywheel end",
@@ -364,14 +312,9 @@ def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
 
 
 def test_every_mechanism_that_cannot_turn_is_told_once():
-    text = refused(
-        crank={"throws": [0, 0, 0]}, rod={"length": 40}, cylinder={"2": {"rod_length": 30}}
-    )
+    text = refused(crank={"throws": [0, 0, 0]}, rod={"length": 40}, cylinder={"2": {"rod_length": 30}})
     assert text.splitlines()[0] == "engine: 2 mistakes"
-    assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == [
-        "rod.length",
-        "cylinder.2.rod_length",
-    ]
+    assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == ["rod.length", "cylinder.2.rod_length"]
 
 
 def test_layout_and_rods_are_told_together():

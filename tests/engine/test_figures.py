@@ -134,11 +134,7 @@ def rewritten(text: str, path: str) -> tuple[str, float]:
 def figures(engine: Engine) -> dict[str, list[float]]:
     """All that an engine consists of, as arrays."""
     c = engine.cylinders
-    found = {
-        f.name: getattr(c, f.name)
-        for f in fields(c)
-        if f.name not in ("linkage", "starts", "first")
-    }
+    found = {f.name: getattr(c, f.name) for f in fields(c) if f.name not in ("linkage", "starts", "first")}
     hung = getattr(c.linkage, "hung", None) or c.linkage
     if hung is not None:
         found |= {f.name: getattr(hung, f.name) for f in fields(hung) if f.name != "hung"}
@@ -151,9 +147,7 @@ def figures(engine: Engine) -> dict[str, list[float]]:
         found |= {f"device {number}, {k}": v for k, v in enumerate(device)}
     for number, weighed in enumerate(engine.weighed):
         found |= {f"weighed {number}, {k}": v for k, v in enumerate(weighed)}
-    flat = {
-        k: np.nan_to_num(np.ravel(v), nan=-1).tolist() for k, v in found.items() if v is not None
-    }
+    flat = {k: np.nan_to_num(np.ravel(v), nan=-1).tolist() for k, v in found.items() if v is not None}
     return {key: values[:1] if len(set(values)) == 1 else values for key, values in flat.items()}
 
 

@@ -35,17 +35,10 @@ def fires(**parts):
         ({"firing_order": [1, 2], "firing_intervals": [270, 450]}, {1: 0, 2: 90}),
         ({"firing_order": [2, 1], "firing_intervals": [540, 180]}, {1: 0, 2: 180}),
         ({"firing_order": [1, 2], "firing_intervals": [405, 315], "bank_angle": 45}, {1: 0, 2: 0}),
-        (
-            {"firing_order": [1, 2], "firing_intervals": [270, 450], "banks": [45, -45]},
-            {1: 0, 2: 0},
-        ),
+        ({"firing_order": [1, 2], "firing_intervals": [270, 450], "banks": [45, -45]}, {1: 0, 2: 0}),
         ({"firing_order": [1, 3, 5, 2, 4], "radial": 5}, {1: 0, 2: 0, 3: 0, 4: 0, 5: 0}),
         (
-            {
-                "firing_order": [1, 8, 4, 3, 6, 5, 7, 2],
-                "banks": [45, -45],
-                "numbering": [[1, 3, 5, 7], [2, 4, 6, 8]],
-            },
+            {"firing_order": [1, 8, 4, 3, 6, 5, 7, 2], "banks": [45, -45], "numbering": [[1, 3, 5, 7], [2, 4, 6, 8]]},
             {1: 0, 2: 0, 3: 90, 4: 90, 5: 270, 6: 270, 7: 180, 8: 180},
         ),
     ],
@@ -59,10 +52,7 @@ def test_throws_follow_from_the_firing_order(layout, wanted):
 
 def test_the_first_bank_fires_405_and_315_degrees_apart_in_a_45_degree_v_twin():
     """The pin reaches the second bank 45 degrees after the first, and fires it one turn later."""
-    assert fires(crank={"throws": [0]}, layout={"firing_order": [1, 2], "bank_angle": 45}) == {
-        1: 0,
-        2: 405,
-    }
+    assert fires(crank={"throws": [0]}, layout={"firing_order": [1, 2], "bank_angle": 45}) == {1: 0, 2: 405}
 
 
 def test_vr6_pins_of_neighbours_are_split_by_the_offset_of_the_banks():
@@ -82,47 +72,24 @@ def test_vr6_pins_of_neighbours_are_split_by_the_offset_of_the_banks():
         cylinder={str(n): {"piston_offset": 12.5} for n in (2, 4, 6)},
     )
     tau = math.degrees(math.asin(12.5 / (45 + 164)))
-    wanted = {
-        1: 0,
-        5: -120,
-        3: -240,
-        6: 15 + 2 * tau - 360,
-        2: 15 + 2 * tau - 480,
-        4: 15 + 2 * tau - 600,
-    }
+    wanted = {1: 0, 5: -120, 3: -240, 6: 15 + 2 * tau - 360, 2: 15 + 2 * tau - 480, 4: 15 + 2 * tau - 600}
     for n, pin in e.pins_deg.items():
         assert abs((float(pin) - wanted[n] + 180) % 360 - 180) < TIGHT, n
-    assert fires(
-        crank={"throws": [0]}, piston={"offset": 3, "mass": 1}, layout={"firing_order": [1]}
-    ) == {1: 0}
+    assert fires(crank={"throws": [0]}, piston={"offset": 3, "mass": 1}, layout={"firing_order": [1]}) == {1: 0}
 
 
 V6 = {"bank_angle": 90, "firing_order": [1, 4, 2, 5, 3, 6]}
 
 
 def test_common_pins_of_a_90_degree_v6_fire_unevenly():
-    assert list(fires(crank={"throws": [0, 120, 240]}, layout=V6).values()) == [
-        0,
-        90,
-        240,
-        330,
-        480,
-        570,
-    ]
+    assert list(fires(crank={"throws": [0, 120, 240]}, layout=V6).values()) == [0, 90, 240, 330, 480, 570]
 
 
 def test_pins_split_by_30_degrees_fire_evenly():
     """The second bank's pins lag by 30 degrees, so that it fires 90 + 30 after the first."""
     even = engine(crank={"throws": [0, 120, 240], "splay": -30}, layout=V6)
     assert list(even.fires_deg.values()) == [0, 120, 240, 360, 480, 600]
-    assert {n: float(pin) for n, pin in even.pins_deg.items()} == {
-        1: 0,
-        2: 120,
-        3: 240,
-        4: -30,
-        5: 90,
-        6: 210,
-    }
+    assert {n: float(pin) for n, pin in even.pins_deg.items()} == {1: 0, 2: 120, 3: 240, 4: -30, 5: 90, 6: 210}
 
 
 def test_throws_that_follow_from_the_order_respect_the_splay():
@@ -142,11 +109,7 @@ def test_throws_that_follow_from_the_order_respect_the_splay():
         ([0, 90, 270, 180], {"firing_order": [1, 3, 2, 4]}, {1: 0, 3: 90, 2: 270, 4: 540}),
         ([0], {"firing_order": [1, 2], "bank_angle": 90}, {1: 0, 2: 450}),
         ([0], {"firing_order": [1, 2], "bank_angle": 180}, {1: 0, 2: 180}),
-        (
-            [0, 180],
-            {"firing_order": [1, 2], "banks": [-90, 90], "rods": "alternating"},
-            {1: 0, 2: 360},
-        ),
+        ([0, 180], {"firing_order": [1, 2], "banks": [-90, 90], "rods": "alternating"}, {1: 0, 2: 360}),
         ([0], {"firing_order": [1]}, {1: 0}),
     ],
 )
@@ -165,8 +128,7 @@ def test_pins_count_from_cylinder_1_wherever_it_stands():
 # ------------------------------------------------------------------ what disagrees
 def test_given_both_they_must_agree():
     assert refused(
-        crank={"throws": [0, 180, 180, 0]},
-        layout={"firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4},
+        crank={"throws": [0, 180, 180, 0]}, layout={"firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4}
     ) == (
         "engine: layout.firing_order: cylinder 3 is not at top dead centre when it fires: its "
         "crank pin stands 180 deg ahead of cylinder 1's, and would have to stand at 0 deg (allowed "
@@ -202,9 +164,7 @@ def test_banks_that_are_the_other_way_round_are_told():
     intervals = {"firing_intervals": [90] * 8}
     told = refused(crank=crank, layout=layout | intervals | {"numbering": [odd, even]})
     assert told.endswith(hint)
-    assert list(fires(crank=crank, layout=layout | {"numbering": [even, odd]}).values()) == [
-        90 * k for k in range(8)
-    ]
+    assert list(fires(crank=crank, layout=layout | {"numbering": [even, odd]}).values()) == [90 * k for k in range(8)]
     wrong = {"numbering": [odd, even], "firing_order": [1, 2, 3, 4, 5, 6, 7, 8]}
     assert "exchanged" not in refused(crank=crank, layout=layout | wrong)
 
@@ -232,8 +192,7 @@ ODD_AND_EVEN = [[1, 3, 5], [2, 4, 6]]
         # Seen from the free end odd numbers are on the right, and the throws counted as they fire.
         (
             {"throws": [0, 120, 240], "splay": -30},
-            "the driver's right; and with throws that count in the sense of rotation: "
-            "crank.throws = [0, 240, 120]",
+            "the driver's right; and with throws that count in the sense of rotation: crank.throws = [0, 240, 120]",
         ),
         ({"throws": [0, 240, 120], "splay": 30}, "and with split pins: crank.splay = -30"),
         # By exchanged banks alone they would fire after 60, 60, 60, 60, 60, 420 deg.
@@ -254,8 +213,7 @@ def test_a_rotary_numbered_as_its_cylinders_come_to_the_top():
     numbering = [[1], [5], [4], [3], [2]]
     found = refused(crank={"throws": [0]}, layout=layout)
     assert found.endswith(
-        "crank.throws out. They fit with cylinders numbered the other way round: "
-        f"layout.numbering = {numbering}"
+        f"crank.throws out. They fit with cylinders numbered the other way round: layout.numbering = {numbering}"
     )
     turned = engine(crank={"throws": [0]}, layout=layout | {"numbering": numbering})
     assert sorted(turned.fires_deg.values()) == [144 * k for k in range(5)]
@@ -283,14 +241,11 @@ def test_a_twin_on_one_pin_is_told_its_intervals_first():
     it a turn later, for 360 would take a pin of its own, 45 degrees ahead.
     """
     assert refused(layout={"bank_angle": 45, "firing_order": [1, 2]}).endswith(
-        "They fit with layout.firing_intervals = [405, 315]; or evenly with split pins: "
-        "crank.splay = 45"
+        "They fit with layout.firing_intervals = [405, 315]; or evenly with split pins: crank.splay = 45"
     )
 
 
-EXCHANGED = (
-    ", where the first bank is the left one seen from the free end (front), the driver's right"
-)
+EXCHANGED = ", where the first bank is the left one seen from the free end (front), the driver's right"
 
 
 @pytest.mark.parametrize(
@@ -345,14 +300,9 @@ def test_there_is_no_such_splay_where_throws_differ_or_intervals_are_said():
     assert engine(crank={"throws": [0, 240, 100]}, layout=in_line).splay_for_even_firing is None
 
 
-@pytest.mark.parametrize(
-    ("throw", "good"), [(179.1, True), (180.9, True), (178.9, False), (181.1, False)]
-)
+@pytest.mark.parametrize(("throw", "good"), [(179.1, True), (180.9, True), (178.9, False), (181.1, False)])
 def test_a_degree_is_forgiven(throw, good):
-    parts = {
-        "crank": {"throws": [0, throw]},
-        "layout": {"firing_order": [1, 2], "firing_intervals": [180, 540]},
-    }
+    parts = {"crank": {"throws": [0, throw]}, "layout": {"firing_order": [1, 2], "firing_intervals": [180, 540]}}
     if good:
         assert fires(**parts) == {1: 0, 2: 180}
     else:
@@ -460,10 +410,7 @@ def test_pins_that_are_split_the_wrong_way_are_doubted():
             "crank": {"throws": [0, 240, 120], "splay": -18},
             "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]},
         },
-        {
-            "crank": {"throws": [0, 240, 120]},
-            "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]},
-        },
+        {"crank": {"throws": [0, 240, 120]}, "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]}},
         {"crank": {"throws": [0, 240, 120]}, "layout": {"firing_order": [1, 3, 2]}},
         {"crank": {"throws": [0, 239.5, 120.5]}, "layout": {"firing_order": [1, 3, 2]}},
         {

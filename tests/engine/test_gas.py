@@ -203,9 +203,7 @@ def mistake(path: str) -> str:
 
 
 def test_where_a_diagram_may_lie(beside, tmp_path):
-    assert mistake(beside('indicator = "q.csv"\n')) == (
-        f"gas.indicator: {tmp_path}/q.csv: no such file"
-    )
+    assert mistake(beside('indicator = "q.csv"\n')) == (f"gas.indicator: {tmp_path}/q.csv: no such file")
     assert mistake(beside('indicator = "../p.csv"\n')) == (
         'gas.indicator: "../p.csv" lies outside the folder of the engine file; put it beside that '
         "file, or into a folder below it"
@@ -220,18 +218,15 @@ UNITS = "(or pressure_MPa, pressure_kPa, pressure_Pa, pressure_psi, pressure_bar
     [
         (
             "# measured\n-3e1,1\n10,2\n",
-            "{folder}/p.csv: begins with figures, without a heading; put the line "
-            "angle_deg,pressure_bar above them",
+            "{folder}/p.csv: begins with figures, without a heading; put the line angle_deg,pressure_bar above them",
         ),
         (
             "0;1,5\n10;2\n",
-            "{folder}/p.csv: begins with figures, without a heading; put the line "
-            "angle_deg;pressure_bar above them",
+            "{folder}/p.csv: begins with figures, without a heading; put the line angle_deg;pressure_bar above them",
         ),
         (
             "0\t1,5\n10\t2\n",
-            "{folder}/p.csv: begins with figures, without a heading; put the line "
-            "angle_deg\tpressure_bar above them",
+            "{folder}/p.csv: begins with figures, without a heading; put the line angle_deg\tpressure_bar above them",
         ),
         (
             "angle;pressure_bar\n0;1,5\n",
@@ -244,15 +239,9 @@ UNITS = "(or pressure_MPa, pressure_kPa, pressure_Pa, pressure_psi, pressure_bar
             f"head the file angle_deg,pressure_bar {UNITS}",
         ),
         (DIAGRAM.replace("50,0.1", "50,x"), '{folder}/p.csv: line 8: "x" is not a number'),
-        (
-            "angle_deg,pressure_kPa\n0,1e306\n",
-            '{folder}/p.csv: line 2: "1e306" is too large a number',
-        ),
+        ("angle_deg,pressure_kPa\n0,1e306\n", '{folder}/p.csv: line 2: "1e306" is too large a number'),
         (DIAGRAM.replace("50,0.1", "50"), "{folder}/p.csv: line 8: has 1 of 2 columns"),
-        (
-            DIAGRAM.replace("\n50,", "\n30,"),
-            "p.csv: line 8: the angle 30° does not exceed the 40° before it",
-        ),
+        (DIAGRAM.replace("\n50,", "\n30,"), "p.csv: line 8: the angle 30° does not exceed the 40° before it"),
         (
             DIAGRAM.replace("50,0.1", "50,-0.1"),
             "p.csv: line 8: the absolute pressure is -1 bar: give 0 or more; is it over the "
@@ -267,12 +256,8 @@ def test_mistakes_of_a_diagram(beside, tmp_path, content, told):
 
 
 def test_a_gauge_pressure_below_vacuum(beside):
-    path = beside(
-        'indicator = "p.csv"\npressure = "gauge"\n', content=DIAGRAM.replace("30,0.1", "30,-0.2")
-    )
-    assert mistake(path) == (
-        "gas.indicator: p.csv: line 6: the absolute pressure is -0.98675 bar: give 0 or more"
-    )
+    path = beside('indicator = "p.csv"\npressure = "gauge"\n', content=DIAGRAM.replace("30,0.1", "30,-0.2"))
+    assert mistake(path) == ("gas.indicator: p.csv: line 6: the absolute pressure is -0.98675 bar: give 0 or more")
 
 
 @pytest.mark.parametrize(
@@ -281,10 +266,7 @@ def test_a_gauge_pressure_below_vacuum(beside):
         ("0,1,0\n0.25,1,0\n", "has order 0.25: a cycle of 4 strokes has multiples of 0.5"),
         ("1,1,0\n1e30,1,0\n", "line 3: order 1e+30 is above 100, where no table goes"),
         ("1,1,0\n1,1,0\n", "line 3: orders have to rise"),
-        (
-            "0,2,5\n1,1,0\n",
-            "line 2: order 0 has sin 5; it is the mean, which has no sine: write 0",
-        ),
+        ("0,2,5\n1,1,0\n", "line 2: order 0 has sin 5; it is the mean, which has no sine: write 0"),
     ],
 )
 def test_mistakes_of_harmonics(beside, rows, told):
@@ -327,8 +309,7 @@ def test_keys_that_change_nothing_are_doubted(tmp_path):
     path = write(tmp_path / "engine.toml", TWO_STROKE + WIEBE + "exhaust = 1.5\n")
     (doubt,) = load(path).gas.doubts
     assert doubt == (
-        "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the pressure "
-        "is that of intake"
+        "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the pressure is that of intake"
     )
     (tmp_path / "h.csv").write_text("order,cos,sin\n1,1,2\n", encoding="utf-8")
     path.write_text(FOUR + "[gas]\nharmonics = 'h.csv'\ncrankcase = 1.1\n", encoding="utf-8")
@@ -364,10 +345,7 @@ def test_a_diagram_may_have_so_many_rows(beside):
             FOUR + "[cylinder.2]\ngas = 0\n",
             "cylinder.2.gas: needs [gas], which says what the gas does in all cylinders",
         ),
-        (
-            FOUR + WIEBE + "zero = 'firing'\n",
-            "gas.zero: belongs to an indicator diagram; leave it out",
-        ),
+        (FOUR + WIEBE + "zero = 'firing'\n", "gas.zero: belongs to an indicator diagram; leave it out"),
         (
             TWO_STROKE + WIEBE + "intake_closes = 580\n",
             "gas.intake_closes: has no meaning in a two-stroke cycle, whose ports close where the "
@@ -375,25 +353,12 @@ def test_a_diagram_may_have_so_many_rows(beside):
         ),
         (
             FOUR + WIEBE + "exhaust_opens = 30\n",
-            "gas.burn_duration: a burn over 50° from -15° ends at 35°, past 30°, where the exhaust "
-            "opens",
+            "gas.burn_duration: a burn over 50° from -15° ends at 35°, past 30°, where the exhaust opens",
         ),
-        (
-            FOUR + WIEBE.replace("imep = 9", "imep = -50"),
-            "gas.imep: is -50 bar: with the least heat the cycle has ",
-        ),
-        (
-            FOUR + WIEBE.replace("imep = 9", "max_pressure = 5"),
-            "gas.max_pressure: is 5 bar, below the ",
-        ),
-        (
-            FOUR + WIEBE.replace("imep = 9", "max_pressure = 0"),
-            "gas.max_pressure: is 0 bar, below the ",
-        ),
-        (
-            FOUR + WIEBE.replace("wiebe", "dual") + "max_pressure = 0\n",
-            "gas.max_pressure: is 0 bar, below the ",
-        ),
+        (FOUR + WIEBE.replace("imep = 9", "imep = -50"), "gas.imep: is -50 bar: with the least heat the cycle has "),
+        (FOUR + WIEBE.replace("imep = 9", "max_pressure = 5"), "gas.max_pressure: is 5 bar, below the "),
+        (FOUR + WIEBE.replace("imep = 9", "max_pressure = 0"), "gas.max_pressure: is 0 bar, below the "),
+        (FOUR + WIEBE.replace("wiebe", "dual") + "max_pressure = 0\n", "gas.max_pressure: is 0 bar, below the "),
         (
             FOUR + WIEBE.replace("wiebe", "diesel").replace("imep = 9", "cut_off = 40"),
             "gas.cut_off: is 40: with more than ",
@@ -404,18 +369,14 @@ def test_a_diagram_may_have_so_many_rows(beside):
         ),
         (
             FOUR + "[gas]\nimep = 3\n",
-            "gas: has neither indicator nor cycle nor harmonics; give either indicator or cycle or "
-            "harmonics",
+            "gas: has neither indicator nor cycle nor harmonics; give either indicator or cycle or harmonics",
         ),
         (
             FOUR + "[gas]\nindicator = 'x.csv'\nheat = 3\n",
             "gas: has heat beside indicator; these belong to a computed cycle",
         ),
         (FOUR + "[gas]\nindicator = 3\n", "gas.indicator: 3 is not text; give the name of a f"),
-        (
-            FOUR + "[flywheel]\ninertia = 0\n",
-            "flywheel.inertia: 0 is not above 0; a moment of inertia is wanted: ",
-        ),
+        (FOUR + "[flywheel]\ninertia = 0\n", "flywheel.inertia: 0 is not above 0; a moment of inertia is wanted: "),
         (
             FOUR + "[bearing]\npin_width = 20\n",
             "bearing: has pin_width without pin_diameter; give either pin_diameter and pin_width",
@@ -465,11 +426,7 @@ def test_several_mistakes_at_once(gas, told):
     [
         ("", "heat = 0", "cylinder.2.heat: needs [gas], which says what the gas does in all"),
         (WIEBE, "heat = -1", "cylinder.2.heat: -1 is less than 0; an energy is wanted: a bare"),
-        (
-            WIEBE,
-            "heat = 0\nindicator = 'p.csv'",
-            "cylinder.2: has heat and indicator; give either heat or indicator",
-        ),
+        (WIEBE, "heat = 0\nindicator = 'p.csv'", "cylinder.2: has heat and indicator; give either heat or indicator"),
         (
             "[gas]\nharmonics = 'h.csv'\n",
             "heat = 0",
@@ -502,9 +459,7 @@ def test_a_file_without_gas_makes_no_gas():
     assert build_text(FOUR).gas is None
 
 
-THREE = RADIAL.replace("radial = 7", "radial = 3\nfiring_order = [1, 3, 2]").replace(
-    "[piston]", "[piston]\nbore = 120"
-)
+THREE = RADIAL.replace("radial = 7", "radial = 3\nfiring_order = [1, 3, 2]").replace("[piston]", "[piston]\nbore = 120")
 
 
 def test_articulated_cylinders_have_cycles_of_their_own():
@@ -521,8 +476,7 @@ def test_cylinders_that_turn_have_gas_too(strokes):
     """A rotary engine: seen from its cylinder, the crank turns; the torque turns the cylinders."""
     text = FOUR.replace("throws = [0, 180, 180, 0]", "").replace("spacing = 100", "")
     text = text.replace(
-        "firing_order = [1, 3, 4, 2]",
-        f"radial = 3\nrotary = true\nstrokes = {strokes}\nfiring_order = [1, 2, 3]",
+        "firing_order = [1, 3, 4, 2]", f"radial = 3\nrotary = true\nstrokes = {strokes}\nfiring_order = [1, 2, 3]"
     )
     if strokes == 2:
         text = text.replace("[1, 2, 3]", "[1, 3, 2]")

@@ -69,15 +69,7 @@ def test_alternating_rods_take_the_banks_in_turn():
     assert where(found) == {1: (0, 0), 2: (0, 2), 3: (1, 1), 4: (1, 3)}
     assert found.rods_on_throw == 1
     three = planned([0] * 7, banks=[0, 10, 20], rods="alternating")
-    assert where(three) == {
-        1: (0, 0),
-        2: (0, 3),
-        3: (0, 6),
-        4: (1, 1),
-        5: (1, 4),
-        6: (2, 2),
-        7: (2, 5),
-    }
+    assert where(three) == {1: (0, 0), 2: (0, 3), 3: (0, 6), 4: (1, 1), 5: (1, 4), 6: (2, 2), 7: (2, 5)}
 
 
 def test_on_one_bank_alternating_means_nothing():
@@ -103,10 +95,7 @@ def test_throws_stand_evenly_about_the_middle():
 
 
 def test_rods_side_by_side_the_first_bank_towards_the_free_end():
-    e = engine(
-        crank={"throws": [0, 180], "positions": [-30, 70]},
-        layout={"banks": [0, 60, 90], "stagger": 20},
-    )
+    e = engine(crank={"throws": [0, 180], "positions": [-30, 70]}, layout={"banks": [0, 60, 90], "stagger": 20})
     assert e.numbers == (1, 2, 3, 4, 5, 6)
     assert np.ravel(e.cylinders.z) * 1e3 == pytest.approx([-50, 50, -30, 70, -10, 90])
     assert list(e.throws_m) == pytest.approx([-0.03, 0.07])
@@ -148,33 +137,21 @@ ONCE = "each of the cylinders 1 to {} must stand once"
             "give crank.throws, or a multiple of 2 cylinders",
         ),
         (
-            {
-                "crank": {"throws": [0, 180]},
-                "layout": {"bank_angle": 90, "numbering": [[1, 2, 3], [4]]},
-            },
+            {"crank": {"throws": [0, 180]}, "layout": {"bank_angle": 90, "numbering": [[1, 2, 3], [4]]}},
             "layout.numbering: has rows of 3 and 1, but the banks have 2 and 2 cylinders: "
             "give one row a bank, from the free end to the flywheel end",
         ),
         (
-            {
-                "crank": {"throws": [0] * 3},
-                "layout": {"radial": 3, "rods": "alternating", "numbering": [[1], [2, 3]]},
-            },
+            {"crank": {"throws": [0] * 3}, "layout": {"radial": 3, "rods": "alternating", "numbering": [[1], [2, 3]]}},
             "layout.numbering: has rows of 1 and 2, but the banks have 1, 1, 1 cylinders: "
             "give one row a bank, from the free end to the flywheel end",
         ),
         (
-            {
-                "crank": {"throws": [0, 180]},
-                "layout": {"bank_angle": 90, "numbering": [[1, 2], [4, 5]]},
-            },
+            {"crank": {"throws": [0, 180]}, "layout": {"bank_angle": 90, "numbering": [[1, 2], [4, 5]]}},
             f"layout.numbering: there is no cylinder 5, cylinder 3 is missing: {ONCE.format(4)}",
         ),
         (
-            {
-                "crank": {"throws": [0, 180]},
-                "layout": {"bank_angle": 180, "firing_order": [1, 2]},
-            },
+            {"crank": {"throws": [0, 180]}, "layout": {"bank_angle": 180, "firing_order": [1, 2]}},
             f"layout.firing_order: cylinders 3 and 4 are missing: {ONCE.format(4)}; every throw "
             "carries a rod of each of the 2 banks: if they take the throws in turn, as in a boxer, "
             'say layout.rods = "alternating"',
@@ -185,8 +162,7 @@ ONCE = "each of the cylinders 1 to {} must stand once"
         ),
         (
             {"crank": {"throws": [0, 180, 180, 0]}, "layout": {"firing_order": [1, 7]}},
-            "layout.firing_order: there is no cylinder 7, cylinders 2, 3, 4 are missing: "
-            f"{ONCE.format(4)}",
+            f"layout.firing_order: there is no cylinder 7, cylinders 2, 3, 4 are missing: {ONCE.format(4)}",
         ),
     ],
 )
@@ -195,9 +171,7 @@ def test_one_mistake(parts, message):
 
 
 def test_several_mistakes_are_told_at_once():
-    assert refused(
-        crank={"throws": [0, 180]}, layout={"numbering": [[2, 3]], "firing_order": [1, 4]}
-    ) == (
+    assert refused(crank={"throws": [0, 180]}, layout={"numbering": [[2, 3]], "firing_order": [1, 4]}) == (
         "engine: 2 mistakes\n"
         f"  layout.numbering: there is no cylinder 3, cylinder 1 is missing: {ONCE.format(2)}\n"
         f"  layout.firing_order: there is no cylinder 4, cylinder 2 is missing: {ONCE.format(2)}"

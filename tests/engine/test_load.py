@@ -55,10 +55,7 @@ def test_standard_input(monkeypatch):
         ("[90]", f"[90] is not a number; {LENGTH}"),
         ('"long"', f'"long" is not a number followed by a unit; {LENGTH}'),
         ('"90 kg"', f'"90 kg" is a mass, but {LENGTH}'),
-        (
-            "1" + "0" * 400,
-            f"an integer of about 401 digits is too large a number; {LENGTH}",
-        ),
+        ("1" + "0" * 400, f"an integer of about 401 digits is too large a number; {LENGTH}"),
     ],
 )
 def test_what_is_no_length(stroke, message):
@@ -69,15 +66,9 @@ def test_what_is_no_length(stroke, message):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            changed(("cg = 45", "cg = -1e300")),
-            f"rod.cg: -1e+300 is less than -1e+09; {LENGTH}, -1e+09 or more",
-        ),
+        (changed(("cg = 45", "cg = -1e300")), f"rod.cg: -1e+300 is less than -1e+09; {LENGTH}, -1e+09 or more"),
         (changed(("stroke = 90\n", "")), "crank.stroke: is missing; give it, such as stroke = 90"),
-        (
-            changed(("stroke = 90", "strok = 90")),
-            "crank.strok: unknown key in [crank]; did you mean stroke?",
-        ),
+        (changed(("stroke = 90", "strok = 90")), "crank.strok: unknown key in [crank]; did you mean stroke?"),
         (
             changed(("stroke = 90", "stroke = 90\nbore = 86")),
             "crank.bore: unknown key in [crank]; bore belongs to [piston]",
@@ -88,17 +79,13 @@ def test_what_is_no_length(stroke, message):
         ),
         (
             changed(("stroke = 90", "stroke = 90\nxyz = 1")),
-            "crank.xyz: unknown key in [crank]; it has stroke, throws, spacing, positions, "
-            "throw_mass, inertia, splay",
+            "crank.xyz: unknown key in [crank]; it has stroke, throws, spacing, positions, throw_mass, inertia, splay",
         ),
         (
             changed(("[piston]", "[pistons]\nmass = 0.5\n[piston]")),
             "pistons: unknown key in an engine file; did you mean piston?",
         ),
-        (
-            "stroke = 90\n" + GOOD,
-            "stroke: unknown key in an engine file; stroke belongs to [crank]",
-        ),
+        ("stroke = 90\n" + GOOD, "stroke: unknown key in an engine file; stroke belongs to [crank]"),
         (
             changed(("[0, 180, 180, 0]", "180")),
             "crank.throws: 180 is not a list; write it in square brackets, such as [0, 180, 180, 0]",
@@ -111,10 +98,7 @@ def test_what_is_no_length(stroke, message):
             changed(("[0, 180, 180, 0]", "[]")),
             "crank.throws: is an empty list; give at least one value, or leave the key out",
         ),
-        (
-            changed(("[0, 180, 180, 0]", str([0] * 10_001))),
-            "crank.throws: has more than 10000 values",
-        ),
+        (changed(("[0, 180, 180, 0]", str([0] * 10_001))), "crank.throws: has more than 10000 values"),
         (
             changed(("[layout]", "[layout]\nnumbering = [[1, 2], [3, 4.5]]")),
             f"layout.numbering.2: the 2nd value 4.5 is not a whole number; {WHOLE}",
@@ -125,10 +109,7 @@ def test_what_is_no_length(stroke, message):
             changed(("[layout]", '[layout]\nrods = "alternate"')),
             'layout.rods: "alternate" is not "shared" or "alternating"; did you mean alternating?',
         ),
-        (
-            changed(("[layout]", "[layout]\nradial = 0")),
-            f"layout.radial: 0 is out of range; {WHOLE}",
-        ),
+        (changed(("[layout]", "[layout]\nradial = 0")), f"layout.radial: 0 is out of range; {WHOLE}"),
         (changed(('"in-line four"', "4")), "name: 4 is not text; write it in quotes"),
         (
             "rod = 5\n[crank]\nstroke = 90\n[piston]\nmass = 1\n",
@@ -141,13 +122,11 @@ def test_what_is_no_length(stroke, message):
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitude = 2 }]")),
-            "operation.speed_ripple.1.amplitude: 2 is more than 1; a plain number is wanted, "
-            "without quotes, up to 1",
+            "operation.speed_ripple.1.amplitude: 2 is more than 1; a plain number is wanted, without quotes, up to 1",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [3]")),
-            "operation.speed_ripple: the 1st value 3 is not a table; write it in braces with its "
-            "keys",
+            "operation.speed_ripple: the 1st value 3 is not a table; write it in braces with its keys",
         ),
         (
             changed(("speed = 3000", "speed_ripple = [{ order = 1, amplitud = 0.1 }]")),
@@ -166,25 +145,16 @@ def test_what_is_no_length(stroke, message):
             GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\nat = [80]\n",
             "shaft.1.at: [80] has 1 value where 2 are wanted: x, y of the shaft",
         ),
-        (
-            GOOD + "[[slider]]\nunbalance = 1\ndirection = 0\n",
-            "slider.1.order: is missing; give it, such as order = 2",
-        ),
+        (GOOD + "[[slider]]\nunbalance = 1\ndirection = 0\n", "slider.1.order: is missing; give it, such as order = 2"),
         (
             GOOD + "[frame]\nreference = [1, inf, 0]\n",
             f"frame.reference: the 2nd value inf is no finite number; {LENGTH}",
         ),
         (
-            changed(
-                ("firing_order = [1, 3, 4, 2]", "radial = 3"),
-                more="[articulation]\nknuckle_radius = 50\n",
-            ),
+            changed(("firing_order = [1, 3, 4, 2]", "radial = 3"), more="[articulation]\nknuckle_radius = 50\n"),
             "articulation.rod: is missing; give it, such as rod = { length = 200 }",
         ),
-        (
-            changed(("length = 160", "lenght = 160")),
-            "rod.lenght: unknown key in [rod]; did you mean length?",
-        ),
+        (changed(("length = 160", "lenght = 160")), "rod.lenght: unknown key in [rod]; did you mean length?"),
         (
             GOOD + "[bobweight]\noverbalance = 0.51\n",
             "bobweight.overbalance: unknown key in [bobweight]; did you mean --factor? The balance "
@@ -211,8 +181,7 @@ def test_what_is_no_length(stroke, message):
         ),
         (
             GOOD + "[cylinder.x]\npiston_mass = 1\n",
-            "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in "
-            "cylinder 3",
+            "cylinder.x: does not name a cylinder; write [cylinder.3] for what differs in cylinder 3",
         ),
         (
             GOOD + "[cylinder]\n3 = 5\n",
@@ -333,23 +302,17 @@ def test_missing_tables_come_with_an_example():
     [
         (
             "name = 'x'\n[crank]\nstroke = 90\nthrows = [0, 180\n[rod]\n",
-            "is not valid TOML: Unclosed array (at line 5, column 1): a list above has no ] at its "
-            "end",
+            "is not valid TOML: Unclosed array (at line 5, column 1): a list above has no ] at its end",
         ),
         (
             "[crank]\nstroke = 90\nstroke = 91\n",
-            "is not valid TOML: Cannot overwrite a value (at line 3, column 12): stroke is given "
-            "twice; write it once",
+            "is not valid TOML: Cannot overwrite a value (at line 3, column 12): stroke is given twice; write it once",
         ),
         (
             "[crank]\nstroke = 90\nstroke = 91",
-            "is not valid TOML: Cannot overwrite a value (at end of document): stroke is given "
-            "twice; write it once",
+            "is not valid TOML: Cannot overwrite a value (at end of document): stroke is given twice; write it once",
         ),
-        (
-            GOOD.encode() + b"# \xff\n",
-            f"is not UTF-8 text (line {GOOD.count(chr(10)) + 1}); save it as UTF-8",
-        ),
+        (GOOD.encode() + b"# \xff\n", f"is not UTF-8 text (line {GOOD.count(chr(10)) + 1}); save it as UTF-8"),
         (
             b"\0" * 9,
             "is not valid TOML: Invalid statement (at line 1, column 1): there are zero bytes, as "
@@ -405,10 +368,7 @@ def test_a_flood_of_mistakes_stays_readable():
 
 def test_huge_values_are_not_repeated_whole():
     long = changed(("stroke = 90", f'stroke = "{"x" * 100_000}"'))
-    assert (
-        mistakes_in(long)
-        == f'crank.stroke: "{"x" * 60}..." is not a number followed by a unit; {LENGTH}'
-    )
+    assert mistakes_in(long) == f'crank.stroke: "{"x" * 60}..." is not a number followed by a unit; {LENGTH}'
     assert len(mistakes_in(changed(("[layout]", f"[layout]\n{'k' * 100_000} = 1")))) < 300
 
 
@@ -432,10 +392,7 @@ def test_enormous_lists_are_refused_whole():
     flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 40_000 + "]"))
     assert mistakes_in(flood) == "crank.throws: holds 40001 values; no engine needs more than 20000"
     nested = changed(("[layout]", "[layout]\nnumbering = [" + f"[{'1,' * 300}]," * 300 + "]"))
-    assert (
-        mistakes_in(nested)
-        == "layout.numbering: holds 90301 values; no engine needs more than 20000"
-    )
+    assert mistakes_in(nested) == "layout.numbering: holds 90301 values; no engine needs more than 20000"
 
 
 def test_what_cannot_be_read(tmp_path):
@@ -471,9 +428,7 @@ def test_any_value_is_accepted_or_refused_by_its_key(key, value):
     assert key in mistakes_in(text)
 
 
-@pytest.mark.parametrize(
-    "lost", [("stroke = 90", "stroke = -90"), ("firing_order = [1, 3, 4, 2]", "firing_order = 5")]
-)
+@pytest.mark.parametrize("lost", [("stroke = 90", "stroke = -90"), ("firing_order = [1, 3, 4, 2]", "firing_order = 5")])
 def test_a_table_that_cannot_be_read_does_not_hide_what_others_say(lost):
     stopping = (
         "speed = 3000",
@@ -481,20 +436,13 @@ def test_a_table_that_cannot_be_read_does_not_hide_what_others_say(lost):
     )
     with pytest.raises(InputError) as caught:
         parse(changed(lost, stopping, ("cg = 45", "cg = 450")))
-    assert [problem.path for problem in caught.value.problems][1:] == [
-        "rod.cg",
-        "operation.speed_ripple",
-    ]
+    assert [problem.path for problem in caught.value.problems][1:] == ["rod.cg", "operation.speed_ripple"]
 
 
 def test_a_rod_by_its_ratio_has_no_length_without_a_crank():
     assert (
         mistakes_in(
-            changed(
-                ("stroke = 90", "stroke = -90"),
-                ("length = 160", "ratio = 0.28"),
-                ("cg = 45", "cg = 450"),
-            )
+            changed(("stroke = 90", "stroke = -90"), ("length = 160", "ratio = 0.28"), ("cg = 45", "cg = 450"))
         ).count("\n")
         == 0
     )
@@ -510,10 +458,8 @@ def test_one_of_something_is_not_several():
 
 def test_without_its_layout_nothing_is_said_of_a_cranks_throws():
     text = changed(
-        ("throws = [0, 180, 180, 0]\nspacing = 100", "positions = [0, 100, 200, 300]"),
-        ("[1, 3, 4, 2]", "5"),
+        ("throws = [0, 180, 180, 0]\nspacing = 100", "positions = [0, 100, 200, 300]"), ("[1, 3, 4, 2]", "5")
     )
     assert (
-        mistakes_in(text)
-        == "layout.firing_order: 5 is not a list; write it in square brackets, such as [1, 3, 4, 2]"
+        mistakes_in(text) == "layout.firing_order: 5 is not a list; write it in square brackets, such as [1, 3, 4, 2]"
     )

@@ -89,10 +89,7 @@ def test_what_does_not_fit_together_in_a_dict_is_told():
 @pytest.mark.parametrize(
     ("source", "message"),
     [
-        (
-            {1.5: {}},
-            'engine: the key 1.5 (float) is no text; write it as a file has it, such as "stroke"',
-        ),
+        ({1.5: {}}, 'engine: the key 1.5 (float) is no text; write it as a file has it, such as "stroke"'),
         (
             {"crank": {None: 3}},
             'engine: the key None (NoneType) is no text; write it as a file has it, such as "stroke"',
@@ -108,20 +105,13 @@ def test_keys_are_text(source, message):
 def test_tables_that_hold_themselves_end():
     endless: dict = {}
     endless["crank"] = endless
-    with pytest.raises(
-        balcli.InputError, match=r"^engine: tables are nested too deeply; an engine"
-    ):
+    with pytest.raises(balcli.InputError, match=r"^engine: tables are nested too deeply; an engine"):
         balcli.load(endless)
 
 
 @pytest.mark.parametrize(
     ("source", "shown"),
-    [
-        (5, "5 (int)"),
-        (None, "None (NoneType)"),
-        (b"x", "b'x' (bytes)"),
-        ([1] * 99, f"[{'1, ' * 18}1,... (list)"),
-    ],
+    [(5, "5 (int)"), (None, "None (NoneType)"), (b"x", "b'x' (bytes)"), ([1] * 99, f"[{'1, ' * 18}1,... (list)")],
 )
 def test_what_is_no_source_is_told_in_words(source, shown):
     with pytest.raises(TypeError) as caught:
@@ -195,14 +185,10 @@ def test_a_firing_order_that_no_longer_fits_the_throws_is_left_out():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        (
-            {"rod.lenght": 3},
-            "in-line four with rod.lenght: rod.lenght: unknown key in [rod]; did you mean length?",
-        ),
+        ({"rod.lenght": 3}, "in-line four with rod.lenght: rod.lenght: unknown key in [rod]; did you mean length?"),
         (
             {"rod.length": 150, "rod.ratio": 0.3},
-            "in-line four with rod.length, rod.ratio: rod: has length and ratio; give either length "
-            "or ratio",
+            "in-line four with rod.length, rod.ratio: rod: has length and ratio; give either length or ratio",
         ),
         (
             {"crank.throws.7": 3},
@@ -229,9 +215,7 @@ def test_mistakes_are_told_as_those_of_a_file(changes, message):
 
 
 def test_a_name_that_is_no_text_is_told():
-    with pytest.raises(
-        TypeError, match=r'^vary: 3 \(int\): name a key of the engine file, such as "rod\.length"$'
-    ):
+    with pytest.raises(TypeError, match=r'^vary: 3 \(int\): name a key of the engine file, such as "rod\.length"$'):
         balcli.load(GOOD).vary({3: 4})
 
 
@@ -242,9 +226,7 @@ def test_devices_that_are_fitted_are_in_the_tables():
     again = balcli.load(after.to_dict())
     assert again.devices == after.devices
     assert_same(again, after)
-    assert_same(
-        after.vary({"rod.length": 150}), balcli.load(after.vary({"rod.length": 150}).to_dict())
-    )
+    assert_same(after.vary({"rod.length": 150}), balcli.load(after.vary({"rod.length": 150}).to_dict()))
 
 
 def test_what_no_file_can_describe_says_so():
@@ -253,9 +235,7 @@ def test_what_no_file_can_describe_says_so():
     variants = build(parse(GOOD), {"rod.length": np.array([150.0, 160.0])})
     for one in (oldham, variants, fit_devices(variants, balcli.balance(engine).remedy)):
         for ask in (one.to_dict, lambda one=one: one.vary({"rod.length": 150})):
-            with pytest.raises(
-                balcli.BalcliError, match="no engine file can say what this engine is"
-            ):
+            with pytest.raises(balcli.BalcliError, match="no engine file can say what this engine is"):
                 ask()
 
 

@@ -35,18 +35,8 @@ COMMENTED = changed(
             "firing_order = [1, 3, 4, 2]",
             "firing_order = [1, 2, 4, 3]    # a note",
         ),
-        (
-            "crank",
-            {"splay": -30.0},
-            "[crank]  # forged\n",
-            "[crank]  # forged\nsplay = -30.0    # a note\n",
-        ),
-        (
-            "layout",
-            {"firing_order": None, "firing_intervals": None},
-            "firing_order = [1, 3, 4, 2]\n",
-            "",
-        ),
+        ("crank", {"splay": -30.0}, "[crank]  # forged\n", "[crank]  # forged\nsplay = -30.0    # a note\n"),
+        ("layout", {"firing_order": None, "firing_intervals": None}, "firing_order = [1, 3, 4, 2]\n", ""),
         ("layout", {"firing_intervals": None}, "", ""),
         ("operation", {"speed": 3000.0}, "", ""),
         (
@@ -55,12 +45,7 @@ COMMENTED = changed(
             "# the end\n",
             "# the end\n\n[frame]\nreference = [0.0, 0.0, 5.0]    # a note\n",
         ),
-        (
-            "cylinder.3",
-            {"gas": 0},
-            "# the end\n",
-            "# the end\n\n[cylinder.3]\ngas = 0    # a note\n",
-        ),
+        ("cylinder.3", {"gas": 0}, "# the end\n", "# the end\n\n[cylinder.3]\ngas = 0    # a note\n"),
     ],
 )
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
@@ -72,10 +57,7 @@ def test_only_the_key_changes(table, keys, old, new, ends):
 
 
 def test_a_last_line_without_an_end():
-    assert (
-        set_keys("[operation]", "operation", {"speed": 5.0}, "a note")
-        == "[operation]\nspeed = 5.0    # a note\n"
-    )
+    assert set_keys("[operation]", "operation", {"speed": 5.0}, "a note") == "[operation]\nspeed = 5.0    # a note\n"
 
 
 @pytest.mark.parametrize(
@@ -119,12 +101,7 @@ INLINE = "# mine\nlayout = { bank_angle = 75, firing_order = [1, 2] }   # as bui
 @pytest.mark.parametrize(
     ("text", "keys", "old", "new"),
     [
-        (
-            DOTTED,
-            {"bank_angle": 90.0},
-            "bank_angle = 75   # as built",
-            "bank_angle = 90.0   # as built (a note)",
-        ),
+        (DOTTED, {"bank_angle": 90.0}, "bank_angle = 75   # as built", "bank_angle = 90.0   # as built (a note)"),
         (DOTTED, {"firing_order": None}, "layout.firing_order = [1, 2]\n", ""),
         (DOTTED, {"stagger": 3}, "# mine\n", "# mine\nlayout.stagger = 3    # a note\n"),
         (

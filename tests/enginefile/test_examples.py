@@ -41,28 +41,18 @@ def test_classes_are_listed_one_after_the_other_layouts_first():
 def test_a_class_or_words_pick_engines():
     marine = run_command("engines", "--class", "marine").stdout.splitlines()
     assert marine[:2] == ["marine", "──────"]
-    assert {line.split()[0] for line in marine[2:]} == {
-        path.stem for path in (ENGINES / "marine").glob("*.toml")
-    }
+    assert {line.split()[0] for line in marine[2:]} == {path.stem for path in (ENGINES / "marine").glob("*.toml")}
     assert "marine6" in [e.name for e in examples.find(group="marine")]
     assert [e.name for e in examples.find("WARTSILA six")] == ["wartsila_6rtflex96c"]
     assert {"v8_crossplane", "hispano_suiza_8"} <= {e.name for e in examples.find("v8")}
-    assert [e.name for e in examples.find("v8", "car")] == [
-        e.name for e in examples.find("v8") if e.group == "car"
-    ]
+    assert [e.name for e in examples.find("v8", "car")] == [e.name for e in examples.find("v8") if e.group == "car"]
 
 
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
-        (
-            ["--class", "cars"],
-            'there is no class "cars" of engines: layout, aero, car, historic, marine, motorcycle',
-        ),
-        (
-            ["i4", "--find", "v8"],
-            "--find and --class list engines; NAME prints one: give one of the two",
-        ),
+        (["--class", "cars"], 'there is no class "cars" of engines: layout, aero, car, historic, marine, motorcycle'),
+        (["i4", "--find", "v8"], "--find and --class list engines; NAME prints one: give one of the two"),
         (["--find", "v3"], 'no example mentions "v3": balcli engines lists them all'),
     ],
 )
@@ -95,9 +85,7 @@ def test_a_copy_is_the_file(tmp_path):
 
 @pytest.mark.parametrize("name", ["v8crossplane", "../engines/i4", "expected"])
 def test_unknown_names(name):
-    with pytest.raises(
-        BalcliError, match=f'^there is no example "{name}": balcli engines lists them'
-    ):
+    with pytest.raises(BalcliError, match=f'^there is no example "{name}": balcli engines lists them'):
         examples.text(name)
 
 
@@ -141,7 +129,6 @@ def test_a_wheel_has_the_examples_and_the_page(tmp_path):
 def test_an_installation_without_them_says_so(monkeypatch, tmp_path):
     monkeypatch.setattr(examples, "_PLACES", (tmp_path / "engines",))
     with pytest.raises(
-        BalcliError,
-        match=r"the example engines are missing from this installation .*: install balcli again",
+        BalcliError, match=r"the example engines are missing from this installation .*: install balcli again"
     ):
         examples.names()

@@ -17,11 +17,7 @@ CHAIN = template("torsion")
 @pytest.mark.parametrize(
     ("command", "text", "message"),
     [
-        (
-            "field",
-            GOOD,
-            "is an engine file, which balcli analyze and others read; give a file of runs",
-        ),
+        ("field", GOOD, "is an engine file, which balcli analyze and others read; give a file of runs"),
         ("field", CHAIN, "is a chain file, which balcli torsion reads; give a file of runs"),
         ("analyze", CHAIN, "is a chain file, which balcli torsion reads; give an engine file"),
         ("mounts", CHAIN, "is a chain file, which balcli torsion reads; give an engine file"),
@@ -35,18 +31,10 @@ CHAIN = template("torsion")
             for command in ("analyze", "balance", "numbers")
         ),
         *(
-            (
-                command,
-                three_runs(),
-                "is a file of runs, which balcli field reads; give an engine file",
-            )
+            (command, three_runs(), "is a file of runs, which balcli field reads; give an engine file")
             for command in ("analyze", "torque", "mounts", "numbers")
         ),
-        (
-            "torsion",
-            three_runs(),
-            "is a file of runs, which balcli field reads; give an engine file or a chain file",
-        ),
+        ("torsion", three_runs(), "is a file of runs, which balcli field reads; give an engine file or a chain file"),
     ],
 )
 def test_a_file_of_another_kind(balcli, command, text, message):

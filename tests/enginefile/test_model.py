@@ -23,12 +23,7 @@ def test_defaults():
     engine = parse("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n")
     assert engine.operation.speed == 1000.0
     assert engine.crank.throws is engine.crank.positions is engine.crank.spacing is None
-    assert (
-        engine.crank.throw_mass,
-        engine.crank.splay,
-        engine.piston.offset,
-        engine.layout.stagger,
-    ) == (0.0,) * 4
+    assert (engine.crank.throw_mass, engine.crank.splay, engine.piston.offset, engine.layout.stagger) == (0.0,) * 4
     assert (engine.layout.rods, engine.layout.strokes) == ("shared", 4)
     assert engine.frame.reference is engine.articulation is None
     assert (engine.bobweight.rod_bearing, engine.bobweight.oil) == (0, 0)
@@ -103,16 +98,8 @@ rod = { length = 120, mass = 0.4, cg = 60 }
 @pytest.mark.parametrize(
     "text",
     [
-        changed(
-            ("stroke = 90", "stroke = 0.005"),
-            ("length = 160", "length = 0.01"),
-            ("mass = 0.5", "mass = 1e-9"),
-        ),
-        changed(
-            ("stroke = 90", "stroke = 1e6"),
-            ("length = 160", "length = 2e6"),
-            ("mass = 0.5", "mass = 1e9"),
-        ),
+        changed(("stroke = 90", "stroke = 0.005"), ("length = 160", "length = 0.01"), ("mass = 0.5", "mass = 1e-9")),
+        changed(("stroke = 90", "stroke = 1e6"), ("length = 160", "length = 2e6"), ("mass = 0.5", "mass = 1e9")),
         changed(("speed = 3000", "speed = 1e-3")),
         changed(("speed = 3000", "speed = 1e6")),
         changed(("mass = 0.5", "mass = 0")),
@@ -142,10 +129,7 @@ def test_unusual_but_allowed(text):
             changed(("length = 160", "length = 160\nratio = 0.28")),
             "rod: has length and ratio; give either length or ratio",
         ),
-        (
-            changed(("length = 160", "")),
-            "rod: has neither length nor ratio; give either length or ratio",
-        ),
+        (changed(("length = 160", "")), "rod: has neither length nor ratio; give either length or ratio"),
         (
             changed(("cg = 45", "cg = 45\nsmall_end = 0.2")),
             "rod: has mass, cg and small_end; give either mass and cg or small_end and big_end",
@@ -155,9 +139,7 @@ def test_unusual_but_allowed(text):
             "rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg",
         ),
         (
-            changed(
-                ("cg = 45", 'cg = 45\ninertia = 9\npendulum = { pivot = "small_end", period = 1 }')
-            ),
+            changed(("cg = 45", 'cg = 45\ninertia = 9\npendulum = { pivot = "small_end", period = 1 }')),
             "rod: has inertia and pendulum; give either inertia or pendulum",
         ),
         (
@@ -191,8 +173,7 @@ def test_unusual_but_allowed(text):
         ),
         (
             changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180, 160]")),
-            "layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has "
-            "720 (within 0.5)",
+            "layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has 720 (within 0.5)",
         ),
         (
             changed(("firing_order = [1, 3, 4, 2]", "firing_intervals = [180, 180, 180, 180]")),
@@ -200,8 +181,7 @@ def test_unusual_but_allowed(text):
         ),
         (
             GOOD + "[[counterweight]]\nangle = 180\n",
-            "counterweight.1: has neither unbalance nor mass and radius; give either "
-            "unbalance or mass and radius",
+            "counterweight.1: has neither unbalance nor mass and radius; give either unbalance or mass and radius",
         ),
         (
             GOOD + "[[counterweight]]\nunbalance = 1\n[[counterweight]]\nmass = 1\n",
@@ -213,8 +193,7 @@ def test_unusual_but_allowed(text):
         ),
         (
             GOOD + "[[shaft]]\nunbalance = 1\nratio = 1.5\n",
-            "shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, "
-            "not 0, is wanted",
+            "shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, not 0, is wanted",
         ),
     ],
 )
@@ -234,10 +213,7 @@ def test_a_pendulum_is_never_quicker_than_a_point_mass():
         f"pivot a full swing takes more than {shortest:.4g} s"
     )
     ends = changed(
-        (
-            "mass = 0.6\ncg = 45",
-            'small_end = 0.2\nbig_end = 0.6\npendulum = { pivot = "big_end", period = 0.1 }',
-        )
+        ("mass = 0.6\ncg = 45", 'small_end = 0.2\nbig_end = 0.6\npendulum = { pivot = "big_end", period = 0.1 }')
     )
     assert "with the centre of mass 40 mm from the pivot" in mistakes_in(ends)  # 160 * 0.2 / 0.8
 
@@ -301,16 +277,10 @@ def test_a_rule_that_fails_is_no_mistake_of_the_file(monkeypatch):
         parse(changed(("spacing = 100", "spacing = -1")))
 
 
-TABLES = (
-    *import_tables().values(),
-    *import_lists().values(),
-    *(ArticulatedRod, Part, ChainShaft, Damper),
-)
+TABLES = (*import_tables().values(), *import_lists().values(), *(ArticulatedRod, Part, ChainShaft, Damper))
 
 
-@pytest.mark.parametrize(
-    ("table", "rule"), [(table, rule) for table in TABLES for rule in table.rules]
-)
+@pytest.mark.parametrize(("table", "rule"), [(table, rule) for table in TABLES for rule in table.rules])
 def test_rules_name_the_keys_that_they_read(table, rule):
     def read(code: CodeType) -> Iterator[str]:
         for name in code.co_names:

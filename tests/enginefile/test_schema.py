@@ -14,20 +14,12 @@ from balcli.enginefile.model import FileTable, Override, Pendulum, Ripple
 from balcli.enginefile.schema import DIALECT, describe_engine_file
 
 DOCUMENT = describe_engine_file()
-MODELS: list[type[FileTable]] = [
-    *import_tables().values(),
-    *import_lists().values(),
-    *(Override, Pendulum, Ripple),
-]
+MODELS: list[type[FileTable]] = [*import_tables().values(), *import_lists().values(), *(Override, Pendulum, Ripple)]
 
 
 def fields() -> list[tuple[str, str, dict[str, Any]]]:
     tables = {"": DOCUMENT, **DOCUMENT["$defs"]}
-    return [
-        (table, key, field)
-        for table, body in tables.items()
-        for key, field in body["properties"].items()
-    ]
+    return [(table, key, field) for table, body in tables.items() for key, field in body["properties"].items()]
 
 
 def test_it_is_json_of_the_dialect_that_it_names():
@@ -43,17 +35,12 @@ def test_every_key_of_every_table_is_in_it(table):
     assert set(DOCUMENT["$defs"][table.__name__]["properties"]) == set(table.model_fields)
 
 
-@pytest.mark.parametrize(
-    ("table", "key", "field"), fields(), ids=lambda v: v if isinstance(v, str) else ""
-)
+@pytest.mark.parametrize(("table", "key", "field"), fields(), ids=lambda v: v if isinstance(v, str) else "")
 def test_every_key_is_described(table, key, field):
     if "$ref" in field and "description" not in field:
         field = DOCUMENT["$defs"][field["$ref"].rpartition("/")[2]]
     assert len(field["description"]) > 5
-    if (
-        "string" in (inner := field.get("items", field)).get("type", ())
-        and inner["type"] != "string"
-    ):
+    if "string" in (inner := field.get("items", field)).get("type", ()) and inner["type"] != "string":
         assert field["description"].endswith(f"[{inner['unit']}]")
 
 

@@ -215,19 +215,13 @@ def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer)
 def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "ford.toml").write_text(GOOD)
-    assert refusal("analyze", "ford") == (
-        "ford: no such file; ford.toml is there: did you mean it?"
-    )
+    assert refusal("analyze", "ford") == ("ford: no such file; ford.toml is there: did you mean it?")
     (tmp_path / "sub").mkdir()
     for name, near in (("frod.toml", "ford.toml"), ("sub/../ford.tml", "sub/../ford.toml")):
-        assert refusal("analyze", name) == (
-            f"{name}: no such file; {near} is there: did you mean it?"
-        )
+        assert refusal("analyze", name) == (f"{name}: no such file; {near} is there: did you mean it?")
     assert refusal("torque", "--curve", "ford.csv") == "ford.csv: no such file"
     for name in ("i3", "engines/i3.toml"):
-        assert refusal("analyze", name) == (
-            f"{name}: no such file; i3 is an example: balcli engines i3 i3.toml"
-        )
+        assert refusal("analyze", name) == (f"{name}: no such file; i3 is an example: balcli engines i3 i3.toml")
     assert run_here("check", "i3").err.endswith("i3 is an example: balcli engines i3 i3.toml\n")
     assert refusal("analyze", "i3.csv") == "i3.csv: no such file"
     err = run_here("analyze", "ford.toml", "--only", "force", "moment").err
@@ -257,9 +251,7 @@ def test_the_head_says_two_or_four_strokes_where_the_file_does(tmp_path):
         ("stroke = 90", "stroke = 90", "four-stroke"),
         ("[layout]", "[layout]\nstrokes = 2", "two-stroke"),
     ):
-        file = write(
-            tmp_path / "strokes.toml", changed((old, new), ("throws = [0, 180, 180, 0]", ""))
-        )
+        file = write(tmp_path / "strokes.toml", changed((old, new), ("throws = [0, 180, 180, 0]", "")))
         assert f"deg, {word}\n" in run_here("analyze", file).out
     file.write_text(changed(("firing_order = [1, 3, 4, 2]", "")))
     assert "stroke\n" not in run_here("analyze", file).out
@@ -273,11 +265,7 @@ def test_short_names_of_numbers_are_understood_where_one_number_has_them(tmp_pat
     def swept(name):
         return run_here("sweep", file, "--vary", f"{name}=80,90", "-q", "force.2.major")
 
-    for name, path in (
-        ("rpm", "operation.speed"),
-        ("speed", "operation.speed"),
-        ("stroke", "crank.stroke"),
-    ):
+    for name, path in (("rpm", "operation.speed"), ("speed", "operation.speed"), ("stroke", "crank.stroke")):
         assert swept(name).out == swept(path).out
         assert swept(path).out.startswith(f"{path},force.2.major\n")
     assert run_here("sweep", file, "--vary", "offset=0,3").out.startswith("piston.offset,")
@@ -289,8 +277,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
     Path("i4.toml").write_text(GOOD)
     told = run_here("compare", "i4.toml", "i4.toml", "--only", "verdict").err
     assert told == (
-        "balcli: --only verdict: is of one engine; balcli analyze i4.toml i4.toml --only verdict "
-        "shows each\n"
+        "balcli: --only verdict: is of one engine; balcli analyze i4.toml i4.toml --only verdict shows each\n"
     )
     told = run_here("tables", "kvasnikov").err
     assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1, kvasnikov-2: name one\n"
@@ -302,9 +289,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
 def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
     file = write(tmp_path / "i4.toml", GOOD)
     search = ("search", file, "--minimise", "force.2.major", "--over")
-    assert (
-        "The best rod.length is an end of the range" in run_here(*search, "rod.length=140:180").out
-    )
+    assert "The best rod.length is an end of the range" in run_here(*search, "rod.length=140:180").out
     search = ("search", file, "--minimise", "force.1.major", "--over")
     inside = run_here(*search, "crank.throws.2=90:270").out
     assert "180" in inside
@@ -349,14 +334,9 @@ def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
 def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
     file = write(
         tmp_path / "twin.toml",
-        changed(
-            ("throws = [0, 180, 180, 0]", "throws = [0, 90]"), ("firing_order = [1, 3, 4, 2]", "")
-        ),
+        changed(("throws = [0, 180, 180, 0]", "throws = [0, 90]"), ("firing_order = [1, 3, 4, 2]", "")),
     )
-    near, far = (
-        run_here("balance", file, "--scheme", "single-shaft", f"--at={at}").out
-        for at in ("0,0", "-200,90")
-    )
+    near, far = (run_here("balance", file, "--scheme", "single-shaft", f"--at={at}").out for at in ("0,0", "-200,90"))
     assert "The roll of order 1 grows by " in far
     assert "single-shaft" in near
     assert "grows by" not in near

@@ -18,9 +18,7 @@ WITHIN = (
 )
 
 
-@pytest.mark.parametrize(
-    "text", [GOOD, *map(new.template, new.ENGINE_KINDS)], ids=["good", *new.ENGINE_KINDS]
-)
+@pytest.mark.parametrize("text", [GOOD, *map(new.template, new.ENGINE_KINDS)], ids=["good", *new.ENGINE_KINDS])
 def test_ordinary_engines_pass(text):
     assert find_suspicious(parse(text)) == []
 
@@ -40,9 +38,7 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
     ("text", "warning"),
     [
         (
-            changed(
-                ("mass = 0.5", "mass = 65"), ("bore = 86", "bore = 80"), ("mass = 0.6", "mass = 60")
-            ),
+            changed(("mass = 0.5", "mass = 65"), ("bore = 86", "bore = 80"), ("mass = 0.6", "mass = 60")),
             "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the "
             "units right? Bare numbers are kg and mm",
         ),
@@ -67,14 +63,11 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
         ),
         (
             changed(("mass = 0.5", "mass = 0")),
-            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
-            "and locks",
+            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings and locks",
         ),
         (
             # no bore: that of 0.2 to 3 strokes of 90 mm, by 100 and 5000 kg per m^3 of its cube
-            changed(
-                ("mass = 0.5", "mass = 500"), ("bore = 86\n", ""), ("mass = 0.6", "mass = 600")
-            ),
+            changed(("mass = 0.5", "mass = 500"), ("bore = 86\n", ""), ("mass = 0.6", "mass = 600")),
             "piston.mass is 500 kg at a stroke of 90 mm, where 0.00058 to 98 kg is usual; are the "
             "units right? Bare numbers are kg and mm",
         ),
@@ -92,9 +85,7 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
             "twice the crank radius, rod.length the distance of its two centres",
         ),
         (
-            changed(
-                ("length = 160", "ratio = 0.99999"), ("cg = 45", "cg = 15")
-            ),  # not told as 1, which would lock
+            changed(("length = 160", "ratio = 0.99999"), ("cg = 45", "cg = 15")),  # not told as 1, which would lock
             "crank radius / rod length is 0.99999, where 0.15 to 0.4 is usual; crank.stroke is "
             "twice the crank radius, rod.length the distance of its two centres",
         ),
@@ -110,18 +101,15 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
                 ("mass = 0.5", "mass = 20"),
                 ("mass = 0.6", "mass = 16"),
             ),
-            "piston.bore / crank.stroke is 3.333, where 0.2 to 3 is usual; are both in the same "
-            "unit?",
+            "piston.bore / crank.stroke is 3.333, where 0.2 to 3 is usual; are both in the same unit?",
         ),
         (
             changed(("mass = 0.6\ncg = 45", "small_end = 1.2\nbig_end = 3.8")),
-            "the rod weighs 5 kg, 10 times the piston, where 0.1 to 8 times is usual; are both in "
-            "the same unit?",
+            "the rod weighs 5 kg, 10 times the piston, where 0.1 to 8 times is usual; are both in the same unit?",
         ),
         (
             changed(("cg = 45\n", "")),
-            "rod.cg is not given: all of the rod counts at the crank pin; measure it from the "
-            "big-end centre",
+            "rod.cg is not given: all of the rod counts at the crank pin; measure it from the big-end centre",
         ),
         (
             changed(("cg = 45", "cg = -45")),
@@ -145,8 +133,7 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
         *(
             (
                 changed(("speed = 3000", f"speed = {value}")),
-                "operation.speed is 3 rpm; a point parts decimals, not thousands: were 3000 rpm "
-                "meant?",
+                "operation.speed is 3 rpm; a point parts decimals, not thousands: were 3000 rpm meant?",
             )
             for value in ("3.000", '"3.000 rpm"')
         ),
@@ -157,26 +144,19 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
         ),
         (
             changed(more="[[shaft]]\nratio = -2\nunbalance = 4500\nat = [0, 0.08]\n"),
-            "shaft.1.at is within 0.08 mm of the crank's axis; is it in mm? Another unit is said "
-            'as in "0.08 m"',
+            'shaft.1.at is within 0.08 mm of the crank\'s axis; is it in mm? Another unit is said as in "0.08 m"',
         ),
         (
             changed(("bore = 86", "bore = 86\noffset = -20")),
             "piston.offset is -20 mm, more than 20% of the stroke (18 mm); is it in mm?",
         ),
         (
-            changed(
-                ("[layout]", "[layout]\nstagger = 220"),
-                ("spacing = 100", "positions = [-190, -90, 10, 90]"),
-            ),
+            changed(("[layout]", "[layout]\nstagger = 220"), ("spacing = 100", "positions = [-190, -90, 10, 90]")),
             "layout.stagger is 220 mm, more than the distance of neighbouring throws (80 mm); "
             "it is the distance of two rods on one throw",
         ),
         (
-            changed(
-                more="[[counterweight]]\nunbalance = 10\n[[counterweight]]\nmass = 40\nradius = "
-                "60\n"
-            ),
+            changed(more="[[counterweight]]\nunbalance = 10\n[[counterweight]]\nmass = 40\nradius = 60\n"),
             # 5 x (4 x 0.8 + 4 x (0.5 + 0.6)) kg x 45 mm
             "counterweight.2: its unbalance is 2.4e+06 g mm, more than 5 times all moving "
             "masses at the crank radius (1.71e+06); is it in g mm?",
@@ -233,10 +213,7 @@ def test_shafts_on_the_axis_of_the_crank_are_no_slip():
     assert find_suspicious(parse(on_it)) == find_suspicious(parse(beside)) == []
 
 
-BAR = (
-    " bar absolute, where %s is usual; is it in bar? Another unit is said as in "
-    '"130 psi" or "0.9 MPa"'
-)
+BAR = ' bar absolute, where %s is usual; is it in bar? Another unit is said as in "130 psi" or "0.9 MPa"'
 
 
 @pytest.mark.parametrize(
@@ -254,9 +231,7 @@ def test_gas_of_no_engine_is_doubted(key, value, told):
     """Psi and MPa for bar, a slip of the decimal point, more than an adiabate of helium."""
     gas = {"cycle": '"otto"', "compression_ratio": 10, "imep": 9} | {key: value}
     text = "\n".join(f"{name} = {figure}" for name, figure in gas.items())
-    assert find_suspicious(parse(changed(more=f"[gas]\n{text}\n"))) == [
-        f"gas.{key} is {value:g}{told}"
-    ]
+    assert find_suspicious(parse(changed(more=f"[gas]\n{text}\n"))) == [f"gas.{key} is {value:g}{told}"]
 
 
 @pytest.mark.parametrize("throws", ["[0, 0, 0, 0]", "[0, 0.5, 0, 0]", "[0, 20, 40, 60]"])
@@ -295,25 +270,10 @@ def test_moving_masses_count_every_rod_of_a_vee():
     """
     weight = "[[counterweight]]\nunbalance = 2.4e6\n"
     assert len(find_suspicious(parse(changed(more=weight)))) == 1
-    assert (
-        find_suspicious(
-            parse(changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 90"), more=weight))
-        )
-        == []
-    )
-    assert (
-        find_suspicious(parse(changed(("firing_order = [1, 3, 4, 2]", "radial = 9"), more=weight)))
-        == []
-    )
+    assert find_suspicious(parse(changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 90"), more=weight))) == []
+    assert find_suspicious(parse(changed(("firing_order = [1, 3, 4, 2]", "radial = 9"), more=weight))) == []
     alternating = 'banks = [-90, 90]\nrods = "alternating"'
-    assert (
-        len(
-            find_suspicious(
-                parse(changed(("firing_order = [1, 3, 4, 2]", alternating), more=weight))
-            )
-        )
-        == 1
-    )
+    assert len(find_suspicious(parse(changed(("firing_order = [1, 3, 4, 2]", alternating), more=weight)))) == 1
 
 
 TWIST = """
@@ -363,9 +323,7 @@ def test_a_propeller_with_a_dashpot_in_its_shaft_is_asked_back():
         "the part 'Propeller' of [torsion]: damping is of a dashpot between the ends of its shaft; "
         "of the part against ground, as water damps it, it is node_damping"
     ]
-    assert (
-        find_suspicious(parse(changed(more=propeller.replace("\ndamping", "\nnode_damping")))) == []
-    )
+    assert find_suspicious(parse(changed(more=propeller.replace("\ndamping", "\nnode_damping")))) == []
 
 
 @pytest.mark.parametrize(

@@ -47,9 +47,7 @@ def test_editors_are_told_where_the_schema_is(kind):
 @pytest.mark.parametrize("kind", ENGINE_KINDS)
 def test_every_optional_key_can_be_switched_on(kind):
     """All of them at once, but for those that stand instead of others."""
-    lines = [
-        line for line in template(kind).splitlines() if not any(mark in line for mark in INSTEAD)
-    ]
+    lines = [line for line in template(kind).splitlines() if not any(mark in line for mark in INSTEAD)]
     engine = parse("\n".join(OPTION.sub(r"\1", line) for line in lines), kind)
     assert engine.shaft
     assert engine.slider
@@ -70,9 +68,7 @@ def test_alternatives_say_the_same(kind):
             given |= tomllib.loads(OPTION.sub(r"\1", line))
     inertia = given.get("inertia", rod.inertia)
     arm = (rod.length - rod.cg) * 1e-3
-    swing = (
-        2 * math.pi * math.sqrt((inertia * 1e-6 + rod.mass * arm**2) / (rod.mass * 9.80665 * arm))
-    )
+    swing = 2 * math.pi * math.sqrt((inertia * 1e-6 + rod.mass * arm**2) / (rod.mass * 9.80665 * arm))
     assert given["ratio"] == pytest.approx(engine.crank.stroke / 2 / rod.length, abs=1e-4)
     assert given["small_end"] == pytest.approx(rod.mass * rod.cg / rod.length, abs=1e-4)
     assert given["small_end"] + given["big_end"] == pytest.approx(rod.mass, abs=1e-4)
@@ -110,10 +106,7 @@ def test_unknown_kinds():
         '"boxxer" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
         "w, mounts, field, torsion. Did you mean boxer?"
     )
-    with pytest.raises(
-        BalcliError,
-        match=r"torsion\. A finished one is among the examples: balcli engines twin270\.$",
-    ):
+    with pytest.raises(BalcliError, match=r"torsion\. A finished one is among the examples: balcli engines twin270\.$"):
         template("twin270")
     with pytest.raises(BalcliError, match=r"w, mounts, field, torsion\.$"):
         template("q" * 10_000)

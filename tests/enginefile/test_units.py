@@ -130,8 +130,7 @@ def test_rarer_units(text, dimension, expected):
         (
             "3 ampere",
             TIME,
-            'is of another dimension, but a time is wanted: a bare number in s, or "0.82 s" or '
-            '"820 ms"',
+            'is of another dimension, but a time is wanted: a bare number in s, or "0.82 s" or "820 ms"',
         ),
         ("20 degC", MASS, f"is of another dimension, but {A_MASS}"),
         ("5 deg", PLAIN, "is an angle, but a plain number is wanted, without quotes"),
@@ -147,11 +146,7 @@ def test_rarer_units(text, dimension, expected):
             LENGTH,
             f"is not a number followed by a unit; decimals take a point, thousands no comma; {A_LENGTH}",
         ),
-        (
-            "−30 mm",
-            LENGTH,
-            f"is not a number followed by a unit; a minus sign is a hyphen; {A_LENGTH}",
-        ),
+        ("−30 mm", LENGTH, f"is not a number followed by a unit; a minus sign is a hyphen; {A_LENGTH}"),
         ("1 lb 4", MASS, f"is not a number followed by a unit; {A_MASS}"),
         ("1.5 lb 4 oz", MASS, f"is not a number followed by a unit; {A_MASS}"),
         ("90", LENGTH, f"has no unit; {A_LENGTH}"),
@@ -189,9 +184,7 @@ def test_refusals(text, dimension, message):
     ],
 )
 def test_what_is_no_figure_is_never_evaluated(text):
-    with pytest.raises(
-        ValueError, match=r"^is not a number followed by a unit; a length is wanted"
-    ):
+    with pytest.raises(ValueError, match=r"^is not a number followed by a unit; a length is wanted"):
         convert(text, LENGTH)
 
 
@@ -401,11 +394,7 @@ def test_pounds_stay_a_mass_where_that_fits():
         ("2 tons", MASS, 'has the unit "tons": t (1000 kg), or 2000 lb, or 2240 lb? a mass is '),
         ("150 NM", TORQUE, 'has the unit "NM": N m, or nanometre? a torque is wanted: '),
         ("1 MG", MASS, 'has the unit "MG": mg, or Mg (1000 kg)? a mass is wanted: '),
-        (
-            "130 barg",
-            PRESSURE,
-            'has the unit "barg": bar over the atmosphere? Absolute it is 1.01325 bar more; a pre',
-        ),
+        ("130 barg", PRESSURE, 'has the unit "barg": bar over the atmosphere? Absolute it is 1.01325 bar more; a pre'),
         ("3 kgm", TORQUE, 'has the unknown unit "kgm"; a torque is wanted: '),
         ("2 Mm", LENGTH, 'has the unit "Mm": mm, or megametre? a length is wanted: '),
         ("50 kW", ENERGY, "is a power, but an energy is wanted: "),
@@ -434,8 +423,6 @@ def test_refusals_say_what_is_near(text, dimension, begin):
     assert str(caught.value).startswith(begin)
 
 
-@pytest.mark.parametrize(
-    "text", ["pi", "-π", "pi/2", "2π", '3.5"', "5500 min⁻¹", "3 1/2 in", "3-1/2 in", "9 kgf/cm2"]
-)
+@pytest.mark.parametrize("text", ["pi", "-π", "pi/2", "2π", '3.5"', "5500 min⁻¹", "3 1/2 in", "3-1/2 in", "9 kgf/cm2"])
 def test_editors_take_what_is_read(text):
     assert re.search(STRING_PATTERN, text)

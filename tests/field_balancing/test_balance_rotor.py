@@ -130,9 +130,7 @@ def test_weights_of_readings():
     text = 'planes = ["p1"]\ninfluence = [["1 @ 0"], ["1 @ 0"]]\n'
     runs = run([1, 4])
     assert totals(text + runs)[0] == pytest.approx(-2.5, rel=1e-13)
-    assert totals(text + "reading_weights = [1, 2]\n" + runs)[0] == pytest.approx(
-        -17 / 5, rel=1e-13
-    )
+    assert totals(text + "reading_weights = [1, 2]\n" + runs)[0] == pytest.approx(-17 / 5, rel=1e-13)
 
 
 def test_a_plane_that_is_left_out():
@@ -155,12 +153,9 @@ def test_the_largest_weight_of_a_plane():
 def test_drilled_holes_remove_what_weights_would_add():
     """The steel of all holes, from the rim inwards, has the unbalance of the correction."""
     text = three_runs(
-        "radius = [90, 80]\nplaces = [12, [0, 60, 120, 180, 240, 300]]\n"
-        "drill = [6, 8]\ndeepest = [12, 20]"
+        "radius = [90, 80]\nplaces = [12, [0, 60, 120, 180, 240, 300]]\ndrill = [6, 8]\ndeepest = [12, 20]"
     )
-    for p, rim, drill in zip(
-        find_corrections(parse_runs(text)).planes, (90, 80), (6, 8), strict=True
-    ):
+    for p, rim, drill in zip(find_corrections(parse_runs(text)).planes, (90, 80), (6, 8), strict=True):
         removed = 0
         for piece in p.pieces:
             area, depth = math.pi * (drill / 2e3) ** 2, piece.depth_mm / 1e3
@@ -217,9 +212,7 @@ def test_what_does_not_fit_leaves_what_it_says(limits, sense, minimise):
 
 def test_a_plane_that_fits_makes_up_for_one_that_does_not():
     """One sensor, by hand: 10 at 0 deg; what goes on at 90 deg only cannot help, the other can."""
-    text = head(
-        2, 'places = [[90], "free"]\ninfluence = [["1 @ 0", "1 @ 0"], ["0 @ 0", "0.1 @ 0"]]'
-    )
+    text = head(2, 'places = [[90], "free"]\ninfluence = [["1 @ 0", "1 @ 0"], ["0 @ 0", "0.1 @ 0"]]')
     result = find_corrections(parse_runs(text + run([10, 0])))
     assert result.planes[0].pieces == ()
     assert result.planes[1].step == pytest.approx(-10 / 1.01, rel=1e-9)
@@ -239,9 +232,7 @@ def test_the_grade_judges_what_is_there_not_what_fits():
 
 
 def test_places_are_numbered_as_the_file_has_them():
-    text = head(
-        2, 'places = [8, [200, 90, 100]]\ninfluence = [["1 @ 0", "0 @ 0"], ["0 @ 0", "1 @ 0"]]'
-    )
+    text = head(2, 'places = [8, [200, 90, 100]]\ninfluence = [["1 @ 0", "0 @ 0"], ["0 @ 0", "1 @ 0"]]')
     first, second = find_corrections(parse_runs(text + run([5j, -3j]))).planes
     assert [(p.place, p.angle_deg) for p in first.pieces] == [(7, 270)]
     assert [(p.place, p.angle_deg) for p in second.pieces] == [(2, 90)]
@@ -288,8 +279,7 @@ def test_doubts():
     text = head(2) + run([10, 10]) + run([10.5, 10], [("p1", 1)]) + run([10.5, 10.1], [("p2", 1)])
     small, far, *_ = find_corrections(parse_runs(text)).doubts[-4:]
     assert small == (
-        "the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; a heavier "
-        "one tells more"
+        "the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; a heavier one tells more"
     )
     assert far == (
         "the correction of 80 g in p1 is 80 times the largest weight tried there; put it on, read "
@@ -315,9 +305,7 @@ def test_units_of_radius_and_trial_weights_are_doubted():
     metres = three_runs("radius = [0.1, 0.45]")
     (doubt,) = find_corrections(parse_runs(metres)).doubts
     assert doubt == 'radius is 0.45 mm; is it in mm? Another unit is said as in "0.45 m"'
-    kilograms = (
-        head(2) + run([10, 10]) + run([15, 10], [("p1", 0.02)]) + run([10, 14], [("p2", 15)])
-    )
+    kilograms = head(2) + run([10, 10]) + run([15, 10], [("p1", 0.02)]) + run([10, 14], [("p2", 15)])
     *_, doubt = find_corrections(parse_runs(kilograms)).doubts
     assert doubt == "the weights tried are 0.02 g in p1 and 15 g in p2; are both in g?"
     far = run([10, 10]) + run([15, 10], [("p1", 0.2)]) + run([10, 14], [("p2", 15)])
@@ -331,8 +319,7 @@ def test_phases_in_radians_are_doubted():
     for phase in degrees:
         radians = radians.replace(f" @ {phase}", f" @ {math.radians(phase):.3f}")
     assert (
-        "all phases of readings are within 2.01 deg of 0; are they in radians? One of 2.01 rad is "
-        "115.0 deg"
+        "all phases of readings are within 2.01 deg of 0; are they in radians? One of 2.01 rad is 115.0 deg"
     ) in find_corrections(parse_runs(radians)).doubts
     alike = head(2) + run([10, 10]) + run([15, 10], [("p1", 2)]) + run([10, 14], [("p2", 2)])
     assert not any("radians" in doubt for doubt in find_corrections(parse_runs(alike)).doubts)
@@ -398,14 +385,10 @@ def test_planes_that_are_nearly_alike_are_doubted():
 def test_planes_that_are_alike_together_are_not_said_to_be_alike_each():
     """What p3 does, p1 and p2 do together: p1 and p2 have nothing in common."""
     text = head(
-        3,
-        'influence = [["1 @ 0", "0 @ 0", "1 @ 0"], ["0 @ 0", "1 @ 0", "1 @ 0"], '
-        '["0 @ 0", "0 @ 0", "0.1 @ 0"]]',
+        3, 'influence = [["1 @ 0", "0 @ 0", "1 @ 0"], ["0 @ 0", "1 @ 0", "1 @ 0"], ["0 @ 0", "0 @ 0", "0.1 @ 0"]]'
     ) + run([1, 2, 3])
     (doubt,) = find_corrections(parse_runs(text)).doubts
-    assert doubt.startswith(
-        "what planes p1, p2 and p3 do, other planes do nearly as well: only 7.1%"
-    )
+    assert doubt.startswith("what planes p1, p2 and p3 do, other planes do nearly as well: only 7.1%")
 
 
 def test_what_is_permitted_is_not_judged_in_a_plane_left_out():
@@ -437,10 +420,7 @@ REFUSED = [
         "as found, in a run without weights",
     ),
     (
-        head(2)
-        + run([1, 2])
-        + run([2, 2], [("p1", 1), ("p2", 1)])
-        + run([2, 2], [("p1", 2), ("p2", 2)]),
+        head(2) + run([1, 2]) + run([2, 2], [("p1", 1), ("p2", 1)]) + run([2, 2], [("p1", 2), ("p2", 2)]),
         "runs.toml: run: the trial weights in p1 and p2 are never apart, so what each does cannot be "
         "told; of 3 runs here, 3 that differ are needed: one as found, and one for each plane",
     ),
@@ -471,9 +451,7 @@ def test_planes_to_leave_out_must_be_there():
     assert refused(three_runs(), without=["reer"]) == (
         '--without "reer": is no plane; there are front, rear. Did you mean rear?'
     )
-    assert refused(three_runs(), without=["rear", "front"]) == (
-        "--without: leaves no plane to put a weight in"
-    )
+    assert refused(three_runs(), without=["rear", "front"]) == ("--without: leaves no plane to put a weight in")
 
 
 def test_a_rotor_without_unbalance_needs_nothing():

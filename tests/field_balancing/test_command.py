@@ -38,9 +38,7 @@ def runs(tmp_path):
 
 def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
     out = ask("field", runs)
-    assert (
-        "a weight at 30 deg stands 30 deg on from the 0 mark, going the way the rotor turns." in out
-    )
+    assert "a weight at 30 deg stands 30 deg on from the 0 mark, going the way the rotor turns." in out
     assert re.search(r"^front +1\.979 +123\.8 +200 +395\.9 +86%$", out, re.MULTILINE)
     assert re.search(r"^front +\d+ of 12 ", out, re.MULTILINE)
     assert re.search(r"^sensor 1 +170 +112\.0 +0 +–$", out, re.MULTILINE)
@@ -83,8 +81,7 @@ def test_holes_on_top_of_a_correction_are_new_ones(runs):
     told = "Depths are of new holes: those drilled before are not in the file."
     assert told not in run_here("field", runs).out
     text = runs.read_text() + (
-        '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\n'
-        'readings = ["9 @ 40", "6 @ 310"]\n'
+        '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\nreadings = ["9 @ 40", "6 @ 310"]\n'
     )
     runs.write_text(text)
     assert told in run_here("field", runs).out
@@ -187,9 +184,7 @@ def test_csv_has_every_figure_of_json(runs):
     assert found["correction", "front", "pieces.2.depth_mm"] == (str(depth), "mm")
     assert found["before", "sensor 2", "phase_deg"] == (str(said["before"][1]["phase_deg"]), "deg")
     assert found["permitted", "rear", "reached"] == ("true", "")
-    assert found["influence", "sensor 1 by rear", "amplitude"][0] == str(
-        said["influence"][0][1]["amplitude"]
-    )
+    assert found["influence", "sensor 1 by rear", "amplitude"][0] == str(said["influence"][0][1]["amplitude"])
 
 
 def test_a_trim_is_shown_beside_the_total(tmp_path):
@@ -235,11 +230,7 @@ def test_picture(runs, tmp_path, form):
     content = picture.read_bytes()
     assert content.startswith(begin)
     if form == "svg":
-        for words in (
-            "phases count against rotation",
-            "angles count with rotation",
-            "sensor 1: 170",
-        ):
+        for words in ("phases count against rotation", "angles count with rotation", "sensor 1: 170"):
             assert words.encode() in content
 
 
@@ -254,16 +245,11 @@ def test_mistakes_of_the_file_and_standard_input(runs, tmp_path):
     assert run_here("field", "-", stdin=text).out == run_here("field", runs).out
     assert refusal("field", tmp_path / "none.toml").endswith("none.toml: no such file")
     bad = text.replace("53 @ 78", "53")
-    assert refusal("field", "-", stdin=bad).startswith(
-        "standard input: run.1.readings: the 2nd value"
-    )
+    assert refusal("field", "-", stdin=bad).startswith("standard input: run.1.readings: the 2nd value")
 
 
 def test_doubts_are_warnings(tmp_path):
-    path = write(
-        tmp_path / "runs.toml",
-        three_runs().replace("235 @ 94", "171 @ 112").replace("58 @ 68", "53 @ 78"),
-    )
+    path = write(tmp_path / "runs.toml", three_runs().replace("235 @ 94", "171 @ 112").replace("58 @ 68", "53 @ 78"))
     status, _, err = run_here("field", path)
     assert status == 0
     assert err.startswith(f"warning: {path}: the trial weight in front changes no reading")
@@ -282,9 +268,7 @@ def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_p
     keys = tomllib.loads(OPTION.sub(r"\1", text).replace("speed  = 2900", ""))
     assert len(keys["run"]) == 4
     assert {"places", "drill", "deepest", "most", "shares", "reading_weights"} <= keys.keys()
-    everything = (
-        OPTION.sub(r"\1", text).replace("speed  = 2900", "").replace("keep_trial = true", "")
-    )
+    everything = OPTION.sub(r"\1", text).replace("speed  = 2900", "").replace("keep_trial = true", "")
     assert parse_runs(everything).run[3].name == "correction in"
 
 

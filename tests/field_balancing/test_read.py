@@ -80,26 +80,14 @@ CASES = [
         "run.1.readings: has 2 readings, but sensors names 1; give one for each sensor, in the same order in every run",
     ),
     (three_runs('sensors = ["a", "a"]'), 'sensors: names "a" twice; each needs a name of its own'),
-    (
-        three_runs("radius = [200]"),
-        "radius: has 1 value, but there are 2 planes; give one for each, in their order",
-    ),
+    (three_runs("radius = [200]"), "radius: has 1 value, but there are 2 planes; give one for each, in their order"),
     (
         three_runs("radius = [200, -1]"),
         'radius: the 2nd value -1 is not above 0; a length is wanted: a bare number in mm, or "90 mm" or "3.5 in", above 0',
     ),
-    (
-        three_runs("rotaton = 'lag'"),
-        "rotaton: unknown key in a file of runs; did you mean rotation?",
-    ),
-    (
-        three_runs().replace("[[run]]", "[[runs]]"),
-        "runs: unknown key in a file of runs; did you mean run?",
-    ),
-    (
-        with_first('planes = ["front", "rear"]', "planes = []"),
-        "planes: is an empty list; give at least one value",
-    ),
+    (three_runs("rotaton = 'lag'"), "rotaton: unknown key in a file of runs; did you mean rotation?"),
+    (three_runs().replace("[[run]]", "[[runs]]"), "runs: unknown key in a file of runs; did you mean run?"),
+    (with_first('planes = ["front", "rear"]', "planes = []"), "planes: is an empty list; give at least one value"),
     (
         three_runs("rotation = 'left'"),
         'rotation: "left" is not "lag" or "lead"; lag: phases count against rotation, as most '
@@ -122,10 +110,7 @@ CASES = [
         three_runs("reading_weights = [1]"),
         "reading_weights: has 1 value, but there are 2 readings in a run; give one for each",
     ),
-    (
-        three_runs("places = 8"),
-        "places: 8 is one value; give one for each plane, such as places = [8, 8]",
-    ),
+    (three_runs("places = 8"), "places: 8 is one value; give one for each plane, such as places = [8, 8]"),
     (
         three_runs("places = [4, 0]"),
         'places: the 2nd value 0 does not say where weights can go; give the number of places all round (up to 720), a list of their angles, or "free" for any angle',
@@ -146,43 +131,25 @@ CASES = [
         three_runs("grade = 6.3\nmass = 20\nspeed = 3000"),
         'radius: is missing; a grade permits an unbalance, which is weight times radius: give the radius of every plane, such as radius = [200, 200], or the weights as unbalances, with weight_unit = "g mm"',
     ),
-    (
-        three_runs("drill = [10, 10]"),
-        "radius: is missing; a drill needs the radius of the rim, in every plane",
-    ),
+    (three_runs("drill = [10, 10]"), "radius: is missing; a drill needs the radius of the rim, in every plane"),
     (
         three_runs("mass = 120\nshares = [1, 3]"),
         "grade: is missing; shares are of what it permits, such as grade = 6.3",
     ),
-    (
-        three_runs("deepest = [10, 10]"),
-        "drill: is missing; deepest belongs to holes, which have a diameter",
-    ),
-    (
-        three_runs("radius = [20, 20]\ndrill = [5, 50]"),
-        "drill: hole 2 of 50 mm is wider than its rim of radius 20 mm",
-    ),
+    (three_runs("deepest = [10, 10]"), "drill: is missing; deepest belongs to holes, which have a diameter"),
+    (three_runs("radius = [20, 20]\ndrill = [5, 50]"), "drill: hole 2 of 50 mm is wider than its rim of radius 20 mm"),
     (
         three_runs("radius = [20, 20]\ndrill = [5, 5]\ndeepest = [10, 30]"),
         "deepest: hole 2 of 30 mm passes the axis, 20 mm below the rim",
     ),
-    (
-        three_runs(last="speed = 1500"),
-        "run.1.speed: is missing; run.3 gives its speed, so every run must",
-    ),
+    (three_runs(last="speed = 1500"), "run.1.speed: is missing; run.3 gives its speed, so every run must"),
     ('planes = ["a"]\n', "run: is missing; write [[run]] for every run, the rotor as found first"),
-    (
-        'planes = ["a"]\nrun = []\n',
-        "run: is an empty list; write [[run]] for every run, the rotor as found first",
-    ),
+    ('planes = ["a"]\nrun = []\n', "run: is an empty list; write [[run]] for every run, the rotor as found first"),
     (
         '[[run]]\nreadings = ["1 @ 0"]\n',
         'planes: is missing; name the planes that take weights, such as planes = ["front", "rear"]',
     ),
-    (
-        'planes = ["a", "a"]\n[[run]]\nreadings = ["1 @ 0"]\n',
-        'planes: names "a" twice; each needs a name of its own',
-    ),
+    ('planes = ["a", "a"]\n[[run]]\nreadings = ["1 @ 0"]\n', 'planes: names "a" twice; each needs a name of its own'),
     (
         'planes = ["a\\u001b"]\n[[run]]\nreadings = ["1 @ 0"]\n',
         'planes: the 1st value "a?" is no name; use up to 200 letters, digits and signs',
@@ -206,9 +173,7 @@ def test_every_mistake_of_a_file_of_runs_is_told(text, message):
 
 def test_several_mistakes_are_told_at_once():
     found = mistakes(
-        three_runs("rotaton = 'lag'\nradius = ['1 kg', 2]")
-        .replace("1.15 @ 0", "0 @ 0")
-        .replace("53 @", "")
+        three_runs("rotaton = 'lag'\nradius = ['1 kg', 2]").replace("1.15 @ 0", "0 @ 0").replace("53 @", "")
     )
     assert [message.partition(":")[0] for message in found] == [
         "rotaton",
@@ -230,9 +195,7 @@ def test_a_broken_key_of_the_head_hides_nothing_else():
 
 
 def test_a_run_without_readings_hides_no_wrong_plane():
-    found = mistakes(
-        'planes = ["front"]\nrun = [{ readings = ["5 @ 3"] }, { weights.fornt = "3 @ 0" }]'
-    )
+    found = mistakes('planes = ["front"]\nrun = [{ readings = ["5 @ 3"] }, { weights.fornt = "3 @ 0" }]')
     assert found == [
         'run.2.readings: is missing; give it, such as readings = ["170 @ 112", "53 @ 78"]',
         "run.2.weights.fornt: is no plane; did you mean front?",
@@ -265,14 +228,7 @@ def test_ways_to_write_a_reading(text):
 
 
 def test_quarters_are_exact():
-    assert [make_polar(2, angle) for angle in (0, 90, 180, 270, 360, -90)] == [
-        2,
-        2j,
-        -2,
-        -2j,
-        2,
-        -2j,
-    ]
+    assert [make_polar(2, angle) for angle in (0, 90, 180, 270, 360, -90)] == [2, 2j, -2, -2j, 2, -2j]
 
 
 def test_a_run_that_cannot_be_read_makes_up_no_mistake_of_influence():

@@ -20,9 +20,7 @@ FILES = sorted(ENGINES.glob("*.toml"))
 
 
 def polygon(corners: int, first: int, turned: Fraction = Fraction(0), weight: int = 1):
-    return [
-        Term(first + k, Fraction(weight), turned + Fraction(k, corners)) for k in range(corners)
-    ]
+    return [Term(first + k, Fraction(weight), turned + Fraction(k, corners)) for k in range(corners)]
 
 
 @pytest.mark.parametrize(
@@ -35,10 +33,7 @@ def polygon(corners: int, first: int, turned: Fraction = Fraction(0), weight: in
             polygon(3, 1) + polygon(2, 4, Fraction(1, 8)),
             "phasors form opposite pairs and triangles, which sum to nothing",
         ),
-        (
-            polygon(5, 1) + polygon(5, 6, Fraction(1, 12)),
-            "phasors form pentagons, which sum to nothing",
-        ),
+        (polygon(5, 1) + polygon(5, 6, Fraction(1, 12)), "phasors form pentagons, which sum to nothing"),
         (
             [Term(1, Fraction(-3), Fraction(1, 3)), Term(4, Fraction(3), Fraction(1, 3))],
             "the mirror pair (1 and 4) pulls alike on opposite arms",

@@ -30,16 +30,9 @@ def test_the_first_order_along_an_inline_four():
     found = compute_inner_loads(inline_engine([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
-    for got, pattern, factor in (
-        (found.shear, [1, 0, -1, 0], 1),
-        (found.bending, [0, -0.1, -0.1, 0], 1j),
-    ):
-        assert got.phasors.forward[0] == pytest.approx(
-            np.array(pattern) * factor * ahead, rel=1e-12, abs=1e-9
-        )
-        assert got.phasors.backward[0] == pytest.approx(
-            np.array(pattern) * factor * against, rel=1e-12, abs=1e-9
-        )
+    for got, pattern, factor in ((found.shear, [1, 0, -1, 0], 1), (found.bending, [0, -0.1, -0.1, 0], 1j)):
+        assert got.phasors.forward[0] == pytest.approx(np.array(pattern) * factor * ahead, rel=1e-12, abs=1e-9)
+        assert got.phasors.backward[0] == pytest.approx(np.array(pattern) * factor * against, rel=1e-12, abs=1e-9)
 
 
 def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_it():
@@ -54,20 +47,10 @@ def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_
         for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True)
     )
     fitted = inline_engine([0, 120, 240, 240, 120, 0], more=weights)
-    assert all(
-        spectrum.compute_spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted)
-    )
+    assert all(spectrum.compute_spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted))
     before, after = (compute_inner_loads(e, ORDERS).bending for e in (plain, fitted))
     middle = abs(before.phasors.forward[0, 2])
-    statics = (
-        abs(
-            sum(
-                (z + 50) * np.exp(1j * np.radians(a))
-                for z, a in ((-250, 0), (-150, 120), (-50, 240))
-            )
-        )
-        / 1e3
-    )
+    statics = abs(sum((z + 50) * np.exp(1j * np.radians(a)) for z, a in ((-250, 0), (-150, 120), (-50, 240)))) / 1e3
     assert middle == pytest.approx(statics * (ROTATING + RECIPROCATING / 2), rel=1e-12)
     assert np.abs(after.phasors.forward[0]).max() < 1e-9 * middle
     assert before.peaks[before.largest].value > 3 * after.peaks[after.largest].value
@@ -77,9 +60,7 @@ def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_
 def test_beyond_the_last_load_stand_free_force_and_moment(layout):
     last = 0.1 + (0.01 if layout else 0)
     weight = "[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
-    subject = inline_engine(
-        [0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}"
-    )
+    subject = inline_engine([0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}")
     found, free = compute_inner_loads(subject, ORDERS), spectrum.compute_spectra(subject, ORDERS)
     assert found.shear.z_m[-1] == pytest.approx(last)
     for along, whole in ((found.shear, free.force), (found.bending, free.moment)):
@@ -88,21 +69,12 @@ def test_beyond_the_last_load_stand_free_force_and_moment(layout):
 
 
 def test_bearings_carry_all_force_and_moment():
-    subject = inline_engine(
-        [0, 90, 200], more="[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
-    )
-    found, free = (
-        compute_inner_loads(subject, ORDERS).bearings,
-        spectrum.compute_spectra(subject, ORDERS),
-    )
+    subject = inline_engine([0, 90, 200], more="[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n")
+    found, free = (compute_inner_loads(subject, ORDERS).bearings, spectrum.compute_spectra(subject, ORDERS))
     assert found is not None
     assert found.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
-    assert found.phasors.forward.sum(axis=1) == pytest.approx(
-        free.force.forward, rel=1e-11, abs=1e-8
-    )
-    assert 1j * found.phasors.forward @ found.z_m == pytest.approx(
-        free.moment.forward, rel=1e-11, abs=1e-8
-    )
+    assert found.phasors.forward.sum(axis=1) == pytest.approx(free.force.forward, rel=1e-11, abs=1e-8)
+    assert 1j * found.phasors.forward @ found.z_m == pytest.approx(free.moment.forward, rel=1e-11, abs=1e-8)
 
 
 def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
@@ -111,13 +83,8 @@ def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
 
 
 def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
-    more = (
-        "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = "
-        "9000\ndirection = 0\n"
-    )
-    plain, with_devices = (
-        compute_inner_loads(inline_engine([0, 180], more=text), ORDERS) for text in ("", more)
-    )
+    more = "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = 9000\ndirection = 0\n"
+    plain, with_devices = (compute_inner_loads(inline_engine([0, 180], more=text), ORDERS) for text in ("", more))
     assert np.array_equal(plain.bending.phasors.forward, with_devices.bending.phasors.forward)
 
 
@@ -126,16 +93,11 @@ def test_guide_force_moments():
     the side forces at their guides, 160 mm (the rod's length) above the crankshaft.
     """
     subject = inline_engine([0, 180])
-    found, roll = (
-        compute_guide_moments(subject, ORDERS),
-        spectrum.compute_spectra(subject, ORDERS).roll,
-    )
+    found, roll = (compute_guide_moments(subject, ORDERS), spectrum.compute_spectra(subject, ORDERS).roll)
     assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
     first, second = (spectrum.compute_spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
     assert found.x is not None
-    assert found.x.forward == pytest.approx(
-        (second.forward - first.forward) * 50 / 160, rel=1e-11, abs=1e-9
-    )
+    assert found.x.forward == pytest.approx((second.forward - first.forward) * 50 / 160, rel=1e-11, abs=1e-9)
     assert found.x.balanced.tolist() == [False, True, False, True]
 
 
@@ -196,9 +158,7 @@ def test_each_cylinder_is_what_it_is_alone(name):
             one = together.select_place(row)
             np.testing.assert_allclose(one[quantity.name].forward, single.forward, rtol=1e-14)
             np.testing.assert_allclose(one[quantity.name].backward, single.backward, rtol=1e-14)
-            np.testing.assert_array_equal(
-                one[quantity.name].noise, np.broadcast_to(single.noise, one.orders.shape)
-            )
+            np.testing.assert_array_equal(one[quantity.name].noise, np.broadcast_to(single.noise, one.orders.shape))
 
 
 def near_the_lock(throws, more=""):
@@ -219,10 +179,7 @@ def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_value
     force = spectrum.compute_spectra(subject, find_relevant_orders(subject), ["force"]).force
     assert force is not None
     assert found.shear.peaks[-1].value == pytest.approx(find_peak(force).value, rel=1e-12)
-    assert list(compute_inner_loads(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [
-        1,
-        4096,
-    ]
+    assert list(compute_inner_loads(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [1, 4096]
 
 
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
@@ -232,13 +189,9 @@ def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
         r"and at most 1100000 are kept: an engine farther from its lock has fewer orders$",
     ):
         compute_inner_loads(near_the_lock([10 * k for k in range(34)]))
-    with pytest.raises(
-        BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"
-    ):
+    with pytest.raises(BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"):
         compute_guide_moments(
-            near_the_lock(
-                [10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n"
-            )
+            near_the_lock([10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n")
         )
 
 

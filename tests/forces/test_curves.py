@@ -39,12 +39,7 @@ piston =""",
 )
 ROTARY = UNEVEN.replace("piston =", "layout = { banks = [0, 100, -80], rotary = true }\npiston =")
 HUNG = ARTICULATED.replace("80] }", "80], rotary = true }")
-TEXTS = {
-    "uneven": UNEVEN,
-    "articulated": ARTICULATED,
-    "rotary": ROTARY,
-    "rotary with a master rod": HUNG,
-}
+TEXTS = {"uneven": UNEVEN, "articulated": ARTICULATED, "rotary": ROTARY, "rotary with a master rod": HUNG}
 
 
 def engine(name):
@@ -80,28 +75,14 @@ def scale(subject):
 
 @pytest.mark.parametrize(
     "name",
-    [
-        "single",
-        "i3",
-        "i4_shafts",
-        "v6_90_split",
-        "v8_crossplane",
-        "vr6",
-        "boxer6",
-        "radial7",
-        "single_shaft",
-        *TEXTS,
-    ],
+    ["single", "i3", "i4_shafts", "v6_90_split", "v8_crossplane", "vr6", "boxer6", "radial7", "single_shaft", *TEXTS],
 )
 def test_direct_evaluation_is_the_sum_of_all_orders(name):
     subject, angles = engine(name), divide_revolution(7.5)
     direct, orders = compute_engine_curves(subject, angles).values, summed(engine(name), angles)
     assert set(direct) == set(orders)
     for quantity, curve in direct.items():
-        assert (
-            np.abs(curve - orders[quantity]).max()
-            <= RELATIVE * scale(subject)[quantity.endswith("_N")]
-        ), quantity
+        assert np.abs(curve - orders[quantity]).max() <= RELATIVE * scale(subject)[quantity.endswith("_N")], quantity
 
 
 def test_force_of_a_single_at_top_dead_centre():
@@ -110,12 +91,8 @@ def test_force_of_a_single_at_top_dead_centre():
     c = subject.cylinders
     m, rot, r, lam = (float(np.ravel(x)[0]) for x in (c.reciprocating, c.rotating, c.radius, c.lam))
     expected = subject.omega**2 * r * (m * (1 + lam) + rot)
-    expected += sum(
-        (d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices
-    )
-    assert compute_engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(
-        expected, rel=1e-14
-    )
+    expected += sum((d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices)
+    assert compute_engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(expected, rel=1e-14)
 
 
 @pytest.mark.parametrize("name", ["single", "i4", "v6_60", "v12_60", "boxer6", "radial7"])
@@ -144,21 +121,11 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
     """
     subject, angles = engine("uneven"), divide_revolution(0.5)
     (order,) = order_entries(compute_spectra(subject, [0]))
-    mean = {
-        name: float(curve.mean())
-        for name, curve in compute_engine_curves(subject, angles).values.items()
-    }
+    mean = {name: float(curve.mean()) for name, curve in compute_engine_curves(subject, angles).values.items()}
     force, couple = order["force_N"], order["couple_Nm"]
     assert force["forward"] == pytest.approx([mean["force_x_N"], mean["force_y_N"]], rel=1e-9)
-    assert [force[axis] for axis in "xy"] == [
-        {"amplitude": abs(v), "phase_deg": None} for v in force["forward"]
-    ]
-    assert (force["backward"], force["axis_deg"], couple["peak_deg"], couple["sin"]) == (
-        [0, 0],
-        None,
-        None,
-        0,
-    )
+    assert [force[axis] for axis in "xy"] == [{"amplitude": abs(v), "phase_deg": None} for v in force["forward"]]
+    assert (force["backward"], force["axis_deg"], couple["peak_deg"], couple["sin"]) == ([0, 0], None, None, 0)
     assert couple["cos"] == pytest.approx(mean["couple_Nm"], rel=1e-9)
     assert couple["amplitude"] == abs(couple["cos"])
 
@@ -169,9 +136,7 @@ def test_piston_motion_is_consistent_with_its_derivatives():
     """
     subject, h = engine("i4"), 1e-3
     angles = divide_revolution(30)
-    mid, before, after = (
-        compute_cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h)
-    )
+    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h))
     dt = np.radians(h) / subject.omega
     stroke = 2 * float(np.ravel(subject.cylinders.radius)[0])
     assert mid["travel_m"][0] == 0
@@ -179,17 +144,14 @@ def test_piston_motion_is_consistent_with_its_derivatives():
     speed = subject.omega * stroke
     slope = {name: (after[name] - before[name]) / (2 * dt) for name in mid}
     assert mid["velocity_m_per_s"] == pytest.approx(slope["travel_m"], abs=1e-8 * speed)
-    assert mid["acceleration_m_per_s2"] == pytest.approx(
-        slope["velocity_m_per_s"], abs=1e-8 * speed * subject.omega
-    )
+    assert mid["acceleration_m_per_s2"] == pytest.approx(slope["velocity_m_per_s"], abs=1e-8 * speed * subject.omega)
 
 
 def test_cylinders_follow_their_cranks():
     """Throws at 0, 90, 270, 180 degrees: cylinder 4 is at its top half a turn from cylinder 1."""
     subject = engine("i4_crossplane")
     lowest = {
-        n: int(compute_cylinder_curves(subject, n, divide_revolution()).values["travel_m"].argmin())
-        for n in (1, 4)
+        n: int(compute_cylinder_curves(subject, n, divide_revolution()).values["travel_m"].argmin()) for n in (1, 4)
     }
     assert lowest[1] == 0
     assert lowest[4] == 180
@@ -203,16 +165,12 @@ def test_a_revolution_is_divided_from_0_without_360():
     assert divide_revolution(0.7)[-2:].tolist() == [359.1, 359.8]
     assert divide_revolution(1 / 3).tolist() == [k / 3 for k in range(1080)]
     assert divide_revolution(np.sqrt(2))[[1, 100]].tolist() == [np.sqrt(2), 100 * np.sqrt(2)]
-    with pytest.raises(
-        BalcliError, match=r"--step 0: give a step of the crank angle from 0.001 to 360 degrees"
-    ):
+    with pytest.raises(BalcliError, match=r"--step 0: give a step of the crank angle from 0.001 to 360 degrees"):
         divide_revolution(0)
 
 
 def test_an_unknown_cylinder():
-    with pytest.raises(
-        BalcliError, match=r"--cylinder 9: in-line four, 2 litres has the cylinders 1, 2, 3, 4"
-    ):
+    with pytest.raises(BalcliError, match=r"--cylinder 9: in-line four, 2 litres has the cylinders 1, 2, 3, 4"):
         compute_cylinder_curves(engine("i4"), 9, divide_revolution(90))
 
 

@@ -129,9 +129,7 @@ def test_the_mean_torque_does_the_work_of_the_cylinders(seed):
         (None, [1, 6, 4, 2, 7, 5, 3], 2),
     ],
 )
-def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(
-    throws, firing, strokes
-):
+def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(throws, firing, strokes):
     text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}" if throws else "")
     text = text.replace("[1, 3, 4, 2]", f"{firing}\nstrokes = {strokes}")
     found = build_text(text + WIEBE)
@@ -175,17 +173,11 @@ def test_constant_pressure_has_the_harmonics_of_the_travel(tmp_path):
 
 
 def test_totals_are_sums_of_inertia_and_gas():
-    found = compute_spectra(
-        draw_engine(3), ORDERS, ["couple", "torque", "gas", "torque_total", "roll_total"]
-    )
+    found = compute_spectra(draw_engine(3), ORDERS, ["couple", "torque", "gas", "torque_total", "roll_total"])
     parts = {name: scalar(found[name]) for name in ("couple", "torque", "gas")}
     size = np.abs(parts["gas"]).max()
-    assert scalar(found.torque_total) == pytest.approx(
-        parts["torque"] + parts["gas"], abs=1e-13 * size
-    )
-    assert scalar(found.roll_total) == pytest.approx(
-        parts["couple"] - parts["torque"] - parts["gas"], abs=1e-13 * size
-    )
+    assert scalar(found.torque_total) == pytest.approx(parts["torque"] + parts["gas"], abs=1e-13 * size)
+    assert scalar(found.roll_total) == pytest.approx(parts["couple"] - parts["torque"] - parts["gas"], abs=1e-13 * size)
 
 
 # ------------------------------------------------------------------ what is shown
@@ -201,11 +193,7 @@ def test_an_analysis_shows_gas_where_there_is_some():
 
 def test_only_gas_is_all_that_gas_does():
     found = analyze(build_text(FOUR + WIEBE), orders=[0.5, 2], only=["gas"])
-    assert [kind.key for kind, _ in found.spectra.items()] == [
-        "gas_torque_Nm",
-        "torque_Nm",
-        "roll_total_Nm",
-    ]
+    assert [kind.key for kind, _ in found.spectra.items()] == ["gas_torque_Nm", "torque_Nm", "roll_total_Nm"]
     assert found.spectra.gas.balanced.tolist() == [True, False]
 
 
@@ -223,9 +211,7 @@ def test_shares_that_are_fractions_of_each_other_may_cancel():
 def test_people_read_which_order_rocks_the_engine():
     text = plain_text([sheet(analyze(build_text(FOUR + WIEBE)), SI)])
     assert " rocks the engine most: roll of " in text
-    half = plain_text(
-        [sheet(analyze(build_text(FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"), [0.5]), SI)]
-    )
+    half = plain_text([sheet(analyze(build_text(FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"), [0.5]), SI)])
     assert re.search(r"Order ½ rocks the engine most: roll of [0-9.]+ N·m \(gas alone\)\.", half)
     assert "About the crank axis with gas, N·m" in text
     assert "balcli torque" in text

@@ -39,11 +39,7 @@ def test_each_variant_is_what_the_analysis_says(path, vary, line):
     [
         (FOUR, "guide.H", "guide.H is no quantity: give guide.6.H or guide.6.X"),
         (FOUR, "guide.6.Y", "guide.6.Y is no quantity: give guide.6.H or guide.6.X"),
-        (
-            FOUR,
-            "guide.x.H",
-            "guide.x.H is no quantity: after guide comes an order up to 4096, as in guide.6.H",
-        ),
+        (FOUR, "guide.x.H", "guide.x.H is no quantity: after guide comes an order up to 4096, as in guide.6.H"),
         (
             ENGINES / "single.toml",
             "guide.2.X",

@@ -78,9 +78,7 @@ def solve_statics(found, angles):
 
 def integrate(found, function, orders):
     """Orders of functions by Gauss-Legendre sums of 24 points over short pieces between jumps."""
-    jumps = [
-        (cylinder.torque.breaks + cylinder.fires) % (4 * np.pi) for cylinder in found.gas.cylinders
-    ]
+    jumps = [(cylinder.torque.breaks + cylinder.fires) % (4 * np.pi) for cylinder in found.gas.cylinders]
     even = np.linspace(0, 4 * np.pi, 241)
     edges = np.unique(np.round(np.concatenate([even, *jumps]), 13))
     nodes, weights = np.polynomial.legendre.leggauss(24)

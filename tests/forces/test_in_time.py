@@ -59,9 +59,7 @@ def test_force_roll_and_gas(name):
         assert found[kind].backward / turned == pytest.approx(astern, rel=0, abs=1e-9 * largest)
 
 
-@pytest.mark.parametrize(
-    ("line", "slowest"), [((2, 0.9999, 0.0), "0.0001"), ((256, 0.8, 0.0), "0.2")]
-)
+@pytest.mark.parametrize(("line", "slowest"), [((2, 0.9999, 0.0), "0.0001"), ((256, 0.8, 0.0), "0.2")])
 def test_a_crank_that_all_but_stops_or_trembles_is_refused(line, slowest):
     engine = build_text(make_uneven([line]))
     said = (

@@ -36,9 +36,7 @@ def test_a_sum_is_made_of_kinds_that_are_none(kind):
 def test_roll_is_couple_less_torque():
     found = compute_spectra(engine(), np.arange(1.0, 9.0))
     assert not found["torque"].balanced.all()
-    assert np.array_equal(
-        found["roll"].forward, (found["couple"] - found["torque"]).drop_noise().forward
-    )
+    assert np.array_equal(found["roll"].forward, (found["couple"] - found["torque"]).drop_noise().forward)
 
 
 def test_only_what_was_asked_for_is_there():

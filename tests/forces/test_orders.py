@@ -13,14 +13,7 @@ from balcli.engine.build import take_model
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.guide_moments import compute_guide_moments
-from balcli.forces.orders import (
-    choose_orders,
-    is_order,
-    list_gas_orders,
-    mark_considerable,
-    merge_orders,
-    parse_order,
-)
+from balcli.forces.orders import choose_orders, is_order, list_gas_orders, mark_considerable, merge_orders, parse_order
 from balcli.forces.spectrum import Spectra
 from balcli.mounting.response import find_loads
 from balcli.render.gas_torque import tell_rocking
@@ -81,9 +74,7 @@ def test_variants_make_an_order_considerable_together() -> None:
 
 def test_orders_to_2_and_all_considerable_ones_are_shown() -> None:
     orders = [1.0, 2.0, 3.0, 4.0]
-    found = Spectra(
-        np.array(orders), force=curve(orders, [0, 0, 1, 0]), couple=curve(orders, [1, 0, 0, 0])
-    )
+    found = Spectra(np.array(orders), force=curve(orders, [0, 0, 1, 0]), couple=curve(orders, [1, 0, 0, 0]))
     assert choose_orders(found).tolist() == [1, 2, 3]
 
 
@@ -122,8 +113,7 @@ def test_half_orders_take_gas_in_four_strokes():
     with pytest.raises(BalcliError) as refused:
         analyze(load(ENGINES / "i4.toml"), [1, 1.5])
     assert str(refused.value) == (
-        "orders 1.5: half orders are those of gas pressure in four strokes; give [gas], or ask "
-        "for whole orders"
+        "orders 1.5: half orders are those of gas pressure in four strokes; give [gas], or ask for whole orders"
     )
     with pytest.raises(BalcliError, match=r"in four strokes; ask for whole orders$"):
         analyze(load(ENGINES / "marine" / "marine6.toml"), [1, 1.5])

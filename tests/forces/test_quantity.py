@@ -16,15 +16,7 @@ from balcli.studies.quantities import parse_quantities
 
 
 @pytest.mark.parametrize(
-    "name",
-    [
-        "force.2.major",
-        "moment.1.backward",
-        "couple.4.amplitude",
-        "roll.2.major",
-        "peak.force",
-        "force.1.axis",
-    ],
+    "name", ["force.2.major", "moment.1.backward", "couple.4.amplitude", "roll.2.major", "peak.force", "force.1.axis"]
 )
 def test_names_read_back(name: str) -> None:
     assert parse_quantities(name)[0].name == name
@@ -36,18 +28,14 @@ def test_names_read_back(name: str) -> None:
         ("forse.2.major", "forse.2.major is no quantity: did you mean force?"),
         (
             "force.two.major",
-            "force.two.major is no quantity: after force comes an order up to 4096, as in "
-            "force.2.major",
+            "force.two.major is no quantity: after force comes an order up to 4096, as in force.2.major",
         ),
         (
             "force.2",
             "force.2 is no quantity: after the order comes one of major, minor, forward, backward, "
             "axis, x, y, x_cos, x_sin, y_cos, y_sin",
         ),
-        (
-            "couple.2.axis",
-            "couple.2.axis is no quantity: after the order comes one of amplitude, major, cos, sin",
-        ),
+        ("couple.2.axis", "couple.2.axis is no quantity: after the order comes one of amplitude, major, cos, sin"),
         (" , ", "no quantity is given; name some, such as force.2.major,moment.1.backward"),
     ],
 )
@@ -76,11 +64,7 @@ def test_they_are_what_analyze_gives() -> None:
         "roll.2.amplitude": roll.major[1],
         "peak.force": found.force.value,
     }
-    values = dict(
-        zip(
-            expected, evaluate_quantities(engine, parse_quantities(",".join(expected))), strict=True
-        )
-    )
+    values = dict(zip(expected, evaluate_quantities(engine, parse_quantities(",".join(expected))), strict=True))
     assert {name: float(v) for name, v in values.items()} == pytest.approx(
         {name: float(v) for name, v in expected.items()}, rel=1e-13
     )
@@ -106,9 +90,7 @@ def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
             phasors = getattr(compute_spectra(engine, [order]), stem.split(".")[0])
             cos, sin = (
                 float(v)
-                for v in evaluate_quantities(
-                    engine, parse_quantities(f"{stem}cos,{stem}sin".format(order, order))
-                )
+                for v in evaluate_quantities(engine, parse_quantities(f"{stem}cos,{stem}sin".format(order, order)))
             )
             value = (phasors.values(theta) * np.conj(axis)).real
             found = cos * np.cos(order * theta) + sin * np.sin(order * theta)
@@ -119,13 +101,9 @@ def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
 def test_quantities_keep_the_order_asked_for() -> None:
     engine = build(load(VEE))
     names = "moment.1.major,force.2.major,force.4.major"
-    one_by_one = [
-        evaluate_quantities(engine, parse_quantities(name))[0] for name in names.split(",")
-    ]
+    one_by_one = [evaluate_quantities(engine, parse_quantities(name))[0] for name in names.split(",")]
     assert np.array_equal(evaluate_quantities(engine, parse_quantities(names)), one_by_one)
 
 
 def test_senses_are_named_as_tables_head_them() -> None:
-    assert parse_quantities("force.1.against,moment.2.with") == parse_quantities(
-        "force.1.backward,moment.2.forward"
-    )
+    assert parse_quantities("force.1.against,moment.2.with") == parse_quantities("force.1.backward,moment.2.forward")

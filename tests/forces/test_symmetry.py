@@ -89,10 +89,7 @@ def test_the_middle_piston_as_heavy_as_both_others():
     more = "[cylinder.2]\npiston_mass = 1.0\n"
     found = sentences([0, 180, 0], more=more)
     summed = "phasors at 0, 180 deg sum to nothing"
-    assert found[:2] == (
-        f"order 1 force: balanced exactly: {summed}",
-        "order 2 force: free: 4 F2, all in phase",
-    )
+    assert found[:2] == (f"order 1 force: balanced exactly: {summed}", "order 2 force: free: 4 F2, all in phase")
 
 
 def test_two_banks_of_different_mechanisms_that_are_each_balanced():
@@ -124,10 +121,7 @@ def test_balanced_by_figures_only():
 @pytest.mark.parametrize(
     ("layout", "text"),
     [
-        (
-            "firing_order = [1, 2, 3]\nfiring_intervals = [240, 240, 240]",
-            "firing: even, every 240 deg",
-        ),
+        ("firing_order = [1, 2, 3]\nfiring_intervals = [240, 240, 240]", "firing: even, every 240 deg"),
         (
             "firing_order = [1, 2, 3]\nfiring_intervals = [240, 239.9, 240.1]",
             "firing: nearly even, every 239.9 to 240.1 deg",

@@ -104,9 +104,7 @@ def test_what_is_proved_is_exactly_0(seed: int) -> None:
     layout = random.choice([*LAYOUTS.values()])
     numbers = random.permutation(np.arange(1, len(throws) + 1))[:2]
     keys = ("rod_length = 190", "piston_mass = 1.0", "position = 33.3")
-    own = "".join(
-        f"[cylinder.{n}]\n{random.choice(keys)}\n" for n in numbers if random.random() < 0.7
-    )
+    own = "".join(f"[cylinder.{n}]\n{random.choice(keys)}\n" for n in numbers if random.random() < 0.7)
     text = TEXT.format(**METRIC | {"throws": str(throws).replace("'", '"'), "layout": layout}) + own
     check_figures(*explain(text))
 
@@ -130,9 +128,7 @@ def test_slaves_of_unequal_masters_are_unequal(rotary: str) -> None:
 
 # ------------------------------------------------------------------ symmetrical => proof
 @pytest.mark.parametrize("layout", LAYOUTS)
-@pytest.mark.parametrize(
-    ("parts", "units"), [(2, "imperial"), (3, "metric"), (5, "imperial"), (7, "metric")]
-)
+@pytest.mark.parametrize(("parts", "units"), [(2, "imperial"), (3, "metric"), (5, "imperial"), (7, "metric")])
 def test_what_is_symmetrical_is_proved(parts: int, layout: str, units: str) -> None:
     """Throws evenly round the crank and then again from its other end: forces and torques of orders
     that are no multiple of their number vanish, and moments of all orders. Of a rotary engine the
@@ -173,9 +169,7 @@ def test_masses_and_places_in_any_proportion() -> None:
 def test_pairs_at_places_that_share_no_unit() -> None:
     """Each pair of throws in one plane cancels by itself."""
     file = METRIC | {"throws": [0, 180, 90, 270], "spacing": 0}
-    text = TEXT.format(**file).replace(
-        "spacing = 0", "positions = [31.4159265, 31.4159265, 271.8281828, 271.8281828]"
-    )
+    text = TEXT.format(**file).replace("spacing = 0", "positions = [31.4159265, 31.4159265, 271.8281828, 271.8281828]")
     found = explain(text)[1]
     assert {1, 3, 5} <= exact(found, "moment")
 

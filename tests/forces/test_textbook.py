@@ -16,12 +16,7 @@ from balcli.core.mechanisms import closed_form
 from balcli.enginefile.examples import folder
 from balcli.forces.kinds import FORCE, MOMENT
 from balcli.forces.spectrum import compute_each_cylinder
-from balcli.forces.textbook import (
-    TextbookUnits,
-    find_textbook,
-    find_textbook_units,
-    with_reciprocating_only,
-)
+from balcli.forces.textbook import TextbookUnits, find_textbook, find_textbook_units, with_reciprocating_only
 
 # Bosch, Automotive Handbook, "Free forces and moments of the 1st and 2nd order, and ignition
 # intervals of the most common engine designs": sizes in F1 and F2, F1 a and F2 a. Engines not in
@@ -102,19 +97,13 @@ def _layouts() -> dict[str, dict[tuple[str, int], float]]:
 def test_textbook_units():
     e = engine(crank={"throws": [0, 240, 120], "positions": [0, 80, 200]}, operation={"speed": 600})
     units = find_textbook_units(e, np.array([1.0, 2.0, 3.0]))
-    assert (units.force, units.arm, units.equal) == (
-        pytest.approx(0.05 * (20 * np.pi) ** 2),
-        pytest.approx(0.08),
-        True,
-    )
+    assert (units.force, units.arm, units.equal) == (pytest.approx(0.05 * (20 * np.pi) ** 2), pytest.approx(0.08), True)
     assert list(units.ratios) == list(closed_form.piston([1, 2, 3], 0.25))
     assert np.isnan(find_textbook_units(engine(), np.array([1.0])).arm)
 
 
 def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
-    e = engine(
-        crank={"throws": [0, 0]}, cylinder={"1": {"piston_mass": 3}}, layout={"numbering": [[2, 1]]}
-    )
+    e = engine(crank={"throws": [0, 0]}, cylinder={"1": {"piston_mass": 3}}, layout={"numbering": [[2, 1]]})
     units = find_textbook_units(e, np.array([1.0]))
     assert units.force == pytest.approx(3 * 0.05 * (2 * np.pi) ** 2)
     assert not units.equal
@@ -122,9 +111,7 @@ def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
 
 def test_moments_are_multiples_of_a_force_times_the_distance_of_throws():
     orders = np.array([1.0, 2.0, 3.0])
-    units = TextbookUnits(
-        orders, 200.0, 0.1, ratios=np.array([1.0, 0.25, 0.0]), cylinder=1, equal=True
-    )
+    units = TextbookUnits(orders, 200.0, 0.1, ratios=np.array([1.0, 0.25, 0.0]), cylinder=1, equal=True)
     assert (units.size(FORCE, 1), units.name(FORCE, 1)) == (200.0, "F1")
     assert (units.size(MOMENT, 2), units.name(MOMENT, 2)) == (5.0, "F2·a")
     assert np.isnan(units.size(FORCE, 3))
@@ -158,11 +145,7 @@ def test_units_of_an_engine_whose_first_cylinder_is_articulated_are_its_masters(
     """
     vee = engine(
         layout={"bank_angle": 60},
-        articulation={
-            "master": 2,
-            "knuckle_radius": 30,
-            "rod": {"length": 130, "mass": 0.4, "cg": 40},
-        },
+        articulation={"master": 2, "knuckle_radius": 30, "rod": {"length": 130, "mass": 0.4, "cg": 40}},
         cylinder={"2": {"piston_mass": 0.7}},
     )
     orders = np.array([1.0, 2.0, 4.0])

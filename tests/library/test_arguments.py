@@ -20,18 +20,12 @@ CHAIN = {
 @pytest.mark.parametrize(
     ("ask", "told"),
     [
-        (
-            lambda: balcli.tables("kvasnikov-1", angles="0:90:5"),
-            "angles: table kvasnikov-1 takes ratios",
-        ),
+        (lambda: balcli.tables("kvasnikov-1", angles="0:90:5"), "angles: table kvasnikov-1 takes ratios"),
         (
             lambda: balcli.tables("kvasnikov-1", ratios="0.9:1.1:0.1"),
             "ratios '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1",
         ),
-        (
-            lambda: balcli.scatter(V8, mass=0),
-            "nothing deviates; give a tolerance, such as mass 0.5%",
-        ),
+        (lambda: balcli.scatter(V8, mass=0), "nothing deviates; give a tolerance, such as mass 0.5%"),
         (
             lambda: balcli.balance(V8, "couple-shaft", balcli.SchemeOptions(position=0.1)),
             "scheme couple-shaft has no position; it takes order, at, planes",
@@ -46,13 +40,9 @@ CHAIN = {
         ),
         (
             lambda: balcli.balance(V8, "knuckles"),
-            "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
-            "--scheme knuckles` does so",
+            "scheme knuckles sizes no devices but changes the engine file: `balcli balance --scheme knuckles` does so",
         ),
-        (
-            lambda: balcli.curves(V8, 1000),
-            "step_deg 1000: give a step of the crank angle from 0.001 to 360 degrees",
-        ),
+        (lambda: balcli.curves(V8, 1000), "step_deg 1000: give a step of the crank angle from 0.001 to 360 degrees"),
         (
             lambda: balcli.plot(V8, "bank", scheme="crank"),
             "what bank shows the engine as it is: leave scheme and its options out",
@@ -94,14 +84,8 @@ def test_errors_name_arguments(ask, told):
 @pytest.mark.parametrize(
     ("ask", "told"),
     [
-        (
-            lambda: balcli.combine(V8, V8, at_m=0.3),
-            "at_m: 0.3 (float): give x, y and z in m, such as (0.3, 0, 0)",
-        ),
-        (
-            lambda: balcli.combine(V8, V8, phase_deg="90"),
-            "phase_deg: '90' (str): give an angle in degrees",
-        ),
+        (lambda: balcli.combine(V8, V8, at_m=0.3), "at_m: 0.3 (float): give x, y and z in m, such as (0.3, 0, 0)"),
+        (lambda: balcli.combine(V8, V8, phase_deg="90"), "phase_deg: '90' (str): give an angle in degrees"),
     ],
 )
 def test_what_is_of_another_type(ask, told):

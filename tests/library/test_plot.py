@@ -176,9 +176,6 @@ def test_curves_of_one_axis_are_told_apart_without_colour(name):
     of another width.
     """
     legends = [ax.get_legend() for ax in SHOWN[name]().axes if ax.get_legend()]
-    looks = [
-        [(line.get_linestyle(), line.get_linewidth()) for line in each.get_lines()[:3]]
-        for each in legends
-    ]
+    looks = [[(line.get_linestyle(), line.get_linewidth()) for line in each.get_lines()[:3]] for each in legends]
     assert max(map(len, looks)) > 1
     assert all(len({*each}) == len(each) for each in looks)

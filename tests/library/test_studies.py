@@ -18,13 +18,7 @@ from support.rotors import three_runs
 import balcli
 from balcli.errors import BalcliError
 from balcli.forces import curves as force_curves
-from balcli.library.arguments import (
-    check_count,
-    check_inertia,
-    check_speeds,
-    check_torsion_orders,
-    parse_share,
-)
+from balcli.library.arguments import check_count, check_inertia, check_speeds, check_torsion_orders, parse_share
 from balcli.limits import MOST_PARAMETER_VALUES, MOST_SPEEDS
 from balcli.studies import swept
 
@@ -71,21 +65,15 @@ def test_numbers_of_thousands_of_digits_are_refused_in_words(ask, told):
 # ------------------------------------------------------------------ sweep
 def test_a_sweep_is_the_engine_varied_point_by_point():
     angles, ratios = np.array([60.0, 75.0, 90.0]), [0.25, 0.3]
-    found = balcli.sweep(
-        V8, {"layout.bank_angle": angles, "rod.ratio": ratios}, ["force.2.major", "moment.1.major"]
-    )
+    found = balcli.sweep(V8, {"layout.bank_angle": angles, "rod.ratio": ratios}, ["force.2.major", "moment.1.major"])
     assert found["moment.1.major"].shape == (3, 2)
     for i, angle in enumerate(angles):
         for k, ratio in enumerate(ratios):
             engine = V8.vary({"layout.bank_angle": angle, "rod.ratio": ratio})
             spectra = balcli.analyze(engine, [1, 2]).spectra
             largest = found["moment.1.major"].max()
-            assert found["force.2.major"][i, k] == pytest.approx(
-                spectra.force.major[1], abs=CLOSE * largest
-            )
-            assert found["moment.1.major"][i, k] == pytest.approx(
-                spectra.moment.major[0], rel=CLOSE
-            )
+            assert found["force.2.major"][i, k] == pytest.approx(spectra.force.major[1], abs=CLOSE * largest)
+            assert found["moment.1.major"][i, k] == pytest.approx(spectra.moment.major[0], rel=CLOSE)
 
 
 def test_what_varies_are_the_axes_of_a_dataset():
@@ -110,11 +98,7 @@ def test_ways_to_give_values():
         assert found["rod.ratio"].tolist() == wanted
     assert balcli.sweep(FOUR, {"rod.length": "6 in"})["rod.length"].tolist() == [152.4]
     assert balcli.sweep(FOUR, {"rod.length": 150})["rod.length"].tolist() == [150]
-    assert balcli.sweep(FOUR, {"rod.length": range(150, 153)})["rod.length"].tolist() == [
-        150,
-        151,
-        152,
-    ]
+    assert balcli.sweep(FOUR, {"rod.length": range(150, 153)})["rod.length"].tolist() == [150, 151, 152]
 
 
 def test_quantities_by_default_are_those_that_are_known():
@@ -143,24 +127,20 @@ def test_a_sweep_too_large_to_keep_names_the_command(monkeypatch):
     with pytest.raises(balcli.BalcliError) as caught:
         balcli.sweep(FOUR, {"rod.ratio": [0.25, 0.3]}, ["force.2.major", "force.4.major"])
     assert str(caught.value) == (
-        "4 figures are too many to keep (3 are allowed): balcli sweep -o FILE.parquet writes them as "
-        "they are computed"
+        "4 figures are too many to keep (3 are allowed): balcli sweep -o FILE.parquet writes them as they are computed"
     )
 
 
 def test_quantities_of_chapters():
     found = balcli.sweep(DIESEL, {"torsion.rear.1.inertia": [9e5, 1e6]}, "torsion.1.Hz")
     engine = DIESEL.vary({"torsion.rear.1.inertia": 1e6})
-    assert found["torsion.1.Hz"][1] == pytest.approx(
-        balcli.analyze_torsion(engine).modes[0].frequency_hz, rel=CLOSE
-    )
+    assert found["torsion.1.Hz"][1] == pytest.approx(balcli.analyze_torsion(engine).modes[0].frequency_hz, rel=CLOSE)
     assert found["torsion.1.Hz"][0] > found["torsion.1.Hz"][1]
 
 
 # ------------------------------------------------------------------ search, scatter, compare
 @pytest.mark.parametrize(
-    ("engine", "over"),
-    [(V8, "throws"), (balcli.load_example("v6_60"), "bank_angle"), (FOUR, "firing_order")],
+    ("engine", "over"), [(V8, "throws"), (balcli.load_example("v6_60"), "bank_angle"), (FOUR, "firing_order")]
 )
 def test_the_engine_that_a_search_finds_is_as_good_as_it_says(engine, over):
     found = balcli.search(engine, over, "moment.1.major", top=2)
@@ -203,9 +183,7 @@ def test_tolerances_are_shares_or_percentages():
 
 def test_a_tolerance_is_a_number_of_numpy_too():
     usual = balcli.scatter(V8, "force.1.major", mass=0.5, length=0, seed=1, samples=100)
-    of_numpy = balcli.scatter(
-        V8, "force.1.major", mass=np.float32(0.5), length=np.int64(0), seed=1, samples=100
-    )
+    of_numpy = balcli.scatter(V8, "force.1.major", mass=np.float32(0.5), length=np.int64(0), seed=1, samples=100)
     assert of_numpy.spreads == usual.spreads
 
 
@@ -240,10 +218,7 @@ def test_rows_of_a_scatter_have_their_unit():
     found = balcli.scatter(FOUR, ["force.2.major", "moment.2.major"], samples=10, seed=1)
     frame = found.to_pandas()
     assert list(frame.columns)[-1] == "unit"
-    assert dict(zip(frame["quantity"], frame["unit"], strict=True)) == {
-        "force.2.major": "N",
-        "moment.2.major": "N·m",
-    }
+    assert dict(zip(frame["quantity"], frame["unit"], strict=True)) == {"force.2.major": "N", "moment.2.major": "N·m"}
 
 
 def test_stiffness_of_mounts_scatters():
@@ -285,9 +260,7 @@ def test_curves_of_an_engine_and_of_a_piston():
     assert piston.values["travel_m"].max() == pytest.approx(2 * FOUR.cylinders.radius)
     assert "travel_m" in piston.to_pandas()
     assert len(balcli.curves(balcli.load_example("i4_wiebe"), 90).rows()) == 8
-    with pytest.raises(
-        balcli.BalcliError, match=r"in-line four, 2 litres has the cylinders 1, 2, 3, 4$"
-    ):
+    with pytest.raises(balcli.BalcliError, match=r"in-line four, 2 litres has the cylinders 1, 2, 3, 4$"):
         balcli.curves(FOUR, cylinder=9)
 
 
@@ -317,8 +290,7 @@ def test_answers_tell_what_is_doubtful_of_them():
     """At its resonance of 17.4 Hz 10 N m twist what hardly anything damps by turns."""
     excited = f'{CHAIN}loss = LOSS\n[[excitation]]\nnode = "motor"\norder = 1\ncos = 10\n'
     weak, usual = (
-        balcli.analyze_torsion(excited.replace("LOSS", loss), range(1000, 1100, 10))
-        for loss in ("1e-5", "0.1")
+        balcli.analyze_torsion(excited.replace("LOSS", loss), range(1000, 1100, 10)) for loss in ("1e-5", "0.1")
     )
     (told,) = weak.doubts
     assert told.startswith("motor would swing by ")
@@ -332,12 +304,7 @@ def test_a_chain_is_a_path_a_text_or_a_dict(tmp_path):
     (tmp_path / "chain.toml").write_text(CHAIN)
     found = [
         balcli.analyze_torsion(source).modes[0].frequency_hz
-        for source in (
-            tmp_path / "chain.toml",
-            str(tmp_path / "chain.toml"),
-            CHAIN,
-            tomllib.loads(CHAIN),
-        )
+        for source in (tmp_path / "chain.toml", str(tmp_path / "chain.toml"), CHAIN, tomllib.loads(CHAIN))
     ]
     wanted = np.sqrt(8000 * (1 / 2 + 1 / 1)) / (2 * np.pi)
     assert found == pytest.approx([wanted] * 4, rel=1e-9)
@@ -385,50 +352,26 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
         (lambda: balcli.scatter(3), f"scatter: 3 (int): {ENGINE}"),
         (lambda: balcli.compare(V8, 3), f"compare: 3 (int): {ENGINE}"),
         (lambda: balcli.analyze_torque(3), f"analyze_torque: 3 (int): {ENGINE}"),
-        (
-            lambda: balcli.analyze_mounts(MOUNTS, others={"a": 3}),
-            f"analyze_mounts: 3 (int): {ENGINE}",
-        ),
-        (
-            lambda: balcli.analyze(V8, orders="1"),
-            "orders: '1' (str): give numbers, such as [1, 2, 4]",
-        ),
+        (lambda: balcli.analyze_mounts(MOUNTS, others={"a": 3}), f"analyze_mounts: 3 (int): {ENGINE}"),
+        (lambda: balcli.analyze(V8, orders="1"), "orders: '1' (str): give numbers, such as [1, 2, 4]"),
         (lambda: balcli.analyze(V8, orders=1), "orders: 1 (int): give numbers, such as [1, 2, 4]"),
-        (
-            lambda: balcli.analyze(V8, orders=["x"]),
-            "orders: 'x' (str): give numbers, such as [1, 2, 4]",
-        ),
-        (
-            lambda: balcli.sweep(V8, 5),
-            'sweep: 5 (int): give a dict, such as {"rod.ratio": [0.24, 0.28, 0.32]}',
-        ),
+        (lambda: balcli.analyze(V8, orders=["x"]), "orders: 'x' (str): give numbers, such as [1, 2, 4]"),
+        (lambda: balcli.sweep(V8, 5), 'sweep: 5 (int): give a dict, such as {"rod.ratio": [0.24, 0.28, 0.32]}'),
         (
             lambda: balcli.sweep(V8, {"rod.ratio": 1j}),
             "rod.ratio: 1j (complex): give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01",
         ),
         (lambda: balcli.sweep(V8, RATIO, 5), f"sweep: 5 (int): {NAMES}"),
         (lambda: balcli.sweep(V8, RATIO, [5]), f"sweep: [5] (list): {NAMES}"),
-        (
-            lambda: balcli.sweep(V8, RATIO, threads="x"),
-            "threads: 'x' (str): give a whole number from 1",
-        ),
+        (lambda: balcli.sweep(V8, RATIO, threads="x"), "threads: 'x' (str): give a whole number from 1"),
         (lambda: balcli.search(V8, "throws", 5), f"search: 5 (int): {NAMES}"),
         (
             lambda: balcli.search(V8, "throws", "force.1.major", limits=5),
             'search: 5 (int): give a dict, such as {"moment.2.major": 100}',
         ),
-        (
-            lambda: balcli.scatter(V8, samples=1.5),
-            "samples: 1.5 (float): give a whole number from 1",
-        ),
-        (
-            lambda: balcli.tables(3),
-            "tables: 3 (int): give the name of a table, such as 'tsinghua-1-2'",
-        ),
-        (
-            lambda: balcli.load_example(3),
-            'load_example: 3 (int): give the name of an example, such as "i4"',
-        ),
+        (lambda: balcli.scatter(V8, samples=1.5), "samples: 1.5 (float): give a whole number from 1"),
+        (lambda: balcli.tables(3), "tables: 3 (int): give the name of a table, such as 'tsinghua-1-2'"),
+        (lambda: balcli.load_example(3), 'load_example: 3 (int): give the name of an example, such as "i4"'),
         (
             lambda: balcli.analyze_torsion(5),
             "analyze_torsion: 5 (int): give an Engine, or the path, text or dict of a chain of inertias and shafts",
@@ -441,27 +384,15 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
             lambda: balcli.analyze_mounts(5),
             "analyze_mounts: 5 (int): give an Engine, or the path, text or dict of a file with [body] and [[mount]]",
         ),
-        (
-            lambda: balcli.balance_rotor(5),
-            "balance_rotor: 5 (int): give the path, text or dict of a file of runs",
-        ),
+        (lambda: balcli.balance_rotor(5), "balance_rotor: 5 (int): give the path, text or dict of a file of runs"),
         (lambda: balcli.balance(V8, 5), "balance: 5 (int): give the name of a scheme"),
         (
             lambda: balcli.balance(V8, "factor", {"factor": 0.5}),
             "balance: {'factor': 0.5} (dict): give SchemeOptions(factor=(0.5,))",
         ),
-        (
-            lambda: balcli.analyze(V8, only=5),
-            'only: 5 (int): give words, such as ["force", "moment"]',
-        ),
-        (
-            lambda: balcli.analyze(V8, only=[5]),
-            'only: 5 (int): give words, such as ["force", "moment"]',
-        ),
-        (
-            lambda: balcli.compare(V8, V8, only=5),
-            'only: 5 (int): give words, such as ["force", "moment"]',
-        ),
+        (lambda: balcli.analyze(V8, only=5), 'only: 5 (int): give words, such as ["force", "moment"]'),
+        (lambda: balcli.analyze(V8, only=[5]), 'only: 5 (int): give words, such as ["force", "moment"]'),
+        (lambda: balcli.compare(V8, V8, only=5), 'only: 5 (int): give words, such as ["force", "moment"]'),
         (
             lambda: balcli.plot(V8, np.array(["polar", "bars"])),
             "what: array(['polar', 'bars'], dtype='<U5') (ndarray): give the name of a page, such as",
@@ -483,38 +414,17 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
             lambda: balcli.analyze_torque(GAS, fluctuation="1/200"),
             "fluctuation: '1/200' (str): give a number, as 1 / 200",
         ),
-        (
-            lambda: balcli.analyze_mounts(MOUNTS, scheme=5),
-            'scheme: 5 (int): give its name, such as "counterweights"',
-        ),
+        (lambda: balcli.analyze_mounts(MOUNTS, scheme=5), 'scheme: 5 (int): give its name, such as "counterweights"'),
         (
             lambda: balcli.analyze_torsion(DIESEL, damper="viscous", damper_inertia="x"),
             "damper_inertia: 'x' (str): give a moment of inertia in kg m2, such as 0.1",
         ),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, orders=["a"]),
-            "orders: 'a' (str): give numbers, such as [1, 2, 4]",
-        ),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, orders=3),
-            "orders: 3 (int): give numbers, such as [1, 2, 4]",
-        ),
-        (
-            lambda: balcli.tables("series", ratios=0.25),
-            'ratios: 0.25 (float): give a text, such as "0.20:0.40:0.01"',
-        ),
-        (
-            lambda: balcli.tables("liu-3", angles=[1]),
-            'angles: [1] (list): give a text, such as "0:180:5"',
-        ),
-        (
-            lambda: balcli.tables("series", power="x"),
-            "power: 'x' (str): give a whole number from 0",
-        ),
-        (
-            lambda: balcli.search(V8, 5, "moment.1.major"),
-            'search: 5 (int): give what to arrange, such as "throws"',
-        ),
+        (lambda: balcli.analyze_torsion(DIESEL, orders=["a"]), "orders: 'a' (str): give numbers, such as [1, 2, 4]"),
+        (lambda: balcli.analyze_torsion(DIESEL, orders=3), "orders: 3 (int): give numbers, such as [1, 2, 4]"),
+        (lambda: balcli.tables("series", ratios=0.25), 'ratios: 0.25 (float): give a text, such as "0.20:0.40:0.01"'),
+        (lambda: balcli.tables("liu-3", angles=[1]), 'angles: [1] (list): give a text, such as "0:180:5"'),
+        (lambda: balcli.tables("series", power="x"), "power: 'x' (str): give a whole number from 0"),
+        (lambda: balcli.search(V8, 5, "moment.1.major"), 'search: 5 (int): give what to arrange, such as "throws"'),
         *(
             (
                 lambda names=names: balcli.compare(V8, V8, names=names),
@@ -542,18 +452,9 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
             lambda: balcli.balance(V8, "factor", balcli.SchemeOptions(measured=float("nan"))),
             "SchemeOptions: measured: nan (float): give a mass in kg, such as 0.812",
         ),
-        (
-            lambda: balcli.analyze_torque(GAS, loads=5),
-            'loads: 5 (int): give words, such as ["pin", "main"]',
-        ),
-        (
-            lambda: balcli.analyze_torque(GAS, cylinder="1"),
-            "cylinder: '1' (str): give a whole number from 1",
-        ),
-        (
-            lambda: balcli.analyze_mounts(MOUNTS, others=[V8]),
-            'analyze_mounts: [<Engine "90-degree cross-plane V8"',
-        ),
+        (lambda: balcli.analyze_torque(GAS, loads=5), 'loads: 5 (int): give words, such as ["pin", "main"]'),
+        (lambda: balcli.analyze_torque(GAS, cylinder="1"), "cylinder: '1' (str): give a whole number from 1"),
+        (lambda: balcli.analyze_mounts(MOUNTS, others=[V8]), 'analyze_mounts: [<Engine "90-degree cross-plane V8"'),
         (
             lambda: balcli.analyze_torsion(DIESEL, [2000], damper="viscous", damper_at=5),
             "damper_at: 5 (int): give the name of a part",
@@ -572,10 +473,7 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
             )
             for names in (5, [5])
         ),
-        (
-            lambda: balcli.analyze_mounts(MOUNTS, orders=3),
-            "orders: 3 (int): give numbers, such as [1, 2, 4]",
-        ),
+        (lambda: balcli.analyze_mounts(MOUNTS, orders=3), "orders: 3 (int): give numbers, such as [1, 2, 4]"),
         *(
             (
                 lambda orders=orders: balcli.analyze(V8, orders=orders),
@@ -595,9 +493,7 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
             for name, ask in {
                 "by_cylinder": lambda: balcli.analyze(V8, by_cylinder="no"),
                 "reasons": lambda: balcli.analyze(V8, reasons="no"),
-                "even_firing": lambda: balcli.search(
-                    V8, "throws", "force.1.major", even_firing="no"
-                ),
+                "even_firing": lambda: balcli.search(V8, "throws", "force.1.major", even_firing="no"),
             }.items()
         ),
         *(
@@ -619,10 +515,7 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
             lambda: balcli.sweep(V8, {}),
             'sweep: nothing varies; give numbers and values, such as {"rod.ratio": [0.24, 0.28, 0.32]}',
         ),
-        (
-            lambda: balcli.sweep(V8, {"rod.ratoi": 3}),
-            "rod.ratoi: unknown parameter; did you mean rod.ratio?",
-        ),
+        (lambda: balcli.sweep(V8, {"rod.ratoi": 3}), "rod.ratoi: unknown parameter; did you mean rod.ratio?"),
         (
             lambda: balcli.sweep(V8, {"rod.ratio": []}),
             f"rod.ratio: values of shape (0,); give a list or an array of one axis with 1 to {MOST_PARAMETER_VALUES} values",
@@ -641,29 +534,17 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
             'rod.ratio: "x" is not a number followed by a unit; a plain number is wanted, without quotes',
         ),
         (lambda: balcli.sweep(V8, {"rod.length": ["3 parsecs"]}), "rod.length: "),
-        (
-            lambda: balcli.sweep(V8, RATIO, ["forse.1.major"]),
-            "forse.1.major is no quantity: did you mean force?",
-        ),
+        (lambda: balcli.sweep(V8, RATIO, ["forse.1.major"]), "forse.1.major is no quantity: did you mean force?"),
         (lambda: balcli.sweep(V8, RATIO, threads=0), "threads: 0 is less than 1"),
         (lambda: balcli.search(V8, "throws", "force.1.major", top=0), "top: 0 is less than 1"),
-        (
-            lambda: balcli.scatter(V8, mass=2),
-            'mass 2: give a share from 0 to 1, such as 0.005 or "0.5%"',
-        ),
-        (
-            lambda: balcli.scatter(V8, length="x"),
-            'length "x": give a percentage of 0 to 100, such as 0.5%',
-        ),
+        (lambda: balcli.scatter(V8, mass=2), 'mass 2: give a share from 0 to 1, such as 0.005 or "0.5%"'),
+        (lambda: balcli.scatter(V8, length="x"), 'length "x": give a percentage of 0 to 100, such as 0.5%'),
         (
             lambda: balcli.scatter(V8, angle_deg="x"),
             'angle_deg: "x" is not a number followed by a unit; an angle is wanted',
         ),
         (lambda: balcli.scatter(V8, seed=-1), "seed: -1 is less than 0"),
-        (
-            lambda: balcli.scatter(V8, distribution="odd"),
-            'distribution \'odd\': choose "uniform" or "normal"',
-        ),
+        (lambda: balcli.scatter(V8, distribution="odd"), 'distribution \'odd\': choose "uniform" or "normal"'),
         (
             lambda: balcli.load_example("v8_crosplane"),
             'there is no example "v8_crosplane": balcli engines lists them. Did you mean v8_crossplane',
@@ -682,14 +563,8 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
         ),
         (lambda: balcli.analyze_mounts("no.toml"), "no.toml: no such file"),
         (lambda: balcli.balance_rotor("no.toml"), "no.toml: no such file"),
-        (
-            lambda: balcli.analyze(V8, only="force, forse"),
-            "there is no quantity forse: choose from",
-        ),
-        (
-            lambda: balcli.analyze_torque(GAS, loads=("pins",)),
-            "loads: 'pins'; choose from pin, main",
-        ),
+        (lambda: balcli.analyze(V8, only="force, forse"), "there is no quantity forse: choose from"),
+        (lambda: balcli.analyze_torque(GAS, loads=("pins",)), "loads: 'pins'; choose from pin, main"),
         (
             lambda: balcli.analyze_torsion(DIESEL, [2000], damper="odd"),
             "damper 'odd': choose from viscous, rubber, pendulum",
@@ -705,10 +580,7 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
         ),
         (lambda: balcli.tables("series", power=-1), "power: -1 is less than 0"),
         (lambda: balcli.tables("series", power=201), "power: give 200 at most"),
-        (
-            lambda: balcli.search(V8, "throws", "moment.1.major", top=10**9),
-            "top: give 1000 at most",
-        ),
+        (lambda: balcli.search(V8, "throws", "moment.1.major", top=10**9), "top: give 1000 at most"),
         (lambda: balcli.sweep(V8, {"rod.ratio": 0.3}, threads=10**6), "threads: give 64 at most"),
         (lambda: balcli.load(""), 'no file is named: ""'),
         *(
@@ -773,11 +645,7 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
 
 @pytest.mark.parametrize(
     ("call", "kind", "message"),
-    [
-        pytest.param(call, kind, message, id=message[:40])
-        for kind, each in WRONG.items()
-        for call, message in each
-    ],
+    [pytest.param(call, kind, message, id=message[:40]) for kind, each in WRONG.items() for call, message in each],
 )
 def test_what_is_wrong_is_told(call, kind, message):
     with pytest.raises(kind) as caught:
@@ -786,14 +654,10 @@ def test_what_is_wrong_is_told(call, kind, message):
 
 
 @pytest.mark.parametrize("cylinder", [None, 2])
-def test_curves_with_gas_do_not_depend_on_how_many_angles_are_computed_at_a_time(
-    cylinder, monkeypatch
-):
+def test_curves_with_gas_do_not_depend_on_how_many_angles_are_computed_at_a_time(cylinder, monkeypatch):
     engine = balcli.load_example("i4_wiebe")
     at_once = balcli.curves(engine, 7, cylinder=cylinder).values
     monkeypatch.setattr(force_curves, "AT_ONCE", 4 * 10)  # ten angles of four cylinders
     in_pieces = balcli.curves(engine, 7, cylinder=cylinder).values
     for name, values in at_once.items():
-        np.testing.assert_allclose(
-            in_pieces[name], values, rtol=0, atol=1e-12 * np.abs(values).max()
-        )
+        np.testing.assert_allclose(in_pieces[name], values, rtol=0, atol=1e-12 * np.abs(values).max())

@@ -59,8 +59,7 @@ def test_csv_has_the_figures_of_json(four):
     said = ask_json("mounts", four, "--speeds", "900,3000")
     lines = ask_csv("mounts", four, "--speeds", "900,3000")
     found = {
-        (r["part"], r["name"], r["order"], r["speed_rpm"][:4], r["figure"]): (r["value"], r["unit"])
-        for r in lines
+        (r["part"], r["name"], r["order"], r["speed_rpm"][:4], r["figure"]): (r["value"], r["unit"]) for r in lines
     }
     mount = said["response"]["mounts"][2]
     own = found["mount", "3", "2", "900.", "force"]
@@ -119,9 +118,7 @@ def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
     inertia_alone = ENGINE + body + mounts.replace("loss = 0.1", "loss = 0.6")
     path.write_text(inertia_alone, encoding="utf-8")
     out = run_here("mounts", path, "--speeds", "100:3000:50").out
-    told = (
-        r"at ([\d.]+) rpm, .* Most of it is mode \d \(.*\), which is not near the ([\d.]+) Hz of "
-    )
+    told = r"at ([\d.]+) rpm, .* Most of it is mode \d \(.*\), which is not near the ([\d.]+) Hz of "
     rpm, hertz = re.search(f"{told}that order", out).groups()
     assert float(hertz) == pytest.approx(2 * float(rpm) / 60, rel=5e-3)
 
@@ -170,12 +167,7 @@ def test_the_point_that_moves_most_is_told_with_a_scheme_and_without(four):
 
 @pytest.mark.parametrize(
     ("after", "told"),
-    [
-        (0.0, ": nothing is left"),
-        (0.3, ": over 99% less"),
-        (2.0, ": 98% less"),
-        (110.0, ": 10% more"),
-    ],
+    [(0.0, ": nothing is left"), (0.3, ": over 99% less"), (2.0, ": 98% less"), (110.0, ": 10% more")],
 )
 def test_what_hardly_anything_is_left_of_is_not_told_as_all(after, told):
     """It said "100% less" of what was there."""
@@ -225,9 +217,7 @@ def test_cylinders_that_do_not_fire_are_named(tmp_path):
     assert "engine,,,,no_gas_in,3," in listed
     assert "engine,,,,no_burning_in,4," in listed
     told = " ".join(
-        run_here(
-            "mounts", path, "-", stdin=path.read_text("utf-8").replace("gas = 0", "gas = 1")
-        ).out.split()
+        run_here("mounts", path, "-", stdin=path.read_text("utf-8").replace("gas = 0", "gas = 1")).out.split()
     )
     assert "; no gas in 3; no burning in 4. With " in told
     assert "% more; no burning in 4. " in told
@@ -295,26 +285,16 @@ def test_it_is_readable_in_a_terminal(four):
 @pytest.mark.parametrize("form", ["svg", "png"])
 def test_picture(four, tmp_path, form):
     picture = tmp_path / f"mounts.{form}"
-    done = run_here(
-        "mounts", four, "--speeds", "300:900:50", "--scheme", "two-shaft", "--plot", picture
-    )
+    done = run_here("mounts", four, "--speeds", "300:900:50", "--scheme", "two-shaft", "--plot", picture)
     assert (done.status, done.err) == (0, "")
     content = picture.read_bytes()
     assert content.startswith({"svg": b"<?xml", "png": b"\x89PNG"}[form])
     if form == "svg":
-        for words in (
-            "Force of each mount",
-            "Motion of points",
-            "1, two-shaft",
-            "4: 17.4 Hz",
-            "roll",
-        ):
+        for words in ("Force of each mount", "Motion of points", "1, two-shaft", "4: 17.4 Hz", "roll"):
             assert words.encode() in content
 
 
-@pytest.mark.parametrize(
-    "asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto"), ("--misfire", "1")]
-)
+@pytest.mark.parametrize("asked", [("--speeds", "1000"), ("--orders", "2"), ("--scheme", "auto"), ("--misfire", "1")])
 def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path, asked):
     bare = write(tmp_path / "bare.toml", block("loss = 0.1"))
     status, out, err = run_here("mounts", bare, *asked)
@@ -352,9 +332,7 @@ def test_the_page_rocks_the_body(four):
     arm, path = np.array([100, 0, 300]), np.zeros((3, len(angles)))
     for order, row in zip(data["orders"], data["motion"][k], strict=True):
         parts = np.array(row)
-        q = np.outer(parts[:6], np.cos(order * angles)) + np.outer(
-            parts[6:], np.sin(order * angles)
-        )
+        q = np.outer(parts[:6], np.cos(order * angles)) + np.outer(parts[6:], np.sin(order * angles))
         path += q[:3] + np.cross(q[3:].T, arm).T
     largest = np.linalg.norm(path, axis=0).max()
     assert largest == pytest.approx(said["points"][0]["peak_mm"][place], rel=1e-3)
@@ -362,9 +340,7 @@ def test_the_page_rocks_the_body(four):
 
 @pytest.mark.stress
 def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
-    path = write(
-        tmp_path / "undamped.toml", ENGINE.replace("speed = 3000", "speed = 1200") + block()
-    )
+    path = write(tmp_path / "undamped.toml", ENGINE.replace("speed = 3000", "speed = 1200") + block())
     status, page, err = run_here("report", path, "-o", "-")
     assert status == 0
     assert "rocking" not in page
@@ -394,18 +370,9 @@ SPEEDS = [
     ("900:100:100", '--speeds "900:100:100": must rise; give first:last:step in rpm'),
     ("1:2:3:4", '--speeds "1:2:3:4": give first:last:step in rpm, such as 1000:2500:25, or speeds'),
     ("a", '--speeds "a": give first:last:step in rpm'),
-    (
-        "0,100",
-        '--speeds "0,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm',
-    ),
-    (
-        "1e-300,100",
-        '--speeds "1e-300,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm',
-    ),
-    (
-        "0:100:10",
-        '--speeds "0:100:10": speeds and their step are above 0 and below 1e9 rpm; give first:last',
-    ),
+    ("0,100", '--speeds "0,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm'),
+    ("1e-300,100", '--speeds "1e-300,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm'),
+    ("0:100:10", '--speeds "0:100:10": speeds and their step are above 0 and below 1e9 rpm; give first:last'),
     ("1:1e6:1", '--speeds "1:1e6:1": has 1000000 speeds; at most 20000 are computed'),
 ]
 
@@ -422,11 +389,7 @@ def test_orders_that_do_not_vibrate(four):
 
 def test_an_engine_that_shakes_nothing(tmp_path):
     path = tmp_path / "still.toml"
-    text = (
-        ENGINE.replace("0.7", "0")
-        .replace("mass = 0.6", "mass = 0")
-        .replace("inertia = 2500", "inertia = 0")
-    )
+    text = ENGINE.replace("0.7", "0").replace("mass = 0.6", "mass = 0").replace("inertia = 2500", "inertia = 0")
     text = text.replace("mass = 0.5\n", "mass = 0\n").replace("0.55", "0")
     path.write_text(text + block("loss = 0.1"), encoding="utf-8")
     status, out, _ = run_here("mounts", path)
@@ -454,13 +417,7 @@ def test_too_much_is_refused():
         for k in range(100)
     )
     message = refusal(
-        "mounts",
-        "-",
-        "--speeds",
-        "1:19000:1",
-        "--orders",
-        "1-3",
-        stdin=ENGINE + block("loss = 1", count=0) + mounts,
+        "mounts", "-", "--speeds", "1:19000:1", "--orders", "1-3", stdin=ENGINE + block("loss = 1", count=0) + mounts
     )
     assert "3 orders at 19000 speeds of 100 mounts and 0 points are 5700000 results" in message
 

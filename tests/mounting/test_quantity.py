@@ -33,15 +33,7 @@ def test_each_variant_is_the_file_that_says_so(four, tmp_path):
         "mode.3.Hz,mode.roll.Hz,mode.roll.share,mode.2.damping,mount.left.force,"
         "mount.rear_one.static,point.shift_lever.motion,force.2.major"
     )
-    rows = sweep(
-        four,
-        "--vary",
-        "mount.left.stiffness.3=300,500",
-        "--vary",
-        "body.mass=150,210",
-        "-q",
-        quantities,
-    )
+    rows = sweep(four, "--vary", "mount.left.stiffness.3=300,500", "--vary", "body.mass=150,210", "-q", quantities)
     assert len(rows) == 4
     for row in rows:
         stiffness, mass = row["mount.left.stiffness.3"], row["body.mass"]
@@ -55,9 +47,7 @@ def test_each_variant_is_the_file_that_says_so(four, tmp_path):
         assert row["mode.2.damping"] == pytest.approx(5, rel=1e-9)
         mount, point = said["response"]["mounts"][0], said["response"]["points"][0]
         assert row["mount.left.force"] == pytest.approx(mount["worst"]["force_N"], rel=1e-9)
-        assert row["point.shift_lever.motion"] == pytest.approx(
-            point["worst"]["motion_mm"] / 1e3, rel=1e-9
-        )
+        assert row["point.shift_lever.motion"] == pytest.approx(point["worst"]["motion_mm"] / 1e3, rel=1e-9)
         rest = np.linalg.norm(said["static"]["mounts"][2]["force_N"])
         assert row["mount.rear_one.static"] == pytest.approx(rest, rel=1e-9)
         assert row["force.2.major"] > 1000
@@ -73,18 +63,13 @@ def test_figures_of_the_engine_vary_with_those_of_the_mounts(four, tmp_path):
 
 
 def test_what_varies_nothing_is_not_computed_again(four):
-    one, two = sweep(
-        four, "--vary", "mount.left.loss=0.1,0.2", "-q", "mode.roll.Hz,mode.roll.damping"
-    )
+    one, two = sweep(four, "--vary", "mount.left.loss=0.1,0.2", "-q", "mode.roll.Hz,mode.roll.damping")
     assert one["mode.roll.Hz"] == two["mode.roll.Hz"]
     assert one["mode.roll.damping"] < two["mode.roll.damping"]
 
 
 WRONG = [
-    (
-        "mode.7.Hz",
-        "mode.7.Hz is no quantity: after mode comes its number from 1 to 6, or its motion",
-    ),
+    ("mode.7.Hz", "mode.7.Hz is no quantity: after mode comes its number from 1 to 6, or its motion"),
     ("mode.3.hz", "mode.3.hz is no quantity: give mode.3.Hz or mode.3.share or mode.3.damping"),
     ("mount.force", "mount.force is no quantity: give mount.left.force or mount.left.static"),
     ("mount.lef.force", 'mount.lef.force: the file has no mount "lef"; did you mean left?'),
@@ -102,8 +87,7 @@ def test_what_is_no_quantity(four, quantity, message):
 def test_variants_that_cannot_be_are_told_with_their_figures(four):
     told = refusal("sweep", four, "--vary", "body.inertia.4=0,1e8", "-q", "mode.1.Hz")
     assert told == (
-        f"{four}: body.inertia.4 = 1e+08: body: inertia xy is 1e+08; beside xx and yy it must be "
-        "within 9.79796e+06"
+        f"{four}: body.inertia.4 = 1e+08: body: inertia xy is 1e+08; beside xx and yy it must be within 9.79796e+06"
     )
     told = refusal("sweep", four, "--vary", "mount.9.loss=0,1", "-q", "mode.1.Hz")
     assert told.startswith("mount.9.loss: unknown parameter; did you mean")
@@ -114,17 +98,7 @@ def test_variants_that_cannot_be_are_told_with_their_figures(four):
 def test_stiffness_scatters():
     """Up and down of the block is sqrt(sum k / m): by hand, with the same random numbers."""
     said = ask_json(
-        "scatter",
-        "-",
-        "-q",
-        "mode.z.Hz",
-        "--samples",
-        "400",
-        "--seed",
-        "7",
-        "--stiffness-scatter",
-        "10%",
-        stdin=NAMED,
+        "scatter", "-", "-q", "mode.z.Hz", "--samples", "400", "--seed", "7", "--stiffness-scatter", "10%", stdin=NAMED
     )
     found = said["quantities"]["mode.z.Hz"]
     factors = 1 + 0.1 * (2 * np.random.default_rng(7).random((400, 4)) - 1)
@@ -154,9 +128,7 @@ def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
     told = refusal("scatter", four, "-q", "mode.1.Hz,force.2.major")
     assert told.startswith("force.2.major and mode.1.Hz have tolerances of their own")
     told = refusal("scatter", four, "-q", "mode.1.Hz", "--samples", "100000")
-    assert told == (
-        "100000 samples: on mounts, where each is computed by itself, from 1 to 20000 are allowed"
-    )
+    assert told == ("100000 samples: on mounts, where each is computed by itself, from 1 to 20000 are allowed")
     told = refusal("scatter", four, "-q", "mode.1.Hz", "--stiffness-scatter", "0%")
     assert told == "nothing deviates; give a tolerance, such as --stiffness-scatter 15%"
     told = refusal("scatter", four, "-q", "mount.lef.force", "--samples", "2")
@@ -224,6 +196,4 @@ def test_an_undamped_resonance_names_no_option_that_a_sweep_lacks(four):
     asked = ("--vary", "body.mass=150,210", "-q", "mount.left.force")
     told = refusal("sweep", four, *asked)
     assert told.startswith(f"{four}: body.mass = 150: mode ")
-    assert told.endswith(
-        "give the mounts a loss, such as loss = 0.1, or a range without that speed"
-    )
+    assert told.endswith("give the mounts a loss, such as loss = 0.1, or a range without that speed")

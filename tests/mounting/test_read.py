@@ -17,10 +17,7 @@ CASES = [
         block().replace('name = "2"', 'name = "1"'),
         'mount.2.name: "1" is also the name of mount.1; each needs one of its own',
     ),
-    (
-        block().replace("8e6, 12e6", "-8e6, 12e6"),
-        "body: inertia xx is -8e+06; a moment of inertia is above 0",
-    ),
+    (block().replace("8e6, 12e6", "-8e6, 12e6"), "body: inertia xx is -8e+06; a moment of inertia is above 0"),
     (
         block().replace("14e6, 0, 0, 0]", "14e6, 0, 13e6, 0]"),
         "body: inertia yz is 1.3e+07; beside yy and zz it must be within 1.29615e+07",
@@ -34,10 +31,7 @@ CASES = [
         block().replace("gravity = [0, 0, -1]", "gravity = [0, 0, 0]"),
         "body: gravity [0, 0, 0] has no direction; leave it out for -x, downwards",
     ),
-    (
-        block("axes = [[1, 0, 0], [1, 1, 0]]"),
-        "mount.1: axes are 45 degrees apart; they must be perpendicular",
-    ),
+    (block("axes = [[1, 0, 0], [1, 1, 0]]"), "mount.1: axes are 45 degrees apart; they must be perpendicular"),
     (
         block("axes = [[0, 0, 0], [1, 1, 0]]"),
         "mount.1: axes has a direction of length 0; give two directions such as [0, 1, 0]",
@@ -48,18 +42,13 @@ CASES = [
     ),
     (
         block().replace("[200, 150, 400]", "[200, 150]"),
-        "mount.4.stiffness: [200, 150] has 2 values where 3 are wanted: static, along its "
-        "three own axes",
+        "mount.4.stiffness: [200, 150] has 2 values where 3 are wanted: static, along its three own axes",
     ),
-    (
-        block("loss = -0.1"),
-        "mount.1.loss: -0.1 is less than 0; a plain number is wanted, without quotes, 0 or more",
-    ),
+    (block("loss = -0.1"), "mount.1.loss: -0.1 is less than 0; a plain number is wanted, without quotes, 0 or more"),
     (block("los = 0.1"), "mount.1.los: unknown key in [mount]; did you mean loss?"),
     (
         ENGINE.replace("mass = 0.5\n", "") + block().replace("mass = 200", ""),
-        "piston: has neither mass nor piston, pin, rings and locks; give either mass or piston, pin, "
-        "rings and locks",
+        "piston: has neither mass nor piston, pin, rings and locks; give either mass or piston, pin, rings and locks",
     ),
     (
         ENGINE.replace("mass = 0.5\n", "") + block().replace("mass = 200", ""),
@@ -98,9 +87,7 @@ def test_units_of_their_own(tmp_path):
     path = tmp_path / "x.toml"
     imperial = block().replace("[200, 150, 400]", '["1000 lbf/in", 150, "400 N/mm"]')
     path.write_text(imperial, encoding="utf-8")
-    assert read_mounted(path).model.mount[0].stiffness == pytest.approx(
-        (175.12683524647636, 150, 400), rel=1e-12
-    )
+    assert read_mounted(path).model.mount[0].stiffness == pytest.approx((175.12683524647636, 150, 400), rel=1e-12)
 
 
 def test_moments_that_no_body_has_are_doubted(tmp_path):
@@ -111,9 +98,7 @@ def test_moments_that_no_body_has_are_doubted(tmp_path):
     )
     status, _, err = run_here("mounts", path)
     assert (status, err.startswith(f"warning: {path}: body.inertia: zz")) == (0, True)
-    path.write_text(
-        ENGINE.replace("speed = 3000", "speed = 30000") + block("loss = 0.1"), encoding="utf-8"
-    )
+    path.write_text(ENGINE.replace("speed = 3000", "speed = 30000") + block("loss = 0.1"), encoding="utf-8")
     assert "piston speed" in read_mounted(path).doubts[0]
 
 
@@ -131,8 +116,7 @@ def test_places_in_metres_are_doubted(tmp_path):
     point = '[[point]]\nname = "seat"\nat = [0, %s, 0]\n'
     path.write_text(block() + point % "0.5", encoding="utf-8")
     assert read_mounted(path).doubts == (
-        "point.1.at of 'seat' is within 0.5 mm of the origin; is it in mm? Another unit is said as "
-        'in "0.5 m"',
+        "point.1.at of 'seat' is within 0.5 mm of the origin; is it in mm? Another unit is said as in \"0.5 m\"",
     )
     for there in ("0", "1e-14"):
         path.write_text(block() + point % there, encoding="utf-8")
@@ -152,15 +136,9 @@ def test_mounts_that_give_way_like_none_are_doubted(tmp_path, stiffness, sag):
 
 
 def test_a_loss_factor_in_percent_is_doubted(tmp_path):
-    path = write(
-        tmp_path / "x.toml", block().replace("[200, 150, 400]", "[200, 150, 400]\nloss = 8")
-    )
-    told = (
-        "is 8, where at most 1 is usual; 8 % is 0.08, and of a relative damping psi the loss factor"
-    )
-    assert read_mounted(path).doubts == tuple(
-        f"mount.{k}.loss {told} is psi/(2 pi)" for k in range(1, 5)
-    )
+    path = write(tmp_path / "x.toml", block().replace("[200, 150, 400]", "[200, 150, 400]\nloss = 8"))
+    told = "is 8, where at most 1 is usual; 8 % is 0.08, and of a relative damping psi the loss factor"
+    assert read_mounted(path).doubts == tuple(f"mount.{k}.loss {told} is psi/(2 pi)" for k in range(1, 5))
 
 
 @pytest.mark.parametrize("one", ["300", '"300 N/mm"'])

@@ -143,9 +143,7 @@ def test_one_order_reaches_its_steady_state_in_time(report):
         one = slope(t, state)
         two = slope(t + step / 2, state + step / 2 * one)
         three = slope(t + step / 2, state + step / 2 * two)
-        state = state + step / 6 * (
-            one + 2 * two + 2 * three + slope(t + step, state + step * three)
-        )
+        state = state + step / 6 * (one + 2 * two + 2 * three + slope(t + step, state + step * three))
         if k >= 160 * 59:
             largest = max(largest, float(np.linalg.norm(move(state, body.point - body.centre))))
     assert result.response.motion_peak[0, 0] == pytest.approx(largest, rel=1e-3)
@@ -197,10 +195,7 @@ def test_of_several_peaks_the_highest_is_found(report, seed, loss):
     text = ENGINE + RandomBody(seed, 4, loss).text
     coarse = report(text, speeds=np.array([250.0, 650, 1100, 1500])).response
     fine = report(text, speeds=np.arange(250.0, 1501, 1)).response
-    for worst, curves in (
-        (coarse.worst_force, fine.force_peak),
-        (coarse.worst_motion, fine.motion_peak),
-    ):
+    for worst, curves in ((coarse.worst_force, fine.force_peak), (coarse.worst_motion, fine.motion_peak)):
         found = [each.value for each in worst]
         assert found == pytest.approx(curves.max(axis=0), rel=1e-3)
 
@@ -234,9 +229,9 @@ def test_a_scheme_takes_away_what_it_is_for(report):
     assert result.fitted.response.force_peak.max() < result.response.force_peak.max()
 
 
-GAS = ENGINE.replace(
-    "[cylinder.2]", "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.2]\ngas = 0"
-) + ('[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n')
+GAS = ENGINE.replace("[cylinder.2]", "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.2]\ngas = 0") + (
+    '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
+)
 
 
 def test_gas_rolls_the_body_alike_at_every_speed(report):
@@ -279,10 +274,7 @@ def test_a_load_on_the_body_leans_on_no_mount(report):
     the mounts bear the weight alone, and vibrate as if the generator stood apart.
     """
     text = GAS + RandomBody(6, 4).text
-    apart, aboard = (
-        report(text.replace("[body]\n", f"[body]\n{said}"))
-        for said in ("", "carries_load = true\n")
-    )
+    apart, aboard = (report(text.replace("[body]\n", f"[body]\n{said}")) for said in ("", "carries_load = true\n"))
     weight = report(ENGINE + RandomBody(6, 4).text).modes.settled.forces
     assert aboard.modes.settled.forces == pytest.approx(weight, rel=1e-12, abs=1e-9)
     assert np.abs(apart.modes.settled.forces - weight).max() > 10
@@ -337,8 +329,7 @@ def test_under_a_constant_load_its_torque_leans_on_the_mounts(report):
     waves = np.fft.fft(omega, norm="forward")[:49]
     assert omega.max() / omega.min() > 1.3
     lines = ", ".join(
-        f"{{ order = {k / 2}, amplitude = {2 * abs(wave) / waves[0].real}, "
-        f"angle = {-np.degrees(np.angle(wave))} }}"
+        f"{{ order = {k / 2}, amplitude = {2 * abs(wave) / waves[0].real}, angle = {-np.degrees(np.angle(wave))} }}"
         for k, wave in enumerate(waves)
         if k
     )
@@ -476,8 +467,7 @@ def test_motions_are_called_by_where_up_is(up, names):
 
 RIPPLE = ENGINE.replace(
     "speed = 3000",
-    "speed = 3000\nspeed_ripple = [{ order = 2, amplitude = 0.2, angle = 30 }, "
-    "{ order = 1, amplitude = 0.05 }]",
+    "speed = 3000\nspeed_ripple = [{ order = 2, amplitude = 0.2, angle = 30 }, { order = 1, amplitude = 0.05 }]",
 )
 
 

@@ -36,9 +36,7 @@ def nodes(start: mp.mpf, end: mp.mpf) -> list[tuple[mp.mpf, mp.mpf]]:
     """Points and weights of a sum that integrates from `start` to `end`."""
     count = max(int(mp.ceil((end - start) / PANEL)), 1)
     half = (end - start) / count / 2
-    return [
-        (start + (2 * k + 1) * half + half * x, half * w) for k in range(count) for x, w in gauss()
-    ]
+    return [(start + (2 * k + 1) * half + half * x, half * w) for k in range(count) for x, w in gauss()]
 
 
 @dataclass(frozen=True)
@@ -104,8 +102,7 @@ class Sampled:
     def harmonic(self, h: int, crankcase=0):
         """t_h of `Re sum t_h e^{i h c/2}`, N m."""
         total = mp.fsum(
-            v * (p - crankcase) * mp.expj(-h * c / 2)
-            for v, (c, _, p) in zip(self.sweeps, self.points, strict=True)
+            v * (p - crankcase) * mp.expj(-h * c / 2) for v, (c, _, p) in zip(self.sweeps, self.points, strict=True)
         )
         return total / self.period * (1 if h == 0 else 2)
 
@@ -155,9 +152,7 @@ def computed(m: Mechanism, burn: tuple, heat, *, strokes, ratio, nc, ne, intake,
     else:
         down = m.travel(opens)
         mirror = 2 * mp.pi - opens - mp.mpf("1e-3")
-        closes = (
-            mp.findroot(lambda c: m.travel(c) - down, (mirror, mirror + mp.mpf("1e-3"))) - 2 * mp.pi
-        )
+        closes = mp.findroot(lambda c: m.travel(c) - down, (mirror, mirror + mp.mpf("1e-3"))) - 2 * mp.pi
 
     def volume(c):
         return m.volume(c, ratio)

@@ -64,9 +64,7 @@ class Body:
     mass: float
     inertia: float = 0.0
     spin: np.ndarray | float = 0.0  # its angular velocity for a crank speed of 1
-    point: complex | None = (
-        None  # devices: where their force acts; their own turning counts nowhere
-    )
+    point: complex | None = None  # devices: where their force acts; their own turning counts nowhere
 
 
 @dataclass
@@ -111,11 +109,7 @@ class Engine:
             self._move(cell)
         for kind in ("counterweight", "shaft", "slider"):
             self.devices += [self._device(kind, table) for table in data.get(kind, [])]
-        reference = data.get("frame", {}).get("reference") or [
-            0,
-            0,
-            (min(self.throws) + max(self.throws)) * 500,
-        ]
+        reference = data.get("frame", {}).get("reference") or [0, 0, (min(self.throws) + max(self.throws)) * 500]
         self.at, self.z = complex(reference[0], reference[1]) / 1e3, reference[2] / 1e3
 
     # -------------------------------------------------------------- where everything stands
@@ -132,17 +126,11 @@ class Engine:
         shared = layout.get("rods", "shared") == "shared"
         rods = len(banks) if shared else 1
         count = len(crank["throws"]) if "throws" in crank else len(order) // rods if order else 1
-        where = [
-            (b, t) for b in range(len(banks)) for t in range(count) if shared or t % len(banks) == b
-        ]
+        where = [(b, t) for b in range(len(banks)) for t in range(count) if shared or t % len(banks) == b]
         numbers = (
-            [n for row in layout["numbering"] for n in row]
-            if "numbering" in layout
-            else list(range(1, len(where) + 1))
+            [n for row in layout["numbering"] for n in row] if "numbering" in layout else list(range(1, len(where) + 1))
         )
-        along = crank.get("positions") or [
-            (t - (count - 1) / 2) * crank.get("spacing", 0) for t in range(count)
-        ]
+        along = crank.get("positions") or [(t - (count - 1) / 2) * crank.get("spacing", 0) for t in range(count)]
         lean = layout.get("stagger", 0) if shared else 0
         self.share = crank.get("throw_mass", 0) / rods
         card = self.data.get("bobweight", {})
@@ -164,9 +152,7 @@ class Engine:
         self._pins(order, layout, crank)
         for t in range(count):
             mine = [c for c in self.cells if c["throw"] == t]
-            self.throws.append(
-                sum(c["z"] - (c["bank"] - (rods - 1) / 2) * lean / 1e3 for c in mine) / len(mine)
-            )
+            self.throws.append(sum(c["z"] - (c["bank"] - (rods - 1) / 2) * lean / 1e3 for c in mine) / len(mine))
 
     def _pins(self, order: list[int] | None, layout: dict[str, Any], crank: dict[str, Any]) -> None:
         splay = crank.get("splay", 0)
@@ -187,14 +173,9 @@ class Engine:
     def _top(self, cell: dict[str, Any]) -> float:
         """Direction of the crank pin when the piston is at the top."""
         piston, rod = self._parts(cell)
-        if (
-            "articulation" in self.data
-            and cell["bank"] != self.data["articulation"].get("master", 1) - 1
-        ):
+        if "articulation" in self.data and cell["bank"] != self.data["articulation"].get("master", 1) - 1:
             return cell["axis"]
-        return cell["axis"] + math.degrees(
-            math.asin(piston["offset"] / (self.radius + rod["length"]))
-        )
+        return cell["axis"] + math.degrees(math.asin(piston["offset"] / (self.radius + rod["length"])))
 
     def _parts(self, cell: dict[str, Any]) -> tuple[dict[str, float], dict[str, float]]:
         """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a
@@ -203,18 +184,10 @@ class Engine:
         own, table = cell["own"], self.data.get("articulation")
         hung = table is not None and cell["bank"] != table.get("master", 1) - 1
         rod = dict(table["rod"] if hung and table else self.data["rod"])
-        for group in (
-            ("length", "ratio"),
-            ("mass", "cg", "small_end", "big_end"),
-            ("inertia", "pendulum"),
-        ):
+        for group in (("length", "ratio"), ("mass", "cg", "small_end", "big_end"), ("inertia", "pendulum")):
             mine = {k: own["rod_" + k] for k in group if "rod_" + k in own}
             whole, ends = set(mine) <= {"mass", "cg"}, set(mine) <= {"small_end", "big_end"}
-            if (
-                mine
-                and not (whole and "small_end" not in rod)
-                and not (ends and "small_end" in rod)
-            ):
+            if mine and not (whole and "small_end" not in rod) and not (ends and "small_end" in rod):
                 rod = {k: v for k, v in rod.items() if k not in group}
             rod |= mine
         length = rod["length"] / 1e3 if "length" in rod else self.radius / rod["ratio"]
@@ -228,10 +201,7 @@ class Engine:
             inertia = rod["inertia"] / 1e6
         elif "pendulum" in rod:
             arm = cg if rod["pendulum"]["pivot"] == "big_end" else length - cg
-            inertia = (
-                mass * GRAVITY * arm * rod["pendulum"]["period"] ** 2 / (4 * math.pi**2)
-                - mass * arm**2
-            )
+            inertia = mass * GRAVITY * arm * rod["pendulum"]["period"] ** 2 / (4 * math.pi**2) - mass * arm**2
         piston = self.data["piston"]
         return (
             {
@@ -249,8 +219,7 @@ class Engine:
     def _pin(self, cell: dict[str, Any]) -> np.ndarray:
         turning = not self.data.get("layout", {}).get("rotary", False)
         return self.radius * np.exp(
-            1j
-            * (math.radians(self.first["axis"] + cell["pin"]) + (THETA if turning else 0 * THETA))
+            1j * (math.radians(self.first["axis"] + cell["pin"]) + (THETA if turning else 0 * THETA))
         )
 
     def _piston(self, cell: dict[str, Any], foot: np.ndarray) -> np.ndarray:
@@ -262,30 +231,16 @@ class Engine:
         axis = self._axis(cell)
         local = foot * np.conj(axis)
         offset = side * piston["offset"]
-        return axis * (
-            local.real + np.sqrt(rod["length"] ** 2 - (local.imag - offset) ** 2) + 1j * offset
-        )
+        return axis * (local.real + np.sqrt(rod["length"] ** 2 - (local.imag - offset) ** 2) + 1j * offset)
 
     def _move(self, cell: dict[str, Any]) -> None:
         foot = self._pin(cell)
         table = self.data.get("articulation")
         if table is not None and cell["bank"] != (master := table.get("master", 1) - 1):
-            chief = next(
-                c for c in self.cells if c["throw"] == cell["throw"] and c["bank"] == master
-            )
-            angle = (
-                table["knuckle_angles"][cell["bank"]]
-                if "knuckle_angles" in table
-                else cell["axis"] - chief["axis"]
-            )
+            chief = next(c for c in self.cells if c["throw"] == cell["throw"] and c["bank"] == master)
+            angle = table["knuckle_angles"][cell["bank"]] if "knuckle_angles" in table else cell["axis"] - chief["axis"]
             along = self._piston(chief, foot) - foot
-            knuckle = (
-                table["knuckle_radius"]
-                / 1e3
-                * np.exp(1j * math.radians(angle))
-                * along
-                / np.abs(along)
-            )
+            knuckle = table["knuckle_radius"] / 1e3 * np.exp(1j * math.radians(angle)) * along / np.abs(along)
             bodies = [Body(foot, cell["z"], self.share)]
             foot = foot + knuckle
         else:
@@ -301,20 +256,14 @@ class Engine:
         self.cylinders[cell["number"]] = bodies
 
     def _device(self, kind: str, table: dict[str, Any]) -> Body:
-        size = (
-            table["unbalance"] / 1e6
-            if "unbalance" in table
-            else table["mass"] * table["radius"] / 1e3
-        )
+        size = table["unbalance"] / 1e6 if "unbalance" in table else table["mass"] * table["radius"] / 1e3
         angle, point = math.radians(table.get("angle", 0)), complex(*table.get("at", [0, 0])) / 1e3
         if kind == "counterweight":
             place = np.exp(1j * (THETA + angle + math.radians(self.first["axis"])))
         elif kind == "shaft":
             place = np.exp(1j * (table["ratio"] * THETA + angle))
         else:
-            place = np.cos(table["order"] * THETA + angle) * np.exp(
-                1j * math.radians(table["direction"])
-            )
+            place = np.cos(table["order"] * THETA + angle) * np.exp(1j * math.radians(table["direction"]))
         return Body(size * place, table.get("position", 0) / 1e3, 1.0, point=point)
 
     # -------------------------------------------------------------- results
@@ -323,8 +272,7 @@ class Engine:
         """Crank speed over its mean."""
         lines = self.data.get("operation", {}).get("speed_ripple", [])
         waves = (
-            line["amplitude"] * np.cos(line["order"] * THETA - math.radians(line.get("angle", 0)))
-            for line in lines
+            line["amplitude"] * np.cos(line["order"] * THETA - math.radians(line.get("angle", 0))) for line in lines
         )
         return 1 + sum(waves, 0 * THETA)
 
@@ -343,10 +291,7 @@ class Engine:
             if body.point is not None:
                 total.couple += (np.conj(body.point - self.at) * force).imag
                 continue
-            swirl = (
-                body.mass * (np.conj(body.place - self.at) * velocity).imag
-                + body.inertia * body.spin
-            )
+            swirl = body.mass * (np.conj(body.place - self.at) * velocity).imag + body.inertia * body.spin
             energy = body.mass * np.abs(velocity) ** 2 + body.inertia * body.spin**2
             total.couple -= omega * slope(omega * swirl)
             total.torque -= 0.5 * slope(energy * omega**2)
@@ -364,13 +309,7 @@ class Engine:
         force = largest("force", range(1, 2))
         turning = max(largest(q, range(1, 5)) for q in ("couple", "torque", "roll"))
         moment = max(largest("moment", range(1, 2)), force * self.radius)
-        return {
-            "force": force,
-            "moment": moment,
-            "couple": turning,
-            "torque": turning,
-            "roll": turning,
-        }
+        return {"force": force, "moment": moment, "couple": turning, "torque": turning, "roll": turning}
 
 
 def _bare(value: Any) -> Any:

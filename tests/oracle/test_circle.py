@@ -95,9 +95,7 @@ def test_single_cylinder_at_high_precision(lam, offset):
             rate = r * mpmath.cos(t) / length  # of sin(beta)
             second = -r * mpmath.sin(t) / length
             root2 = -(rate**2 + s * second) / root - (s * rate) ** 2 / root**3
-            return (
-                (r * mpmath.cos(t) - length * root2) * omega**2 * mpmath.exp(mpmath.mpc(0, -1) * t)
-            )
+            return (r * mpmath.cos(t) - length * root2) * omega**2 * mpmath.exp(mpmath.mpc(0, -1) * t)
 
         def reach(x, y, t):
             return abs(curve(t) - mpmath.mpc(x, y)) ** 2
@@ -111,9 +109,7 @@ def test_single_cylinder_at_high_precision(lam, offset):
         if len(found.theta) == 3:
             x, y, *angles = mpmath.findroot(equations, (x, y, *found.theta), tol=1e-20)
             assert abs(found.centre - complex(x, y)) <= TRUE * found.radius
-            assert float(mpmath.sqrt(reach(x, y, angles[0]))) == pytest.approx(
-                found.radius, rel=TRUE
-            )
+            assert float(mpmath.sqrt(reach(x, y, angles[0]))) == pytest.approx(found.radius, rel=TRUE)
         grid = max(abs(curve(t) - mpmath.mpc(x, y)) for t in mpmath.linspace(0, 2 * mpmath.pi, 200))
         assert grid <= found.radius * (1 + TRUE)
     assert found.excess <= 1e-13 * found.radius
@@ -145,9 +141,7 @@ def test_nothing_near_is_better(tables):
     for step in (1e-3, 1e-5):
         for direction in np.exp(1j * np.linspace(0, 2 * np.pi, 24)):
             other = found.centre + step * found.radius * direction
-            assert circle._enclose_from(curve, other, found.theta).radius >= found.radius * (
-                1 - 1e-13
-            )
+            assert circle._enclose_from(curve, other, found.theta).radius >= found.radius * (1 - 1e-13)
     assert found.excess <= TRUE * found.radius
 
 
@@ -193,9 +187,7 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
     """
     orders = np.arange(4.0)
     whole = np.array(forward, complex) + np.where(orders == 1, first, 0)
-    found = circle.enclose_curve(
-        Phasors.of(orders, whole, np.array(backward, complex), np.zeros(1))
-    )
+    found = circle.enclose_curve(Phasors.of(orders, whole, np.array(backward, complex), np.zeros(1)))
     assert found.centre == pytest.approx(first + centre, abs=1e-14)
     assert found.radius == pytest.approx(radius, rel=1e-14)
     assert sorted((np.degrees(found.theta) + 1) % 360 - 1) == pytest.approx(touching, abs=1e-5)
@@ -203,10 +195,7 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
 
 
 def test_angles_on_both_sides_of_0_are_one():
-    assert circle._drop_near(np.array([1e-5, 3, 2 * np.pi - 1e-5])).tolist() == [
-        3,
-        2 * np.pi - 1e-5,
-    ]
+    assert circle._drop_near(np.array([1e-5, 3, 2 * np.pi - 1e-5])).tolist() == [3, 2 * np.pi - 1e-5]
     assert len(circle._drop_near(np.array([0.1, 3, 2 * np.pi - 0.1]))) == 3
 
 
@@ -216,9 +205,7 @@ def test_a_curve_of_any_size_is_treated_alike(scale):
     small.
     """
     curve = force(layout="radial = 5", **{"cylinder.3": "piston_mass = 1.5"})
-    small = Phasors.of(
-        curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise)
-    )
+    small = Phasors.of(curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise))
     whole, found = circle.enclose_curve(curve), circle.enclose_curve(small)
     assert found.centre / scale == pytest.approx(whole.centre, rel=1e-12)
     assert found.radius / scale == pytest.approx(whole.radius, rel=1e-13)
@@ -234,10 +221,7 @@ def test_a_small_circle_beside_a_large_first_order_is_touched_wherever_it_is_but
     """Equal peaks 18 times a revolution, of a millionth of what a weight takes away."""
     eight, ten = 1e-6, 2e-8
     curve = Phasors.of(
-        np.array([1.0, 8.0, 10.0]),
-        np.array([1.0, 0, ten]) + 0j,
-        np.array([0, eight, 0]) + 0j,
-        np.zeros(1),
+        np.array([1.0, 8.0, 10.0]), np.array([1.0, 0, ten]) + 0j, np.array([0, eight, 0]) + 0j, np.zeros(1)
     )
     found = circle.enclose_curve(curve)
     assert found.radius == pytest.approx(eight + ten, rel=1e-9)

@@ -26,14 +26,7 @@ ORDERS = np.arange(1, 65)
 SMALL = [1e-6, 3.7e-5, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.2632, 0.3]
 LARGE = [0.3, 0.32, 1 / 3, 0.4, 0.5, 0.6180339887, 0.75, 0.9, 0.95, 0.99, 0.999]
 SERIES = ("piston", "rod", "kinetic", "rod_kinetic")
-OFFSETS = [
-    (0.2632, 0.01),
-    (0.25, -0.08),
-    (0.3, 0.002),
-    (0.45, 0.3),
-    (0.3, 0.65),
-    (1e-3, 0.5),
-]  # lam + |eps| <= 0.95
+OFFSETS = [(0.2632, 0.01), (0.25, -0.08), (0.3, 0.002), (0.45, 0.3), (0.3, 0.65), (1e-3, 0.5)]  # lam + |eps| <= 0.95
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -52,13 +45,11 @@ def of_power_series(lam: float) -> dict[str, list[mp.mpf]]:
     angle = [mp.mpf(0)] * (highest + 1)  # of beta, by sin k psi
     for n in range(2, highest + 1, 2):
         cosine[n] = mp.fsum(
-            _half(j) * (-1) ** (j + n // 2) * 2 * comb(2 * j, j - n // 2) * powers[j]
-            for j in range(n // 2, terms)
+            _half(j) * (-1) ** (j + n // 2) * 2 * comb(2 * j, j - n // 2) * powers[j] for j in range(n // 2, terms)
         )
     for k in range(1, highest + 1, 2):
         angle[k] = lam * mp.fsum(
-            _arcsine(j) * (-1) ** (k // 2) * comb(2 * j + 1, j - k // 2) * powers[j]
-            for j in range(k // 2, terms)
+            _arcsine(j) * (-1) ** (k // 2) * comb(2 * j + 1, j - k // 2) * powers[j] for j in range(k // 2, terms)
         )
     speed = [n * c / lam for n, c in enumerate(cosine)]  # -s'/r, by sin n psi
     speed[1] += 1
@@ -99,9 +90,7 @@ def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
 
 # ------------------------------------------------------------------ trapezoidal rule
 @cache
-def of_revolution(
-    lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25
-) -> dict[str, list[mp.mpc]]:
+def of_revolution(lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25) -> dict[str, list[mp.mpc]]:
     """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one
     revolution.
     """
@@ -112,10 +101,7 @@ def of_revolution(
     turn = [mp.expjpi(mp.mpf(-2 * k) / count) for k in range(count)]
     motions = zip(*(motion(-e.imag, e.real, mp.mpf(lam), mp.mpf(eps)) for e in turn), strict=True)
     return {
-        name: [
-            (1 if n == 0 else 2) * value / count
-            for n, value in enumerate(transform(samples, turn)[: highest + 1])
-        ]
+        name: [(1 if n == 0 else 2) * value / count for n, value in enumerate(transform(samples, turn)[: highest + 1])]
         for name, samples in zip(SERIES, motions, strict=True)
     }
 
@@ -128,10 +114,7 @@ def transform(values: Sequence[mp.mpf], turn: list[mp.mpc]) -> list[mp.mpc]:
         return [mp.mpc(values[0])]
     even, odd = (transform(values[first::2], turn[::2]) for first in (0, 1))
     odd = [e * value for e, value in zip(turn, odd, strict=False)]
-    return [
-        *(a + b for a, b in zip(even, odd, strict=True)),
-        *(a - b for a, b in zip(even, odd, strict=True)),
-    ]
+    return [*(a + b for a, b in zip(even, odd, strict=True)), *(a - b for a, b in zip(even, odd, strict=True))]
 
 
 def motion(sine: mp.mpf, cosine: mp.mpf, lam: mp.mpf, eps: mp.mpf) -> tuple[mp.mpf, ...]:
@@ -188,9 +171,7 @@ def test_means_of_the_squares(lam):
     """Order 0 enters the mean inertia under uneven speed."""
     want = of_power_series(lam) if lam < 0.3 else of_revolution(lam)
     for name in ("kinetic", "rod_kinetic"):
-        assert getattr(closed_form, name)([0], lam)[0] == pytest.approx(
-            float(mp.re(want[name][0])), rel=RELATIVE
-        )
+        assert getattr(closed_form, name)([0], lam)[0] == pytest.approx(float(mp.re(want[name][0])), rel=RELATIVE)
 
 
 @pytest.mark.parametrize("lam", [0.9, 0.97, 0.995])
@@ -202,23 +183,10 @@ def test_high_orders_are_no_less_accurate(lam):
         count = 1700  # aliases of orders above 1098
         turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
         curves = dict(
-            zip(
-                SERIES,
-                zip(*(motion(e.imag, e.real, mp.mpf(lam), mp.mpf(0)) for e in turn), strict=True),
-                strict=True,
-            )
+            zip(SERIES, zip(*(motion(e.imag, e.real, mp.mpf(lam), mp.mpf(0)) for e in turn), strict=True), strict=True)
         )
-        for name, n in (
-            ("piston", 600),
-            ("rod", 601),
-            ("kinetic", 600),
-            ("kinetic", 601),
-            ("rod_kinetic", 600),
-        ):
-            waves = (
-                (e.imag if name == "rod" else e.real)
-                for e in (turn[n * k % count] for k in range(count))
-            )
+        for name, n in (("piston", 600), ("rod", 601), ("kinetic", 600), ("kinetic", 601), ("rod_kinetic", 600)):
+            waves = ((e.imag if name == "rod" else e.real) for e in (turn[n * k % count] for k in range(count)))
             want = 2 * mp.fdot(curves[name], waves) / count
             got = getattr(closed_form, name)([n], lam)[0]
             assert abs(mp.mpf(float(got)) / want - 1) < 2e-15, (name, n)
@@ -233,12 +201,8 @@ def test_first_coefficients_are_those_of_the_books():
     a = closed_form.piston([1, 2, 3, 4, 6, 8], lam)
     assert list(a[[0, 2]]) == [1, 0]
     assert a[1] == pytest.approx(lam + lam**3 / 4 + 15 * lam**5 / 128, rel=1e-14)
-    assert a[3:] == pytest.approx(
-        [-(lam**3 / 4 + 3 * lam**5 / 16), 9 * lam**5 / 128, -5 * lam**7 / 256], rel=1e-7
-    )
-    assert closed_form.rod([1, 3], lam) == pytest.approx(
-        [lam + lam**3 / 8, -3 * lam**3 / 8], rel=1e-7
-    )
+    assert a[3:] == pytest.approx([-(lam**3 / 4 + 3 * lam**5 / 16), 9 * lam**5 / 128, -5 * lam**7 / 256], rel=1e-7)
+    assert closed_form.rod([1, 3], lam) == pytest.approx([lam + lam**3 / 8, -3 * lam**3 / 8], rel=1e-7)
 
 
 def test_shapes_and_orders_in_any_number():
@@ -247,9 +211,7 @@ def test_shapes_and_orders_in_any_number():
     for name in SERIES:
         assert getattr(found, name).c.shape == (4, 1, 3)
         alone = getattr(closed_form, name)([7], 0.3)[0]
-        assert getattr(closed_form, name)([0, 1, 2, 7], lam)[3, 0, 1] == pytest.approx(
-            alone, rel=1e-14, abs=0
-        )
+        assert getattr(closed_form, name)([0, 1, 2, 7], lam)[3, 0, 1] == pytest.approx(alone, rel=1e-14, abs=0)
 
 
 # ------------------------------------------------------------------ offset
@@ -271,10 +233,7 @@ def test_offset_against_the_trapezoidal_rule(lam, eps):
 
 def test_sampling_agrees_with_the_closed_form_where_there_is_no_offset():
     orders, lam, eps = np.arange(0, 40), np.array([0.25, 0.31]), np.zeros(2)
-    closed, sampled = (
-        closed_form.find_harmonics(orders, lam),
-        harmonics.sample_harmonics(orders, lam, eps),
-    )
+    closed, sampled = (closed_form.find_harmonics(orders, lam), harmonics.sample_harmonics(orders, lam, eps))
     for name in SERIES:
         assert np.abs(getattr(closed, name).c - getattr(sampled, name).c).max() < ABSOLUTE, name
 
@@ -297,8 +256,7 @@ def test_mechanisms_given_as_several_may_be_one(eps):
     single = harmonics.find_harmonics([0, 1, 2, 3], np.array([0.3]), np.array([eps]))
     for name in SERIES:
         assert np.array_equal(
-            np.broadcast_to(getattr(found, name).c, (4, 3)),
-            np.repeat(getattr(single, name).c, 3, axis=1),
+            np.broadcast_to(getattr(found, name).c, (4, 3)), np.repeat(getattr(single, name).c, 3, axis=1)
         )
 
 
@@ -306,8 +264,7 @@ def test_mechanisms_given_as_several_may_be_one(eps):
 def test_an_order_of_one_engine_is_the_same_among_any_others(lam, eps):
     """To the last bit: what a report says of an order does not depend on what else it says."""
     alone, among = (
-        harmonics.find_harmonics(orders, np.array([lam]), np.array([eps]))
-        for orders in ([1], np.arange(40))
+        harmonics.find_harmonics(orders, np.array([lam]), np.array([eps])) for orders in ([1], np.arange(40))
     )
     for name in SERIES:
         assert getattr(alone, name).c[0] == getattr(among, name).c[1], name
@@ -317,9 +274,7 @@ def test_side_by_side_each_mechanism_takes_the_samples_that_it_needs():
     """Variants are to the last bit what they are among any others."""
     lam, eps = np.array([0.1, 0.6, 0.3, 0.3]), np.array([0.3, 0.35, -0.2, 0.0])
     counts = harmonics.count_samples(lam, eps)
-    assert counts.tolist() == [
-        harmonics.count_samples(*pair) for pair in zip(lam, eps, strict=True)
-    ]
+    assert counts.tolist() == [harmonics.count_samples(*pair) for pair in zip(lam, eps, strict=True)]
     assert counts[1] > counts[0] == counts[2]
     found = harmonics.find_harmonics(np.arange(9), lam[None], eps[None])
     for k in range(4):
@@ -365,12 +320,7 @@ def test_an_offset_to_the_other_side_is_the_mirror_image(lam, eps):
     """
     assert harmonics.count_samples(lam, eps) == harmonics.count_samples(lam, -eps)
     orders = np.arange(1, 40)
-    one, other = (
-        harmonics.sample_harmonics(orders, np.array([lam]), np.array([e])) for e in (eps, -eps)
-    )
+    one, other = (harmonics.sample_harmonics(orders, np.array([lam]), np.array([e])) for e in (eps, -eps))
     mirrored = np.conj(one.piston.c[:, 0])
     assert np.abs(other.piston.c[:, 0] - mirrored).max() <= 1e-14 * np.abs(mirrored).max()
-    assert (
-        np.abs(other.rod.c[:, 0] + np.conj(one.rod.c[:, 0])).max()
-        <= 1e-14 * np.abs(one.rod.c).max()
-    )
+    assert np.abs(other.rod.c[:, 0] + np.conj(one.rod.c[:, 0])).max() <= 1e-14 * np.abs(one.rod.c).max()

@@ -44,15 +44,9 @@ SWUNG = ARTICULATED.replace(
     HUNG, '{ ratio = 0.32, mass = 0.62, cg = 90, pendulum = { pivot = "big_end", period = 0.85 } }'
 )
 SWUNG_ENDS = ARTICULATED.replace(
-    HUNG,
-    "{ length = 188, small_end = 0.3, big_end = 0.33, "
-    'pendulum = { pivot = "small_end", period = 0.88 } }',
+    HUNG, '{ length = 188, small_end = 0.3, big_end = 0.33, pendulum = { pivot = "small_end", period = 0.88 } }'
 )
-RIPPLE = (
-    "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }, { order = 3, amplitude = "
-    "0.02, "
-    "angle = -75 }]"
-)
+RIPPLE = "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }, { order = 3, amplitude = 0.02, angle = -75 }]"
 DISPLACED = """
 [frame]
 reference = [70, -40, 25]
@@ -83,26 +77,14 @@ CASES = {
     },
     "shells on the master rods alone": {"layout": "radial = 5", "more": ARTICULATED + BOBWEIGHT},
     "shells on pins that stand still": {"layout": "radial = 5\nrotary = true", "more": BOBWEIGHT},
-    "centred": {
-        "layout": "bank_angle = 70\nstagger = 20",
-        "crank": "throws = [0, 130, 265]\nspacing = 110",
-    },
+    "centred": {"layout": "bank_angle = 70\nstagger = 20", "crank": "throws = [0, 130, 265]\nspacing = 110"},
     "offset": {
         "layout": "banks = [-30, 35]",
         "crank": "throws = [0, 130]\nspacing = 110\nsplay = 12",
         "piston": "offset = 9",
     },
-    "displaced reference": {
-        "layout": "bank_angle = 70",
-        "piston": "offset = -7",
-        "more": DISPLACED,
-    },
-    "uneven speed": {
-        "layout": "bank_angle = 70",
-        "piston": "offset = -7",
-        "operation": RIPPLE,
-        "more": DISPLACED,
-    },
+    "displaced reference": {"layout": "bank_angle = 70", "piston": "offset = -7", "more": DISPLACED},
+    "uneven speed": {"layout": "bank_angle = 70", "piston": "offset = -7", "operation": RIPPLE, "more": DISPLACED},
     "two unlike cylinders, uneven speed": {
         "layout": "bank_angle = 60",
         "operation": RIPPLE,
@@ -116,10 +98,7 @@ CASES = {
         "crank": "throws = [0, 120, 240]\nspacing = 160",
         "more": SWUNG_ENDS + "[cylinder.5]\nrod_mass = 0.7\nrod_cg = 80\nrod_inertia = 4100",
     },
-    "rotary with articulated rods weighed and swung": {
-        "layout": "radial = 5\nrotary = true",
-        "more": SWUNG_ENDS,
-    },
+    "rotary with articulated rods weighed and swung": {"layout": "radial = 5\nrotary = true", "more": SWUNG_ENDS},
     "two rows with master rods": {
         "layout": "radial = 5\nstagger = 4",
         "crank": "throws = [0, 180]\nspacing = 160",
@@ -175,10 +154,7 @@ def compare(text: str) -> None:
         quantity = kind.name
         for row, n in enumerate(ORDERS):
             forward, backward = curves.order(quantity, int(n))
-            error = (
-                max(abs(phasors.forward[row] - forward), abs(phasors.backward[row] - backward))
-                / scales[quantity]
-            )
+            error = max(abs(phasors.forward[row] - forward), abs(phasors.backward[row] - backward)) / scales[quantity]
             assert error < TOLERANCE, f"{quantity} of order {n:g}: off by {error:.2e}"
 
 
@@ -204,7 +180,4 @@ def test_one_cylinder_of_an_articulated_engine_alone():
         curves = oracle.curves([number])
         force = spectrum.compute_spectra(alone(whole, number), ORDERS, ["force"]).force
         for row, n in enumerate(ORDERS):
-            assert (
-                abs(force.forward[row] - curves.order("force", int(n))[0])
-                < TOLERANCE * oracle.scales()["force"]
-            )
+            assert abs(force.forward[row] - curves.order("force", int(n))[0]) < TOLERANCE * oracle.scales()["force"]

@@ -13,9 +13,7 @@ RELATIVE = 1e-14
 LAMBDAS = [1e-12, 1e-6, 0.01, 0.2, 0.2632, 0.3, 1 / 3, 0.5, 0.75, 0.9, 0.99, 0.999]
 TINY = [1e-150, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 0.01]
 NEAR = np.concatenate([TINY, -np.array(TINY)])
-ANGLES = np.concatenate(
-    [np.radians(np.arange(-180.0, 541.0, 7.5)), NEAR, np.pi + NEAR, np.pi / 2 + NEAR]
-)
+ANGLES = np.concatenate([np.radians(np.arange(-180.0, 541.0, 7.5)), NEAR, np.pi + NEAR, np.pi / 2 + NEAR])
 OFFSETS = [(0.28, 0.01), (0.3, -0.05), (0.5, 0.3), (0.25, 0.74)]
 
 
@@ -44,9 +42,7 @@ def oracle(name, psi, lam, eps=0.0):
     return {
         "displacement": lambda: mp.sqrt((1 + 1 / lam) ** 2 - (eps / lam) ** 2) - s(psi, lam, eps),
         "velocity": lambda: mp.sin(psi) + mp.cos(psi) * sine / cosine,
-        "acceleration": lambda: (
-            mp.cos(psi) - mp.sin(psi) * sine / cosine + lam * mp.cos(psi) ** 2 / cosine**3
-        ),
+        "acceleration": lambda: mp.cos(psi) - mp.sin(psi) * sine / cosine + lam * mp.cos(psi) ** 2 / cosine**3,
         "rod_rate": lambda: rate,
         "rod_acceleration": lambda: -lam * mp.sin(psi) / cosine + rate**2 * sine / cosine,
     }[name]()
@@ -66,10 +62,7 @@ def test_centred_acceleration_is_accurate_relative_to_its_value_except_at_its_ze
     for psi, got in zip(ANGLES, sc.acceleration(ANGLES, lam), strict=True):
         want = oracle("acceleration", psi, lam)
         error = abs(mp.mpf(float(got)) - want)
-        assert error <= RELATIVE * abs(want) or (error < 1e-14 and abs(want) < 0.1 * lam), (
-            psi,
-            got,
-        )
+        assert error <= RELATIVE * abs(want) or (error < 1e-14 and abs(want) < 0.1 * lam), (psi, got)
 
 
 def test_acceleration_at_the_lower_dead_centre_of_a_nearly_equal_rod_and_crank():
@@ -77,9 +70,7 @@ def test_acceleration_at_the_lower_dead_centre_of_a_nearly_equal_rod_and_crank()
     assert sc.acceleration(np.pi, 0.999) == pytest.approx(-(1 - 0.999), rel=RELATIVE)
 
 
-@pytest.mark.parametrize(
-    "name", ["displacement", "velocity", "acceleration", "rod_rate", "rod_acceleration"]
-)
+@pytest.mark.parametrize("name", ["displacement", "velocity", "acceleration", "rod_rate", "rod_acceleration"])
 @pytest.mark.parametrize(("lam", "eps"), OFFSETS)
 def test_offset(name, lam, eps):
     psi = np.radians(np.arange(0.0, 360.0, 7.5))
@@ -124,9 +115,7 @@ def test_offset_velocity_vanishes_at_both_dead_centres():
 @pytest.mark.parametrize("cosine", [1.0, -1.0])
 def test_the_sign_of_a_zero_means_nothing(what, cosine):
     for eps in (-0.05, 0.05):
-        assert what(np.array(complex(cosine, -0.0)), 0.3, eps) == what(
-            np.array(complex(cosine, 0.0)), 0.3, eps
-        )
+        assert what(np.array(complex(cosine, -0.0)), 0.3, eps) == what(np.array(complex(cosine, 0.0)), 0.3, eps)
 
 
 def test_arguments_broadcast():

@@ -119,9 +119,7 @@ def test_kinds(exact, text, kind):
 
 def test_an_explanation_that_says_the_same_as_the_exact_value_is_none():
     same = Explanation("nothing", ((0.7071,),))
-    assert [
-        e.kind for e in Table("t", "", "", ("a",), ((0.7071,),), (("0.706",),), (same,)).errata
-    ] == ["last digit"]
+    assert [e.kind for e in Table("t", "", "", ("a",), ((0.7071,),), (("0.706",),), (same,)).errata] == ["last digit"]
 
 
 # ---------------------------------------------------------------- other ranges
@@ -134,44 +132,22 @@ def test_ranges_include_both_ends():
 
 @pytest.mark.parametrize(
     "text",
-    [
-        "",
-        "1:2:3:4",
-        "a:b",
-        "0:1:0",
-        "1:0:0.1",
-        "0:1e9:1e-9",
-        "nan",
-        "1/0",
-        "0:1:",
-        "1e400",
-        "1e999999999",
-        "3e9",
-    ],
+    ["", "1:2:3:4", "a:b", "0:1:0", "1:0:0.1", "0:1e9:1e-9", "nan", "1/0", "0:1:", "1e400", "1e999999999", "3e9"],
 )
 def test_bad_ranges(text):
-    with pytest.raises(
-        BalcliError, match=r"^--angle '.*' is no range: give START:STOP:STEP \(0.20:0.40:0.01\) or"
-    ):
+    with pytest.raises(BalcliError, match=r"^--angle '.*' is no range: give START:STOP:STEP \(0.20:0.40:0.01\) or"):
         parse_range(text, "--angle")
 
 
 def test_a_mechanism_that_cannot_turn():
     with pytest.raises(BalcliError) as error:
         parse_crank_ratios("0.9:1.1:0.1")
-    assert (
-        str(error.value)
-        == "--lambda '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1"
-    )
+    assert str(error.value) == "--lambda '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1"
 
 
 @pytest.mark.parametrize(
     ("name", "function"),
-    [
-        ("tsinghua-1-2", sc.displacement),
-        ("tsinghua-1-3", sc.velocity),
-        ("tsinghua-1-6", sc.acceleration),
-    ],
+    [("tsinghua-1-2", sc.displacement), ("tsinghua-1-3", sc.velocity), ("tsinghua-1-6", sc.acceleration)],
 )
 def test_other_angles_and_ratios(name, function):
     """The print stands beside the exact values wherever it has the angle and the ratio, and only
@@ -179,9 +155,7 @@ def test_other_angles_and_ratios(name, function):
     """
     table = recompute(name, Ranges(lam=("0.3", "0.35"), angle=("70", "71.5")))
     place = table.columns.index("0.35")
-    assert table.exact[1][place] == pytest.approx(
-        float(function(np.radians(71.5), 0.35)), rel=1e-14
-    )
+    assert table.exact[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-14)
     assert table.printed[0][place - 1] is not None
     assert table.printed[0][place] is table.printed[1][place - 1] is None
 
@@ -249,11 +223,7 @@ def test_deviating_figures_are_marked_and_counted():
 
 def test_digits():
     assert "0.4312506086" in run("tsinghua-1-2", "--digits", "10").out
-    first = next(
-        line
-        for line in run("tsinghua-1-2", "--digits", "2").out.splitlines()
-        if line.startswith("0 ")
-    )
+    first = next(line for line in run("tsinghua-1-2", "--digits", "2").out.splitlines() if line.startswith("0 "))
     assert first.split() == ["0", *["0.00"] * 9, "360"]  # printed .0000; whole angles stay whole
     beyond = run("tsinghua-1-6", "--angle", "90,105", "--lambda", "0.25", "--digits", "2").out
     assert beyond.splitlines()[-2].split() == ["105", "-0.48", "255"]  # nor does a row not printed
@@ -286,10 +256,7 @@ def test_errata_of_one_table_and_of_all():
         (("colour",), "no table 'colour'. Tables: tsinghua-1-1, "),
         (("liu-1", "--angle", "0:90:5"), "--angle: table liu-1 takes no other range"),
         (("kvasnikov-1", "--angle", "0:90:5"), "--angle: table kvasnikov-1 takes --lambda"),
-        (
-            ("--angle", "0:90:5"),
-            "--angle: name the table that it is for (tsinghua-1-2, tsinghua-1-3, tsinghua-1-6)",
-        ),
+        (("--angle", "0:90:5"), "--angle: name the table that it is for (tsinghua-1-2, tsinghua-1-3, tsinghua-1-6)"),
         (
             ("tsinghua-1-2", "--angle", "0:180:0.01", "--lambda", "0.2:0.4:0.01"),
             "18001 angles of 21 crank ratios are 378021 figures, and at most 100000 are tabulated",

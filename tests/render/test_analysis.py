@@ -28,9 +28,7 @@ from balcli.render.view import IN_BRIEF, View
 from balcli.results.analysis import QUANTITIES, analyze
 from balcli.results.balance import balance
 
-RENDERER = SimpleNamespace(
-    sheet=analysis.sheet, document=analysis_document.document, rows=analysis_document.rows
-)
+RENDERER = SimpleNamespace(sheet=analysis.sheet, document=analysis_document.document, rows=analysis_document.rows)
 
 
 def rendered(form, subject, system="si", **options):
@@ -47,16 +45,10 @@ def shown(subject, **options):
 
 def test_inner_as_json():
     found = document(inline_engine([0, 180, 180, 0]), only=["inner"], orders=[1, 2])["inner"]
-    assert [section["position_mm"] for section in found["sections"]] == pytest.approx(
-        [-150, -50, 50, 150]
-    )
+    assert [section["position_mm"] for section in found["sections"]] == pytest.approx([-150, -50, 50, 150])
     assert found["sections"][1]["shear_N"]["orders"][0]["balanced"]
-    assert found["largest_bending_Nm"] == max(
-        section["bending_Nm"]["peak"] for section in found["sections"]
-    )
-    assert [bearing["position_mm"] for bearing in found["bearings"]] == pytest.approx(
-        [-200, -100, 0, 100, 200]
-    )
+    assert found["largest_bending_Nm"] == max(section["bending_Nm"]["peak"] for section in found["sections"])
+    assert [bearing["position_mm"] for bearing in found["bearings"]] == pytest.approx([-200, -100, 0, 100, 200])
 
 
 def test_without_bearings_bending_ends_with_the_free_moment_about_the_last_place():
@@ -77,9 +69,7 @@ def test_guide_as_json():
     assert found["height_m"] == pytest.approx([0.16, 0.16])
     assert [entry["order"] for entry in found["orders"]] == [1, 2]
     assert not found["orders"][0]["x_Nm"]["balanced"]
-    assert (
-        "x_Nm" not in document(inline_engine([0]), only=["guide"], orders=[1])["guide"]["orders"][0]
-    )
+    assert "x_Nm" not in document(inline_engine([0]), only=["guide"], orders=[1])["guide"]["orders"][0]
 
 
 def test_strokes_as_json():
@@ -112,21 +102,13 @@ def test_inner_and_guide_as_rows():
     section, bearing = wanted["inner"]["sections"][1], wanted["inner"]["bearings"][4]
     assert found["0", "shear 2", "", "position"] == (str(section["position_mm"]), "mm")
     assert found["0", "shear 2", "", "peak"] == (str(section["shear_N"]["peak"]), "N")
-    assert found["0", "bending 2", "1", "major"] == (
-        str(section["bending_Nm"]["orders"][0]["major"]),
-        "N·m",
-    )
-    assert found["0", "bearing 5", "2", "x_amplitude"] == (
-        str(bearing["load_N"]["orders"][1]["x"]["amplitude"]),
-        "N",
-    )
+    assert found["0", "bending 2", "1", "major"] == (str(section["bending_Nm"]["orders"][0]["major"]), "N·m")
+    assert found["0", "bearing 5", "2", "x_amplitude"] == (str(bearing["load_N"]["orders"][1]["x"]["amplitude"]), "N")
     assert ("0", "shear 5", "", "peak") not in found
     h = wanted["guide"]["orders"][1]["h_Nm"]
     assert found["0", "guide_h", "2", "sin"] == (str(h["sin"]), "N·m")
     assert found["0", "guide_x", "1", "balanced"] == ("true", "")
-    assert not [
-        key for key in rows(inline_engine([0]), only=["guide"], orders=[1]) if key[1] == "guide_x"
-    ]
+    assert not [key for key in rows(inline_engine([0]), only=["guide"], orders=[1]) if key[1] == "guide_x"]
 
 
 def test_strokes_and_reasons_as_rows():
@@ -170,9 +152,7 @@ def parts(subject, view=IN_BRIEF, **options):
     """Titles of a sheet's parts, and the first cells of its first table."""
     found = analysis.sheet(analyze(subject, only=QUANTITIES, **options), SYSTEMS["si"], view).parts
     first = next((part for part in found if isinstance(part, Grid)), None)
-    return [part.title.split(":")[0] for part in found], [
-        row[0] for row in (() if first is None else first.rows)
-    ]
+    return [part.title.split(":")[0] for part in found], [row[0] for row in (() if first is None else first.rows)]
 
 
 BRIEF = [
@@ -209,9 +189,7 @@ speed = 3000
     ripple = "speed_ripple = [{ order = 1, amplitude = 0.1 }]\n"
     weight = "[[counterweight]]\nunbalance = 40000\nangle = 180\n"
     uneven, balanced = (build_text(throw_alone + ripple + more) for more in ("", weight))
-    second, left = (
-        analyze(engine, orders=[2]).spectra.force.major[0] for engine in (uneven, balanced)
-    )
+    second, left = (analyze(engine, orders=[2]).spectra.force.major[0] for engine in (uneven, balanced))
     assert left < 1e-6 * second
     told, steady = (
         " ".join(shown(engine, only=["force", "moment", "sizing"]).split())
@@ -234,16 +212,12 @@ speed = 3000
 def test_couple_and_roll_are_told_to_be_about_the_point_of_reference(gas, view):
     """A force on the crank axis has a lever about a point beside it; about one along it none."""
     told = [
-        analysis.sheet(
-            analyze(build_text(f"{GOOD}{gas}[frame]\nreference = {point}\n")), SYSTEMS["si"], view
-        )
+        analysis.sheet(analyze(build_text(f"{GOOD}{gas}[frame]\nreference = {point}\n")), SYSTEMS["si"], view)
         for point in ([0, 0, 300], [0, 50, 300])
     ]
     on_axis, beside = ([p.title for p in s.parts if p.title.startswith("About")] for s in told)
     assert bool(on_axis) == bool(gas or view is not IN_BRIEF)
-    assert [
-        title.replace("the crank axis", "the point of reference") for title in on_axis
-    ] == beside
+    assert [title.replace("the crank axis", "the point of reference") for title in on_axis] == beside
     assert all("the crank axis" in title for title in on_axis)
 
 
@@ -266,9 +240,7 @@ def test_what_is_left_out_is_named_in_one_line():
     found = analysis.sheet(analyze(inline_engine(SIX)), SYSTEMS["si"])
     grid = next(part for part in found.parts if isinstance(part, Grid))
     assert [row[:4] for row in grid.rows] == [(n, "balanced", "", "") for n in "12"]
-    assert re.fullmatch(
-        r"Negligible: orders 6, 12 \(at most force [\d.e-]+ N\)\. All: --all\.", grid.note
-    )
+    assert re.fullmatch(r"Negligible: orders 6, 12 \(at most force [\d.e-]+ N\)\. All: --all\.", grid.note)
 
 
 @pytest.mark.parametrize(
@@ -282,26 +254,21 @@ def test_what_is_left_out_is_named_in_one_line():
 )
 def test_only_picks_parts(words, titles):
     chosen, named = parse_parts(words)
-    found = analysis.sheet(
-        analyze(inline_engine([0, 180]), only=chosen), SYSTEMS["si"], View(parts=named)
-    )
+    found = analysis.sheet(analyze(inline_engine([0, 180]), only=chosen), SYSTEMS["si"], View(parts=named))
     assert [p.title for p in found.parts if p.title or isinstance(p, Facts)] == titles
 
 
 def test_a_rotary_engine_from_end_to_end():
     subject = rotary_engine("radial = 9")
     assert document(subject, reasons=True)["orders"][0]["force_N"]["balanced"]
-    assert "balanced exactly: 9 evenly spaced phasors sum to nothing" in shown(
-        subject, reasons=True
-    )
+    assert "balanced exactly: 9 evenly spaced phasors sum to nothing" in shown(subject, reasons=True)
 
 
 def test_an_unknown_quantity_is_refused_with_those_there_are():
     with pytest.raises(BalcliError) as caught:
         analyze(inline_engine([0]), only=["bending"])
     assert str(caught.value) == (
-        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
-        "sizing, gas, inner, guide"
+        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, sizing, gas, inner, guide"
     )
 
 

@@ -105,9 +105,7 @@ def texts_of(svg: bytes) -> list[str]:
 def test_orders_that_are_negligible_have_no_picture():
     """Orders 10 of the force and 4 of the moment of a five; 1 and 2 of its moment are drawn."""
     five = analyze(inline_engine([0, 144, 216, 288, 72]))
-    titles = [
-        text for text in texts_of(draw_page(PageSubject(Study(five)), "orders", "svg")) if text
-    ]
+    titles = [text for text in texts_of(draw_page(PageSubject(Study(five)), "orders", "svg")) if text]
     assert [text for text in titles if ", order" in text] == [
         "moment, order 1, at crank angle 36°",
         "moment, order 2, at crank angle 18°",
@@ -164,14 +162,10 @@ def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
     orders would be no torque.
     """
     fired = analyze(build_text(GAS_FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"))
-    bars = re.findall(
-        r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "spectrum", "about")
-    )
+    bars = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "spectrum", "about"))
     assert {"inertia torque T", "gas torque", "total roll", "½"} <= set(bars)
     assert "About the crank, with gas" in bars
-    curves = re.findall(
-        r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "curves", "about")
-    )
+    curves = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "curves", "about"))
     assert {"About the crank, of inertia alone", "couple C", "roll C − T", "360"} <= set(curves)
     assert "720" not in curves
 
@@ -332,12 +326,7 @@ def test_a_balanced_quantity_says_so(ax):
 
 @pytest.mark.parametrize(
     ("unit", "largest", "name"),
-    [
-        (SI.force, 4999, "N"),
-        (SI.force, 5000, "kN"),
-        (SI.moment, 1e6, "kN·m"),
-        (IMPERIAL.force, 1e9, "lbf"),
-    ],
+    [(SI.force, 4999, "N"), (SI.force, 5000, "kN"), (SI.moment, 1e6, "kN·m"), (IMPERIAL.force, 1e9, "lbf")],
 )
 def test_long_figures_get_a_larger_unit(unit, largest, name):
     assert unit.fit(largest).name == name

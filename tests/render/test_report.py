@@ -20,11 +20,7 @@ from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import analyze
 from balcli.results.balance import balance
 
-HOSTILE = (
-    "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 "
-    "* 7 }} "
-    "发动机"
-)
+HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
 RADIAL = """\
 name = "radial with a master rod"
 [crank]
@@ -103,14 +99,7 @@ def printed_report(name: str) -> str:
 
 
 @pytest.mark.parametrize(
-    "name",
-    [
-        "i5",
-        *(
-            pytest.param(x, marks=pytest.mark.stress)
-            for x in ("i4_wiebe", "i6_diesel", "i4_mounts")
-        ),
-    ],
+    "name", ["i5", *(pytest.param(x, marks=pytest.mark.stress) for x in ("i4_wiebe", "i6_diesel", "i4_mounts"))]
 )
 def test_a_page_names_no_command(name):
     """Whoever reads it has no command line beside it."""
@@ -149,12 +138,7 @@ def test_imperial_units_reach_everything():
 @pytest.mark.stress
 @pytest.mark.parametrize(
     "text",
-    [
-        RADIAL,
-        ROTARY,
-        changed(("bore = 86\n", "")),
-        changed(("mass = 0.5", "mass = 0"), ("mass = 0.6", "mass = 0")),
-    ],
+    [RADIAL, ROTARY, changed(("bore = 86\n", "")), changed(("mass = 0.5", "mass = 0"), ("mass = 0.6", "mass = 0"))],
 )
 def test_unusual_engines_have_a_page(text):
     scene = json.loads(re.search(r'id="scene">(.*?)</script>', report(text), re.S)[1])
@@ -164,9 +148,7 @@ def test_unusual_engines_have_a_page(text):
 # ------------------------------------------------------------------ in a browser
 def live(test):
     """A test that needs a browser."""
-    return pytest.mark.browser(
-        pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")(test)
-    )
+    return pytest.mark.browser(pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")(test))
 
 
 @pytest.fixture(scope="module")
@@ -191,10 +173,7 @@ def turn(browser, theta: float) -> None:
 
 
 def numbers(browser, selector: str, *attributes: str) -> list[float]:
-    return [
-        float(browser.run(f"document.querySelector('{selector}').getAttribute('{name}')"))
-        for name in attributes
-    ]
+    return [float(browser.run(f"document.querySelector('{selector}').getAttribute('{name}')")) for name in attributes]
 
 
 @live
@@ -219,22 +198,15 @@ def test_the_keyboard_moves_the_vector(show):
     forces = [float(abs(curve.values(np.radians(t)))) for t in (0, 3)]
     assert abs(y) < 1e-6
     turn(page, 0)
-    assert numbers(page, "#force-vector", "y2")[0] / x == pytest.approx(
-        forces[0] / forces[1], rel=1e-4
+    assert numbers(page, "#force-vector", "y2")[0] / x == pytest.approx(forces[0] / forces[1], rel=1e-4)
+    assert float(page.run("document.getElementById('force-now').textContent").split()[0]) == pytest.approx(
+        forces[0], rel=1e-3
     )
-    assert float(
-        page.run("document.getElementById('force-now').textContent").split()[0]
-    ) == pytest.approx(forces[0], rel=1e-3)
 
 
 @live
 @pytest.mark.parametrize(
-    "text",
-    [
-        GOOD,
-        pytest.param(RADIAL, marks=pytest.mark.stress),
-        pytest.param(ROTARY, marks=pytest.mark.stress),
-    ],
+    "text", [GOOD, pytest.param(RADIAL, marks=pytest.mark.stress), pytest.param(ROTARY, marks=pytest.mark.stress)]
 )
 def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(show, text):
     page, c = show(text), build_text(text).cylinders
@@ -251,9 +223,7 @@ def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(sh
         else:
             places = np.array(
                 [
-                    c.linkage.motion(psi[[k]], c.lam, c.eps).place[
-                        min(k, len(c.linkage.mass) - 1), 0
-                    ]
+                    c.linkage.motion(psi[[k]], c.lam, c.eps).place[min(k, len(c.linkage.mass) - 1), 0]
                     for k in range(c.count)
                 ]
             )
@@ -261,19 +231,14 @@ def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(sh
         drawn = np.array(ends)
         rods = np.hypot(drawn[:, 2] - drawn[:, 0], drawn[:, 3] - drawn[:, 1])
         assert np.sort(rods) == pytest.approx(np.sort(lengths), rel=1e-9)
-        assert np.sort(-drawn[:, 3]) == pytest.approx(
-            np.sort(places * float(c.radius) * 1e3), rel=1e-9
-        )
+        assert np.sort(-drawn[:, 3]) == pytest.approx(np.sort(places * float(c.radius) * 1e3), rel=1e-9)
 
 
 @live
 def test_orders_are_switched(show):
     page = show()
     before = numbers(page, "#force-vector", "y2")
-    page.run(
-        "for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') "
-        "box.click()"
-    )
+    page.run("for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') box.click()")
     fourth = page.run("document.getElementById('force-now').textContent")
     page.run("document.querySelector('[name=order][value=\"4\"]').click()")
     assert before != [0]
@@ -287,9 +252,9 @@ def test_the_fitted_engine_shakes_less(show):
     page = show()
     page.run("document.querySelectorAll('[name=variant]')[1].click()")
     after = balance(build_text(GOOD)).after
-    assert float(
-        page.run("document.getElementById('force-now').textContent").split()[0]
-    ) == pytest.approx(float(abs(after.spectra.force.values(0.0))), rel=1e-3)
+    assert float(page.run("document.getElementById('force-now').textContent").split()[0]) == pytest.approx(
+        float(abs(after.spectra.force.values(0.0))), rel=1e-3
+    )
     assert page.run("document.querySelectorAll('#end .weight').length") == len(after.engine.devices)
 
 
@@ -336,11 +301,7 @@ def test_it_fits_its_window(show, width):
 @live
 def test_it_prints_in_light_and_without_controls(show):
     page = show(dark=True)
-    page.call(
-        "Emulation.setEmulatedMedia",
-        media="print",
-        features=[{"name": "prefers-color-scheme", "value": "dark"}],
-    )
+    page.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
     assert page.run("getComputedStyle(document.querySelector('.controls')).display") == "none"
     assert page.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     page.call("Emulation.setEmulatedMedia", media="")

@@ -26,9 +26,7 @@ NOISE = (-1e-10, -1e-13, 0.0, 1e-13, 1e-10)
     ],
 )
 @pytest.mark.parametrize("noise", NOISE)
-def test_an_angle_reads_the_same_whatever_its_rounding(
-    angle: float, turn: float, shown: str, noise: float
-) -> None:
+def test_an_angle_reads_the_same_whatever_its_rounding(angle: float, turn: float, shown: str, noise: float) -> None:
     assert degrees(angle + noise, turn) == shown
 
 
@@ -46,7 +44,5 @@ def test_no_angle_is_a_dash() -> None:
         (1.5e-5, 1, "2e-5"),
     ],
 )
-def test_a_half_is_rounded_to_the_same_side_whatever_its_last_digits(
-    value: float, digits: int, shown: str
-) -> None:
+def test_a_half_is_rounded_to_the_same_side_whatever_its_last_digits(value: float, digits: int, shown: str) -> None:
     assert {number(value * (1 + slip), digits) for slip in (-4e-15, 0.0, 4e-15)} == {shown}

@@ -28,9 +28,7 @@ WIDE = 100_000
 def print_by_rich(sheets: list[Sheet]) -> str:
     """The sheets as rich prints them into a file of unlimited width."""
     buffer = StringIO()
-    console = Console(
-        file=buffer, width=WIDE, highlight=False, emoji=False, markup=False, soft_wrap=True
-    )
+    console = Console(file=buffer, width=WIDE, highlight=False, emoji=False, markup=False, soft_wrap=True)
     for sheet in sheets:
         console.print(Line(sheet.title))
         for part in sheet.parts:

@@ -19,15 +19,11 @@ from balcli.render.units import SI
 
 def phasors(*rows: tuple[float, complex, complex]) -> Phasors:
     orders, forward, backward = (np.array(column) for column in zip(*rows, strict=True))
-    return Phasors.of(
-        orders.astype(float), forward.astype(complex), backward.astype(complex), np.zeros(1)
-    )
+    return Phasors.of(orders.astype(float), forward.astype(complex), backward.astype(complex), np.zeros(1))
 
 
 def test_a_bar_is_made_of_both_vectors():
-    lines = list(
-        bars(phasors((1, 30, 10), (2, 4, 4j), (3, 0, 0), (4, 0.001, 0), (6, 0.1, 0)), SI.force)
-    )
+    lines = list(bars(phasors((1, 30, 10), (2, 4, 4j), (3, 0, 0), (4, 0.001, 0), (6, 0.1, 0)), SI.force))
     assert lines == [
         f"   1 {'█' * (BAR_COLUMNS * 3 // 4)}{'▒' * (BAR_COLUMNS // 4)} 40",
         f"   2 {'█' * 5}{'▒' * 5} 8",
@@ -46,9 +42,7 @@ def test_a_circle_is_all_round_and_a_diagonal_is_not(backward, left, start):
     """
     lines = locus(phasors((1, 1, backward)))
     assert (len(lines), {len(line) for line in lines}) == (LOCUS_ROWS, {2 * LOCUS_ROWS})
-    assert (
-        bool("".join(line[: LOCUS_ROWS - 1] for line in lines[: LOCUS_ROWS // 2]).strip()) == left
-    )
+    assert bool("".join(line[: LOCUS_ROWS - 1] for line in lines[: LOCUS_ROWS // 2]).strip()) == left
     assert "".join(line[LOCUS_ROWS + 1 :] for line in lines[: LOCUS_ROWS // 2]).strip()
     assert ["+" in line for line in lines].index(True) == start
 
@@ -87,10 +81,7 @@ def test_what_is_negligible_is_said_and_not_drawn(balcli, tmp_path):
     """An in-line five has a free force of 1e-6 of one cylinder's, and a moment."""
     file = write(
         tmp_path / "five.toml",
-        changed(
-            ("throws = [0, 180, 180, 0]", "throws = [0, 144, 216, 288, 72]"),
-            ("firing_order = [1, 3, 4, 2]", ""),
-        ),
+        changed(("throws = [0, 180, 180, 0]", "throws = [0, 144, 216, 288, 72]"), ("firing_order = [1, 3, 4, 2]", "")),
     )
     out = balcli("analyze", file, "--plot").out
     assert "Free force\nnegligible (0.00" in out

@@ -20,8 +20,7 @@ CASES = [
         1,
         "force",
         (100, 0),
-        "First order: force of 100 N, turning with the crank: counterweights on the crankshaft "
-        "cancel it.",
+        "First order: force of 100 N, turning with the crank: counterweights on the crankshaft cancel it.",
     ),
     (
         1,
@@ -65,16 +64,13 @@ CASES = [
         4,
         "force",
         (250, 250),
-        "Fourth order: force up to 500 N; rarely balanced, it would take shafts at 4 times crank "
-        "speed.",
+        "Fourth order: force up to 500 N; rarely balanced, it would take shafts at 4 times crank speed.",
     ),
 ]
 
 
 @pytest.mark.parametrize(("order", "what", "vectors", "text"), CASES)
-def test_each_order_in_words(
-    order: int, what: str, vectors: tuple[complex, complex], text: str
-) -> None:
+def test_each_order_in_words(order: int, what: str, vectors: tuple[complex, complex], text: str) -> None:
     orders = np.array([float(order)])
     phasors = Phasors.of(orders, *np.array(vectors, complex).reshape(2, 1), np.zeros(1))
     assert verdict(Spectra(orders, **{what: phasors}), SI) == (text,)
@@ -82,19 +78,13 @@ def test_each_order_in_words(
 
 def test_force_and_moment_of_one_order() -> None:
     orders = np.array([1.0])
-    none, some = (
-        Phasors.of(orders, *np.array(v, complex).reshape(2, 1), np.zeros(1))
-        for v in ((0, 0), (7, 0))
-    )
+    none, some = (Phasors.of(orders, *np.array(v, complex).reshape(2, 1), np.zeros(1)) for v in ((0, 0), (7, 0)))
     assert verdict(Spectra(orders, force=none, moment=some), SI) == (
-        "First order: moment of 7 N·m, turning with the crank: counterweights on the crankshaft "
-        "cancel it. No force.",
+        "First order: moment of 7 N·m, turning with the crank: counterweights on the crankshaft cancel it. No force.",
     )
 
 
-LINES = {
-    "free": ("First order: free of force and moment.", "Second order: free of force and moment.")
-}
+LINES = {"free": ("First order: free of force and moment.", "Second order: free of force and moment.")}
 
 
 @pytest.mark.parametrize(
@@ -106,15 +96,10 @@ LINES = {
             {6: 0.5, 12: 0.6},
             (
                 *LINES["free"],
-                "Higher orders: negligible, at most a force of 0.008 N in order 6 and a moment of "
-                "1.2 N·m in order 12.",
+                "Higher orders: negligible, at most a force of 0.008 N in order 6 and a moment of 1.2 N·m in order 12.",
             ),
         ),
-        (
-            {12: 1e-5},
-            {},
-            (*LINES["free"], "Higher orders: negligible, at most a force of 2e-5 N in order 12."),
-        ),
+        ({12: 1e-5}, {}, (*LINES["free"], "Higher orders: negligible, at most a force of 2e-5 N in order 12.")),
         (
             {2: 0.4, 4: 0.3},
             {},
@@ -129,15 +114,12 @@ LINES = {
             {},
             (
                 *LINES["free"],
-                "Sixth order: force up to 60 N; rarely balanced, it would take shafts at 6 times "
-                "crank speed.",
+                "Sixth order: force up to 60 N; rarely balanced, it would take shafts at 6 times crank speed.",
             ),
         ),
     ],
 )
-def test_what_is_small_beside_one_cylinder_is_negligible(
-    force: dict, moment: dict, told: tuple[str, ...]
-) -> None:
+def test_what_is_small_beside_one_cylinder_is_negligible(force: dict, moment: dict, told: tuple[str, ...]) -> None:
     """A cylinder makes 1000 N and 2000 N m; vectors of equal size turn both ways."""
     orders = np.array([1.0, 2, 4, 6, 12])
 
@@ -166,9 +148,7 @@ def test_of_many_higher_orders_the_lowest_are_told_and_the_largest_of_the_others
     assert last.startswith("11th order: force up to 181.8 N; ")
 
 
-@pytest.mark.parametrize(
-    ("order", "name"), [(11, "11th"), (21, "21st"), (22, "22nd"), (13, "13th")]
-)
+@pytest.mark.parametrize(("order", "name"), [(11, "11th"), (21, "21st"), (22, "22nd"), (13, "13th")])
 def test_ordinals(order: int, name: str) -> None:
     one = np.array([5 + 0j])
     force = Phasors.of(np.array([float(order)]), one, one, np.zeros(1))

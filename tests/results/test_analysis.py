@@ -63,9 +63,7 @@ def test_orders_asked_for_are_the_same_to_the_last_bit(name):
         assert np.array_equal(phasors.forward, again.forward), q
         assert np.array_equal(phasors.backward, again.backward), q
         assert np.array_equal(phasors.select_orders([2]).forward, alone_.forward), q
-        assert np.array_equal(
-            phasors.forward, getattr(many.spectra, q).select_orders(default.orders).forward
-        ), q
+        assert np.array_equal(phasors.forward, getattr(many.spectra, q).select_orders(default.orders).forward), q
     assert (asked.force, asked.moment) == (default.force, default.moment)
 
 
@@ -90,8 +88,7 @@ def test_exactly_the_orders_asked_for_are_shown(orders):
 
 
 @pytest.mark.parametrize(
-    ("orders", "told"),
-    [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.25], "1.25")],
+    ("orders", "told"), [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.25], "1.25")]
 )
 def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:
@@ -152,8 +149,7 @@ def test_a_high_order_beside_it_swallows_no_small_one():
     themselves.
     """
     everything, few = (
-        analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force
-        for last in (4096, 40)
+        analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force for last in (4096, 40)
     )
     assert np.array_equal(everything.forward[:40], few.forward)
     assert np.array_equal(few.balanced, [n % 2 == 1 and n > 1 for n in range(1, 41)])
@@ -199,9 +195,7 @@ def test_what_is_not_asked_for_is_not_computed(monkeypatch):
 
 def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
     """Of the tens of thousands that peaks need there is no end."""
-    locked = (
-        (FOUR + WIEBE).replace("length = 150", "ratio = 0.999999").replace("inertia = 2600", "")
-    )
+    locked = (FOUR + WIEBE).replace("length = 150", "ratio = 0.999999").replace("inertia = 2600", "")
     fired = analyze(build_text(locked))
     few = analyze(build_text(locked), [2, 4, 8])
     for order, torque in zip((2, 4, 8), few.spectra.gas.major, strict=True):
@@ -229,8 +223,7 @@ def test_more_by_cylinder_than_anyone_reads_is_refused():
     with pytest.raises(BalcliError) as caught:
         analyze(example("v8_crossplane"), range(1, 2050), by_cylinder=True, only=["force"])
     assert str(caught.value) == (
-        "by cylinder, 2049 orders of 8 cylinders are 16392 results, and at most 16384 are told: "
-        "ask for fewer orders"
+        "by cylinder, 2049 orders of 8 cylinders are 16392 results, and at most 16384 are told: ask for fewer orders"
     )
 
 
@@ -249,9 +242,7 @@ def test_cylinders_and_devices_sum_to_the_engine(name):
     result = analyze(e, range(1, 9), only=KINDS, by_cylinder=True)
     assert [n for n, _ in result.cylinders] == sorted(e.numbers)
     nothing = np.zeros_like(e.cylinders.reciprocating)
-    still = replace(
-        e, cylinders=replace(e.cylinders, reciprocating=nothing, rotating=nothing, couple=nothing)
-    )
+    still = replace(e, cylinders=replace(e.cylinders, reciprocating=nothing, rotating=nothing, couple=nothing))
     parts = [compute_spectra(still, result.orders), *(share for _, share in result.cylinders)]
     for q, whole in result.spectra.items():
         scale = sum(part[q.name].major.max() for part in parts)

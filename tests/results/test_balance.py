@@ -75,8 +75,7 @@ def test_json_has_devices_reasons_and_both_analyses(file):
     assert doc["shafts"][0]["at_mm"] == [-40, 60]
     assert doc["shafts"][1]["at_mm"] == pytest.approx([-40, -60])
     second = {
-        state: next(o for o in doc[state]["orders"] if o["order"] == 2)["force_N"]
-        for state in ("before", "after")
+        state: next(o for o in doc[state]["orders"] if o["order"] == 2)["force_N"] for state in ("before", "after")
     }
     assert second["before"]["balanced"] is False
     assert second["after"]["balanced"] is True
@@ -84,9 +83,7 @@ def test_json_has_devices_reasons_and_both_analyses(file):
 
 def test_before_and_after_show_the_same_orders():
     doc = document("-", "--scheme", "eccentric-slider", text=SINGLE)
-    assert [o["order"] for o in doc["before"]["orders"]] == [
-        o["order"] for o in doc["after"]["orders"]
-    ]
+    assert [o["order"] for o in doc["before"]["orders"]] == [o["order"] for o in doc["after"]["orders"]]
     assert 3 in [o["order"] for o in doc["after"]["orders"]]
 
 
@@ -123,23 +120,15 @@ def test_csv_has_what_json_calls_practical_and_details(file):
         assert {key: found[f"counterweight {k}", key] for key in shop} == {
             key: str(value) for key, value in shop.items()
         }
-    assert found["details", "card.2.bobweight_g"] == str(
-        wanted["details"]["card"][1]["bobweight_g"]
-    )
+    assert found["details", "card.2.bobweight_g"] == str(wanted["details"]["card"][1]["bobweight_g"])
     assert found["details", "card.2.cylinders.1"] == "2"
 
 
-@pytest.mark.parametrize(
-    ("units", "size", "length"), [("si", 1.0, 1.0), ("imperial", 28.349523125 * 25.4, 25.4)]
-)
+@pytest.mark.parametrize(("units", "size", "length"), [("si", 1.0, 1.0), ("imperial", 28.349523125 * 25.4, 25.4)])
 def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
     options = ("--scheme", "two-shaft", "--at=-60 mm,80 mm", "--position", "12 mm")
     rows = ask_csv("balance", file, *options, "--units", units)
-    found = {
-        r["figure"]: (float(r["value"]), r["unit"])
-        for r in rows
-        if r["part"] == "shaft 1" and r["unit"]
-    }
+    found = {r["figure"]: (float(r["value"]), r["unit"]) for r in rows if r["part"] == "shaft 1" and r["unit"]}
     shaft = document(file, *options)["shafts"][0]
     names = {"si": ("g·mm", "mm"), "imperial": ("oz·in", "in")}[units]
     assert found["unbalance"] == (pytest.approx(shaft["unbalance_kg_m"] * 1e6 / size), names[0])
@@ -215,18 +204,9 @@ def test_standard_input_can_be_written(tmp_path):
     ("options", "told"),
     [
         (("--scheme", "tow-shaft"), "did you mean two-shaft?"),
-        (
-            ("--scheme", "two-shaft", "--at", "here"),
-            '--at "here": give x,y of a shaft in mm, such as -40,60',
-        ),
-        (
-            ("--scheme", "two-shaft", "--at", "1,2", "--at", "3,4", "--at", "5,6"),
-            "a pair of shafts has two places",
-        ),
-        (
-            ("--scheme", "two-shaft", "--position", "nan"),
-            '--position "nan": give one place along z in mm',
-        ),
+        (("--scheme", "two-shaft", "--at", "here"), '--at "here": give x,y of a shaft in mm, such as -40,60'),
+        (("--scheme", "two-shaft", "--at", "1,2", "--at", "3,4", "--at", "5,6"), "a pair of shafts has two places"),
+        (("--scheme", "two-shaft", "--position", "nan"), '--position "nan": give one place along z in mm'),
         (("--scheme", "factor", "--factor", "0:1"), "a range is first:last:step"),
         (("--scheme", "factor", "--factor", "0:1:1e-9"), "at most 1000 steps"),
         (("--scheme", "oldham"), "oldham is for a single cylinder; this engine has 4 cylinders"),
@@ -245,16 +225,13 @@ def test_a_rotary_engine_has_no_factor(tmp_path):
             "firing_order = [1, 3, 4, 2]", "radial = 5\nrotary = true"
         ),
     )
-    assert "the cylinders turn and the crank pins stand still" in refusal(
-        "balance", file, "--scheme", "factor"
-    )
+    assert "the cylinders turn and the crank pins stand still" in refusal("balance", file, "--scheme", "factor")
 
 
 def test_weights_of_a_rotary_engine_stand_on_its_cylinders(tmp_path, file):
     path = write(
         tmp_path / "rotary.toml",
-        SINGLE.replace("strokes = 4", "radial = 5\nrotary = true")
-        + "[cylinder.2]\npiston_mass = 0.6\n",
+        SINGLE.replace("strokes = 4", "radial = 5\nrotary = true") + "[cylinder.2]\npiston_mass = 0.6\n",
     )
     told = "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis"
     assert told in run(path).out
@@ -281,15 +258,12 @@ def test_practical_figures_follow_from_their_definitions():
     omega = engine().omega
     assert weight.mass == pytest.approx(weight.unbalance / 0.06)
     assert shaft.force == pytest.approx(shaft.unbalance * omega**2)
-    assert (weight.force, weight.speed_rpm) == (
-        pytest.approx(weight.unbalance * omega**2),
-        engine().speed_rpm,
-    )
+    assert (weight.force, weight.speed_rpm) == (pytest.approx(weight.unbalance * omega**2), engine().speed_rpm)
     assert shaft.speed_rpm == engine().speed_rpm
     # half disc: mass pi R^2/2 t density, centroid at 4R/(3 pi)
-    assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness * 4 * 0.05 / (
-        3 * math.pi
-    ) == pytest.approx(weight.unbalance)
+    assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness * 4 * 0.05 / (3 * math.pi) == pytest.approx(
+        weight.unbalance
+    )
 
 
 def test_shafts_turn_at_their_ratio():
@@ -324,10 +298,7 @@ def test_a_first_guess_of_a_device_in_steel():
     `t 2/3 R^3` times that.
     """
     weight = Remedy(
-        "",
-        counterweights=(
-            Counterweight(unbalance=7850 * 0.02 * 2 / 3 * 0.05**3 * 1e6, angle=0, position=0),
-        ),
+        "", counterweights=(Counterweight(unbalance=7850 * 0.02 * 2 / 3 * 0.05**3 * 1e6, angle=0, position=0),)
     )
     (figures,) = find_practical(engine(), weight, Tools())
     assert (figures.disc_radius, figures.disc_thickness) == pytest.approx((0.05, 0.02), rel=1e-14)
@@ -459,13 +430,11 @@ def test_more_holes_than_any_counterweight_has_room_for():
         ),
         (
             ("--slug", "tungsten"),
-            "--max-depth and --slug are for holes: give the diameter of the drill, too, "
-            "with --drill",
+            "--max-depth and --slug are for holes: give the diameter of the drill, too, with --drill",
         ),
         (
             ("--max-depth", "20"),
-            "--max-depth and --slug are for holes: give the diameter of the drill, too, "
-            "with --drill",
+            "--max-depth and --slug are for holes: give the diameter of the drill, too, with --drill",
         ),
     ],
 )
@@ -507,8 +476,7 @@ def test_orders_that_are_negligible_before_and_after_are_told_in_one_line() -> N
     assert [row.split()[0] for row in rows] == ["1", "2", "3", "4", "6"]
     found = balance(load(ENGINES / "i3.toml"), "counterweights", orders=[8, 9, 12])
     roll, moment = (
-        max(float(one.spectra[kind].major.max()) for one in (found.before, found.after))
-        for kind in ("roll", "moment")
+        max(float(one.spectra[kind].major.max()) for one in (found.before, found.after)) for kind in ("roll", "moment")
     )
     assert max(roll, moment) < 1e-3 * found.before.of_one_cylinder["roll"]
     assert note.startswith("Negligible: orders 8, 9, 12 (at most force ")
@@ -525,9 +493,7 @@ def test_a_scheme_for_a_negligible_order_says_so():
     one of a nine-cylinder star that turns against the crank that of order 8.
     """
     assert NEGLIGIBLE_ORDER.format(6) in run(ENGINES / "i3.toml", "--scheme", "single-shaft").out
-    assert (
-        NEGLIGIBLE_ORDER.format(8) in run(ENGINES / "radial9.toml", "--scheme", "single-shaft").out
-    )
+    assert NEGLIGIBLE_ORDER.format(8) in run(ENGINES / "radial9.toml", "--scheme", "single-shaft").out
     for order in (2, 4, 6):
         out = run(ENGINES / "i4.toml", "--scheme", "two-shaft", f"--order={order}").out
         assert (NEGLIGIBLE_ORDER.format(order) in out) == (order == 6)
@@ -538,7 +504,5 @@ def test_a_scheme_for_a_negligible_order_says_so():
 
 
 def test_notes_are_sentences():
-    note = (
-        "There is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments."
-    )
+    note = "There is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments."
     assert note in run(ENGINES / "i3.toml", "--scheme", "four-shaft").out.splitlines()

@@ -15,10 +15,7 @@ from balcli.results.comparison import compare_engines
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
     slow, fast = build_text(GOOD), build_text(changed(("speed = 3000", "speed = 6000")))
-    lines = {
-        (line.kind.name, line.order): line
-        for line in compare_engines([slow, fast], ["slow", "fast"]).lines
-    }
+    lines = {(line.kind.name, line.order): line for line in compare_engines([slow, fast], ["slow", "fast"]).lines}
     assert lines["force", 2].ratios == pytest.approx((1, 4))
     assert lines["force", None].ratios == pytest.approx((1, 4))
     assert lines["force", 1].values == (0, 0)
@@ -33,9 +30,7 @@ def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
         ("", 1000, "speeds  3000 rpm; 1000 rpm, assumed: the file gives none"),
     ],
 )
-def test_at_which_speeds_engines_are_compared_is_told(
-    tmp_path, second: str, rpm: float, told: str
-) -> None:
+def test_at_which_speeds_engines_are_compared_is_told(tmp_path, second: str, rpm: float, told: str) -> None:
     """Ratios of engines at different speeds are mostly those of their speeds."""
     files = tmp_path / "one.toml", tmp_path / "other.toml"
     for file, speed in zip(files, ("speed = 3000", second), strict=True):
@@ -46,11 +41,7 @@ def test_at_which_speeds_engines_are_compared_is_told(
 
 
 def test_orders_of_every_engine_are_shown() -> None:
-    six = build_text(
-        changed(
-            ("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", "")
-        )
-    )
+    six = build_text(changed(("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", "")))
     lines = {
         (line.kind.name, line.order): line
         for line in compare_engines([build_text(GOOD), six], ["4", "6"], only=["force"]).lines
@@ -99,8 +90,6 @@ def test_orders_that_are_asked_for_are_there_balanced_or_not() -> None:
     four = build_text(GOOD)
     kinds = ["force", "moment", "couple", "torque", "roll"]
     asked = compare_engines([four, four], ["one", "other"], orders=[7], only=kinds).lines
-    assert [(line.kind.name, line.order, line.values) for line in asked] == [
-        (kind, 7, (0, 0)) for kind in kinds
-    ]
+    assert [(line.kind.name, line.order, line.values) for line in asked] == [(kind, 7, (0, 0)) for kind in kinds]
     unasked = compare_engines([four, four], ["one", "other"], only=kinds, whole=True).lines
     assert 7 not in {line.order for line in unasked}

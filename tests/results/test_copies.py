@@ -11,15 +11,7 @@ import numpy as np
 import pytest
 from support.engines import build_text, engine_text
 
-from balcli import (
-    analyze,
-    analyze_mounts,
-    analyze_torque,
-    analyze_torsion,
-    balance,
-    balance_rotor,
-    load,
-)
+from balcli import analyze, analyze_mounts, analyze_torque, analyze_torsion, balance, balance_rotor, load
 from balcli.engine.load import parse
 from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
 from balcli.results.knuckles import balance_knuckles
@@ -39,10 +31,7 @@ def difference(one: object, other: object, path: str = "result") -> str:
         same = one.dtype == other.dtype and np.array_equal(one, other, equal_nan=one.dtype != "O")
         return "" if same else f"{path}: {one} is not {other}"
     if is_dataclass(one):
-        members = [
-            (field.name, getattr(one, field.name), getattr(other, field.name))
-            for field in fields(one)
-        ]
+        members = [(field.name, getattr(one, field.name), getattr(other, field.name)) for field in fields(one)]
     elif isinstance(one, dict):
         if one.keys() != other.keys():
             return f"{path}: other keys"
@@ -71,9 +60,7 @@ def test_differences_are_found():
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", ["i3", "v8_crossplane", "radial7_articulated", "rotary9"])
 def test_an_analysis_comes_back_equal(name, way):
-    result = analyze(
-        load(ENGINES / f"{name}.toml"), only=EVERYTHING, by_cylinder=True, reasons=True
-    )
+    result = analyze(load(ENGINES / f"{name}.toml"), only=EVERYTHING, by_cylinder=True, reasons=True)
     assert difference(result, WAYS[way](result)) == ""
 
 

@@ -71,9 +71,7 @@ def test_where_the_knuckle_pin_goes_for_an_even_dead_centre():
     angles = even_knuckles(enginefile.parse(RADIAL)).angles_deg
     for bank in range(1, 7):
         apart = 2 * np.pi * bank / 7
-        assert angles[bank] == pytest.approx(
-            np.degrees(apart + np.arcsin(60 / 240 * np.sin(apart))), abs=1e-9
-        )
+        assert angles[bank] == pytest.approx(np.degrees(apart + np.arcsin(60 / 240 * np.sin(apart))), abs=1e-9)
 
 
 def test_a_bank_that_no_angle_makes_even():
@@ -90,9 +88,7 @@ def test_an_engine_without_articulated_rods():
     with pytest.raises(BalcliError) as caught:
         even_knuckles(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
     assert (
-        str(caught.value)
-        == "knuckles: this engine has no articulated rods; an engine file says so with "
-        "[articulation]"
+        str(caught.value) == "knuckles: this engine has no articulated rods; an engine file says so with [articulation]"
     )
 
 
@@ -101,14 +97,10 @@ def run(*arguments):
     return run_here("balance", *arguments, "--scheme", "knuckles")
 
 
-@pytest.mark.parametrize(
-    "older", ["", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]  # measured\n"]
-)
+@pytest.mark.parametrize("older", ["", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]  # measured\n"])
 def test_what_is_written_reads_back_as_it_was_analysed(tmp_path, older):
     file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
-    file.write_text(
-        "# a comment\n" + RADIAL.replace("[articulation]\n", f"[articulation] # seven\n{older}")
-    )
+    file.write_text("# a comment\n" + RADIAL.replace("[articulation]\n", f"[articulation] # seven\n{older}"))
     document = json.loads(run(file, "--write", out, "--format", "json").out)
     assert document["scheme"] == "knuckles"
     assert document["counterweights"] == []

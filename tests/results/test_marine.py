@@ -97,9 +97,7 @@ def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
 
 
 def test_over_speed_a_table_without_orders_is_a_sentence(balcli, tmp_path) -> None:
-    file = write(
-        tmp_path / "nowhere.toml", (ENGINES / "i4.toml").read_text().replace("spacing ", "# ")
-    )
+    file = write(tmp_path / "nowhere.toml", (ENGINES / "i4.toml").read_text().replace("spacing ", "# "))
     for engine, told in ((file, "not known"), (ENGINES / "i4.toml", "balanced")):
         out = balcli("analyze", engine, "--format", "marine", "--speed", "1000,2000")[1]
         assert f"\nExternal moments: {told}.\n" in out
@@ -122,8 +120,7 @@ def test_orders_that_matter_are_shown_with_the_first_two(balcli) -> None:
 
 
 @pytest.mark.parametrize(
-    ("engine", "includes"),
-    [("i4.toml", "inertia, without gas"), ("i4_wiebe.toml", "inertia and gas")],
+    ("engine", "includes"), [("i4.toml", "inertia, without gas"), ("i4_wiebe.toml", "inertia and gas")]
 )
 def test_json_says_whether_gas_is_in_it(balcli, engine, includes) -> None:
     given = ("analyze", ENGINES / engine, "--format", "marine", "--format", "json")
@@ -151,24 +148,15 @@ def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
     assert balcli("analyze", file, *given) == (0, "", "")
     head, *lines = sheet.read_text().splitlines()
     assert head == (
-        "engine,speed_rpm,order,force_v_N,force_h_N,moment_v_Nm,moment_h_Nm,guide_h_Nm,"
-        "guide_x_Nm,torque_Nm"
+        "engine,speed_rpm,order,force_v_N,force_h_N,moment_v_Nm,moment_h_Nm,guide_h_Nm,guide_x_Nm,torque_Nm"
     )
-    assert [line.split(",")[1:3] for line in lines] == [
-        ["80.0", "1"],
-        ["80.0", "2"],
-        ["110.0", "1"],
-        ["110.0", "2"],
-    ]
+    assert [line.split(",")[1:3] for line in lines] == [["80.0", "1"], ["80.0", "2"], ["110.0", "1"], ["110.0", "2"]]
 
 
 @pytest.mark.parametrize(
     ("banks", "told"),
     [
-        (
-            "bank_angle = 60",
-            "V is along x, from which bank angles count (midway between the banks)",
-        ),
+        ("bank_angle = 60", "V is along x, from which bank angles count (midway between the banks)"),
         ("banks = [90]", "(banks at 90 deg), H along y."),
     ],
 )

@@ -18,11 +18,7 @@ def test_all_counterweights_share_what_is_permitted():
     said = ask_json(*ASKED)
     count = len(said["counterweights"])
     assert count == 2
-    assert said["permitted"] == {
-        "grade": 16,
-        "mass_kg": 31,
-        "each_g_mm": pytest.approx(WHOLE / count, rel=1e-12),
-    }
+    assert said["permitted"] == {"grade": 16, "mass_kg": 31, "each_g_mm": pytest.approx(WHOLE / count, rel=1e-12)}
     rows = ask_csv(*ASKED)
     figures = {row["figure"]: row["value"] for row in rows if row["part"] == "permitted"}
     assert float(figures["each_g_mm"]) == pytest.approx(WHOLE / count, rel=1e-12)
@@ -40,9 +36,7 @@ def test_it_is_shown_beside_each():
 
 def test_a_grade_may_be_written_as_the_standard_writes_it():
     in_words = run_here("balance", V8, "--factor", "51%", "--grade", "G16", "--mass", "31 kg")
-    assert (
-        in_words.out == run_here("balance", V8, "--factor", "51%", "--grade", 16, "--mass", 31).out
-    )
+    assert in_words.out == run_here("balance", V8, "--factor", "51%", "--grade", 16, "--mass", 31).out
     assert refusal("balance", V8, "--grade", "good", "--mass", 3) == (
         '--grade "good": give a grade of ISO 21940-11 such as G16 or 6.3'
     )

@@ -37,9 +37,7 @@ def test_gas_stays_and_inertia_grows_with_the_square():
     asked = ("--speed", "1000,2000", "--only", "gas,torque", "--orders", "3")
     lines = ask_csv("analyze", DIESEL, *asked)
     sizes = {
-        (line["speed_rpm"], line["quantity"]): float(line["value"])
-        for line in lines
-        if line["figure"] == "amplitude"
+        (line["speed_rpm"], line["quantity"]): float(line["value"]) for line in lines if line["figure"] == "amplitude"
     }
     assert sizes["2000.0", "gas"] == pytest.approx(sizes["1000.0", "gas"])
     assert sizes["2000.0", "torque"] == pytest.approx(4 * sizes["1000.0", "torque"])
@@ -57,10 +55,7 @@ def test_a_table_a_kind_a_row_a_speed():
 
 
 def test_what_was_named_is_shown_and_why_is_said_once():
-    out = ask(
-        *("analyze", FIVE, "--speed", "3000,6000", "--only", "guide,inner", "--orders", "1-4"),
-        "--why",
-    )
+    out = ask(*("analyze", FIVE, "--speed", "3000,6000", "--only", "guide,inner", "--orders", "1-4"), "--why")
     titles = [line.partition(",")[0] for line in out.splitlines() if "largest by order" in line]
     assert titles == [
         "Shear force in the crankshaft",
@@ -73,26 +68,18 @@ def test_what_was_named_is_shown_and_why_is_said_once():
 
 
 def test_one_speed_in_a_list_is_one_speed(balcli):
-    assert balcli("analyze", FIVE, "--speed", "3000,3000") == balcli(
-        "analyze", FIVE, "--speed", "3000"
-    )
+    assert balcli("analyze", FIVE, "--speed", "3000,3000") == balcli("analyze", FIVE, "--speed", "3000")
 
 
 @pytest.mark.parametrize(
     ("given", "told"),
     [
         (("--speed", "3:1"), '--speed "3:1": must rise; give first:last:step in rpm'),
-        (
-            ("--speed", "1:20000:1"),
-            f"has 20000 speeds; at most {MOST_ANALYSED_SPEEDS} are computed",
-        ),
+        (("--speed", "1:20000:1"), f"has 20000 speeds; at most {MOST_ANALYSED_SPEEDS} are computed"),
         (("--speed", "0,5"), "or speeds such as 1500,2000"),
         (("--speed", "5,6", "--by", "cylinder"), "--speed: --by is of one speed"),
         (("--speed", "5,6", "--only", "xy"), "--only xy: is of one speed"),
-        (
-            ("--format", "marine", "--only", "guide"),
-            "--format marine: --only adds nothing to this sheet",
-        ),
+        (("--format", "marine", "--only", "guide"), "--format marine: --only adds nothing to this sheet"),
     ],
 )
 def test_what_does_not_go_together_is_refused(given, told):

@@ -37,11 +37,7 @@ RIPPLE = "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"
 
 
 def built(crank="", more="", operation=""):
-    return build_text(
-        f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n"
-        + PARTS.format(operation=operation)
-        + more
-    )
+    return build_text(f"[crank]\nstroke = 90\nthrow_mass = 0.8\n{crank}\n" + PARTS.format(operation=operation) + more)
 
 
 def agree(found, wanted):
@@ -55,9 +51,7 @@ def agree(found, wanted):
 def test_two_singles_behind_one_another_are_a_twin(operation):
     """Pin 2 leads by 110 degrees, so that the second engine's crank angle does."""
     orders = np.arange(0.0, 9.0) if operation else ORDERS
-    twin = built(
-        "throws = [0, 110]\npositions = [0, 130]", "[frame]\nreference = [10, -20, 30]\n", operation
-    )
+    twin = built("throws = [0, 110]\npositions = [0, 130]", "[frame]\nreference = [10, -20, 30]\n", operation)
     single, plain = built(more="[frame]\nreference = [10, -20, 30]\n", operation=operation), built()
     agree(
         combine_engines(single, plain, Arrangement(110, (0, 0, 0.13)), orders).spectra,
@@ -87,10 +81,7 @@ def test_mirrored_turned_and_placed_against_curves():
     """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own
     crank angle.
     """
-    first, second = (
-        built(),
-        built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n"),
-    )
+    first, second = (built(), built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n"))
     how = Arrangement(75, (0.2, -0.3, 0.4), 35, True)
     orders = np.arange(1.0, 40.0)
     both = combine_engines(first, second, how, orders).spectra
@@ -109,9 +100,7 @@ def test_mirrored_turned_and_placed_against_curves():
         ("torque", origin.torque.values(ahead)),
     ):
         wanted = curve + getattr(own, name).values(theta)
-        assert (
-            np.abs(getattr(both, name).values(theta) - wanted).max() < 1e-11 * np.abs(wanted).max()
-        ), name
+        assert np.abs(getattr(both, name).values(theta) - wanted).max() < 1e-11 * np.abs(wanted).max(), name
     assert np.allclose(both.roll.forward, both.couple.forward - both.torque.forward)
 
 
@@ -125,8 +114,7 @@ def together(lead: int, at: complex, reverse: bool) -> dict[str, np.ndarray]:
     """
     first, second = (momentum.Engine.read(text) for text in (FIRST, SECOND))
     bodies = [
-        [(b.place, b.spin + 0 * momentum.THETA, b) for c in e.cylinders.values() for b in c]
-        for e in (first, second)
+        [(b.place, b.spin + 0 * momentum.THETA, b) for c in e.cylinders.values() for b in c] for e in (first, second)
     ]
     back = -1 if reverse else 1
     for k, (place, spin, body) in enumerate(bodies[1]):
@@ -169,11 +157,7 @@ def test_kinetic_energies_of_geared_engines_add(reverse, load):
     how = Arrangement(45, (0.2, -0.3, 0), 0, reverse, load)
     one, other = (build_text(text) for text in (FIRST, SECOND))
     found = combine_engines(one, other, how, np.arange(0.0, 60.0)).spectra
-    for name, curve in (
-        ("torque", wanted["torque"]),
-        ("couple", wanted["couple"]),
-        ("roll", wanted[load]),
-    ):
+    for name, curve in (("torque", wanted["torque"]), ("couple", wanted["couple"]), ("roll", wanted[load])):
         values = found[name].values(momentum.THETA).real
         assert np.abs(values - curve).max() < 1e-9 * np.abs(curve).max(), name
 
@@ -213,9 +197,7 @@ def test_two_singles_with_gas_are_a_twin():
     for phase, same in ((-250, True), (110, False)):
         found = combine_engines(moved, single, Arrangement(phase, (0, 0, 0.13)), HALVES).spectra
         size = np.abs(wanted.gas.forward).max()
-        agrees = [
-            np.allclose(found[k].forward, wanted[k].forward, atol=1e-11 * size) for k in kinds
-        ]
+        agrees = [np.allclose(found[k].forward, wanted[k].forward, atol=1e-11 * size) for k in kinds]
         assert all(agrees) == same
 
 
@@ -343,13 +325,8 @@ def test_a_speed_of_the_second_that_does_not_count_is_told(file, tmp_path, own):
 
 def test_engines_without_a_name_go_by_their_files(file, tmp_path):
     nameless = write(tmp_path / "twin.toml", Path(file).read_text().replace('name = "single"', ""))
-    assert run(file, str(nameless)).out.startswith(
-        "single and twin\n\nfirst      single, 1 cylinder\n"
-    )
-    assert [e["name"] for e in ask_json("sum", str(nameless), file)["engines"]] == [
-        "twin",
-        "single",
-    ]
+    assert run(file, str(nameless)).out.startswith("single and twin\n\nfirst      single, 1 cylinder\n")
+    assert [e["name"] for e in ask_json("sum", str(nameless), file)["engines"]] == ["twin", "single"]
 
 
 @pytest.mark.parametrize(

@@ -14,9 +14,7 @@ from balcli.sizing.remedy import Remedy, fit_devices
 def test_every_device_has_its_reason():
     remedy = size_auto(build_text(write_engine(0, 240, 120)))
     assert len(remedy.reasons) == len(remedy.devices) == 8
-    assert remedy.reasons[0] == (
-        "Order 1 moment turning with the crank: counterweights turn with it too and cancel it"
-    )
+    assert remedy.reasons[0] == ("Order 1 moment turning with the crank: counterweights turn with it too and cancel it")
     assert remedy.reasons[-1].endswith(
         "turning against the crank: nothing on the crankshaft can cancel it; "
         "two opposite eccentrics on a shaft at -2 times crank speed can"
@@ -40,9 +38,7 @@ def test_reasons_name_what_turns_and_how_it_is_cancelled():
         "eccentric on a shaft at +2 times crank speed can"
     )
     assert three[2].startswith("Order 1 moment turning against the crank: nothing")
-    assert vee[0].endswith(
-        "and moment turning with the crank: counterweights turn with it too and cancel both"
-    )
+    assert vee[0].endswith("and moment turning with the crank: counterweights turn with it too and cancel both")
     assert vee[-1] == (
         "Order 2 force and moment turning against the crank: nothing on the crankshaft can cancel "
         "it; eccentrics in two planes on a shaft at -2 times crank speed can"
@@ -62,26 +58,19 @@ def test_own_devices_count():
 
 def test_staggered_rods_on_one_throw_get_planes_at_the_outer_cylinders():
     remedy = size_auto(build_text(write_engine(0, layout="bank_angle = 60\nstagger = 24")))
-    assert {d.position for d in remedy.counterweights} == {
-        0.0
-    }  # forward vectors of both rods lie on the pin
+    assert {d.position for d in remedy.counterweights} == {0.0}  # forward vectors of both rods lie on the pin
     assert {d.position for d in remedy.shafts if d.ratio == -1} == {-12.0, 12.0}
 
 
 def test_sizing_does_not_depend_on_speed():
     slow, fast = (
-        size_auto(build_text(write_engine(0, 90, 200) + f"[operation]\nspeed = {rpm}\n"))
-        for rpm in (10, 20000)
+        size_auto(build_text(write_engine(0, 90, 200) + f"[operation]\nspeed = {rpm}\n")) for rpm in (10, 20000)
     )
-    assert [d.unbalance for d in slow.devices] == pytest.approx(
-        [d.unbalance for d in fast.devices], rel=1e-12
-    )
+    assert [d.unbalance for d in slow.devices] == pytest.approx([d.unbalance for d in fast.devices], rel=1e-12)
 
 
 def test_devices_are_summed_in_the_order_of_the_file():
-    engine = build_text(
-        write_engine(0, 240, 120) + "[[slider]]\norder = 2\nunbalance = 3\ndirection = 10\n"
-    )
+    engine = build_text(write_engine(0, 240, 120) + "[[slider]]\norder = 2\nunbalance = 3\ndirection = 10\n")
     kinds = [d.kind for d in fit_scheme(engine).devices]
     assert kinds == sorted(kinds)
     assert compute_spectra(fit_scheme(engine), [1], ("force",)).force.balanced.all()

@@ -102,9 +102,7 @@ unbalance = 17000
 angle = 20
 position = 35
 """
-INLINE = changed(
-    ("throws = [0, 180, 180, 0]", "throws = [0, 240, 120]"), ("firing_order = [1, 3, 4, 2]", "")
-)
+INLINE = changed(("throws = [0, 180, 180, 0]", "throws = [0, 240, 120]"), ("firing_order = [1, 3, 4, 2]", ""))
 FLAT_PLANE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 90"))
 
 
@@ -138,9 +136,7 @@ def pull_of_pins(text: str, factor: float) -> tuple[np.ndarray, np.ndarray, floa
     return force, moment, sizes
 
 
-@pytest.mark.parametrize(
-    "planes", [None, "ends", "throws", (-0.21, 0.33), (-0.3, -0.05, 0.01, 0.2), (0.02,)]
-)
+@pytest.mark.parametrize("planes", [None, "ends", "throws", (-0.21, 0.33), (-0.3, -0.05, 0.01, 0.2), (0.02,)])
 @pytest.mark.parametrize("weights", ["", WEIGHTS])
 @pytest.mark.parametrize("name", ["ford", "twin", "unequal", "inline"])
 def test_what_is_left_is_the_engine_without_what_the_factor_takes(name, weights, planes):
@@ -152,14 +148,10 @@ def test_what_is_left_is_the_engine_without_what_the_factor_takes(name, weights,
     written = insert_remedy((text + weights).encode(), remedy)
     left, bare = (momentum.Engine.read(t).curves() for t in (written, text))
     force, moment, scale = pull_of_pins(text, 0.53)
-    assert find_orders(left.force) == pytest.approx(
-        find_orders(bare.force - force), abs=1e-11 * scale
-    )
+    assert find_orders(left.force) == pytest.approx(find_orders(bare.force - force), abs=1e-11 * scale)
     one_throw = name == "twin" and weights and planes == "throws"
     if planes != (0.02,) and not one_throw:
-        assert find_orders(left.moment) == pytest.approx(
-            find_orders(bare.moment - moment), abs=1e-11 * scale
-        )
+        assert find_orders(left.moment) == pytest.approx(find_orders(bare.moment - moment), abs=1e-11 * scale)
     else:
         assert remedy.note.startswith("one plane, or planes at the same z")
 
@@ -203,9 +195,7 @@ position = 25
     assert (front.z, rear.z) == (-0.2, 0.25)
     assert front.present == pytest.approx(26e-3j, rel=1e-12)
     assert rear.present == pytest.approx(-4e-3j, rel=1e-12)
-    for need, whole, left in zip(
-        remedy.needs, bare.counterweights, remedy.counterweights, strict=True
-    ):
+    for need, whole, left in zip(remedy.needs, bare.counterweights, remedy.counterweights, strict=True):
         assert abs(need.wanted) * 1e6 == pytest.approx(whole.unbalance, rel=1e-12)
         assert need.missing == pytest.approx(need.wanted - need.present, rel=1e-12)
         assert abs(need.missing) * 1e6 == pytest.approx(left.unbalance, rel=1e-12)
@@ -253,15 +243,10 @@ def test_nor_is_anything_of_split_pins_in_one_plane():
     first = fit(split)
     assert [device.angle for device in first.devices] == [180, -90]
     again = fit(insert_remedy(split.encode(), first))
-    assert (again.devices, again.note) == (
-        (),
-        "nothing is missing: the counterweights of the file balance this factor",
-    )
+    assert (again.devices, again.note) == ((), "nothing is missing: the counterweights of the file balance this factor")
     (one,) = fit(insert_remedy(split.encode(), first), 0.75).devices
     apart = fit(split, 0.75).devices
-    more = [
-        device.unbalance - own.unbalance for device, own in zip(apart, first.devices, strict=True)
-    ]
+    more = [device.unbalance - own.unbalance for device, own in zip(apart, first.devices, strict=True)]
     assert one.unbalance * unit(one.angle) == pytest.approx(-more[0] - 1j * more[1], rel=1e-9)
 
 
@@ -300,8 +285,7 @@ def test_a_weight_in_a_plane_counts_in_that_plane_alone():
 
 
 @pytest.mark.parametrize(
-    ("beside", "planes", "lost"),
-    [(60, None, True), (60, "throws", True), (0, None, False), (0, (0.0,), False)],
+    ("beside", "planes", "lost"), [(60, None, True), (60, "throws", True), (0, None, False), (0, (0.0,), False)]
 )
 def test_one_plane_does_not_take_the_moment_of_a_weight_beside_it(beside, planes, lost):
     """A force that a factor leaves has a lever about a point of reference beside it, no moment of
@@ -432,8 +416,7 @@ def test_a_range_tells_bobweight_counterweight_and_what_is_left():
         (
             TWIN,
             SchemeOptions(factor=(0.5,), measured=1.0),
-            "--factor and --measured say the same: what balances a pin stands for a factor; give "
-            "one of them",
+            "--factor and --measured say the same: what balances a pin stands for a factor; give one of them",
         ),
         (
             TWIN,
@@ -477,16 +460,10 @@ def ford(tmp_path):
     return write(tmp_path / "ford.toml", FORD)
 
 
-@pytest.mark.parametrize(
-    "line", [line for line in str(balance.__doc__).splitlines() if "balcli balance" in line]
-)
+@pytest.mark.parametrize("line", [line for line in str(balance.__doc__).splitlines() if "balcli balance" in line])
 def test_the_examples_of_the_help_work(ford, line):
     _, command, file, *options = shlex.split(line)
-    engines = {
-        "i4.toml": ENGINES / "i4.toml",
-        "v8.toml": ford,
-        "twin.toml": ENGINES / "vtwin45.toml",
-    }
+    engines = {"i4.toml": ENGINES / "i4.toml", "v8.toml": ford, "twin.toml": ENGINES / "vtwin45.toml"}
     assert run_here(command, engines[file], *options).status == 0
 
 
@@ -501,9 +478,7 @@ def test_a_factor_alone_chooses_its_scheme(ford):
 
 
 def test_grams_are_what_a_shop_measures(ford):
-    bare, said = (
-        run_here("balance", ford, "--measured", text).out for text in ("1872.1", "1872.1 g")
-    )
+    bare, said = (run_here("balance", ford, "--measured", text).out for text in ("1872.1", "1872.1 g"))
     assert bare == said
     pounds = run_here("balance", ford, "--measured", "66.04 oz", "--units", "imperial").out
     assert "1872.2 g balance each bare pin, at the crank radius, without rods" in pounds
@@ -512,9 +487,7 @@ def test_grams_are_what_a_shop_measures(ford):
     )
     assert "1872.1" in refusal("balance", ford, "--measured", "1872.1", "--units", "imperial")
     assert run_here("balance", ford, "--measured", "1.8721e3").out == bare
-    assert refusal("balance", ford, "--measured", "-5 g") == (
-        '--measured "-5 g": a mass on the pin is not negative'
-    )
+    assert refusal("balance", ford, "--measured", "-5 g") == ('--measured "-5 g": a mass on the pin is not negative')
     assert refusal("balance", ford, "--measured", "inf").startswith(
         '--measured "inf": a mass is wanted: a bare number in g'
     )
@@ -543,10 +516,7 @@ def test_factors_that_say_nothing(ford, text):
 
 
 # ------------------------------------------------------------------ the card for the wall
-DRILLED = (
-    "--planes=-220mm,230mm",
-    *("--radius", "2.5 in", "--drill", "1 in", "--max-depth", "40 mm"),
-)
+DRILLED = ("--planes=-220mm,230mm", *("--radius", "2.5 in", "--drill", "1 in", "--max-depth", "40 mm"))
 
 
 def test_the_card_as_a_page(ford):
@@ -596,8 +566,7 @@ def test_a_card_alone_chooses_the_scheme_of_factors(ford, tmp_path):
     run_here("balance", ford, "--format", "card", "-o", tmp_path / "card.txt")
     assert (tmp_path / "card.txt").read_text(encoding="utf-8") == page
     assert refusal("balance", ford, "--format", "card", "--scheme", "auto") == (
-        "--format card: scheme auto has no bobweight card; leave --scheme out, or choose --scheme "
-        "factor"
+        "--format card: scheme auto has no bobweight card; leave --scheme out, or choose --scheme factor"
     )
     assert "ends in .txt" in refusal("balance", ford, "--format", "card", "-o", tmp_path / "x.json")
 
@@ -671,9 +640,7 @@ def test_a_piston_a_little_heavier_does_not_decide_which_factor_is_best():
     vee = write_engine(0, 240, 120, layout="bank_angle = 90") + "[cylinder.2]\npiston_mass = 1.01\n"
     factors = (0.4, 0.5, 0.6)
     found = size_scheme(build_text(vee), "factor", factor=factors, planes="ends")
-    forces, moments = (
-        [getattr(peaks, name) for peaks in found.sweep] for name in ("force", "moment")
-    )
+    forces, moments = ([getattr(peaks, name) for peaks in found.sweep] for name in ("force", "moment"))
     assert max(forces) - min(forces) < 0.03 * find_cylinder_force(vee)
     assert moments[1] < 0.9 * min(moments[0], moments[2])
     assert figures(found)["factor"] == 0.5
@@ -692,10 +659,7 @@ def test_split_pins_are_told_from_front_to_back():
     """Of a 60-degree V6 with pins 60 degrees apart: those of the first bank stand in front."""
     six = changed(
         ("throws = [0, 180, 180, 0]", "splay = -60"),
-        (
-            "firing_order = [1, 3, 4, 2]",
-            "firing_order = [1, 4, 2, 5, 3, 6]\nstagger = 36\nbank_angle = 60",
-        ),
+        ("firing_order = [1, 3, 4, 2]", "firing_order = [1, 4, 2, 5, 3, 6]\nstagger = 36\nbank_angle = 60"),
     )
     remedy = size(build_text(six), "factor")
     assert [pin.cylinders for pin in remedy.card] == [(1,), (4,), (2,), (5,), (3,), (6,)]

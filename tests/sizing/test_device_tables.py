@@ -9,12 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from balcli.sizing.device_tables import (
-    make_counterweight,
-    make_shaft,
-    make_slider,
-    measure_direction,
-)
+from balcli.sizing.device_tables import make_counterweight, make_shaft, make_slider, measure_direction
 
 
 @given(st.floats(-720, 720), st.floats(-180, 180))
@@ -41,22 +36,12 @@ def test_tables_are_in_the_units_of_the_file():
         100.0,
     )
     sliding = make_slider(-1e-3 + 0j, 2, 90.0, 0.0, 0j)
-    assert (sliding.order, sliding.unbalance, sliding.direction, sliding.angle) == (
-        2,
-        1000.0,
-        90.0,
-        180.0,
-    )
+    assert (sliding.order, sliding.unbalance, sliding.direction, sliding.angle) == (2, 1000.0, 90.0, 180.0)
 
 
 def test_places_are_written_as_people_would():
     """Tenths of a millimetre, whatever metres times 1000 is in binary; and 0 without a sign."""
-    assert all(
-        make_counterweight(1e-3, tenth / 1e4, 0.0).position == tenth / 10
-        for tenth in range(-3000, 3001)
-    )
+    assert all(make_counterweight(1e-3, tenth / 1e4, 0.0).position == tenth / 10 for tenth in range(-3000, 3001))
     nothing = make_counterweight(complex(1e-3, -0.0), -0.0, 0.0)
     assert (str(nothing.position), str(nothing.angle)) == ("0.0", "0.0")
-    assert (
-        make_counterweight(1e-3, 0.1 / 3, 0.0).position == 100 / 3
-    )  # what has no short form keeps its digits
+    assert make_counterweight(1e-3, 0.1 / 3, 0.0).position == 100 / 3  # what has no short form keeps its digits

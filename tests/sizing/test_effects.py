@@ -19,9 +19,7 @@ from balcli.sizing.residual import ReferencePoint, Residual, ResidualPart, find_
 
 FORCE, MOMENT = ResidualPart("force", 1), ResidualPart("moment", 1)
 BACK, ROLL = ResidualPart("force", -1), ResidualPart("roll", 0)
-VECTOR = st.complex_numbers(
-    min_magnitude=1e-3, max_magnitude=1e3, allow_nan=False, allow_infinity=False
-)
+VECTOR = st.complex_numbers(min_magnitude=1e-3, max_magnitude=1e3, allow_nan=False, allow_infinity=False)
 
 
 def residual(noise: float = 1e-16, **parts: complex) -> Residual:
@@ -39,9 +37,7 @@ def test_two_planes_take_any_force_and_moment(force, moment):
         find_effect(s.make_device(u), (FORCE, MOMENT), ReferencePoint(0j, 0.0))
         for s, u in zip(slots, fit.unbalances, strict=True)
     )
-    assert left == pytest.approx(
-        [-force, -moment], rel=1e-13, abs=1e-13 * (abs(force) + abs(moment))
-    )
+    assert left == pytest.approx([-force, -moment], rel=1e-13, abs=1e-13 * (abs(force) + abs(moment)))
 
 
 @given(VECTOR, VECTOR)
@@ -55,10 +51,7 @@ def test_a_force_and_a_roll_by_shafts_at_three_places():
     """The roll couples both senses; with a shaft to spare it is cancelled together with the
     force.
     """
-    slots = [
-        Slot("shaft", 2, sense, 0.0, place)
-        for sense, place in ((1, 0.1 + 0j), (-1, -0.1 + 0.05j), (1, -0.2j))
-    ]
+    slots = [Slot("shaft", 2, sense, 0.0, place) for sense, place in ((1, 0.1 + 0j), (-1, -0.1 + 0.05j), (1, -0.2j))]
     parts = (FORCE, BACK, ROLL)
     asked = residual(forward=1 + 2j, backward=0.5 - 1j, roll=0.3 + 0.1j)
     fit = size_unbalances(slots, asked, parts)
@@ -86,8 +79,7 @@ def test_effect_is_what_the_analysis_says(slot):
     u = cmath.rect(2e-3, 0.4)
     table = slot.make_table(u, 0.0)
     with_it = fit_devices(
-        engine,
-        Remedy("", sliders=(table,)) if slot.kind == "slider" else Remedy("", shafts=(table,)),
+        engine, Remedy("", sliders=(table,)) if slot.kind == "slider" else Remedy("", shafts=(table,))
     )
     parts = [ResidualPart(q, s) for q in ("force", "moment") for s in (1, -1)] + [ROLL]
     before, after = find_residual(engine, 2), find_residual(with_it, 2)
@@ -98,9 +90,7 @@ def test_effect_is_what_the_analysis_says(slot):
 def test_more_slots_than_needed_share_the_work():
     """The least sum of squares: at every throw of a row, equal weights for a force."""
     fit = size_unbalances(
-        [Slot("counterweight", 1, 1, z) for z in (-0.1, 0.0, 0.1)],
-        residual(forward=3, moment=0),
-        (FORCE, MOMENT),
+        [Slot("counterweight", 1, 1, z) for z in (-0.1, 0.0, 0.1)], residual(forward=3, moment=0), (FORCE, MOMENT)
     )
     assert fit.unbalances == pytest.approx([-1, -1, -1])
 
@@ -110,9 +100,7 @@ def test_of_more_slots_than_needed_the_far_ones_do_most():
     / sum z^2`.
     """
     places = np.array([-0.1, 0.2, 0.4])
-    fit = size_unbalances(
-        [Slot("counterweight", 1, 1, z) for z in places], residual(moment=0.21 - 0.42j), (MOMENT,)
-    )
+    fit = size_unbalances([Slot("counterweight", 1, 1, z) for z in places], residual(moment=0.21 - 0.42j), (MOMENT,))
     assert fit.unbalances == pytest.approx(-(0.21 - 0.42j) * places / 0.21, rel=1e-14)
 
 

@@ -29,14 +29,10 @@ def test_minimax_reaches_what_it_says_where_it_says(more):
     assert find_peak(curve).value == pytest.approx(told["peak force"], rel=1e-12)
     assert len(told["reached"]) == 3
     assert all(0 <= degree < 360 for degree in told["reached"])
-    assert np.abs(curve.values(np.radians(told["reached"]))) == pytest.approx(
-        told["peak force"], rel=1e-9
-    )
+    assert np.abs(curve.values(np.radians(told["reached"]))) == pytest.approx(told["peak force"], rel=1e-9)
     plain = build_text(SMALL["one"])
     half = find_peak(find_orders(fit_scheme(plain, "factor"))).value
-    assert told["factor half peak"] == pytest.approx(
-        half, rel=1e-12
-    )  # without the engine's own weights
+    assert told["factor half peak"] == pytest.approx(half, rel=1e-12)  # without the engine's own weights
     assert told["improvement"] == pytest.approx(1 - told["peak force"] / half, rel=1e-12)
 
 
@@ -81,9 +77,7 @@ def test_minimax_of_a_crank_that_has_its_weight_already_gives_no_false_reason():
 def test_a_gain_of_rounding_is_none(monkeypatch, slip):
     exact = circle.enclose_curve
     monkeypatch.setattr(
-        circle,
-        "enclose_curve",
-        lambda curve: (found := exact(curve))._replace(radius=found.radius * (1 + slip)),
+        circle, "enclose_curve", lambda curve: (found := exact(curve))._replace(radius=found.radius * (1 + slip))
     )
     engine = build_text(SMALL["three"])
     told = figures(size_scheme(engine, "minimax", planes="ends"))
@@ -92,12 +86,8 @@ def test_a_gain_of_rounding_is_none(monkeypatch, slip):
 
 def test_minimax_in_several_planes_takes_the_moment_too():
     engine = build_text(SMALL["vee"])
-    one, several = (
-        size_scheme(engine, "minimax", planes=planes) for planes in (None, (-0.1, 0.17))
-    )
-    assert sum(
-        cmath.rect(d.unbalance, math.radians(d.angle)) for d in several.devices
-    ) == pytest.approx(
+    one, several = (size_scheme(engine, "minimax", planes=planes) for planes in (None, (-0.1, 0.17)))
+    assert sum(cmath.rect(d.unbalance, math.radians(d.angle)) for d in several.devices) == pytest.approx(
         cmath.rect(one.devices[0].unbalance, math.radians(one.devices[0].angle)), rel=1e-12
     )
     after = compute_spectra(fit_devices(engine, several), [1], ("moment",)).moment
@@ -135,9 +125,9 @@ def test_minimax_of_an_engine_without_any_force():
     """
     engine = build_text(write_engine(0, 180, layout='banks = [0, 180]\nrods = "alternating"'))
     told = figures(size_scheme(engine, "minimax", planes="ends"))
-    assert (
-        told["peak force"],
-        told["relative error bound"],
-        told["factor half peak"],
-        told["improvement"],
-    ) == (0, 0, 0, 0)
+    assert (told["peak force"], told["relative error bound"], told["factor half peak"], told["improvement"]) == (
+        0,
+        0,
+        0,
+        0,
+    )

@@ -140,16 +140,8 @@ def test_a_slider_beside_the_crank_is_told_where_it_adds_roll(four, at, grows):
 
 
 @pytest.mark.parametrize(
-    ("frame", "pivot"),
-    [("", "the crankshaft"), ("[frame]\nreference = [0, 90, 0]\n", "the point of reference")],
+    ("frame", "pivot"), [("", "the crankshaft"), ("[frame]\nreference = [0, 90, 0]\n", "the point of reference")]
 )
 def test_about_what_the_devices_have_levers(frame, pivot):
-    said = run_here(
-        "balance",
-        "-",
-        "--scheme",
-        "slider",
-        "--at=0,-200",
-        stdin=FILE.partition("[gas]")[0] + frame,
-    ).out
+    said = run_here("balance", "-", "--scheme", "slider", "--at=0,-200", stdin=FILE.partition("[gas]")[0] + frame).out
     assert f"where they stand, the devices' forces have levers about {pivot}." in said

@@ -38,16 +38,11 @@ def left(path, scheme, options, order):
 def test_two_eccentrics_at_a_given_place_take_force_and_moment_of_a_270_degree_twin():
     options = SchemeOptions(at=(-0.07 + 0.09j,), planes=(-0.048, 0.048))
     remedy = size(load(TWIN), "single-shaft", options)
-    assert [(s.ratio, s.at, s.position) for s in remedy.shafts] == [
-        (-1, (-70, 90), -48),
-        (-1, (-70, 90), 48),
-    ]
+    assert [(s.ratio, s.at, s.position) for s in remedy.shafts] == [(-1, (-70, 90), -48), (-1, (-70, 90), 48)]
     found = left(TWIN, "single-shaft", options, 1)
     assert found.force.balanced.all()
     assert found.moment.balanced.all()
-    assert remedy.reasons[-1].endswith(
-        "eccentrics in two planes on a shaft at -1 times crank speed can"
-    )
+    assert remedy.reasons[-1].endswith("eccentrics in two planes on a shaft at -1 times crank speed can")
     assert "couple left" not in {detail.label for detail in remedy.details}
 
 
@@ -58,9 +53,7 @@ def test_their_sizes_by_hand():
     """
     built = load(TWIN)
     remedy = size_scheme(built, "single-shaft", planes=(-0.05, 0.02))
-    spectra = compute_spectra(
-        fit_scheme(built, "counterweights", order=1), [1], ("force", "moment")
-    )
+    spectra = compute_spectra(fit_scheme(built, "counterweights", order=1), [1], ("force", "moment"))
     square = built.omega**2
     force, moment = spectra.force.backward[0] / square, spectra.moment.backward[0] / 1j / square
     one, other = (d.backward for d in fit_devices(built, remedy).devices if d.backward)
@@ -88,10 +81,7 @@ def test_one_eccentric_promises_both_where_it_takes_both():
 
 def test_pairs_promise_no_more_either():
     remedy = size(load(TWIN), "two-shaft")
-    assert all(
-        reason.endswith("a moment stays, which takes eccentrics in two planes")
-        for reason in remedy.reasons
-    )
+    assert all(reason.endswith("a moment stays, which takes eccentrics in two planes") for reason in remedy.reasons)
     assert all(reason.startswith("Order 1 force turning") for reason in remedy.reasons)
     whole = size_scheme(load(I4), "two-shaft", order=2).reasons
     assert not any("stays" in reason for reason in whole)
@@ -139,12 +129,7 @@ def test_refusals(options, message):
 def test_couple_shafts_stand_at_two_places():
     options = SchemeOptions(order=2, at=(-0.05 + 0.08j, 0.06 + 0.09j))
     shafts = size(load(I5), "couple-shaft", options).shafts
-    assert [(s.ratio, s.at) for s in shafts] == [
-        (2, (60, 90)),
-        (2, (60, 90)),
-        (-2, (-50, 80)),
-        (-2, (-50, 80)),
-    ]
+    assert [(s.ratio, s.at) for s in shafts] == [(2, (60, 90)), (2, (60, 90)), (-2, (-50, 80)), (-2, (-50, 80))]
     assert left(I5, "couple-shaft", options, 2).moment.balanced.all()
 
 
@@ -264,9 +249,7 @@ def test_lower_orders_that_stay_as_they_are_are_named():
 def test_orders_that_stay_for_the_same_reason_are_named_together():
     """A four has forces of even orders alone, and no moment."""
     note = size(load(I4), "couple-shaft").note
-    assert note.endswith(
-        "Orders 2, 4, 6 and 8 stay as they are (they have a free force: two-shaft)"
-    )
+    assert note.endswith("Orders 2, 4, 6 and 8 stay as they are (they have a free force: two-shaft)")
 
 
 def test_so_are_orders_whose_moment_is_left():
@@ -279,8 +262,7 @@ def test_so_are_orders_whose_moment_is_left():
     twelve = load((ENGINES / "v12_60.toml").read_text() + shafts)
     note = size(twelve, "single-shaft").note
     assert note.endswith(
-        "Orders 1 and 2 stay as they are (their moment turning against the crank: eccentrics in "
-        "two planes)."
+        "Orders 1 and 2 stay as they are (their moment turning against the crank: eccentrics in two planes)."
     )
 
 

@@ -20,9 +20,7 @@ from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.sizing import size
 
 # ------------------------------------------------------------------ all schemes
-UNEVEN = (
-    SMALL["vee"] + "[cylinder.3]\npiston_mass = 2.5\n"
-)  # its two vectors act at different places
+UNEVEN = SMALL["vee"] + "[cylinder.3]\npiston_mass = 2.5\n"  # its two vectors act at different places
 
 
 def devices(remedy: Remedy) -> list[tuple[float, ...]]:
@@ -42,31 +40,17 @@ def devices(remedy: Remedy) -> list[tuple[float, ...]]:
 
 @pytest.mark.parametrize("name", SMALL)
 @pytest.mark.parametrize(
-    "scheme",
-    [
-        "auto",
-        "counterweights",
-        "factor",
-        "minimax",
-        "single-shaft",
-        "two-shaft",
-        "four-shaft",
-        "slider",
-    ],
+    "scheme", ["auto", "counterweights", "factor", "minimax", "single-shaft", "two-shaft", "four-shaft", "slider"]
 )
 def test_a_remedy_does_not_depend_on_the_point_of_reference(name, scheme):
     """Moments are counted from it, but devices stand where the engine needs them."""
-    plain, moved = (
-        build_text(SMALL[name] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n")
-    )
+    plain, moved = (build_text(SMALL[name] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n"))
     here, there = (size(e, scheme) for e in (plain, moved))
     assert len(there.devices) == len(here.devices)
     for one, other in zip(devices(here), devices(there), strict=True):
         assert other == pytest.approx(one, rel=1e-10, abs=1e-9)
     if scheme == "single-shaft":
-        assert figures(there)["axial distance"] == pytest.approx(
-            figures(here)["axial distance"], rel=1e-9, abs=1e-9
-        )
+        assert figures(there)["axial distance"] == pytest.approx(figures(here)["axial distance"], rel=1e-9, abs=1e-9)
 
 
 def test_no_roll_about_the_crank_whatever_the_point_of_reference():
@@ -74,9 +58,7 @@ def test_no_roll_about_the_crank_whatever_the_point_of_reference():
     cancelled.
     """
     options = SchemeOptions(at=(-0.04 + 0.06j,), roll="zero")
-    plain, moved = (
-        build_text(SMALL["four"] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n")
-    )
+    plain, moved = (build_text(SMALL["four"] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n"))
     here, there = (devices(size(e, "two-shaft", options)) for e in (plain, moved))
     assert there == [pytest.approx(device, rel=1e-10, abs=1e-9) for device in here]
 
@@ -90,9 +72,7 @@ def test_a_weight_opposite_staggered_rods_stands_in_their_middle():
             rod="ratio = 0.25\nmass = 0.61\ncg = 47.3",
         )
     )
-    cylinders = replace(
-        engine.cylinders, z=engine.cylinders.z * (1 + 2e-16 * (engine.cylinders.z > 0))
-    )
+    cylinders = replace(engine.cylinders, z=engine.cylinders.z * (1 + 2e-16 * (engine.cylinders.z > 0)))
     (weight,) = size(replace(engine, cylinders=cylinders), "factor").counterweights
     assert weight.position == 0
 
@@ -100,8 +80,7 @@ def test_a_weight_opposite_staggered_rods_stands_in_their_middle():
 def test_a_shaft_where_the_force_acts_is_at_no_distance_from_it():
     """Not at one of 1e-15 mm."""
     engine = build_text(
-        engine_text(crank="stroke = 100\nthrows = [0, 90]\npositions = [0, 33.3]")
-        + "[cylinder.2]\npiston_mass = 1.7\n"
+        engine_text(crank="stroke = 100\nthrows = [0, 90]\npositions = [0, 33.3]") + "[cylinder.2]\npiston_mass = 1.7\n"
     )
     remedy = size_scheme(engine, "single-shaft", order=1)
     assert remedy.shafts[0].position > 0
@@ -114,20 +93,14 @@ def test_places_along_the_crank_are_figures_that_people_can_read():
     for first, second in ((-50, 50), (17.3, 94.1), (-211.7, 3.3), (0, 100)):
         for share in (1, 3, 9):
             crank_text = crank.format(first, second)
-            remedy = size_auto(
-                build_text(engine_text(crank=crank_text) + f"[cylinder.2]\npiston_mass = {share}\n")
-            )
-            assert {d.position for d in remedy.shafts} == {
-                round((first + share * second) / (1 + share), 9)
-            }
+            remedy = size_auto(build_text(engine_text(crank=crank_text) + f"[cylinder.2]\npiston_mass = {share}\n"))
+            assert {d.position for d in remedy.shafts} == {round((first + share * second) / (1 + share), 9)}
             assert [d.position for d in remedy.counterweights] == [first, second]  # at both throws
 
 
 def test_what_is_in_the_middle_of_the_throws():
     """Throws at 10, 30 and 110 mm: 60, where nothing says otherwise."""
-    engine = build_text(
-        engine_text(crank="stroke = 100\nthrows = [0, 0, 0]\npositions = [10, 30, 110]")
-    )
+    engine = build_text(engine_text(crank="stroke = 100\nthrows = [0, 0, 0]\npositions = [10, 30, 110]"))
     (weight,) = size(engine, "minimax").counterweights
     assert weight.position == 60
     (weight,) = size_scheme(engine, "minimax", position=-0.02).counterweights
@@ -137,9 +110,7 @@ def test_what_is_in_the_middle_of_the_throws():
 def test_a_single_device_has_no_condition_number():
     """Of two planes at equal distance from the middle it is 1."""
     assert "condition number" not in figures(size(build_text(SMALL["four"]), "single-shaft"))
-    assert figures(size_auto(build_text(SMALL["three"])))["condition number"] == pytest.approx(
-        1, rel=1e-14
-    )
+    assert figures(size_auto(build_text(SMALL["three"])))["condition number"] == pytest.approx(1, rel=1e-14)
     balanced = build_text(write_engine(0, 240, 120, 120, 240, 0))
     assert not size_auto(balanced).details
 
@@ -193,13 +164,9 @@ TAKEN = {
 @pytest.mark.parametrize("scheme", TAKEN)
 def test_an_option_makes_a_difference_or_is_refused(scheme, option):
     engine = build_text(SMALL["vee"])
-    options = SchemeOptions(
-        **{option: 1 if scheme == "counterweights" and option == "order" else OPTIONS[option]}
-    )
+    options = SchemeOptions(**{option: 1 if scheme == "counterweights" and option == "order" else OPTIONS[option]})
     if option not in TAKEN[scheme]:
-        with pytest.raises(
-            BalcliError, match=f"scheme {scheme} has no --{option}; (it takes|add --scheme with)"
-        ):
+        with pytest.raises(BalcliError, match=f"scheme {scheme} has no --{option}; (it takes|add --scheme with)"):
             size(engine, scheme, options)
     elif (scheme, option) != ("counterweights", "order"):
         assert devices(size(engine, scheme, options)) != devices(size(engine, scheme))
@@ -207,9 +174,7 @@ def test_an_option_makes_a_difference_or_is_refused(scheme, option):
 
 def test_planes_are_named_or_given():
     engine = build_text(SMALL["vee"])
-    with pytest.raises(
-        BalcliError, match=r'--planes "left": give ends, throws, or places along z$'
-    ):
+    with pytest.raises(BalcliError, match=r'--planes "left": give ends, throws, or places along z$'):
         size_scheme(engine, "counterweights", planes="left")
     with pytest.raises(
         BalcliError,
@@ -217,10 +182,7 @@ def test_planes_are_named_or_given():
         r"z$",
     ):
         size_scheme(engine, "couple-shaft", planes=(-0.1, 0.0, 0.1))
-    ends = [
-        devices(size_scheme(engine, "couple-shaft", planes=planes))
-        for planes in (None, "ends", (-0.05, 0.05))
-    ]
+    ends = [devices(size_scheme(engine, "couple-shaft", planes=planes)) for planes in (None, "ends", (-0.05, 0.05))]
     assert ends[0] == ends[1] == ends[2]
     with pytest.raises(BalcliError, match=r"--at: this scheme has one place; give it once$"):
         size_scheme(engine, "slider", at=(0j, 1j))
@@ -232,13 +194,9 @@ def test_what_a_single_plane_leaves_is_said(place):
     engine = build_text(SMALL["vee"])
     remedy = size_scheme(engine, "counterweights", planes=(place,))
     after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
-    assert figures(remedy)["force with crank left"] == pytest.approx(
-        abs(after.force.forward[0]), rel=1e-9, abs=1e-9
-    )
+    assert figures(remedy)["force with crank left"] == pytest.approx(abs(after.force.forward[0]), rel=1e-9, abs=1e-9)
     assert (figures(remedy)["force with crank left"] > 1) == (place != 0)
-    assert figures(remedy)["moment with crank left"] == pytest.approx(
-        abs(after.moment.forward[0]), rel=1e-12
-    )
+    assert figures(remedy)["moment with crank left"] == pytest.approx(abs(after.moment.forward[0]), rel=1e-12)
     assert figures(remedy)["moment with crank left"] > 1
     assert remedy.note.startswith("one plane, or planes at the same z, cannot take a moment")
 
@@ -273,19 +231,11 @@ def test_a_single_shaft_stands_where_its_couple_is_smallest(name):
     assert "turning against the crank" in here.reasons[-1]
     assert "one eccentric on a shaft at -" in here.reasons[-1]
     place = here.shafts[0].position / 1e3
-    for other in (
-        -0.05,
-        0.0,
-        0.05,
-        max(place - 1e-3, -0.05),
-        min(place + 1e-3, 0.05),
-    ):  # between the throws
+    for other in (-0.05, 0.0, 0.05, max(place - 1e-3, -0.05), min(place + 1e-3, 0.05)):  # between the throws
         there = size_scheme(engine, "single-shaft", position=other)
         assert figures(here)["couple left"] <= figures(there)["couple left"] * (1 + 1e-12) + 1e-12
         left = compute_spectra(fit_devices(engine, there), [here.order], ("moment", "roll"))
-        assert figures(there)["couple left"] == pytest.approx(
-            abs(left.moment.backward[0]), rel=1e-9, abs=1e-9
-        )
+        assert figures(there)["couple left"] == pytest.approx(abs(left.moment.backward[0]), rel=1e-9, abs=1e-9)
         assert figures(there)["roll left"] == pytest.approx(left.roll.major[0], rel=1e-12)
 
 
@@ -303,10 +253,7 @@ def test_sliders_stand_where_the_stronger_part_acts(bank, order):
         return abs(getattr(compute_spectra(after, [order], ("moment",)).moment, stronger)[0])
 
     least = left(place) * (1 - 1e-9) - 1e-9
-    assert all(
-        left(min(max(other, -0.06), 0.06)) >= least
-        for other in (-0.06, 0.0, 0.06, place - 1e-3, place + 1e-3)
-    )
+    assert all(left(min(max(other, -0.06), 0.06)) >= least for other in (-0.06, 0.0, 0.06, place - 1e-3, place + 1e-3))
 
 
 def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
@@ -329,10 +276,7 @@ def test_no_roll_by_the_nearest_places(order, frame):
     at_crank = build_text(UNEVEN)
     options = SchemeOptions(order=order, roll="zero")
     remedy = size(build_text(UNEVEN + frame), "two-shaft", options)
-    before, after = (
-        compute_spectra(e, [order], ("force", "roll"))
-        for e in (at_crank, fit_devices(at_crank, remedy))
-    )
+    before, after = (compute_spectra(e, [order], ("force", "roll")) for e in (at_crank, fit_devices(at_crank, remedy)))
     assert after.force.balanced.all()
     assert after.roll.major[0] <= 1e-13 * before.roll.major[0]
     near = sum(abs(complex(*s.at)) ** 2 for s in remedy.shafts)
@@ -359,9 +303,7 @@ def test_a_single_shaft_says_what_force_it_leaves():
 
 def test_a_single_shaft_has_counterweights_at_both_throws():
     """As `auto` has, though one plane would do."""
-    assert [
-        d.position for d in size(build_text(write_engine(0, 0)), "single-shaft").counterweights
-    ] == [-50, 50]
+    assert [d.position for d in size(build_text(write_engine(0, 0)), "single-shaft").counterweights] == [-50, 50]
 
 
 def test_the_geometry_of_a_pair_in_the_details():
@@ -373,9 +315,7 @@ def test_the_geometry_of_a_pair_in_the_details():
     assert (told["direction with crank"], told["direction against crank"]) == pytest.approx(
         (90, math.degrees(math.atan2(4, -3)))
     )
-    before, after = (
-        compute_spectra(e, [2], ("moment", "roll")) for e in (engine, fit_devices(engine, remedy))
-    )
+    before, after = (compute_spectra(e, [2], ("moment", "roll")) for e in (engine, fit_devices(engine, remedy)))
     assert told["roll before"] == pytest.approx(before.roll.major[0], rel=1e-12)
     assert told["roll left"] == pytest.approx(after.roll.major[0], rel=1e-12)
     assert told["moment left"] == pytest.approx(after.moment.major[0], rel=1e-9)
@@ -389,14 +329,9 @@ def test_shafts_on_the_crank_axis_have_no_direction_there():
 
 
 def test_four_shafts_are_for_the_orders_that_are_there():
-    assert {detail.group for detail in size(build_text(SMALL["four"]), "four-shaft").details} == {
-        "order 2"
-    }
+    assert {detail.group for detail in size(build_text(SMALL["four"]), "four-shaft").details} == {"order 2"}
     assert {s.ratio for s in size(star(3), "four-shaft").shafts} == {1, -2}
-    assert (
-        "there is no free force of orders 1 and 2"
-        in size(build_text(SMALL["three"]), "four-shaft").note
-    )
+    assert "there is no free force of orders 1 and 2" in size(build_text(SMALL["three"]), "four-shaft").note
 
 
 @pytest.mark.parametrize(("order", "turning"), [(2, "against"), (4, "with")])
@@ -407,8 +342,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     engine = build_text(write_engine(0, layout="radial = 3"))
     with pytest.raises(
         BalcliError,
-        match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes "
-        "it and none",
+        match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes it and none",
     ):
         size_scheme(engine, "two-shaft", order=order, roll="zero")
     remedy = size_scheme(engine, "two-shaft", order=order, at=(0.03j,))
@@ -416,9 +350,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     assert {s.ratio for s in remedy.shafts} == {order if turning == "with" else -order}
     told = figures(remedy, f"order {order}")
     assert told[f"direction {turning} crank"] == 90
-    assert all(
-        "in two halves on opposite sides of the crank" in reason for reason in remedy.reasons
-    )
+    assert all("in two halves on opposite sides of the crank" in reason for reason in remedy.reasons)
     assert [key for key in told if key.startswith("radius")] == [f"radius {turning} crank"]
 
 
@@ -459,9 +391,7 @@ def test_the_lowest_order_that_is_there_up_to_8():
     assert size_scheme(ninth, "single-shaft", order=9).devices
     weighted = fit_scheme(star(3), "counterweights")
     assert size(weighted, "two-shaft").order == 2
-    assert size_scheme(star(3), "two-shaft", order=1000).note.startswith(
-        "order 1000 has no free force: nothing"
-    )
+    assert size_scheme(star(3), "two-shaft", order=1000).note.startswith("order 1000 has no free force: nothing")
     assert [size_scheme(star(3), "two-shaft", order=order).order for order in (1, 4)] == [1, 4]
 
 
@@ -473,16 +403,9 @@ def test_what_else_an_order_has_is_said():
     assert size_scheme(vee, "couple-shaft", order=2).note == (
         "order 2 has no free moment: nothing to balance; it has a free force: two-shaft"
     )
-    cross = build_text(
-        write_engine(0, 90, 270, 180, layout="bank_angle = 90")
-    )  # a moment with the crank alone
-    assert size_scheme(cross, "two-shaft", order=1).note.endswith(
-        "; it has a free moment: couple-shaft"
-    )
-    assert (
-        size_scheme(three, "two-shaft", order=3).note
-        == "order 3 has no free force: nothing to balance"
-    )
+    cross = build_text(write_engine(0, 90, 270, 180, layout="bank_angle = 90"))  # a moment with the crank alone
+    assert size_scheme(cross, "two-shaft", order=1).note.endswith("; it has a free moment: couple-shaft")
+    assert size_scheme(three, "two-shaft", order=3).note == "order 3 has no free force: nothing to balance"
 
 
 @pytest.mark.parametrize("bank", [-90, -89.5, -0.5, 0, 0.5, 30, 89.5, 90])
@@ -493,9 +416,7 @@ def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
     assert along.direction == pytest.approx(90 if bank == -90 else bank)
     for half in (25, 35):  # the long axis of the ellipse lies along the bisector, and across it
         two = size_scheme(
-            build_text(write_engine(0, layout=f"banks = [{bank - half}, {bank + half}]")),
-            "slider",
-            order=2,
+            build_text(write_engine(0, layout=f"banks = [{bank - half}, {bank + half}]")), "slider", order=2
         ).sliders
         assert all(-90 < s.direction <= 90 for s in two)
         assert abs(two[0].direction - two[1].direction) == pytest.approx(90)
@@ -519,9 +440,7 @@ def test_peaks_along_and_across_are_those_of_the_curve():
     """Across the first bank, which leans, and off its axis by an offset: samples of what the remedy
     leaves, every 0.01 degrees.
     """
-    engine = build_text(
-        SMALL["vee"].replace("mass = 1\n[layout]", "mass = 1\noffset = 6\n[layout]")
-    )
+    engine = build_text(SMALL["vee"].replace("mass = 1\n[layout]", "mass = 1\noffset = 6\n[layout]"))
     for row in size_scheme(engine, "factor", factor=(0.3, 0.7)).sweep:
         curve = find_orders(fit_scheme(engine, "factor", factor=(row.factor,)))
         seen = curve.values(np.linspace(0, 2 * np.pi, 36001)) * np.exp(
@@ -533,14 +452,11 @@ def test_peaks_along_and_across_are_those_of_the_curve():
 
 
 def test_rods_a_whole_turn_apart_are_on_one_pin():
-    engine = build_text(
-        write_engine(0, 90, layout="bank_angle = 60").replace("spacing", "splay = 360\nspacing")
-    )
+    engine = build_text(write_engine(0, 90, layout="bank_angle = 60").replace("spacing", "splay = 360\nspacing"))
     remedy = size(engine, "factor")
     assert [entry.cylinders for entry in remedy.card] == [(1, 3), (2, 4)]
     assert (
-        remedy.reasons[0]
-        == "Opposite the pin of cylinders 1, 3: all rotating mass and 0.5 of the reciprocating mass"
+        remedy.reasons[0] == "Opposite the pin of cylinders 1, 3: all rotating mass and 0.5 of the reciprocating mass"
     )
 
 

@@ -17,11 +17,7 @@ from balcli.sizing.write import insert_remedy
 
 def figures(engine):
     found = analyze(engine, range(1, 13), ["force", "moment", "couple", "torque", "roll", "peak"])
-    return (
-        [(p.forward.tolist(), p.backward.tolist()) for _, p in found.spectra.items()],
-        found.force,
-        found.moment,
-    )
+    return ([(p.forward.tolist(), p.backward.tolist()) for _, p in found.spectra.items()], found.force, found.moment)
 
 
 @pytest.mark.parametrize("scheme", sorted(set(SCHEMES) - {"eccentric-slider", "oldham"}))
@@ -44,18 +40,14 @@ def test_devices_of_the_file_stay(scheme):
     )
     engine = build_text(SINGLE + own)
     remedy = size(engine, scheme)
-    assert figures(build_text(insert_remedy((SINGLE + own).encode(), remedy))) == figures(
-        fit_devices(engine, remedy)
-    )
+    assert figures(build_text(insert_remedy((SINGLE + own).encode(), remedy))) == figures(fit_devices(engine, remedy))
 
 
 def test_the_text_stays_and_reasons_stand_beside_the_devices():
     text = GOOD.rstrip("\n") + " # the last comment"
     remedy = size(build_text(text), "auto")
     new = insert_remedy(text.encode(), remedy)
-    assert new.startswith(
-        text + "\n\n# fitted by balcli, scheme auto\n# Order 2 force turning with the crank: "
-    )
+    assert new.startswith(text + "\n\n# fitted by balcli, scheme auto\n# Order 2 force turning with the crank: ")
     assert new.count("[[shaft]]") == 2
 
 
@@ -85,9 +77,7 @@ def test_nothing_to_fit_leaves_the_text():
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_what_no_file_can_describe_is_not_written(scheme):
     remedy = size_scheme(build_text(SINGLE), scheme)
-    with pytest.raises(
-        BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"
-    ):
+    with pytest.raises(BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"):
         insert_remedy(SINGLE.encode(), remedy)
 
 

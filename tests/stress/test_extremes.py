@@ -93,19 +93,14 @@ def error(name: str, orders: list[int], lam: float) -> float:
 @pytest.mark.parametrize("name", ["piston", "rod", "kinetic", "rod_kinetic"])
 def test_closed_forms_are_good_to_their_last_digits(name, lam):
     orders = [1, 2, 3, 4, 5, 8, 17, 30, 63, 64, *HIGH]
-    assert (
-        error(name, sorted(orders), lam)
-        < BOUNDS["closed forms" if lam <= 0.99 else "closed forms, near the lock"]
-    )
+    assert error(name, sorted(orders), lam) < BOUNDS["closed forms" if lam <= 0.99 else "closed forms, near the lock"]
 
 
 @given(st.floats(-12, -0.3), st.sampled_from(["lambda", "rest"]), st.integers(2, 64))
 def test_closed_forms_at_any_lambda(exponent, which, n):
     """lambda = 10^-x, or 1 - 10^-x down to 1 - 1e-6."""
     lam = 10**exponent if which == "lambda" else 1 - 10 ** (exponent / 2)
-    assert (
-        error("piston" if n % 2 == 0 else "rod", [n], lam) < BOUNDS["closed forms, near the lock"]
-    )
+    assert error("piston" if n % 2 == 0 else "rod", [n], lam) < BOUNDS["closed forms, near the lock"]
 
 
 # ------------------------------------------------------------------ offset and articulated
@@ -117,12 +112,7 @@ def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
     turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
     curves = list(zip(*(motion(e) for e in turn), strict=True))
     return [
-        [
-            (1 if n == 0 else 2)
-            * mp.fsum(v * turn[-n * k % count] for k, v in enumerate(values))
-            / count
-            for n in orders
-        ]
+        [(1 if n == 0 else 2) * mp.fsum(v * turn[-n * k % count] for k, v in enumerate(values)) / count for n in orders]
         for values in curves
     ]
 
@@ -130,10 +120,7 @@ def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
 def share_of_bound(series: fourier.Series, row: int, want: list[mp.mpc]) -> float:
     """Largest error as a share of the bound that the product states, which is 16 roundings."""
     assert fourier.SAMPLING == BOUNDS["offset pistons"] * EPS == BOUNDS["articulated rods"] * EPS
-    errors = [
-        float(abs(mp.mpmathify(complex(got)) - exact))
-        for got, exact in zip(series.c[:, row], want, strict=True)
-    ]
+    errors = [float(abs(mp.mpmathify(complex(got)) - exact)) for got, exact in zip(series.c[:, row], want, strict=True)]
     return max(errors) / float(np.ravel(series.noise)[row])
 
 
@@ -228,9 +215,7 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
         s = ratio * k.imag
         cos = mp.sqrt(1 - s**2)
         spin = ratio * k1.imag / cos
-        return -(k2.real - s / cos * k2.imag - spin * k1.imag / cos**2), -(
-            ratio * k2.imag / cos + spin**2 * s / cos
-        )
+        return -(k2.real - s / cos * k2.imag - spin * k1.imag / cos**2), -(ratio * k2.imag / cos + spin**2 * s / cos)
 
     orders = [0, 1, 2, 3, 7]
     with mp.workdps(30):
@@ -254,9 +239,7 @@ def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
 
 def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
     assert len(find_relevant_orders(vee(2e-6))) == 1 << 15
-    with pytest.raises(
-        InputError, match=r"stands 0\.9999995\d* rod lengths beside .*at most 1 - 1e-06 is allowed"
-    ):
+    with pytest.raises(InputError, match=r"stands 0\.9999995\d* rod lengths beside .*at most 1 - 1e-06 is allowed"):
         vee(5e-7)
 
 
@@ -270,10 +253,7 @@ def short(number: int) -> float:
     [
         (
             "centred",
-            {
-                "rod": {"ratio": 0.9},
-                "cylinder": {str(n): {"rod_ratio": 1 - short(n)} for n in range(1, 65)},
-            },
+            {"rod": {"ratio": 0.9}, "cylinder": {str(n): {"rod_ratio": 1 - short(n)} for n in range(1, 65)}},
             64,
             64 << 16,
         ),
@@ -281,9 +261,7 @@ def short(number: int) -> float:
             "offset",
             {
                 "rod": {"ratio": 0.3},
-                "cylinder": {
-                    str(n): {"piston_offset": 50 / 0.3 * (0.7 - short(n))} for n in range(1, 65)
-                },
+                "cylinder": {str(n): {"piston_offset": 50 / 0.3 * (0.7 - short(n))} for n in range(1, 65)},
             },
             64,
             64 << 15,
@@ -301,9 +279,7 @@ def short(number: int) -> float:
         ),
     ],
 )
-def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_number(
-    kind, parts, different, samples
-):
+def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_number(kind, parts, different, samples):
     """Each takes milliseconds, and megabytes where rods are articulated; equal ones are computed
     once.
     """
@@ -318,16 +294,10 @@ def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_numb
 
 @pytest.mark.parametrize(
     ("ratio", "offset", "number"),
-    [
-        (1 - 9e-7, 0.0, "0.9999991"),
-        (0.3, 50 / 0.3 * (0.7 - 9e-7), "0.9999991"),
-        (0.3, -50 / 0.3 * 0.7, "1"),
-    ],
+    [(1 - 9e-7, 0.0, "0.9999991"), (0.3, 50 / 0.3 * (0.7 - 9e-7), "0.9999991"), (0.3, -50 / 0.3 * 0.7, "1")],
 )
 def test_nearer_to_the_lock_is_an_error_with_the_number(ratio, offset, number):
-    with pytest.raises(
-        InputError, match=rf"the crank cannot turn: .* = {number}; at most 1 - 1e-06 is allowed"
-    ):
+    with pytest.raises(InputError, match=rf"the crank cannot turn: .* = {number}; at most 1 - 1e-06 is allowed"):
         engine(rod={"ratio": ratio}, piston={"mass": 1, "offset": offset})
 
 
@@ -348,18 +318,13 @@ def test_throws_that_almost_cancel(off):
     a = closed_form.piston([1, 2, 4], 0.25)
     for n, share in zip((1, 2, 4), a, strict=True):
         want = REVOLVING * abs(share) * 2 * abs(np.sin(n * true / 2))
-        assert abs(found.force.major[n - 1] - want) <= BOUNDS[
-            "throws 1e-9° off"
-        ] * EPS * REVOLVING * abs(share)
+        assert abs(found.force.major[n - 1] - want) <= BOUNDS["throws 1e-9° off"] * EPS * REVOLVING * abs(share)
 
 
 @pytest.mark.parametrize(
-    "throws",
-    [[0, 120, 240], [0, -240, 240.0], [0, 120 + 360e6, 240 - 360e6], [360e6, -360e6 - 240, 600]],
+    "throws", [[0, 120, 240], [0, -240, 240.0], [0, 120 + 360e6, 240 - 360e6], [360e6, -360e6 - 240, 600]]
 )
-@pytest.mark.parametrize(
-    "layout", [{}, {"bank_angle": 72}, {"bank_angle": 72 + 720e6}, {"banks": [36, 36 - 360e6]}]
-)
+@pytest.mark.parametrize("layout", [{}, {"bank_angle": 72}, {"bank_angle": 72 + 720e6}, {"banks": [36, 36 - 360e6]}])
 def test_whole_turns_and_thirds_cancel_exactly(throws, layout):
     """A million full turns more or less: forces of the orders 3, 6, 9 .. alone, and these as
     without the turns.
@@ -376,9 +341,7 @@ def test_banks_and_throws_of_72_degrees_cancel_exactly(count):
     """Five throws at 72 degrees, and two banks of them: orders 5, 10 .. alone."""
     layout = {"bank_angle": 72} if count == 10 else {}
     found = compute_spectra(
-        engine(
-            crank={"stroke": 100, "throws": [0, 144, 216, 288, 72], "spacing": 90}, layout=layout
-        ),
+        engine(crank={"stroke": 100, "throws": [0, 144, 216, 288, 72], "spacing": 90}, layout=layout),
         np.arange(1.0, 257.0),
     )
     assert found.force.balanced[found.orders % 5 != 0].all()
@@ -390,21 +353,16 @@ def test_planes_that_almost_coincide(apart):
     """Two opposed pistons `apart` mm: a couple of m r omega^2 times that, to 1e-12 of it (positions
     are sums of halves).
     """
-    found = compute_spectra(
-        engine(crank={"stroke": 100, "throws": [0, 180], "positions": [0, apart]}), [1, 2]
-    )
+    found = compute_spectra(engine(crank={"stroke": 100, "throws": [0, 180], "positions": [0, apart]}), [1, 2])
     assert found.force.balanced[0]
-    assert found.moment.major[0] == pytest.approx(
-        REVOLVING * apart / 1e3, rel=BOUNDS["planes 1e-9 mm apart"]
-    )
+    assert found.moment.major[0] == pytest.approx(REVOLVING * apart / 1e3, rel=BOUNDS["planes 1e-9 mm apart"])
 
 
 def test_planes_that_almost_coincide_far_from_the_point_of_reference():
     """10 m away, 1e-9 mm is below the rounding of the place itself, and nothing is invented."""
     found = compute_spectra(
         engine(
-            crank={"stroke": 100, "throws": [0, 180], "positions": [1e4, 1e4 + 1e-12]},
-            frame={"reference": [0, 0, 0]},
+            crank={"stroke": 100, "throws": [0, 180], "positions": [1e4, 1e4 + 1e-12]}, frame={"reference": [0, 0, 0]}
         ),
         [1],
     )
@@ -423,12 +381,7 @@ def test_scale(stroke, mass, speed):
     def found(stroke, mass, speed):
         return analyze(
             engine(
-                crank={
-                    "stroke": stroke,
-                    "throws": [0, 90],
-                    "spacing": stroke,
-                    "throw_mass": mass / 2,
-                },
+                crank={"stroke": stroke, "throws": [0, 90], "spacing": stroke, "throw_mass": mass / 2},
                 rod={"ratio": 0.3},
                 piston={"mass": mass, "bore": stroke},
                 operation={"speed": speed},
@@ -438,11 +391,7 @@ def test_scale(stroke, mass, speed):
 
     one, other = found(100, 1, 60), found(stroke, mass, speed)
     size = mass * stroke / 100 * (speed / 60) ** 2
-    for q, by in (
-        ("force", size),
-        ("moment", size * stroke / 100),
-        ("torque", size * stroke / 100),
-    ):
+    for q, by in (("force", size), ("moment", size * stroke / 100), ("torque", size * stroke / 100)):
         p, o = getattr(one.spectra, q), getattr(other.spectra, q)
         assert np.array_equal(p.balanced, o.balanced)
         assert np.abs(o.forward / by - p.forward).max() <= BOUNDS["scale"] * EPS * p.major.max()
@@ -455,8 +404,7 @@ def test_a_microgram_beside_a_million_tonnes():
     figures.
     """
     both = engine(
-        crank={"stroke": 100, "throws": [0, 90]},
-        cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}},
+        crank={"stroke": 100, "throws": [0, 90]}, cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}}
     )
     found = compute_spectra(both, [1, 2, 4])
     a = closed_form.piston([1, 2, 4], 0.25)
@@ -477,9 +425,7 @@ def test_many_cylinders(count):
     left = found.orders % count == 0
     assert found.force.balanced[~left].all()
     want = REVOLVING * np.abs(closed_form.piston(found.orders[left], 0.999)) * count
-    assert np.all(
-        np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want
-    )
+    assert np.all(np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want)
 
 
 def test_512_cylinders_at_odd_angles():
@@ -488,18 +434,10 @@ def test_512_cylinders_at_odd_angles():
     """
     throws = [7.3 * k % 360 for k in range(512)]
     orders = [1, 2, 4, 64, 256]
-    found = compute_spectra(
-        engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders
-    ).force
+    found = compute_spectra(engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders).force
     for row, (n, a) in enumerate(zip(orders, closed_form.piston(orders, 0.999), strict=True)):
-        want = (
-            abs(mp.fsum(mp.expjpi(n * mp.mpf(throw) / 180) for throw in throws))
-            * REVOLVING
-            * abs(a)
-        )
-        assert abs(found.major[row] - float(want)) <= BOUNDS[
-            "many cylinders"
-        ] * 512 * EPS * REVOLVING * abs(a)
+        want = abs(mp.fsum(mp.expjpi(n * mp.mpf(throw) / 180) for throw in throws)) * REVOLVING * abs(a)
+        assert abs(found.major[row] - float(want)) <= BOUNDS["many cylinders"] * 512 * EPS * REVOLVING * abs(a)
 
 
 def test_peaks_of_32768_orders_and_64_cylinders_are_the_sum_of_all():
@@ -524,7 +462,4 @@ def test_the_page_states_these_bounds_and_found_less():
     split = [[cell.strip() for cell in line.strip("|").split("|")] for line in rows]
     shown = {cells[0]: cells[2:] for cells in split}
     assert {name: float(bound.removesuffix(" ε")) for name, (bound, _) in shown.items()} == BOUNDS
-    assert all(
-        float(found.removesuffix(" ε")) <= float(bound.removesuffix(" ε"))
-        for bound, found in shown.values()
-    )
+    assert all(float(found.removesuffix(" ε")) <= float(bound.removesuffix(" ε")) for bound, found in shown.values())

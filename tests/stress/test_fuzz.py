@@ -36,9 +36,7 @@ def place() -> Iterator[Path]:
 def test_nothing_brings_it_down(place, run, only, count, accepted):
     """Enough of the files are sound, so that what lies behind the reader is met as well."""
     done = [(case, run(case, place)) for case in fuzz.cases(SEED, count, only)]
-    assert [
-        (case.number, wrong) for case, outcome in done if (wrong := fuzz.fault(case, outcome))
-    ] == []
+    assert [(case.number, wrong) for case, outcome in done if (wrong := fuzz.fault(case, outcome))] == []
     assert sum(outcome.status == 0 for _, outcome in done) >= accepted
 
 
@@ -58,24 +56,17 @@ def process(args: list[str], place: Path) -> fuzz.Outcome:
         for stream in (out, err):
             stream.seek(0)
             texts.append(stream.read().decode("utf-8", "replace"))
-    return fuzz.Outcome(
-        running.returncode, *texts, "", tuple(sorted(path.name for path in place.iterdir()))
-    )
+    return fuzz.Outcome(running.returncode, *texts, "", tuple(sorted(path.name for path in place.iterdir())))
 
 
 def test_as_processes(place):
     cases = islice((case for case in fuzz.cases(SEED + 1, 1000) if "." not in case.args), 50)
     done = [(case, process(fuzz.prepared(case, place), place)) for case in cases]
     assert len(done) == 50
-    assert [
-        (case.number, wrong) for case, outcome in done if (wrong := fuzz.fault(case, outcome))
-    ] == []
+    assert [(case.number, wrong) for case, outcome in done if (wrong := fuzz.fault(case, outcome))] == []
 
 
-BODY = (
-    "[crank]\nstroke = 90\n{crank}\n[rod]\nlength = 160\nmass = 0.6\ncg = 50\n[piston]\nmass = "
-    "0.5\n{more}\n"
-)
+BODY = "[crank]\nstroke = 90\n{crank}\n[rod]\nlength = 160\nmass = 0.6\ncg = 50\n[piston]\nmass = 0.5\n{more}\n"
 
 
 def body(crank: str = "", more: str = "") -> str:
@@ -90,16 +81,12 @@ COSTLY = {
     "tables": ("".join(f"[{k:x}]\n" for k in range(179_000)), "179003 mistakes"),
     "dotted tables": ("".join(f"[{k:x}.a.a.a.a.a.a]\n" for k in range(25_700)), "25703 mistakes"),
     "deep tables": ("".join(f"[{k:x}{'.a' * 29}]\n" for k in range(5_900)), "5903 mistakes"),
-    "6 MB of tables": (
-        "[a]\n" * 1_500_000,
-        "has more than 180000 keys, lists and values; no engine file needs that",
-    ),
+    "6 MB of tables": ("[a]\n" * 1_500_000, "has more than 180000 keys, lists and values; no engine file needs that"),
     "lines": ("#\n" * 500_000, "crank: is missing"),
     "wrong lists": (
         body(
             f"throws = {listed(['true'] * 9_990)}\npositions = {listed(['true'] * 9_990)}",
-            f"[layout]\nbanks = {listed(['true'] * 9_990)}\nfiring_order = "
-            f"{listed(['true'] * 9_990)}",
+            f"[layout]\nbanks = {listed(['true'] * 9_990)}\nfiring_order = {listed(['true'] * 9_990)}",
         ),
         " mistakes\n  crank.throws: the 1st value true is not a number",
     ),
@@ -113,25 +100,18 @@ COSTLY = {
     ),
     "ripple": (
         body(
-            more="[operation]\nspeed_ripple = "
-            + listed(f"{{order={k},amplitude=0.001}}" for k in [*range(1, 257), 1])
+            more="[operation]\nspeed_ripple = " + listed(f"{{order={k},amplitude=0.001}}" for k in [*range(1, 257), 1])
         ),
         "operation: speed_ripple has 257 orders; no more than 256 can be given",
     ),
     "most throws": (body(f"throws = {listed(k * 137.1 for k in range(1000))}"), ""),
     "most shafts": (body(more="[[shaft]]\nratio = 999\nunbalance = 1\n" * 1000), ""),
     "most ripple": (
-        body(
-            more="[operation]\nspeed_ripple = "
-            + listed(f"{{order={k},amplitude=0.001}}" for k in range(1, 257))
-        ),
+        body(more="[operation]\nspeed_ripple = " + listed(f"{{order={k},amplitude=0.001}}" for k in range(1, 257))),
         "",
     ),
     "most articulated rods": (
-        body(
-            more="[layout]\nradial = 1000\n[articulation]\nknuckle_radius = 10\nrod = {length = "
-            "150}"
-        ),
+        body(more="[layout]\nradial = 1000\n[articulation]\nknuckle_radius = 10\nrod = {length = 150}"),
         "",
     ),
 }
@@ -153,27 +133,21 @@ def test_the_costliest_files(place, what):
 @pytest.mark.parametrize("name", ["\x1b[31mred", "\x9b31m", "a\nb", "\x00", "\x7f", "a\tb"])
 def test_a_name_that_commands_a_terminal_is_refused(place, name):
     escaped = "".join(f"\\u{ord(letter):04X}" for letter in name)
-    done = fuzz.run(
-        fuzz.Case(0, f'name = "{escaped}"\n{body()}'.encode(), ("analyze", "FILE")), place
-    )
+    done = fuzz.run(fuzz.Case(0, f'name = "{escaped}"\n{body()}'.encode(), ("analyze", "FILE")), place)
     control = next(letter for letter in name if not letter.isprintable())
     assert (done.status, done.out) == (2, "")
     assert (
-        done.err
-        == f"balcli: case.toml: name: has the control character U+{ord(control):04X}, which could "
+        done.err == f"balcli: case.toml: name: has the control character U+{ord(control):04X}, which could "
         "command a terminal or disguise what it shows; leave it out\n"
     )
 
 
 def test_a_name_that_would_fill_gigabytes_is_refused(place):
     """It stands in every line of a CSV: 5000 characters made 100 MB of the orders 1 to 512."""
-    done = fuzz.run(
-        fuzz.Case(0, f'name = "{"x" * 201}"\n{body()}'.encode(), ("analyze", "FILE")), place
-    )
+    done = fuzz.run(fuzz.Case(0, f'name = "{"x" * 201}"\n{body()}'.encode(), ("analyze", "FILE")), place)
     assert (done.status, done.out) == (2, "")
     assert (
-        done.err
-        == "balcli: case.toml: name: has 201 characters; it stands in every line of a CSV, at "
+        done.err == "balcli: case.toml: name: has 201 characters; it stands in every line of a CSV, at "
         "most 200 are taken\n"
     )
 
@@ -224,9 +198,7 @@ def test_many_orders_along_the_crank_take_work_in_proportion(place, monkeypatch)
     """
     axis, computed = Phasors.axis_deg.fget, []
     monkeypatch.setattr(
-        Phasors,
-        "axis_deg",
-        property(lambda phasors: (computed.append(len(phasors.orders)), axis(phasors))[1]),
+        Phasors, "axis_deg", property(lambda phasors: (computed.append(len(phasors.orders)), axis(phasors))[1])
     )
     work = []
     for orders in ("1-512", "1-2048"):
@@ -248,27 +220,13 @@ DISTINCT = body(f"throws = {listed(range(0, 345, 15))}\nspacing = 100").encode()
 @pytest.mark.parametrize(
     ("data", "over", "message"),
     [
-        (
-            DISTINCT,
-            "throws",
-            "crank.throws: 23 throws can be arranged in more than 1e+10 ways, too many to search",
-        ),
-        (
-            MANY,
-            "throws",
-            "crank.throws: 1000 throws can be arranged in more than 1e+10 ways, too many to search",
-        ),
-        (
-            MANY,
-            "firing_order",
-            "1000 cylinders are too many to look for firing orders; up to 64 are allowed",
-        ),
+        (DISTINCT, "throws", "crank.throws: 23 throws can be arranged in more than 1e+10 ways, too many to search"),
+        (MANY, "throws", "crank.throws: 1000 throws can be arranged in more than 1e+10 ways, too many to search"),
+        (MANY, "firing_order", "1000 cylinders are too many to look for firing orders; up to 64 are allowed"),
     ],
 )
 def test_a_search_that_cannot_end_is_refused(place, data, over, message):
-    done = fuzz.counted(
-        fuzz.Case(0, data, ("search", "FILE", f"--over={over}", "--minimise=moment.1.major")), place
-    )
+    done = fuzz.counted(fuzz.Case(0, data, ("search", "FILE", f"--over={over}", "--minimise=moment.1.major")), place)
     assert (done.status, done.err) == (2, f"balcli: {message}\n")
     assert done.calls < fuzz.MOST_CALLS / 3
 

@@ -42,10 +42,7 @@ def listed(order: list[int]) -> Engine:
     """Eight unequal cylinders on their own throws in two banks, the throws in this order in the
     file.
     """
-    masses, throws = (
-        [0.3 + 0.17 * k for k in range(8)],
-        [0, 91.7, 183.1, 274.9, 45, 135.3, 222.2, 311.1],
-    )
+    masses, throws = ([0.3 + 0.17 * k for k in range(8)], [0, 91.7, 183.1, 274.9, 45, 135.3, 222.2, 311.1])
     table = {
         str(place + 1): {
             "piston_mass": masses[k],

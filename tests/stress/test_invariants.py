@@ -31,10 +31,7 @@ SCALED = 1e-12
 ORDERS = np.arange(0.0, 9.0)
 quick = settings(max_examples=25, deadline=None, derandomize=True, database=None)
 
-RIPPLE = [
-    {"order": 2, "amplitude": 0.1, "angle": 20},
-    {"order": 3, "amplitude": 0.05, "angle": -110},
-]
+RIPPLE = [{"order": 2, "amplitude": 0.1, "angle": 20}, {"order": 3, "amplitude": 0.05, "angle": -110}]
 
 Tables = dict[str, Any]
 
@@ -44,9 +41,7 @@ def figures(low: float, high: float) -> st.SearchStrategy[float]:
     return st.floats(low, high, allow_nan=False).map(lambda x: round(x, 6))
 
 
-angles = st.one_of(
-    st.sampled_from([0, 30, 45, 60, 90, 120, 180, 240, 270, -90]), figures(-360, 360)
-)
+angles = st.one_of(st.sampled_from([0, 30, 45, 60, 90, 120, 180, 240, 270, -90]), figures(-360, 360))
 places = figures(-300, 300)
 points = st.lists(places, min_size=2, max_size=2)
 
@@ -64,17 +59,11 @@ def rods(draw: st.DrawFn) -> Tables:
             st.fixed_dictionaries({"small_end": figures(0, 1), "big_end": figures(0.01, 2)}),
         )
     )
-    return {
-        "length": length,
-        **masses,
-        **draw(st.sampled_from([{}, {"inertia": 3000.0}, {"inertia": 0.0}])),
-    }
+    return {"length": length, **masses, **draw(st.sampled_from([{}, {"inertia": 3000.0}, {"inertia": 0.0}]))}
 
 
 def devices(**more: st.SearchStrategy[Any]) -> st.SearchStrategy[Tables]:
-    return st.fixed_dictionaries(
-        {"unbalance": figures(-1e5, 1e5), "angle": angles, "position": places, **more}
-    )
+    return st.fixed_dictionaries({"unbalance": figures(-1e5, 1e5), "angle": angles, "position": places, **more})
 
 
 @st.composite
@@ -84,9 +73,7 @@ def engines(draw: st.DrawFn) -> Tables:
         st.one_of(
             st.just({}),
             st.fixed_dictionaries({"bank_angle": angles, "stagger": figures(-30, 30)}),
-            st.fixed_dictionaries(
-                {"banks": st.lists(angles, min_size=1, max_size=3), "stagger": figures(0, 30)}
-            ),
+            st.fixed_dictionaries({"banks": st.lists(angles, min_size=1, max_size=3), "stagger": figures(0, 30)}),
             st.fixed_dictionaries({"radial": st.integers(1, 7)}),
         )
     )
@@ -102,10 +89,7 @@ def engines(draw: st.DrawFn) -> Tables:
         "rod": draw(rods()),
         "piston": {"mass": draw(figures(0, 3)), "offset": offset},
         "layout": layout,
-        "operation": {
-            "speed": draw(figures(500, 8000)),
-            "speed_ripple": draw(st.sampled_from([[], [], RIPPLE])),
-        },
+        "operation": {"speed": draw(figures(500, 8000)), "speed_ripple": draw(st.sampled_from([[], [], RIPPLE]))},
         "frame": {"reference": [draw(figures(-100, 100)) for _ in range(3)]},
         "counterweight": [draw(devices())],
         "shaft": [draw(devices(ratio=st.sampled_from([-2, -1, 1, 2, 3]), at=points))],
@@ -162,27 +146,15 @@ def rounding(*phasors: Phasors) -> float:
 
 
 def assert_same(
-    one: Engine,
-    other: Engine,
-    *,
-    forward: complex = 1,
-    by: float = 1.0,
-    quantities: tuple[str, ...] = tuple(KINDS),
+    one: Engine, other: Engine, *, forward: complex = 1, by: float = 1.0, quantities: tuple[str, ...] = tuple(KINDS)
 ) -> None:
     """The other makes `by` times what the first makes; vectors are turned by `forward`."""
     scale = sizes(one)
     for q in quantities:
         p, o = getattr(found(one), q), getattr(found(other), q)
         factor = by * (forward if q in ("force", "moment") else 1)
-        error = max(
-            np.abs(o.forward - factor * p.forward).max(),
-            np.abs(o.backward - factor * p.backward).max(),
-        )
-        assert error <= SCALED * scale[q] + abs(by) * rounding(p) + rounding(o), (
-            q,
-            error,
-            scale[q],
-        )
+        error = max(np.abs(o.forward - factor * p.forward).max(), np.abs(o.backward - factor * p.backward).max())
+        assert error <= SCALED * scale[q] + abs(by) * rounding(p) + rounding(o), (q, error, scale[q])
 
 
 def assert_sum(whole: Spectra, parts: list[Spectra], scale: dict[str, float]) -> None:
@@ -211,15 +183,10 @@ def banks(layout: Tables) -> list[float]:
 def in_a_mirror(m: Tables) -> None:
     """The plane of x and z."""
     m["layout"]["banks"] = [-bank for bank in banks(m["layout"])]
-    m["crank"] |= {
-        "throws": [-throw for throw in m["crank"]["throws"]],
-        "splay": -m["crank"]["splay"],
-    }
+    m["crank"] |= {"throws": [-throw for throw in m["crank"]["throws"]], "splay": -m["crank"]["splay"]}
     m["piston"]["offset"] *= -1
     m["frame"]["reference"][1] *= -1
-    m["operation"]["speed_ripple"] = [
-        line | {"angle": -line["angle"]} for line in m["operation"]["speed_ripple"]
-    ]
+    m["operation"]["speed_ripple"] = [line | {"angle": -line["angle"]} for line in m["operation"]["speed_ripple"]]
     if "cylinder" in m:
         m["cylinder"]["1"]["piston_offset"] *= -1
     for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
@@ -303,12 +270,8 @@ def test_time_reversed(model):
     theta = np.radians(np.arange(0.0, 360.0, 30.0))
     for q in KINDS:
         seen = np.conj if q in ("force", "moment") else np.negative
-        error = np.abs(
-            getattr(after, q).values(-theta) - seen(getattr(before, q).values(theta))
-        ).max()
-        assert error <= 2 * len(ORDERS) * (
-            SCALED * scale[q] + rounding(getattr(before, q), getattr(after, q))
-        ), q
+        error = np.abs(getattr(after, q).values(-theta) - seen(getattr(before, q).values(theta))).max()
+        assert error <= 2 * len(ORDERS) * (SCALED * scale[q] + rounding(getattr(before, q), getattr(after, q))), q
 
 
 @quick
@@ -317,9 +280,7 @@ def test_shifted_along_the_crank_with_its_point_of_reference(model, shift):
     def change(m: Tables) -> None:
         crank = m["crank"]
         count = len(crank["throws"])
-        crank["positions"] = [
-            shift + (t - (count - 1) / 2) * crank["spacing"] for t in range(count)
-        ]
+        crank["positions"] = [shift + (t - (count - 1) / 2) * crank["spacing"] for t in range(count)]
         del crank["spacing"]
         m["frame"]["reference"][2] += shift
         for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
@@ -334,9 +295,7 @@ def test_another_point_of_reference_adds_the_force_times_its_arm(model, x, y, z)
     """M' = M - i z F about a point z farther; C' = C - Im(conj(p) F) about a point p beside."""
 
     def change(m: Tables) -> None:
-        m["frame"]["reference"] = [
-            a + b for a, b in zip(m["frame"]["reference"], (x, y, z), strict=True)
-        ]
+        m["frame"]["reference"] = [a + b for a, b in zip(m["frame"]["reference"], (x, y, z), strict=True)]
 
     one, other = made(model), made(changed(model, change))
     before, after, scale, p = found(one), found(other), sizes(one), (x + 1j * y) / 1e3
@@ -345,9 +304,7 @@ def test_another_point_of_reference_adds_the_force_times_its_arm(model, x, y, z)
     for way in ("forward", "backward"):
         want = getattr(before.moment, way) - 1j * z / 1e3 * getattr(before.force, way)
         error = np.abs(getattr(after.moment, way) - want).max()
-        assert error <= SCALED * (scale["moment"] + arm * scale["force"]) + rounding(
-            before.moment, after.moment
-        )
+        assert error <= SCALED * (scale["moment"] + arm * scale["force"]) + rounding(before.moment, after.moment)
     theta = np.linspace(0, 6, 13)
     want = before.couple.values(theta).real - (np.conj(p) * before.force.values(theta)).imag
     error = np.abs(after.couple.values(theta).real - want).max()
@@ -365,16 +322,8 @@ def test_a_counterweight_in_two_parts(model, share):
         weight = m["counterweight"][0]
         arm = 100.0
         m["counterweight"] = [
-            weight
-            | {
-                "unbalance": weight["unbalance"] * share,
-                "position": weight["position"] + arm * (1 - share),
-            },
-            weight
-            | {
-                "unbalance": weight["unbalance"] * (1 - share),
-                "position": weight["position"] - arm * share,
-            },
+            weight | {"unbalance": weight["unbalance"] * share, "position": weight["position"] + arm * (1 - share)},
+            weight | {"unbalance": weight["unbalance"] * (1 - share), "position": weight["position"] - arm * share},
         ]
 
     assert_same(made(model), made(changed(model, change)))
@@ -425,15 +374,9 @@ def test_every_mass_in_two_parts(model, share):
         return change
 
     bare = without_devices(model)
-    placed = [
-        changed(m, lambda m: m["crank"].update(throws=throws, positions=along))
-        for m in (model, bare)
-    ]
+    placed = [changed(m, lambda m: m["crank"].update(throws=throws, positions=along)) for m in (model, bare)]
     one = made(placed[0])
-    parts = [
-        found(made(changed(m, masses(part))))
-        for m, part in zip(placed, (share, 1 - share), strict=True)
-    ]
+    parts = [found(made(changed(m, masses(part)))) for m, part in zip(placed, (share, 1 - share), strict=True)]
     assert_sum(found(one), parts, sizes(one))
 
 
@@ -484,10 +427,7 @@ def test_mass_moved_from_the_throw_to_the_big_ends(model, share):
         m["crank"]["throw_mass"] -= moved
         m["rod"] |= {"small_end": 0.2, "big_end": 0.5 + moved / rods_on_throw}
 
-    ends = changed(
-        model,
-        lambda m: m.update(rod={"length": m["rod"]["length"], "small_end": 0.2, "big_end": 0.5}),
-    )
+    ends = changed(model, lambda m: m.update(rod={"length": m["rod"]["length"], "small_end": 0.2, "big_end": 0.5}))
     other = changed(ends, change)
     assert_same(made(ends), made(other), quantities=("force", "moment"))
 
@@ -496,10 +436,7 @@ def test_mass_moved_from_the_throw_to_the_big_ends(model, share):
 @given(engines())
 def test_everything_grows_with_the_square_of_the_speed(model):
     """Exactly fourfold at twice the speed: the factor is a power of two."""
-    one, other = (
-        made(model),
-        made(changed(model, lambda m: m["operation"].update(speed=2 * m["operation"]["speed"]))),
-    )
+    one, other = (made(model), made(changed(model, lambda m: m["operation"].update(speed=2 * m["operation"]["speed"]))))
     for (_, p), (_, o) in zip(found(one).items(), found(other).items(), strict=True):
         assert np.array_equal(4 * p.forward, o.forward)
         assert np.array_equal(4 * p.backward, o.backward)
@@ -518,19 +455,12 @@ def test_numbers_are_names(model, random):
     numbers = list(range(1, rows * len(model["crank"]["throws"]) + 1))
     random.shuffle(numbers)
     numbering = np.reshape(numbers, (rows, -1)).tolist()
-    one, other = (
-        made(model),
-        made(changed(model, lambda m: m["layout"].update(numbering=numbering))),
-    )
+    one, other = (made(model), made(changed(model, lambda m: m["layout"].update(numbering=numbering))))
     before, after, scale = found(one), found(other), sizes(one)
     for q in KINDS:
         for name in ("major", "minor"):
-            error = np.abs(
-                getattr(getattr(before, q), name) - getattr(getattr(after, q), name)
-            ).max()
-            assert error <= SCALED * scale[q] + 2 * rounding(
-                getattr(before, q), getattr(after, q)
-            ), q
+            error = np.abs(getattr(getattr(before, q), name) - getattr(getattr(after, q), name)).max()
+            assert error <= SCALED * scale[q] + 2 * rounding(getattr(before, q), getattr(after, q)), q
 
 
 @quick

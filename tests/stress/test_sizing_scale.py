@@ -32,14 +32,8 @@ def share_left(engine: Engine, after: Engine, quantities=("force", "moment")) ->
     """Largest of what is left of orders 1 and 2, against the largest of the same quantity
     before.
     """
-    before, rest = (
-        compute_spectra(engine, [1, 2], quantities),
-        compute_spectra(after, [1, 2], quantities),
-    )
-    return max(
-        float(getattr(rest, q).major.max() / (getattr(before, q).major.max() or 1))
-        for q in quantities
-    )
+    before, rest = (compute_spectra(engine, [1, 2], quantities), compute_spectra(after, [1, 2], quantities))
+    return max(float(getattr(rest, q).major.max() / (getattr(before, q).major.max() or 1)) for q in quantities)
 
 
 def random_engine(seed: int) -> Engine:
@@ -58,13 +52,10 @@ def random_engine(seed: int) -> Engine:
             "positions = "
             f"{list(map(float, np.sort(r.uniform(-400, 400, throws))))}\nthrow_mass = "
             f"{r.uniform(0, 3)}",
-            rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = "
-            f"{r.uniform(0, 100)}",
+            rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = {r.uniform(0, 100)}",
             piston=f"mass = 1\noffset = {r.choice([0.0, 3.0, -8.0])}",
-            layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = "
-            f"{r.choice([0.0, 22.0])}",
-            frame=f"reference = [{r.uniform(-50, 50)}, {r.uniform(-50, 50)}, "
-            f"{r.uniform(-300, 300)}]",
+            layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = {r.choice([0.0, 22.0])}",
+            frame=f"reference = [{r.uniform(-50, 50)}, {r.uniform(-50, 50)}, {r.uniform(-300, 300)}]",
         )
         + more
     )
@@ -86,16 +77,13 @@ def test_pairs_add_no_roll_in_any_engine(seed):
     engine = random_engine(seed)
     remedy = size_scheme(engine, "two-shaft", order=2, at=(0.05 - 0.03j,))
     before, after = (
-        compute_spectra(e, [2], ("force", "roll", "torque", "couple"))
-        for e in (engine, fit_devices(engine, remedy))
+        compute_spectra(e, [2], ("force", "roll", "torque", "couple")) for e in (engine, fit_devices(engine, remedy))
     )
     assert after.force.balanced.all()
     x, y, _ = engine.reference_m  # no roll is added about the crank axis
     p = complex(x, y)
     moved = 2 * before.force.about(p).forward[0]
-    scale = (
-        before.torque.major[0] + before.couple.major[0] + abs(moved) + before.force.major[0] * 0.1
-    )
+    scale = before.torque.major[0] + before.couple.major[0] + abs(moved) + before.force.major[0] * 0.1
     assert abs(2 * after.roll.forward[0] - 2 * before.roll.forward[0] - moved) <= 1e-11 * scale
 
 
@@ -112,13 +100,9 @@ def test_no_scheme_breaks(seed, scheme):
     if scheme == "counterweights":
         assert after.force.forward[0] == after.moment.forward[0] == 0
     if scheme == "slider":
-        assert compute_spectra(
-            fit_devices(engine, remedy), [remedy.order], ("force",)
-        ).force.balanced.all()
+        assert compute_spectra(fit_devices(engine, remedy), [remedy.order], ("force",)).force.balanced.all()
     if scheme == "couple-shaft":
-        assert compute_spectra(
-            fit_devices(engine, remedy), [remedy.order], ("moment",)
-        ).moment.balanced.all()
+        assert compute_spectra(fit_devices(engine, remedy), [remedy.order], ("moment",)).moment.balanced.all()
 
 
 @pytest.mark.parametrize("light", [1e-3, 1e-6])
@@ -129,9 +113,7 @@ def test_a_gram_next_to_a_hundred_tonnes(light):
         + f"[cylinder.2]\npiston_mass = {light}\n"
     )
     assert share_left(engine, fit_scheme(engine)) <= LEFT
-    alone = build_text(
-        engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston=f"mass = {light}")
-    )
+    alone = build_text(engine_text(crank="stroke = 100\nthrows = [0, 90]\nspacing = 100", piston=f"mass = {light}"))
     assert share_left(alone, fit_scheme(alone)) <= LEFT
 
 
@@ -140,13 +122,9 @@ def test_planes_next_to_each_other(apart):
     """Planes 1 mm apart in an engine of 200 mm: the unbalances grow a hundredfold, and still
     nothing is left.
     """
-    engine = build_text(
-        engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2")
-    )
+    engine = build_text(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2"))
     remedy = size_scheme(engine, "counterweights", planes=(0.05, 0.05 + apart / 1e3))
-    before, after = (
-        compute_spectra(e, [1], ("force", "moment")) for e in (engine, fit_devices(engine, remedy))
-    )
+    before, after = (compute_spectra(e, [1], ("force", "moment")) for e in (engine, fit_devices(engine, remedy)))
     assert abs(after.moment.forward[0]) <= LEFT * before.moment.major[0]
     assert abs(after.force.forward[0]) * 0.1 <= LEFT * before.moment.major[0]
     system = [[1, 1], [0.05 / (0.05 + apart / 1e3), 1]]  # force, and moment by the longest arm
@@ -161,9 +139,7 @@ def test_hopeless_planes_are_refused_with_their_condition_number(apart):
         size_scheme(engine, "counterweights", planes=(0.05, 0.05 + apart))
     told = re.search(r"condition number ([0-9.e+]+)\)", str(caught.value))
     assert told is not None
-    assert float(told[1]) == pytest.approx(
-        0.2 / apart, rel=0.01
-    )  # |1, 1| / (apart / 0.05 sqrt 2), times sqrt 2
+    assert float(told[1]) == pytest.approx(0.2 / apart, rel=0.01)  # |1, 1| / (apart / 0.05 sqrt 2), times sqrt 2
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1, 1e6])

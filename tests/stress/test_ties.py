@@ -30,9 +30,7 @@ def test_equal_shares_of_a_scatter(name: str) -> None:
     for spread in scatter_engine(
         read(ENGINES / f"{name}.toml"), Tolerances(mass=0.01), quantities, Drawing(10, 1)
     ).spreads:
-        for _, equal in groupby(
-            spread.shares, key=lambda pair: (f"{abs(pair[1]):.6g}", pair[0].what)
-        ):
+        for _, equal in groupby(spread.shares, key=lambda pair: (f"{abs(pair[1]):.6g}", pair[0].what)):
             numbers = [source.number for source, _ in equal]
             assert numbers == sorted(numbers), spread.quantity.name
 
@@ -50,9 +48,7 @@ def test_equal_arrangements_of_a_search(name: str, monkeypatch: pytest.MonkeyPat
     def found() -> list[object]:
         return [
             one.design
-            for one in search_least(
-                read(ENGINES / f"{name}.toml"), "throws", "moment.1.major", count=10
-            ).results
+            for one in search_least(read(ENGINES / f"{name}.toml"), "throws", "moment.1.major", count=10).results
         ]
 
     before, random, exact = found(), np.random.default_rng(5), Objective.evaluate

@@ -29,9 +29,7 @@ def deviated(found: dict[str, float]) -> str:
         piston = 0.5 * (1 + found.get(f"piston mass {k}", 0.0))
         rod = 0.6 * (1 + found.get(f"rod mass {k}", 0.0))
         length = 150 * (1 + found.get(f"rod length {k}", 0.0))
-        own.append(
-            f"{k} = {{piston_mass = {piston!r}, rod_mass = {rod!r}, rod_length = {length!r}}}"
-        )
+        own.append(f"{k} = {{piston_mass = {piston!r}, rod_mass = {rod!r}, rod_length = {length!r}}}")
     own_throws = FOUR.replace("[0, 180, 180, 0]", repr(throws))
     return "\n".join([own_throws, "[cylinder]", *own])
 
@@ -46,15 +44,11 @@ def test_a_deviating_engine_is_that_of_its_own_file(length):
     """Torque over the cycle, uneven speed, and guide moments, by a file that says each figure."""
     engines = DeviatingEngine(parse(PLAIN), Tolerances(0.02, length, 0.4))
     drawn = draw(engines, 3)
-    named = {
-        source.name: value for source, value in zip(engines.sources, drawn.tolist(), strict=True)
-    }
+    named = {source.name: value for source, value in zip(engines.sources, drawn.tolist(), strict=True)}
     one, other = engines.deviate_one(drawn), build_text(deviated(named))
     found, expected = analyze_torque(one, [1, 2]), analyze_torque(other, [1, 2])
     size = expected.curves.total.extremes()[1].value
-    for mine, theirs in zip(
-        found.curves.total.extremes(), expected.curves.total.extremes(), strict=True
-    ):
+    for mine, theirs in zip(found.curves.total.extremes(), expected.curves.total.extremes(), strict=True):
         assert mine.value == pytest.approx(theirs.value, abs=1e-12 * size)
     assert found.mean_torque == pytest.approx(expected.mean_torque, rel=1e-12)
     swing = expected.flywheel.speed.fluctuation
@@ -74,8 +68,7 @@ def test_throw_masses_are_in_the_inertia_of_a_crank_that_is_given():
     web = np.array([name.startswith("throw mass") for name in named])
     assert web.any()
     moving = [
-        analyze_torque(engines.deviate_one(np.where(web, d, 0.0)), [1]).flywheel.moving
-        for d in (drawn, 0 * drawn)
+        analyze_torque(engines.deviate_one(np.where(web, d, 0.0)), [1]).flywheel.moving for d in (drawn, 0 * drawn)
     ]
     assert moving[0] == pytest.approx(moving[1], rel=1e-14)
 
@@ -103,10 +96,7 @@ def test_samples_and_shares_are_those_of_single_engines(tmp_path):
     assert set(found["torque.mean"]["sensitivity"].values()) == {0.0}  # imep is given
     heavier = PLAIN.replace("[cylinder]", "[cylinder]\n2 = {piston_mass = 0.505}")
     lighter = PLAIN.replace("[cylinder]", "[cylinder]\n2 = {piston_mass = 0.495}")
-    ends = [
-        analyze_torque(build_text(text), [1]).curves.total.extremes()[1].value
-        for text in (heavier, lighter)
-    ]
+    ends = [analyze_torque(build_text(text), [1]).curves.total.extremes()[1].value for text in (heavier, lighter)]
     share = found["torque.max"]["sensitivity"]["piston mass 2"]
     assert share == pytest.approx((ends[0] - ends[1]) / 2, rel=1e-9)
 
@@ -130,16 +120,13 @@ def test_what_is_not_drawn_so():
     )
     told = refusal("scatter", path, "-q", "torque.max", "--samples", "30000")
     assert told == (
-        "30000 samples: of torque.max, where each engine is computed by itself, from 1 to 20000 "
-        "are allowed"
+        "30000 samples: of torque.max, where each engine is computed by itself, from 1 to 20000 are allowed"
     )
     told = refusal("scatter", path, "-q", "guide.2.H", "--mass-scatter", "0%")
     assert told == "nothing deviates; give a tolerance, such as --mass-scatter 0.5%"
     told = refusal("scatter", ENGINES / "i4.toml", "-q", "torque.max")
     assert told == "torque.max: the engine file has no [gas]"
-    told = refusal(
-        "scatter", "-", "-q", "fluctuation", stdin=PLAIN.replace("inertia = 90000\n", "")
-    )
+    told = refusal("scatter", "-", "-q", "fluctuation", stdin=PLAIN.replace("inertia = 90000\n", ""))
     assert told.startswith("fluctuation: the file gives no inertia")
 
 

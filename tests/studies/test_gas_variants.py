@@ -28,16 +28,12 @@ FOUR = (
 rod_length = 151
 """
 )
-NAMES = (
-    "torque.2.amplitude,torque.1.5.cos,gas.0.5.sin,roll_total.3.amplitude,torque_total.4.amplitude"
-)
+NAMES = "torque.2.amplitude,torque.1.5.cos,gas.0.5.sin,roll_total.3.amplitude,torque_total.4.amplitude"
 
 
 def analyse(text: str) -> list[float]:
     """The same figures of one engine, by its spectra."""
-    found = compute_spectra(
-        build_text(text), [0.5, 1.5, 2, 3, 4], ["gas", "torque_total", "roll_total"]
-    )
+    found = compute_spectra(build_text(text), [0.5, 1.5, 2, 3, 4], ["gas", "torque_total", "roll_total"])
     total, gas, roll = found["torque_total"], found["gas"], found["roll_total"]
     return [
         float(total.major[2]),
@@ -50,11 +46,7 @@ def analyse(text: str) -> list[float]:
 
 def test_a_grid_of_masses_lengths_and_pressures():
     grid = {"gas.imep": (9, 12), "piston.mass": (0.4, 0.5, 0.7), "rod.length": (140, 150)}
-    vary = [
-        part
-        for key, values in grid.items()
-        for part in ("--vary", f"{key}={','.join(map(str, values))}")
-    ]
+    vary = [part for key, values in grid.items() for part in ("--vary", f"{key}={','.join(map(str, values))}")]
     done = run_here("sweep", "-", *vary, "-q", NAMES, stdin=FOUR)
     assert (done.status, done.err) == (0, "")
     head, *rows = csv.reader(StringIO(done.out))
@@ -133,14 +125,10 @@ def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("own", "idle"),
-    [("heat = 900\n", {"imep", "bmep", "max_pressure", "cut_off", "heat"}), ("gas = 0.5\n", set())],
+    ("own", "idle"), [("heat = 900\n", {"imep", "bmep", "max_pressure", "cut_off", "heat"}), ("gas = 0.5\n", set())]
 )
 def test_what_all_cylinders_have_of_their_own_is_no_number_of_the_gas(own, idle, tmp_path):
-    path = write(
-        tmp_path / "four.toml",
-        PETROL_FOUR + "".join(f"[cylinder.{n}]\n{own}" for n in (1, 2, 3, 4)),
-    )
+    path = write(tmp_path / "four.toml", PETROL_FOUR + "".join(f"[cylinder.{n}]\n{own}" for n in (1, 2, 3, 4)))
     told = json.loads(run_here("numbers", path, "-f", "json").out)["numbers"]
     known = {number["path"].removeprefix("gas.") for number in told}
     assert known.isdisjoint(idle)
@@ -164,10 +152,7 @@ def test_where_all_cylinders_have_diagrams_no_number_is_of_the_cycle(tmp_path):
     ("vary", "told"),
     [
         (("gas.imep=8,9", "gas.heat=900"), "gas.imep and gas.heat say the same; vary one of them"),
-        (
-            ("gas.bmep=8",),
-            "{}: gas.bmep = 8: gas: has bmep without mechanical_efficiency; give both, or imep",
-        ),
+        (("gas.bmep=8",), "{}: gas.bmep = 8: gas: has bmep without mechanical_efficiency; give both, or imep"),
     ],
 )
 def test_goals_that_contradict_each_other_are_refused(vary, told, tmp_path):
@@ -209,9 +194,7 @@ def test_deviating_engines_have_the_gas_of_their_own_rods_and_throws(text):
         varied = {}
         for source, value in own.items():
             if source.what == "rod length":
-                varied[f"cylinder.{source.number}.rod_length"] = lengths[source.number] * (
-                    1 + value
-                )
+                varied[f"cylinder.{source.number}.rod_length"] = lengths[source.number] * (1 + value)
             if source.what == "throw angle":
                 angle = (0, 180, 180, 0)[source.number - 1]
                 varied[f"crank.throws.{source.number}"] = angle + value
@@ -222,9 +205,7 @@ def test_deviating_engines_have_the_gas_of_their_own_rods_and_throws(text):
         alone = [float(value) for value in evaluate_quantities(build(model, varied), wanted)]
         largest = max(map(abs, alone))
         sizes = [0, 3, 4]  # phases count from cylinder 1's own throw in one of both
-        assert found[sizes, sample] == pytest.approx(
-            [alone[k] for k in sizes], rel=1e-9, abs=1e-9 * largest
-        )
+        assert found[sizes, sample] == pytest.approx([alone[k] for k in sizes], rel=1e-9, abs=1e-9 * largest)
 
 
 def test_scatter_counts_the_gas():

@@ -66,16 +66,12 @@ def test_a_range_with_units_includes_its_end_too(asked: str, wanted: list[float]
 
 def test_long_range_is_correctly_rounded_everywhere() -> None:
     found = ladder(Fraction("0.1"), Fraction("0.001"), 100_000)
-    assert found[::7919].tolist() == [
-        float(Fraction("0.1") + k * Fraction("0.001")) for k in range(0, 100_000, 7919)
-    ]
+    assert found[::7919].tolist() == [float(Fraction("0.1") + k * Fraction("0.001")) for k in range(0, 100_000, 7919)]
 
 
 def test_values_beyond_exact_whole_numbers_are_correctly_rounded_too() -> None:
     step = Fraction(1, 3**40)
-    assert ladder(Fraction(1, 7), step, 5).tolist() == [
-        float(Fraction(1, 7) + k * step) for k in range(5)
-    ]
+    assert ladder(Fraction(1, 7), step, 5).tolist() == [float(Fraction(1, 7) + k * step) for k in range(5)]
 
 
 def test_range_may_fall() -> None:
@@ -87,16 +83,14 @@ def test_list_keeps_its_order_and_figures_may_bear_units() -> None:
 
 
 @pytest.mark.parametrize(
-    "path",
-    ["crank.throws.4", "rod.cg", "operation.speed", "cylinder.4.piston_mass", "cylinder.1.throw"],
+    "path", ["crank.throws.4", "rod.cg", "operation.speed", "cylinder.4.piston_mass", "cylinder.1.throw"]
 )
 def test_numbers_that_the_file_has_or_might_have(path: str) -> None:
     assert values(f"{path}=1,2") == [1, 2]
 
 
 @pytest.mark.parametrize(
-    "path",
-    ["shaft.1.unbalance", "shaft.1.at.2", "counterweight.1.radius", "cylinder.3.piston_mass"],
+    "path", ["shaft.1.unbalance", "shaft.1.at.2", "counterweight.1.radius", "cylinder.3.piston_mass"]
 )
 def test_numbers_of_devices_and_cylinders(path: str) -> None:
     assert values(f"{path}=1,2", GOOD + DEVICES) == [1, 2]
@@ -108,31 +102,15 @@ def test_numbers_of_devices_and_cylinders(path: str) -> None:
         ("rod.raito=0.2,0.3", "rod.raito: unknown parameter; did you mean rod.ratio?"),
         ("crank.throws.5=0", "crank.throws.5: unknown parameter; did you mean crank.throws.4?"),
         ("shaft.1.ratio=1,2", "shaft.1.ratio: unknown parameter"),
-        (
-            "rod.ratio",
-            '"rod.ratio": give a number of the engine file and its values, such as '
-            "rod.ratio=0.24:0.32:0.01",
-        ),
-        (
-            "rod.ratio=",
-            '"rod.ratio=": has no values; give some, such as 0.24,0.28 or 0.24:0.32:0.01',
-        ),
-        (
-            "rod.ratio=0.2:0.3",
-            '"rod.ratio=0.2:0.3": a range is from:to:step, such as 0.24:0.32:0.01',
-        ),
-        (
-            "rod.ratio=0.2:0.3:0",
-            '"rod.ratio=0.2:0.3:0": the step is 0; give the distance of neighbouring values',
-        ),
+        ("rod.ratio", '"rod.ratio": give a number of the engine file and its values, such as rod.ratio=0.24:0.32:0.01'),
+        ("rod.ratio=", '"rod.ratio=": has no values; give some, such as 0.24,0.28 or 0.24:0.32:0.01'),
+        ("rod.ratio=0.2:0.3", '"rod.ratio=0.2:0.3": a range is from:to:step, such as 0.24:0.32:0.01'),
+        ("rod.ratio=0.2:0.3:0", '"rod.ratio=0.2:0.3:0": the step is 0; give the distance of neighbouring values'),
         ("rod.ratio=0.3:0.2:0.1", '"rod.ratio=0.3:0.2:0.1": has 0 values'),
         ("rod.ratio=0:1:1e-300", '"rod.ratio=0:1:1e-300": has 1'),
         ("rod.ratio=0.2:1.4:0.2", "rod.ratio: 1.4 is not below 1; a plain number is wanted"),
         ("piston.mass=-1,2", "piston.mass: -1 is less than 0; a mass is wanted"),
-        (
-            "piston.mass=heavy",
-            '"piston.mass=heavy": "heavy" is not a number followed by a unit; a mass is wanted',
-        ),
+        ("piston.mass=heavy", '"piston.mass=heavy": "heavy" is not a number followed by a unit; a mass is wanted'),
     ],
 )
 def test_mistakes_in_words(text: str, message: str) -> None:
@@ -153,9 +131,7 @@ def test_a_bank_angle_is_that_of_a_vee() -> None:
 def test_firing_intervals_vary_together_or_not_at_all() -> None:
     """They add up to a cycle: with one of them changed, no file could say the rest."""
     text = GOOD.replace("[layout]", "[layout]\nfiring_intervals = [180, 180, 180, 180]")
-    with pytest.raises(
-        BalcliError, match=r"1: firing intervals add up to a cycle, so that none varies alone$"
-    ):
+    with pytest.raises(BalcliError, match=r"1: firing intervals add up to a cycle, so that none varies alone$"):
         parse_parameter("layout.firing_intervals.1=170,180", load(text))
 
 
@@ -173,14 +149,12 @@ def test_names_that_begin_as_an_unknown_one_are_told():
     with pytest.raises(BalcliError) as caught:
         parse_parameter("bank=30,60", load((ENGINES / "vtwin45.toml").read_text()))
     assert str(caught.value) == (
-        "bank: unknown parameter; did you mean layout.bank_angle or cylinder.1.bank or "
-        "cylinder.2.bank?"
+        "bank: unknown parameter; did you mean layout.bank_angle or cylinder.1.bank or cylinder.2.bank?"
     )
 
 
 @pytest.mark.parametrize(
-    ("name", "meant"),
-    [("rod_length", "rod.length?"), ("rod", "rod.length or rod.ratio or rod.mass or ")],
+    ("name", "meant"), [("rod_length", "rod.length?"), ("rod", "rod.length or rod.ratio or rod.mass or ")]
 )
 def test_a_name_of_the_whole_engine_comes_before_that_of_one_cylinder(name, meant):
     """Every cylinder has a `rod_length` of its own, too: with one of them varied, the others stay."""

@@ -22,8 +22,7 @@ from balcli.studies.pictures import compute_study, swing_banks
 VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""))
 CROSS = changed(
-    ("throws = [0, 180, 180, 0]", "throws = [0, 90, 270, 180]"),
-    ("firing_order = [1, 3, 4, 2]", "bank_angle = 90"),
+    ("throws = [0, 180, 180, 0]", "throws = [0, 90, 270, 180]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 90")
 )
 
 
@@ -41,12 +40,8 @@ def test_flat_plane_vee_eight_over_its_bank_angle():
     ratio = float(harmonics.find_harmonics([2.0], c.lam, c.eps).piston.c[0, 0].real)
     K = 4 * ratio * float(c.reciprocating[0] * c.radius) * vee.omega**2
     gamma = np.radians(banks.angles_deg)
-    assert np.abs(banks.force.forward[0]) == pytest.approx(
-        K * np.abs(np.cos(gamma / 2)), abs=1e-12 * K
-    )
-    assert np.abs(banks.force.backward[0]) == pytest.approx(
-        K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K
-    )
+    assert np.abs(banks.force.forward[0]) == pytest.approx(K * np.abs(np.cos(gamma / 2)), abs=1e-12 * K)
+    assert np.abs(banks.force.backward[0]) == pytest.approx(K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K)
     assert banks.own_deg == 75
 
 
@@ -72,8 +67,7 @@ def test_its_own_bank_angle_is_the_engine_as_it_is():
 def test_a_vee_of_free_cylinders_swings_as_one_of_two_banks():
     """The same two cylinders on each throw, once by their banks and once each by its own axis."""
     vee = changed(
-        ("throws = [0, 180, 180, 0]", "throws = [0, 120]"),
-        ("firing_order = [1, 3, 4, 2]", "bank_angle = 75"),
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 75")
     )
     axes = "".join(f"[cylinder.{n}]\nbank = {-37.5 if n < 3 else 37.5}\n" for n in (1, 2, 3, 4))
     free = changed(
@@ -100,10 +94,7 @@ def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
     ("text", "reason"),
     [
         (GOOD, "this engine has 1 bank$"),
-        (
-            changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]")),
-            "this engine has 3 banks$",
-        ),
+        (changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]")), "this engine has 3 banks$"),
     ],
 )
 def test_only_a_vee_has_a_bank_angle(text, reason):
@@ -114,14 +105,7 @@ def test_only_a_vee_has_a_bank_angle(text, reason):
 @pytest.mark.stress
 @pytest.mark.parametrize(
     ("what", "text"),
-    [
-        ("factor", CROSS),
-        ("factor", GOOD),
-        ("bank", VEE),
-        ("bank", CROSS),
-        ("inner", VEE),
-        ("inner", SINGLE),
-    ],
+    [("factor", CROSS), ("factor", GOOD), ("bank", VEE), ("bank", CROSS), ("inner", VEE), ("inner", SINGLE)],
 )
 def test_pictures_of_studies_are_the_same_each_time(what, text):
     subject = PageSubject(compute_study(engine(text), what))
@@ -140,12 +124,8 @@ def test_counterweights_unload_the_crankshaft_of_an_in_line_four():
     """It is balanced outside, and yet bent; weights at every throw take most of that away."""
     free = compute_study(engine(GOOD), "inner").bent[0]
     now, before = compute_study(engine(GOOD), "inner", scheme="factor").bent
-    assert (
-        max(p.value for p in before.bending.peaks) == max(p.value for p in free.bending.peaks) > 100
-    )
-    assert max(p.value for p in now.bending.peaks) < 0.7 * max(
-        p.value for p in before.bending.peaks
-    )
+    assert max(p.value for p in before.bending.peaks) == max(p.value for p in free.bending.peaks) > 100
+    assert max(p.value for p in now.bending.peaks) < 0.7 * max(p.value for p in before.bending.peaks)
 
 
 def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
@@ -213,10 +193,7 @@ def test_the_study_of_factors_takes_planes_alone():
     assert [row.moment for row in ends] == pytest.approx([row.moment for row in free], abs=1)
     assert ends[0].counterweight > 1.02 * free[0].counterweight
     for asked, reason in (
-        (
-            {"scheme": "minimax"},
-            "--what factor is of the scheme factor: leave --scheme minimax out",
-        ),
+        ({"scheme": "minimax"}, "--what factor is of the scheme factor: leave --scheme minimax out"),
         ({"options": SchemeOptions(factor=(0.5,))}, "--what factor shows all factors: leave"),
         ({"options": SchemeOptions(at=(0j,))}, "scheme factor has no --at"),
     ):

@@ -39,9 +39,7 @@ def test_every_name_that_a_file_has_can_be_swept(file):
 
 
 def test_files_name_what_they_have_only():
-    beginnings = {
-        form.pattern.partition(".")[0] for form in list_quantities(read(ENGINES / "i4.toml"))
-    }
+    beginnings = {form.pattern.partition(".")[0] for form in list_quantities(read(ENGINES / "i4.toml"))}
     assert beginnings == {"force", "moment", "couple", "torque", "roll", "peak", "guide"}
     diesel = [form.pattern for form in list_quantities(read(ENGINES / "i6_diesel.toml"))]
     assert {"torsion.1.Hz", "shaft.flywheel.stress", "gas.N.PART"} <= {*diesel}
@@ -49,9 +47,7 @@ def test_files_name_what_they_have_only():
 
 
 def test_the_share_of_a_motion_is_told_as_that_motions():
-    meanings = {
-        form.pattern: form.words for form in list_quantities(read(ENGINES / "i4_mounts.toml"))
-    }
+    meanings = {form.pattern: form.words for form in list_quantities(read(ENGINES / "i4_mounts.toml"))}
     assert meanings["mode.5.share"] == "largest share of its energy in one motion"
     motion = meanings["mode.ry.share"]
     assert motion == "share of this motion in the energy of the mode that has most of it"

@@ -58,11 +58,7 @@ UNSTEADY = "[[operation.speed_ripple]]\norder = 4\namplitude = 0.01\n"
 
 def asked(engine: str, *vary: str, of: str = "") -> Sweep:
     file = load(engine)
-    return Sweep(
-        file,
-        tuple(parse_parameter(v, file) for v in vary),
-        parse_quantities(of) if of else EVERYTHING,
-    )
+    return Sweep(file, tuple(parse_parameter(v, file) for v in vary), parse_quantities(of) if of else EVERYTHING)
 
 
 @pytest.mark.parametrize(
@@ -71,26 +67,13 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
         (VEE, ("layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3")),
         (VEE, ("crank.throws.2=0:180:60", "crank.stroke=80,90", "piston.mass=0.4,0.5")),
         (VEE, ("crank.splay=-30,0", "crank.spacing=90,100", "layout.stagger=0,20")),
-        (
-            VEE,
-            (
-                "cylinder.3.piston_mass=0.5,0.6",
-                "cylinder.2.rod_length=150,160",
-                "cylinder.4.position=3,4",
-            ),
-        ),
+        (VEE, ("cylinder.3.piston_mass=0.5,0.6", "cylinder.2.rod_length=150,160", "cylinder.4.position=3,4")),
         (VEE, ("piston.offset=-2,0,2", "rod.length=150,160")),
         (VEE + "[cylinder.2]\nrod_cg = 46\n", ("bobweight.oil=0,0.1",)),
         (VEE, ("layout.stagger=0,20", "cylinder.4.position=3,4", "crank.spacing=90,100")),
         (VEE, ("rod.inertia=1000,5000", "operation.speed=1000,3000", "crank.throw_mass=0,1")),
-        (
-            VEE + MORE,
-            ("shaft.1.unbalance=0,9000", "shaft.1.at.2=0,60", "counterweight.1.angle=0,180"),
-        ),
-        (
-            VEE + MORE,
-            ("slider.1.direction=0,90", "frame.reference.1=0,10", "frame.reference.3=0,10"),
-        ),
+        (VEE + MORE, ("shaft.1.unbalance=0,9000", "shaft.1.at.2=0,60", "counterweight.1.angle=0,180")),
+        (VEE + MORE, ("slider.1.direction=0,90", "frame.reference.1=0,10", "frame.reference.3=0,10")),
         (VEE + UNSTEADY, ("operation.speed_ripple.1.amplitude=0.01,0.02", "rod.ratio=0.2,0.3")),
         (changed(("throws = [0, 180, 180, 0]\n", "")), ("piston.offset=0,2", "rod.length=150,160")),
     ],
@@ -100,17 +83,11 @@ def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -
     found = join_chunks(sweep, evaluate_chunks(sweep))
     paths = [p.path for p in sweep.parameters]
     variants = [
-        dict(zip(paths, values, strict=True))
-        for values in product(*(p.values.tolist() for p in sweep.parameters))
+        dict(zip(paths, values, strict=True)) for values in product(*(p.values.tolist() for p in sweep.parameters))
     ]
-    alone = [
-        [float(v) for v in evaluate_quantities(build(sweep.file, one), EVERYTHING)]
-        for one in variants
-    ]
+    alone = [[float(v) for v in evaluate_quantities(build(sweep.file, one), EVERYTHING)] for one in variants]
     for quantity, values, expected in zip(EVERYTHING, found, np.array(alone).T, strict=True):
-        assert values.ravel() == pytest.approx(
-            expected, abs=SAME * max(np.abs(expected).max(), 1e-9)
-        ), quantity.name
+        assert values.ravel() == pytest.approx(expected, abs=SAME * max(np.abs(expected).max(), 1e-9)), quantity.name
 
 
 @pytest.mark.parametrize("vary", ["counterweight.1.mass=0,0.3", "counterweight.1.radius=0,40"])
@@ -125,9 +102,7 @@ def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
 
 def test_a_rod_weighed_at_one_end_only_is_refused() -> None:
     light = changed(("mass = 0.6\ncg = 45\n", ""))
-    with pytest.raises(
-        InputError, match=r"rod\.big_end: needs small_end beside it: weigh the rod at both ends"
-    ):
+    with pytest.raises(InputError, match=r"rod\.big_end: needs small_end beside it: weigh the rod at both ends"):
         check_corners(asked(light, "rod.big_end=0.1,0.2"))
 
 
@@ -158,9 +133,7 @@ def test_boxes_cover_the_grid_in_the_order_of_rows(shape: tuple[int, ...], most:
         (VEE, "cylinder.1.piston_offset=0:114.9:0.1", "force.2.major", 10_000),
     ],
 )
-def test_boxes_are_the_smaller_the_more_each_variant_needs(
-    engine: str, vary: str, of: str, most: int
-) -> None:
+def test_boxes_are_the_smaller_the_more_each_variant_needs(engine: str, vary: str, of: str, most: int) -> None:
     """Orders, and samples near the lock: a box takes a fraction of a second, and little memory."""
     assert size_boxes(asked(engine, vary, of=of)).variants <= most
 
@@ -184,12 +157,7 @@ def test_a_part_of_a_grid_is_a_sweep_of_its_own() -> None:
 
 
 def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:
-    sweep = asked(
-        VEE,
-        "layout.bank_angle=0:179:1",
-        "rod.ratio=0.2:0.399:0.001",
-        of="force.2.major,moment.1.backward",
-    )
+    sweep = asked(VEE, "layout.bank_angle=0:179:1", "rod.ratio=0.2:0.399:0.001", of="force.2.major,moment.1.backward")
     (whole,) = evaluate_chunks(sweep)
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 2_500)
     several = list(evaluate_chunks(sweep))
@@ -202,9 +170,7 @@ def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("shape", [(3, 5000), (5000, 3), (2, 7, 900)])
 @pytest.mark.parametrize("most", [100, 1000])
-def test_boxes_that_would_be_narrow_are_computed_in_tiles(
-    shape: tuple[int, ...], most: int
-) -> None:
+def test_boxes_that_would_be_narrow_are_computed_in_tiles(shape: tuple[int, ...], most: int) -> None:
     """The same figures in the same order, to rounding: powers of a few numbers at a time may be
     rounded otherwise.
     """
@@ -228,10 +194,7 @@ def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:
     sweep = asked(GOOD, "piston.mass=0.1,0.5", of="force.2.major,force.2.axis,force.1.axis")
     text = "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
     force = [repr(float(v)) for v in join_chunks(sweep, evaluate_chunks(sweep))[0]]
-    assert (
-        text
-        == f"piston.mass,force.2.major,force.2.axis,force.1.axis\n0.1,{force[0]},0.0,\n0.5,{force[1]},0.0,\n"
-    )
+    assert text == f"piston.mass,force.2.major,force.2.axis,force.1.axis\n0.1,{force[0]},0.0,\n0.5,{force[1]},0.0,\n"
 
 
 def test_json_is_one_document() -> None:
@@ -263,9 +226,7 @@ def test_threads_give_identical_rows(monkeypatch: pytest.MonkeyPatch, threads: i
 
 
 @pytest.mark.parametrize("given", [0, 1, 3])
-def test_a_system_that_gives_few_threads_has_the_same_rows(
-    monkeypatch: pytest.MonkeyPatch, given: int
-) -> None:
+def test_a_system_that_gives_few_threads_has_the_same_rows(monkeypatch: pytest.MonkeyPatch, given: int) -> None:
     """Limits of users and containers (`ulimit -u`, `--pids-limit`) are told by a RuntimeError."""
     begun: list[Thread] = []
     start = Thread.start
@@ -320,9 +281,7 @@ def test_cluster_gives_identical_rows() -> None:
 
     sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
     with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
-        ) as local,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as local,
         distributed.Client(local) as client,
     ):
         there = "".join(sweep_csv(sweep, cluster.evaluate_on_cluster(sweep, client)))

@@ -76,18 +76,13 @@ def test_a_rod_deviates_without_its_shells() -> None:
 def test_shares_of_angles_and_lengths_are_derivatives() -> None:
     weighed = changed(("mass = 0.6\ncg = 45\n", "small_end = 0.17\nbig_end = 0.43\n"))
     (spread,) = scatter_engine(
-        load(weighed),
-        Tolerances(length=1e-6, angle_deg=1e-5),
-        parse_quantities("force.2.major"),
-        Drawing(10, 1),
+        load(weighed), Tolerances(length=1e-6, angle_deg=1e-5), parse_quantities("force.2.major"), Drawing(10, 1)
     ).spreads
     share = {source.name: value for source, value in spread.shares}
     nominal = evaluate(weighed, "force.2.major")
     longer = evaluate(weighed + "[cylinder.3]\nrod_length = 160.00016\n", "force.2.major")
     assert share["rod length 3"] == pytest.approx(longer - nominal, rel=1e-4)
-    assert (
-        abs(share["throw angle 2"]) < 1e-9 * nominal
-    )  # to first order, all vectors lie along one line
+    assert abs(share["throw angle 2"]) < 1e-9 * nominal  # to first order, all vectors lie along one line
 
 
 def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
@@ -100,10 +95,7 @@ def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
         "[piston]\nmass = 0.5\n[operation]\nspeed = 3000\n"
     )
     against, couple = scatter_engine(
-        load(text),
-        Tolerances(length=1e-4),
-        parse_quantities("force.1.backward,couple.1.amplitude"),
-        Drawing(10, 1),
+        load(text), Tolerances(length=1e-4), parse_quantities("force.1.backward,couple.1.amplitude"), Drawing(10, 1)
     ).spreads
     w2 = (3000 * math.pi / 30) ** 2
     assert against.shares[0][1] == pytest.approx(-1e-4 * 0.6 * 0.045 / 0.2 * 0.002 * w2 / 2)
@@ -133,8 +125,7 @@ def test_shares_of_lengths_are_what_a_changed_file_gives(text: str, number: int)
     lam = engine.cylinders.lam[row % len(engine.cylinders.lam)]
     length = 1e3 * engine.cylinders.radius / lam
     up, down = (
-        evaluate_quantities(build(model, {key: np.array([length * x])}), quantities)
-        for x in (1 + step, 1 - step)
+        evaluate_quantities(build(model, {key: np.array([length * x])}), quantities) for x in (1 + step, 1 - step)
     )
     for spread, more, less in zip(spreads, up, down, strict=True):
         shares = {source.name: value for source, value in spread.shares}
@@ -164,10 +155,7 @@ def test_nothing_exceeds_the_bound_of_masses() -> None:
 
 
 def test_a_seed_repeats_and_chunks_do_not_matter() -> None:
-    runs = [
-        scatter_engine(load(GOOD), Tolerances(mass=0.01), FORCES, Drawing(20_000, seed))
-        for seed in (7, 7, 8)
-    ]
+    runs = [scatter_engine(load(GOOD), Tolerances(mass=0.01), FORCES, Drawing(20_000, seed)) for seed in (7, 7, 8)]
     assert runs[0].spreads == runs[1].spreads
     assert runs[0].spreads[0].mean != runs[2].spreads[0].mean
 
@@ -200,22 +188,16 @@ def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
         (Tolerances(0.01), "force.1.major", 0, "0 samples: from 1 to 20000000 are allowed"),
     ],
 )
-def test_what_cannot_be_scattered_is_told(
-    tolerance: Tolerances, quantity: str, samples: int, message: str
-) -> None:
+def test_what_cannot_be_scattered_is_told(tolerance: Tolerances, quantity: str, samples: int, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         scatter_engine(load(GOOD), tolerance, parse_quantities(quantity), Drawing(samples))
     assert str(caught.value).startswith(message)
 
 
 def test_percentiles_are_those_of_the_samples() -> None:
-    result = scatter_engine(
-        load(TWIN), Tolerances(mass=0.01), parse_quantities("force.1.major"), Drawing(50_000, 1)
-    )
+    result = scatter_engine(load(TWIN), Tolerances(mass=0.01), parse_quantities("force.1.major"), Drawing(50_000, 1))
     whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
-    median = (
-        0.01 * (2 - math.sqrt(2)) * whole
-    )  # of a triangular distribution on [0, 2t], densest at 0
+    median = 0.01 * (2 - math.sqrt(2)) * whole  # of a triangular distribution on [0, 2t], densest at 0
     assert result.spreads[0].percentiles["p50"] == pytest.approx(median, rel=0.02)
     assert np.isfinite(result.spreads[0].mean)
 
@@ -236,9 +218,5 @@ def test_an_articulated_rods_mass_deviates_at_its_knuckle_pin_too() -> None:
 
 def test_rotary_engines_have_no_scatter() -> None:
     rotary = ARTICULATED[: ARTICULATED.index("[articulation]")] + "rotary = true\n"
-    with pytest.raises(
-        BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"
-    ):
-        scatter_engine(
-            load(rotary), Tolerances(mass=0.005), parse_quantities("force.1.major"), Drawing(10, 1)
-        )
+    with pytest.raises(BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"):
+        scatter_engine(load(rotary), Tolerances(mass=0.005), parse_quantities("force.1.major"), Drawing(10, 1))

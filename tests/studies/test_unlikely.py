@@ -25,9 +25,7 @@ HEAVY = "piston.mass is 51 kg"
 LONG = "crank radius / rod length is 0.086"
 
 
-def doubt(
-    vary: str, piston: float = 0.5, length: float = 140, order: str = "[1, 3, 4, 2]"
-) -> list[str]:
+def doubt(vary: str, piston: float = 0.5, length: float = 140, order: str = "[1, 3, 4, 2]") -> list[str]:
     model = parse(FOUR.format(piston=piston, length=length, order=order))
     return doubt_unvaried(model, [parse_parameter(vary, model)])
 

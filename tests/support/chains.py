@@ -9,14 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from support import high_precision
 
-from balcli.core.torsional_chain import (
-    Chain,
-    ChainShaft,
-    Damping,
-    follow_gears,
-    incidence,
-    join_chain,
-)
+from balcli.core.torsional_chain import Chain, ChainShaft, Damping, follow_gears, incidence, join_chain
 
 KINDS = ("plain", "geared", "branched", "clamped", "clamped at both ends", "massless", "looped")
 
@@ -66,9 +59,7 @@ def random_damping(chain: Chain, seed: int) -> Damping:
     rng = np.random.default_rng(seed)
     shafts = len(chain.start)
     return Damping(
-        rng.uniform(0.005, 0.05, shafts),
-        rng.choice([0, 2.0], shafts),
-        rng.choice([0, 3.0], len(chain.inertia)),
+        rng.uniform(0.005, 0.05, shafts), rng.choice([0, 2.0], shafts), rng.choice([0, 3.0], len(chain.inertia))
     )
 
 
@@ -90,9 +81,7 @@ def exact_frequencies(chain: Chain):
         rows[:, start] += ratio * rows[:, end]
         mass[start] += ratio**2 * mass[end]
         free[end] = False
-    return high_precision.angular_frequencies(
-        rows[np.ix_(elastic, free)], chain.stiffness[elastic], mass[free]
-    )
+    return high_precision.angular_frequencies(rows[np.ix_(elastic, free)], chain.stiffness[elastic], mass[free])
 
 
 def exact_response(chain: Chain, damping: Damping, w, load, attached=0.0):

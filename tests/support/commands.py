@@ -120,9 +120,7 @@ def run_in_terminal(*args: object, columns: int = 80, **options: Any) -> Outcome
 
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
-    with start_command(
-        *args, stdin=subprocess.DEVNULL, stdout=theirs, stderr=theirs, **options
-    ) as running:
+    with start_command(*args, stdin=subprocess.DEVNULL, stdout=theirs, stderr=theirs, **options) as running:
         os.close(theirs)
         text = b"".join(iter(lambda: _read(ours), b""))
     os.close(ours)

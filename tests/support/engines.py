@@ -95,12 +95,9 @@ def changed(*replacements: tuple[str, str], more: str = "") -> str:
     return text + more
 
 
-SINGLE = changed(
-    ("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4")
-)
+SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4"))
 VEE = changed(
-    ("[0, 180, 180, 0]", "[0, 100, 250, 190]"),
-    ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20"),
+    ("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20")
 )
 
 
@@ -115,8 +112,7 @@ def tables(**parts: dict[str, Any] | list[dict[str, Any]]) -> dict[str, Any]:
         "operation": {"speed": 60},
     }
     found = plain | {
-        name: plain.get(name, {}) | part if isinstance(part, dict) else part
-        for name, part in parts.items()
+        name: plain.get(name, {}) | part if isinstance(part, dict) else part for name, part in parts.items()
     }
     if "ratio" in found["rod"]:
         found["rod"].pop("length")

@@ -10,18 +10,7 @@ from pathlib import Path
 from .paths import PACKAGE
 
 WEIGHTY = frozenset(
-    [
-        "numpy",
-        "pydantic",
-        "rich",
-        "matplotlib",
-        "jinja2",
-        "tomli_w",
-        "distributed",
-        "pyarrow",
-        "scipy",
-        "typer",
-    ]
+    ["numpy", "pydantic", "rich", "matplotlib", "jinja2", "tomli_w", "distributed", "pyarrow", "scipy", "typer"]
 )
 
 

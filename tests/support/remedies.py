@@ -37,9 +37,7 @@ def find_orders(engine: Engine, kind: str = "force") -> Phasors:
 
 def write_engine(*throws: float, **tables: str) -> str:
     """The text of an engine with throws of 1 kg at these angles, 100 mm apart."""
-    return engine_text(
-        crank=f"stroke = 100\nthrows = {list(throws)}\nspacing = 100\nthrow_mass = 1", **tables
-    )
+    return engine_text(crank=f"stroke = 100\nthrows = {list(throws)}\nspacing = 100\nthrow_mass = 1", **tables)
 
 
 SMALL = {  # engine files by what they are

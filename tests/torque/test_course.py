@@ -105,9 +105,7 @@ def test_inertia_that_cancels_makes_no_torque(strokes):
 def test_one_cylinder_is_shown_with_its_share():
     found = analyze_torque(draw_engine(1), [0.5, 1], cylinder=1)
     gas = found.engine.gas.cylinders[found.engine.numbers.index(1)]
-    assert found.single.gas.major == pytest.approx(
-        gas.share * np.abs(gas.torque.harmonics([1, 2])), rel=1e-12
-    )
+    assert found.single.gas.major == pytest.approx(gas.share * np.abs(gas.torque.harmonics([1, 2])), rel=1e-12)
 
 
 # ------------------------------------------------------------------ speed
@@ -128,9 +126,7 @@ def speed_by_steps(found, first: float, steps: int = 24):
     before = torque.at(angle, before=True) - torque.mean
     inertia = still + moving(angle)
     shift, weights = 2e-3, {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
-    slope = sum(
-        w * (moving(angle + k * shift) - moving(angle - k * shift)) for k, w in weights.items()
-    )
+    slope = sum(w * (moving(angle + k * shift) - moving(angle - k * shift)) for k, w in weights.items())
     slope = slope / shift
 
     def rate(k, omega, values):
@@ -182,10 +178,7 @@ def test_the_needed_inertia_keeps_the_fluctuation():
 def test_lines_of_the_speed_add_up_to_it():
     found = analyze_torque(on_crank(2e5, 4))
     speed, theta = found.flywheel.speed, found.flywheel.speed.highest.angle
-    lines = sum(
-        line.amplitude * np.cos(line.order * theta - np.radians(line.angle_deg))
-        for line in speed.lines
-    )
+    lines = sum(line.amplitude * np.cos(line.order * theta - np.radians(line.angle_deg)) for line in speed.lines)
     share = speed.highest.value / float(found.engine.omega) - 1
     assert lines == pytest.approx(share, rel=2e-3)
 
@@ -194,9 +187,7 @@ def test_throw_masses_are_counted_once():
     text = FOUR.replace("spacing = 100", "spacing = 100\nthrow_mass = 0.5")
     without = find_moving_inertia(build_text(text))(np.array([0.3]))
     given = text.replace("spacing = 100", "spacing = 100\ninertia = 9000")
-    assert without - find_moving_inertia(build_text(given))(np.array([0.3])) == pytest.approx(
-        4 * 0.5 * 0.045**2
-    )
+    assert without - find_moving_inertia(build_text(given))(np.array([0.3])) == pytest.approx(4 * 0.5 * 0.045**2)
 
 
 def test_the_crank_of_a_rotary_engine_stands_still():
@@ -226,8 +217,7 @@ def test_of_a_crank_that_would_stand_still_all_is_told_but_its_speed():
     slow = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
     found = analyze_torque(slow)
     assert re.match(
-        r"the shaft stalls at \d+\.\d°: with this inertia it needs a mean speed above \d+",
-        found.flywheel.stall,
+        r"the shaft stalls at \d+\.\d°: with this inertia it needs a mean speed above \d+", found.flywheel.stall
     )
     assert found.flywheel.speed is None
     assert found.mean_torque == analyze_torque(replace(slow, speed_rpm=3000.0)).mean_torque
@@ -253,9 +243,7 @@ def test_without_inertia_nothing_is_said_of_the_speed():
     assert asked.needed > asked.moving > 0
 
 
-@pytest.mark.parametrize(
-    ("name", "times"), [("i4_wiebe", 4), ("v8_wiebe", 8), ("marine/marine6", 6)]
-)
+@pytest.mark.parametrize(("name", "times"), [("i4_wiebe", 4), ("v8_wiebe", 8), ("marine/marine6", 6)])
 def test_what_repeats_itself_is_computed_once(name, times):
     """And is still what the orders say."""
     found = load(ENGINES / f"{name}.toml")
@@ -293,9 +281,7 @@ def test_large_figures_have_large_units(tmp_path):
     assert "bore = 86" in heavy != small
     told = {}
     for factor in (6, 60):
-        path = write(
-            tmp_path / f"{factor}.toml", heavy.replace("bore = 86", f"bore = {factor * 86}")
-        )
+        path = write(tmp_path / f"{factor}.toml", heavy.replace("bore = 86", f"bore = {factor * 86}"))
         out = run_here("torque", path).out
         figures = json.loads(run_here("torque", path, "-f", "json").out)
         assert "Torque by order, kN·m\n" in out

@@ -21,9 +21,7 @@ def of_cylinder(**layout: object) -> Curves:
     return curves(engine, step_deg=15, cylinder=1)
 
 
-@pytest.mark.parametrize(
-    "name", ["rod_angle_deg", "side_thrust_N", "rod_force_N", "pin_x_N", "pin_y_N", "torque_Nm"]
-)
+@pytest.mark.parametrize("name", ["rod_angle_deg", "side_thrust_N", "rod_force_N", "pin_x_N", "pin_y_N", "torque_Nm"])
 def test_gas_does_the_same_in_a_cylinder_that_turns(name):
     """At rest but for a hundredth of a turn in a minute. All that acts across counts to where the
     crank pin goes after top dead centre, the angle of the rod too.

@@ -37,9 +37,7 @@ def test_what_pins_walls_and_heads_feel_is_the_free_force(ripple):
     """
     more = "[cylinder.2]\npiston_mass = 0.8\n"
     lines = "speed_ripple = [{ order = 1, amplitude = 0.05 }]" if ripple else ""
-    text = FOUR.replace("mass = 0.5", "mass = 0.5\noffset = 6").replace(
-        "speed = 3000", f"speed = 3000\n{lines}"
-    )
+    text = FOUR.replace("mass = 0.5", "mass = 0.5\noffset = 6").replace("speed = 3000", f"speed = 3000\n{lines}")
     found = build_text(text + WIEBE + more)
     forces = compute_rod_forces(found, ANGLES)
     total = (forces.pin + 1j * forces.thrust + forces.gas).sum(axis=0)
@@ -51,9 +49,7 @@ def test_what_pins_walls_and_heads_feel_is_the_free_force(ripple):
 
 def test_without_mass_the_rod_carries_the_gas_alone():
     """Thrust is P tan of the rod's angle, the rod P over its cosine; Khurmi and others."""
-    light = FOUR.replace("mass = 0.6\ncg = 45\ninertia = 2600", "mass = 0").replace(
-        "mass = 0.5", "mass = 0"
-    )
+    light = FOUR.replace("mass = 0.6\ncg = 45\ninertia = 2600", "mass = 0").replace("mass = 0.5", "mass = 0")
     found = build_text(light + WIEBE)
     forces = compute_rod_forces(found, ANGLES)
     lean = np.arcsin(0.3 * np.sin(np.radians(ANGLES + found.cylinders.angle_deg[:, None])))
@@ -90,8 +86,7 @@ def test_a_bearing_whose_loads_cancel_bears_nothing():
     """The one between two pistons of a boxer that fire together."""
     text = FOUR.replace("[0, 180, 180, 0]", "[0, 180]\nthrow_mass = 0.3").replace(
         "firing_order = [1, 3, 4, 2]",
-        'banks = [-90, 90]\nrods = "alternating"\nstrokes = 2\nfiring_order = [1, 2]\n'
-        "firing_intervals = [0, 360]",
+        'banks = [-90, 90]\nrods = "alternating"\nstrokes = 2\nfiring_order = [1, 2]\nfiring_intervals = [0, 360]',
     )
     outer, middle, _ = analyze_loads(build_text(text + WIEBE), ("main",)).main
     assert (middle.largest.value, middle.largest.angle, middle.mean) == (0, 0, 0)
@@ -143,21 +138,13 @@ MECHANISMS = {
         "more": HUNG.replace("knuckle", "master = 2\nknuckle_angles = [-66.5, 0]\nknuckle"),
     },
     "rotary, offset": {"layout": "radial = 3\nrotary = true", "piston": "offset = 11"},
-    "rotary with a master rod": {
-        "layout": "radial = 5\nrotary = true",
-        "piston": "offset = -4",
-        "more": HUNG,
-    },
+    "rotary with a master rod": {"layout": "radial = 5\nrotary = true", "piston": "offset = -4", "more": HUNG},
     "rotary with a master rod, uneven speed": {
         "layout": "radial = 5\nrotary = true",
         "operation": RIPPLE,
         "more": HUNG,
     },
-    "plain rods, uneven speed": {
-        "layout": "bank_angle = 60",
-        "piston": "offset = 6",
-        "operation": RIPPLE,
-    },
+    "plain rods, uneven speed": {"layout": "bank_angle = 60", "piston": "offset = 6", "operation": RIPPLE},
 }
 
 

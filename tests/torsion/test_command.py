@@ -34,15 +34,11 @@ def text_of(chain, damping, more=""):
         ends = f'from = "n{start}"\nto = "n{end}"\n'
         if ratio != 1:  # a mesh without mass, then the shaft
             lines.append(node(f"n{extra}", 0))
-            lines.append(
-                f'[[gear]]\nfrom = "n{start}"\nto = "n{extra}"\nratio = {float(ratio)!r}\n'
-            )
+            lines.append(f'[[gear]]\nfrom = "n{start}"\nto = "n{extra}"\nratio = {float(ratio)!r}\n')
             ends = f'from = "n{extra}"\nto = "n{end}"\n'
             extra += 1
         rigid = '"rigid"' if np.isinf(stiffness) else repr(float(stiffness))
-        lines.append(
-            f"[[shaft]]\n{ends}stiffness = {rigid}\nloss = {float(loss)!r}\ndamping = {float(dashpot)!r}\n"
-        )
+        lines.append(f"[[shaft]]\n{ends}stiffness = {rigid}\nloss = {float(loss)!r}\ndamping = {float(dashpot)!r}\n")
     return "".join(lines).replace("np.float64", "").replace("(", "").replace(")", "")
 
 
@@ -83,12 +79,7 @@ def test_the_starting_file_shows_every_part():
     assert run_here("new", "torsion").out == CHAIN
     asked = ("torsion", "-", "--speeds", "1000:2500:25", "--holzer", "1")
     out = ask(*asked, stdin=CHAIN)
-    heads = [
-        "Natural modes",
-        "Inertias and shapes",
-        "Critical speeds, 1000 to 2500 rpm",
-        "Holzer's table, mode 1",
-    ]
+    heads = ["Natural modes", "Inertias and shapes", "Critical speeds, 1000 to 2500 rpm", "Holzer's table, mode 1"]
     for head in (*heads, "Vibratory torque, 1000 to 2500 rpm", "Limits"):
         assert head in out
 
@@ -116,9 +107,9 @@ def test_csv_lists_the_figures_of_json():
         torque = [float(x["value"]) for x in of_first if x["figure"] == "half_peak_to_peak"]
         assert torque == told
     by_order = [x for x in of_first if x["figure"] == "amplitude"]
-    assert [
-        {"order": float(x["order"]), "amplitude_Nm": float(x["value"])} for x in by_order
-    ] == first["worst"]["orders"]
+    assert [{"order": float(x["order"]), "amplitude_Nm": float(x["value"])} for x in by_order] == first["worst"][
+        "orders"
+    ]
     left = [x for x in lines if x["figure"] == "residual"]
     assert float(left[0]["value"]) == said["holzer"][0]["residual_Nm"]
 
@@ -140,9 +131,7 @@ def test_a_swing_can_be_the_limit():
     said = ask_torsion(text, "--speeds", "800:1600:20")
     (span,) = said["barred_rpm"]
     assert span[0] == 800
-    assert ask_torsion(text, "--speeds", repr(span[1]))["response"][
-        "free_end_deg"
-    ] == pytest.approx([0.1])
+    assert ask_torsion(text, "--speeds", repr(span[1]))["response"]["free_end_deg"] == pytest.approx([0.1])
 
 
 def test_a_limit_of_stress_without_any_diameter_is_not_judged():
@@ -151,9 +140,7 @@ def test_a_limit_of_stress_without_any_diameter_is_not_judged():
     text = re.sub(r"(?m)^diameter = .*\n", "", text)
     assert "barred_rpm" not in ask_torsion(text, "--speeds", "800:1600:20")
     said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
-    assert said.rstrip().endswith(
-        "Limits\nnot judged  40 N/mm²: no shaft has a diameter, so that no stress is known"
-    )
+    assert said.rstrip().endswith("Limits\nnot judged  40 N/mm²: no shaft has a diameter, so that no stress is known")
     text = text.replace("limit = 40", "limit = 40\nangle_limit = 0.1")
     assert ask_torsion(text, "--speeds", "800:1600:20")["barred_rpm"]
     said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
@@ -167,9 +154,7 @@ def test_shafts_without_a_diameter_are_told_as_not_judged():
     ring = 'damper = { kind = "rubber", inertia = 3e4, stiffness = 4e4, loss = 0.1 }\n'
     text = text.replace("inertia = 950000\n", f"inertia = 950000\n{ring}")
     said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=text).out
-    assert said.rstrip().endswith(
-        "\nnot judged     engine-flywheel: no diameter, so that no stress is known"
-    )
+    assert said.rstrip().endswith("\nnot judged     engine-flywheel: no diameter, so that no stress is known")
     said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=CHAIN).out
     assert "not judged" not in said
 
@@ -304,9 +289,7 @@ def test_that_no_order_is_critical_is_said():
         shaft = [{ from = "a", to = "b", stiffness = 1e6 }]
         """
     driven = chain + 'excitation = [{ node = "a", order = 2, sin = 3 }]'
-    none = (
-        "Critical speeds, 100 to 200 rpm\nNone: no order meets a mode that it drives. Of order 2."
-    )
+    none = "Critical speeds, 100 to 200 rpm\nNone: no order meets a mode that it drives. Of order 2."
     slow = ("torsion", "-", "--speeds", "100:200:100")
     assert none in run_here(*slow, stdin=driven).out
     assert "Critical" not in run_here("torsion", "-", stdin=chain).out
@@ -432,33 +415,23 @@ def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
         (("--holzer", "9"), "standard input: has 3 modes, but --holzer asks for 9"),
         (
             ("--holzer", "x"),
-            '--holzer "x": give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" '
-            'or "900 rpm"',
+            '--holzer "x": give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"',
         ),
         (
             ("--speeds", "3:1"),
-            '--speeds "3:1": must rise; give first:last:step in rpm, such as 1000:2500:25, or '
-            "speeds such as 1500,2000",
+            '--speeds "3:1": must rise; give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000',
         ),
         (
             ("--speeds", "fast"),
-            '--speeds "fast": give first:last:step in rpm, such as 1000:2500:25, or speeds such as '
-            "1500,2000",
+            '--speeds "fast": give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000',
         ),
-        (
-            ("--speeds", "1:1e8:1"),
-            '--speeds "1:1e8:1": has 100000000 speeds; at most 20000 are computed',
-        ),
+        (("--speeds", "1:1e8:1"), '--speeds "1:1e8:1": has 100000000 speeds; at most 20000 are computed'),
         (
             ("--orders", "0.7"),
-            '--orders "0.7": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or '
-            "1,2.5,4",
+            '--orders "0.7": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or 1,2.5,4',
         ),
         (("--orders", "8-1"), '--orders "8-1": 8-1 must rise, from above 0 to 256 at most'),
-        (
-            ("--speeds", "1000", "--orders", "0.5"),
-            "standard input: nothing excites it at the orders asked for",
-        ),
+        (("--speeds", "1000", "--orders", "0.5"), "standard input: nothing excites it at the orders asked for"),
     ],
 )
 def test_options_that_cannot_be(options, message):
@@ -467,15 +440,7 @@ def test_options_that_cannot_be(options, message):
 
 def test_trial_frequencies_have_units():
     tables = ask_torsion(
-        CHAIN,
-        *(
-            "--holzer",
-            "20 rad/s",
-            "--holzer",
-            "3.183098861837907 Hz",
-            "--holzer",
-            "190.98593171027443 rpm",
-        ),
+        CHAIN, *("--holzer", "20 rad/s", "--holzer", "3.183098861837907 Hz", "--holzer", "190.98593171027443 rpm")
     )["holzer"]
     assert [table["frequency_Hz"] for table in tables] == pytest.approx([10 / np.pi] * 3)
 
@@ -594,22 +559,11 @@ IMPERIAL = {  # SI units of the CSV: what stands instead, and its size
 
 
 @pytest.mark.parametrize(
-    "kind",
-    ["viscous", *(pytest.param(kind, marks=pytest.mark.stress) for kind in ("rubber", "pendulum"))],
+    "kind", ["viscous", *(pytest.param(kind, marks=pytest.mark.stress) for kind in ("rubber", "pendulum"))]
 )
 def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
-    asked = (
-        "torsion",
-        "-q",
-        ENGINES / "i6_diesel.toml",
-        "--speeds",
-        "1000:2000:50",
-        "--holzer",
-        "1",
-    )
-    metric, imperial = (
-        ask_csv(*asked, "--damper", kind, "--units", units) for units in ("si", "imperial")
-    )
+    asked = ("torsion", "-q", ENGINES / "i6_diesel.toml", "--speeds", "1000:2000:50", "--holzer", "1")
+    metric, imperial = (ask_csv(*asked, "--damper", kind, "--units", units) for units in ("si", "imperial"))
     for si, ours in zip(metric, imperial, strict=True):
         name, size = IMPERIAL.get(si["unit"], (si["unit"], 1))
         assert ours | {"value": "", "unit": si["unit"]} == si | {"value": ""}
@@ -651,8 +605,7 @@ def test_progress_says_nothing_where_nobody_looks():
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
     monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
     assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=CHAIN) == (
-        "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer "
-        "speeds or orders"
+        "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer speeds or orders"
     )
 
 
@@ -677,8 +630,7 @@ HELD = "The order that pendulums are tuned to meets modes in which their node is
         ),
         (
             (RING, PENDULUMS),
-            " Rings in oil are left out, as if they were not there. So are pendulums, which follow "
-            "the order.",
+            " Rings in oil are left out, as if they were not there. So are pendulums, which follow the order.",
             f" Without rings in oil and pendulums, which shift them. {HELD}",
         ),
     ],
@@ -707,9 +659,7 @@ def test_criticals_say_of_which_orders_and_speeds_they_are():
     """
     text = write_diesel()
     alone = run_here("torsion", "-", "--orders", "6", stdin=text).out
-    assert re.search(
-        r"share: of all work done on the mode\. Of order 6\. To [\d.]+ rpm, 1\.5", alone
-    )
+    assert re.search(r"share: of all work done on the mode\. Of order 6\. To [\d.]+ rpm, 1\.5", alone)
     assert "At any speed" not in alone
     text = re.sub(r"(?m)^speed = .*\n", "", text)
     assert " At any speed: the file gives none." in run_here("torsion", "-", stdin=text).out
@@ -728,13 +678,9 @@ def test_what_a_table_of_an_engine_leaves_to_json_and_what_gas_does():
     assert re.search(r"deg at [\d.]+ rpm\. Gas as in the file at every speed\.\n", over)
 
 
-@pytest.mark.parametrize(
-    ("speed", "told"), [(2166, "; the file's own speed, 2166 rpm, is barred"), (2000, "")]
-)
+@pytest.mark.parametrize(("speed", "told"), [(2166, "; the file's own speed, 2166 rpm, is barred"), (2000, "")])
 def test_a_barred_speed_that_is_the_file_s_own_is_named(speed, told):
-    text = (
-        (ENGINES / "i6_diesel.toml").read_text("utf-8").replace("speed = 2000", f"speed = {speed}")
-    )
+    text = (ENGINES / "i6_diesel.toml").read_text("utf-8").replace("speed = 2000", f"speed = {speed}")
     out = run_here("torsion", "-", "--speeds", "2000:2300:50", stdin=text).out
     assert re.search(r"\nbarred speeds  2086 to 2268\.4 rpm(.*)\n", out)[1] == told
 

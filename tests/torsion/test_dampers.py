@@ -87,9 +87,7 @@ def test_no_other_figure_is_better(kind):
         else:
             ring |= {key: share * damper["damping_Nms_per_rad"]}
         table = ", ".join(f"{k} = {json.dumps(v)}" for k, v in ring.items())
-        other = write_diesel().replace(
-            'name = "pulley"\n', f'name = "pulley"\ndamper = {{ {table} }}\n'
-        )
+        other = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\ndamper = {{ {table} }}\n')
         assert largest(ask_torsion(other, *options), "stress_Pa") > damper["after_Pa"]
 
 
@@ -100,8 +98,7 @@ def test_no_resonance_hides_between_the_speeds(kind):
     """
     text = write_diesel().replace("damping = 2\n", "").replace("loss = 0.035", "loss = 0.004")
     coarse, fine = (
-        ask_torsion(text, "--speeds", f"3000:4600:{step}", "--damper", kind)["damper"]
-        for step in (400, 10)
+        ask_torsion(text, "--speeds", f"3000:4600:{step}", "--damper", kind)["damper"] for step in (400, 10)
     )
     for key in ("before_Pa", "after_Pa"):
         assert coarse[key] == pytest.approx(fine[key], rel=1e-3)
@@ -179,9 +176,7 @@ def test_a_damper_is_tuned_to_the_mode_of_the_largest_stress(kind, share):
     assert damper["after_Pa"] < 0.3 * damper["before_Pa"]
 
 
-@pytest.mark.parametrize(
-    ("loss", "speeds"), [(0.02, "2000:2440:10"), (0, "500:3000:10"), (0, "2000:2440:10")]
-)
+@pytest.mark.parametrize(("loss", "speeds"), [(0.02, "2000:2440:10"), (0, "500:3000:10"), (0, "2000:2440:10")])
 def test_so_it_is_beside_the_resonance_and_where_nothing_damps_it(loss, speeds):
     text = GENSET.replace("loss = 0.02", f"loss = {loss}")
     options = ("--speeds", speeds, "--damper", "rubber", "-f", "json")
@@ -196,9 +191,7 @@ def test_a_damper_is_for_a_mode_in_which_its_carrier_moves(inertia, carrier):
     """The middle one of three discs, be it heavier than the others, which stands still, or nearly
     so, in the first mode, although that makes the largest torque.
     """
-    shafts = "".join(
-        f'[[shaft]]\nfrom = "{a}"\nto = "{b}"\nstiffness = 1e5\n' for a, b in ("ab", "bc")
-    )
+    shafts = "".join(f'[[shaft]]\nfrom = "{a}"\nto = "{b}"\nstiffness = 1e5\n' for a, b in ("ab", "bc"))
     nodes = "".join(
         f'[[node]]\nname = "{name}"\ninertia = {own}\n'
         for name, own in (("a", 1e6), ("b", carrier * 1e6), ("c", inertia))
@@ -254,15 +247,11 @@ def test_what_it_costs_is_the_power_lost_in_it():
     damper, worst = sized["damper"], told["worst"]
     assert damper["heat_W"] == worst["heat_W"] > max(told["heat_W"])
     assert damper["heat_rpm"] == worst["speed_rpm"]
-    figures = (
-        f"inertia = {damper['inertia_kg_m2'] * 1e6}, damping = {damper['damping_Nms_per_rad']}"
-    )
+    figures = f"inertia = {damper['inertia_kg_m2'] * 1e6}, damping = {damper['damping_Nms_per_rad']}"
     ring = f'damper = {{ kind = "viscous", {figures} }}'
     text = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{ring}\n')
     middle = worst["speed_rpm"]
-    fine = ask_torsion(text, "--speeds", f"{middle - 100}:{middle + 100}:0.5")["response"][
-        "dampers"
-    ][0]
+    fine = ask_torsion(text, "--speeds", f"{middle - 100}:{middle + 100}:0.5")["response"]["dampers"][0]
     assert damper["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
 
 
@@ -272,14 +261,8 @@ def test_heat_of_a_narrow_resonance_is_the_highest_of_it():
     stiffnesses = {"ab": 186.4e3, "bc": 38.6e3, "cd": 44.75e3}
     cosines = {4.5: 83.8, 5.5: 20.6, 0.5: 117, 4: 60}
     nodes = (f'[[node]]\nname = "{name}"\ninertia = {own}\n' for name, own in inertias.items())
-    shafts = (
-        f'[[shaft]]\nfrom = "{a}"\nto = "{b}"\nstiffness = {own}\n'
-        for (a, b), own in stiffnesses.items()
-    )
-    orders = (
-        f'[[excitation]]\nnode = "c"\norder = {order}\ncos = {cos}\n'
-        for order, cos in cosines.items()
-    )
+    shafts = (f'[[shaft]]\nfrom = "{a}"\nto = "{b}"\nstiffness = {own}\n' for (a, b), own in stiffnesses.items())
+    orders = (f'[[excitation]]\nnode = "c"\norder = {order}\ncos = {cos}\n' for order, cos in cosines.items())
     ring = 'damper = { kind = "viscous", inertia = 18800, damping = 0.0541 }\n'
     text = "".join(["loss = 0.0172\n", *nodes, *shafts, *orders])
     text = text.replace('name = "a"\n', f'name = "a"\n{ring}')
@@ -392,8 +375,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
     options = ("--speeds", "800:2000", "--damper", "viscous", "--write", fitted)
     assert run_here("torsion", chain, *options).status == 0
     assert fitted.read_text().startswith(
-        "# Comments and lay-out of the original could not be kept: the table of a is written in an "
-        "unusual way.\n"
+        "# Comments and lay-out of the original could not be kept: the table of a is written in an unusual way.\n"
     )
     assert tomllib.loads(fitted.read_text())["node"][0]["damper"]["kind"] == "viscous"
 
@@ -401,10 +383,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (
-            ("--damper", "viscous"),
-            "--damper: give the range in which it is to help, such as --speeds 1000:2500",
-        ),
+        (("--damper", "viscous"), "--damper: give the range in which it is to help, such as --speeds 1000:2500"),
         (
             ("--write", "x.toml", "--speeds", "1000:2000"),
             "--write: writes a damper into the file; say which, such as --damper viscous",
@@ -415,10 +394,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
             ("--damper", "viscous", "--damper-at", "disk", *RANGE),
             '--damper-at "disk": cannot carry a damper; what can is disc, wall',
         ),
-        (
-            ("--damper", "viscous", "--damper-at", "wall", *RANGE),
-            "--damper: wall does not move in mode 1",
-        ),
+        (("--damper", "viscous", "--damper-at", "wall", *RANGE), "--damper: wall does not move in mode 1"),
         (
             ("--damper", "viscous", "--damper-inertia", "-3", *RANGE),
             '--damper-inertia "-3": a moment of inertia is wanted: a bare number in kg mm^2, or '
@@ -439,10 +415,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
             "--damper: nothing excites the system at the orders asked for",
         ),
         (("--what", "modes"), "--what modes: give --plot and a file for the picture"),
-        (
-            ("--what", "response", "--plot", "x.svg"),
-            "--what response: give the range, such as --speeds 1000:2500",
-        ),
+        (("--what", "response", "--plot", "x.svg"), "--what response: give the range, such as --speeds 1000:2500"),
     ],
 )
 def test_options_that_miss_others(options, message):
@@ -454,9 +427,7 @@ def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_
     files = [tmp_path / f"{k}.svg" for k in range(2 if what == "all" else 1)]
     options = ("--speeds", "1000:4000:100", "--plot")
     for file in files:
-        status, _, err = run_here(
-            "torsion", "-", *options, file, "--what", what, stdin=write_diesel("limit = 60")
-        )
+        status, _, err = run_here("torsion", "-", *options, file, "--what", what, stdin=write_diesel("limit = 60"))
         assert (status, err) == (0, "")
     (text,) = {file.read_text(encoding="utf-8") for file in files}
     assert "six: torsion" in text
@@ -473,9 +444,7 @@ def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_
 def test_pictures_of_large_torques_are_in_kilonewton_metres():
     """Of a crankshaft without diameters, too; a limit stands in the unit of the stress."""
     result = analyze_torsion(write_diesel(), [4000, 4300, 4332])
-    waterfall, response = (
-        make_torsion(result, what, "svg").axes[0] for what in ("waterfall", "response")
-    )
+    waterfall, response = (make_torsion(result, what, "svg").axes[0] for what in ("waterfall", "response"))
     largest = result.response.torque.max() / 1e3
     assert largest > 10
     assert waterfall.get_title("left").endswith(" kN·m")
@@ -512,9 +481,7 @@ def test_orders_of_a_waterfall_do_not_cover_one_another():
         assert left.max() < right.min()
 
 
-@pytest.mark.parametrize(
-    ("times", "ring", "heat"), [(1, r"100000 kg·mm²", "W"), (1e4, r"1000 kg·m²", "MW")]
-)
+@pytest.mark.parametrize(("times", "ring", "heat"), [(1, r"100000 kg·mm²", "W"), (1e4, r"1000 kg·m²", "MW")])
 def test_units_of_a_damper_are_those_of_its_size(times, ring, heat):
     """The same shafts ten thousand times as heavy, as stiff and as hard driven."""
     stiffness = float((1000 * np.pi / 30) ** 2)
@@ -564,12 +531,8 @@ def test_of_several_stiffnesses_that_are_best_nearby_the_best_of_all_is_taken():
     chain = {
         "loss": 0.0042,
         "node": [dict(zip(("name", "inertia", "damping"), each, strict=True)) for each in turning],
-        "shaft": [
-            dict(zip(("from", "to", "stiffness", "diameter"), each, strict=True)) for each in shafts
-        ],
-        "excitation": [
-            dict(zip(("node", "order", "cos", "sin"), each, strict=True)) for each in pushes
-        ],
+        "shaft": [dict(zip(("from", "to", "stiffness", "diameter"), each, strict=True)) for each in shafts],
+        "excitation": [dict(zip(("node", "order", "cos", "sin"), each, strict=True)) for each in pushes],
     }
     speeds = np.arange(1800, 6501, 100)
 

@@ -133,10 +133,7 @@ def integrate(inertia, stiffness, dashpots, grounded, torque, omega, steps):
     springs = twist.T @ (np.array(stiffness)[:, None] * twist)
     losses = twist.T @ (np.array(dashpots)[:, None] * twist) + np.diag(grounded)
     system = np.block(
-        [
-            [np.zeros((count, count)), np.eye(count)],
-            [-springs / inertia[:, None], -losses / inertia[:, None]],
-        ]
+        [[np.zeros((count, count)), np.eye(count)], [-springs / inertia[:, None], -losses / inertia[:, None]]]
     )
     span = 2 * np.pi / omega / steps
     half_steps = np.array([torque(k * np.pi / steps) for k in range(2 * steps + 1)]) / inertia
@@ -203,27 +200,16 @@ def test_time_integration_agrees_with_the_synthesis():
     def torque(angle):
         """`-1/2 dI/dtheta` by the chain rule: `-m s' s''`, of two pairs of cylinders."""
         step = 1e-4
-        ahead, behind = (
-            slider_crank(angle + turn, radius, length)[0] ** 2 for turn in (step, -step)
-        )
-        wide = [
-            slider_crank(angle + turn, radius, length)[0] ** 2 for turn in (2 * step, -2 * step)
-        ]
+        ahead, behind = (slider_crank(angle + turn, radius, length)[0] ** 2 for turn in (step, -step))
+        wide = [slider_crank(angle + turn, radius, length)[0] ** 2 for turn in (2 * step, -2 * step)]
         slope = (8 * (ahead - behind) - (wide[0] - wide[1])) / (12 * step)
-        other = [
-            slider_crank(angle + np.pi + turn, radius, length)[0] ** 2 for turn in (step, -step)
-        ]
-        far = [
-            slider_crank(angle + np.pi + turn, radius, length)[0] ** 2
-            for turn in (2 * step, -2 * step)
-        ]
+        other = [slider_crank(angle + np.pi + turn, radius, length)[0] ** 2 for turn in (step, -step)]
+        far = [slider_crank(angle + np.pi + turn, radius, length)[0] ** 2 for turn in (2 * step, -2 * step)]
         turned = (8 * (other[0] - other[1]) - (far[0] - far[1])) / (12 * step)
         one, two = (-mass * omega**2 / 2 * each for each in (slope, turned))
         return np.array([0, one, two, two, one, 0])
 
-    exact = integrate(
-        inertia, stiffness, [60, 0, 0, 0, 50], [0, 4, 4, 4, 4, 1], torque, omega, 3000
-    )
+    exact = integrate(inertia, stiffness, [60, 0, 0, 0, 50], [0, 4, 4, 4, 4, 1], torque, omega, 3000)
     said = ask_torsion(text, "--speeds", "5200", "--orders", "1-24")["response"]
     found = [shaft["half_peak_to_peak_Nm"][0] for shaft in said["shafts"]]
     assert found == pytest.approx(exact, abs=ODE * max(exact))
@@ -231,14 +217,10 @@ def test_time_integration_agrees_with_the_synthesis():
 
 def test_rigid_shafts_leave_the_fluctuation_of_one_inertia():
     """k to infinity: all turn as one, `T_n/(n^2 omega^2 J)`."""
-    stiff = write_diesel().replace(
-        "throw_stiffness = [", "throw_stiffness = [1e16, 1e16, 1e16, 1e16, 1e16] # ["
-    )
+    stiff = write_diesel().replace("throw_stiffness = [", "throw_stiffness = [1e16, 1e16, 1e16, 1e16, 1e16] # [")
     for stiffness in ("1631000.0", "1106000.0", "1976000.0"):
         stiff = stiff.replace(f"stiffness = {stiffness}", 'stiffness = "rigid"')
-    said = ask_torsion(
-        stiff.replace("damping = 2", "damping = 0"), "--speeds", "2000", "--orders", "6"
-    )
+    said = ask_torsion(stiff.replace("damping = 2", "damping = 0"), "--speeds", "2000", "--orders", "6")
     whole = sum(INERTIAS)
     theta = np.arange(4096) * 2 * np.pi / 4096
     speed, _ = slider_crank(theta, 0.0685, 0.207)
@@ -312,10 +294,8 @@ def test_every_misfit_of_torsion_is_told_by_its_path():
     head = write_diesel().partition("[torsion]")[0]
     assert refusal("torsion", "-", stdin=head + BAD_PARTS).split("\n") == [
         "standard input: 7 mistakes",
-        "  torsion.throw_stiffness: has 2 values, but 6 throws need 5; give one for all, or a list of "
-        "these",
-        "  torsion.throw_inertia: has 2 values, but 6 throws need 6; give one for all, or a list of "
-        "these",
+        "  torsion.throw_stiffness: has 2 values, but 6 throws need 5; give one for all, or a list of these",
+        "  torsion.throw_inertia: has 2 values, but 6 throws need 6; give one for all, or a list of these",
         '  torsion.front.1.of: "thrwo 1" is no part; did you mean throw 1?',
         '  torsion.front.2.name: "a" is there twice; give each its own',
         '  torsion.rear.1.name: "throw 1" is a name that throws have',
@@ -327,14 +307,8 @@ def test_every_misfit_of_torsion_is_told_by_its_path():
 @pytest.mark.parametrize(
     ("torsion", "message"),
     [
-        (
-            "[torsion]\nfront = 3",
-            "torsion.front: 3 is no table; write [[torsion.front]] in double brackets",
-        ),
-        (
-            "[torsion.front]\nname = 3",
-            "torsion.front: is one of several; write [[torsion.front]] in double brackets",
-        ),
+        ("[torsion]\nfront = 3", "torsion.front: 3 is no table; write [[torsion.front]] in double brackets"),
+        ("[torsion.front]\nname = 3", "torsion.front: is one of several; write [[torsion.front]] in double brackets"),
         (
             '[[torsion.front]]\nname = "a"\nstiffness = 1\ninertja = 3',
             "torsion.front.1.inertja: unknown key in [torsion.front]; did you mean inertia?",
@@ -352,10 +326,7 @@ def test_every_misfit_of_torsion_is_told_by_its_path():
             '[[torsion.front]]\nname = "a"\ninertia = 1\nstiffness = 1\ndamper = { kind = "rubber" }',
             "torsion.front.1.damper: is rubber and lacks inertia and stiffness and loss",
         ),
-        (
-            "[[torsion.front]]\nstiffness = 1",
-            'torsion.front.1.name: is missing; give it, such as name = "flywheel"',
-        ),
+        ("[[torsion.front]]\nstiffness = 1", 'torsion.front.1.name: is missing; give it, such as name = "flywheel"'),
         (
             "[torsion]\nthrow_bore = 3",
             "torsion: has a throw_bore without a larger throw_diameter; the bore lies within the shaft",
@@ -446,11 +417,7 @@ def test_speeds_and_pendulums_count_from_the_crankshaft_with_a_geared_part_forem
     for key in ("front", "rear"):
         text = PUMP_AND_PENDULUM.format(pump=f"[[torsion.{key}]]{PUMP}")
         said = ask_torsion(text, "--speeds", "900,2100,4000")
-        assert {node["name"]: node["gear"] for node in said["nodes"]} == {
-            "throw 1": 1,
-            "pump": -2.5,
-            "flywheel": 1,
-        }
+        assert {node["name"]: node["gear"] for node in said["nodes"]} == {"throw 1": 1, "pump": -2.5, "flywheel": 1}
         found[key] = {each["name"]: each for each in said["response"]["shafts"]}
     for name in ("pump", "flywheel"):
         one, other = (found[key][name]["half_peak_to_peak_Nm"] for key in ("front", "rear"))

@@ -69,13 +69,10 @@ def test_vibratory_torque_against_plain_equations(diesel, rpm):
 def test_a_misfire_takes_away_the_gas_of_one_cylinder(diesel):
     """Its inertia stays; orders that cancelled before shake now."""
     whole, missing = (
-        ask_json("torsion", diesel, "--speeds", "1000", *options)["response"]
-        for options in ((), ("--misfire", "4"))
+        ask_json("torsion", diesel, "--speeds", "1000", *options)["response"] for options in ((), ("--misfire", "4"))
     )
     assert missing["free_end_deg"][0] > 3 * whole["free_end_deg"][0]
-    said = ask_json(
-        "torsion", diesel, "--speeds", "1000", *(f"--misfire={n}" for n in range(1, 7))
-    )["response"]
+    said = ask_json("torsion", diesel, "--speeds", "1000", *(f"--misfire={n}" for n in range(1, 7)))["response"]
     (tmp := diesel.parent / "none.toml").write_text(write_diesel(), encoding="utf-8")
     without = ask_json("torsion", tmp, "--speeds", "1000")["response"]
     found, exact = ([s["half_peak_to_peak_Nm"][0] for s in r["shafts"]] for r in (said, without))
@@ -115,11 +112,7 @@ def test_nothing_is_said_of_gas_where_all_cylinders_have_some(diesel):
 def test_the_phase_sum_counts_what_a_misfire_leaves(diesel):
     """Order 6 in line: without cylinder 6 the sum of the angles lacks its own."""
     whole, missing = (
-        next(
-            c
-            for c in ask_json("torsion", diesel, *options)["criticals"]
-            if (c["mode"], c["order"]) == (1, 6)
-        )
+        next(c for c in ask_json("torsion", diesel, *options)["criticals"] if (c["mode"], c["order"]) == (1, 6))
         for options in ((), ("--misfire", "1"))
     )
     shape = ask_json("torsion", diesel)["modes"][0]["shape"]
@@ -128,14 +121,10 @@ def test_the_phase_sum_counts_what_a_misfire_leaves(diesel):
 
 
 def test_misfires_that_cannot_be(diesel):
-    assert refusal("torsion", diesel, "--misfire", "7") == (
-        "--misfire 7: six has the cylinders 1, 2, 3, 4, 5, 6"
-    )
+    assert refusal("torsion", diesel, "--misfire", "7") == ("--misfire 7: six has the cylinders 1, 2, 3, 4, 5, 6")
     assert "has no [gas]" in refusal("torsion", "-", "--misfire", "1", stdin=write_diesel())
     chain = '[[node]]\nname = "a"\ninertia = 1\n'
-    assert refusal("torsion", "-", "--misfire", "1", stdin=chain) == (
-        "--misfire: a chain has no cylinders"
-    )
+    assert refusal("torsion", "-", "--misfire", "1", stdin=chain) == ("--misfire: a chain has no cylinders")
 
 
 def test_crank_inertia_is_shared_by_the_throws():
@@ -149,9 +138,9 @@ def test_crank_inertia_is_shared_by_the_throws():
 
 def test_two_strokes_have_whole_orders(tmp_path):
     text = write_diesel(extra="").replace("[layout]\n", "[layout]\nstrokes = 2\n")
-    text = text.replace(
-        "[torsion]", '[gas]\ncycle = "wiebe"\ncompression_ratio = 15\nimep = 8\n[torsion]'
-    ).replace("firing_order = [1, 5, 3, 6, 2, 4]", "firing_order = [1, 6, 2, 4, 3, 5]")
+    text = text.replace("[torsion]", '[gas]\ncycle = "wiebe"\ncompression_ratio = 15\nimep = 8\n[torsion]').replace(
+        "firing_order = [1, 5, 3, 6, 2, 4]", "firing_order = [1, 6, 2, 4, 3, 5]"
+    )
     criticals = ask_json("torsion", "-", stdin=text)["criticals"]
     assert all(isinstance(c["order"], int) for c in criticals)
 

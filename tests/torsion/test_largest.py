@@ -98,9 +98,7 @@ def test_no_barred_range_is_too_narrow_to_be_found():
     """Neither criticals nor speeds 100 rpm apart are near it: the ring shifts the resonance."""
     damper = 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'
     text = write_engine(0.005, damper).replace("[torsion]\n", "[torsion]\nlimit = 300\n")
-    coarse, fine = (
-        ask_torsion(text, "--speeds", speeds) for speeds in ("1000:3000:100", "1780:1800:1")
-    )
+    coarse, fine = (ask_torsion(text, "--speeds", speeds) for speeds in ("1000:3000:100", "1780:1800:1"))
     (span,) = fine["barred_rpm"]
     assert coarse["barred_rpm"] == [pytest.approx(span, rel=1e-8)]
 
@@ -114,9 +112,7 @@ def test_between_two_barred_resonances_runs_are_allowed():
         text += f'[[shaft]]\nfrom = "{ends[0]}"\nto = "{ends[1]}"\n'
         text += "stiffness = 100000\ndiameter = 30\n"
     text += '[[excitation]]\nnode = "a"\norder = 1\ncos = 3\n'
-    fine, coarse = (
-        ask_torsion(text, "--speeds", speeds) for speeds in ("5000:20000:10", "5000,20000")
-    )
+    fine, coarse = (ask_torsion(text, "--speeds", speeds) for speeds in ("5000:20000:10", "5000,20000"))
     assert len(fine["barred_rpm"]) == 2
     assert np.ravel(coarse["barred_rpm"]) == pytest.approx(np.ravel(fine["barred_rpm"]), rel=1e-6)
 
@@ -157,10 +153,7 @@ def test_the_top_of_a_wide_resonance_between_the_speeds_is_barred():
     limit, middle = 0.9995 * top["stress_Pa"] / 1e6, top["speed_rpm"]
     text = plain.replace("[torsion]\n", f"[torsion]\nlimit = {limit!r}\n")
     spans = ((middle - 84, middle + 84, 24), (middle - 12, middle + 12, 1))
-    coarse, fine = (
-        ask_torsion(text, "--speeds", f"{low}:{high}:{step}")["barred_rpm"]
-        for low, high, step in spans
-    )
+    coarse, fine = (ask_torsion(text, "--speeds", f"{low}:{high}:{step}")["barred_rpm"] for low, high, step in spans)
     assert len(fine) == 1
     assert np.ravel(coarse) == pytest.approx(np.ravel(fine), rel=1e-8)
 
@@ -189,9 +182,7 @@ def test_of_two_peaks_within_one_step_the_higher_is_found():
             springs = (twist.T * (np.array(stiffnesses) * (1 + 0.1j))) @ twist
             dynamic = springs - w**2 * np.diag(inertias) / 1e6
             turned = np.linalg.solve(dynamic, np.eye(3)[node] * (cos - 1j * sin))
-            curve = curve + np.real(
-                9e4 * (1 + 0.1j) * (twist @ turned)[0] * np.exp(1j * order * angle)
-            )
+            curve = curve + np.real(9e4 * (1 + 0.1j) * (twist @ turned)[0] * np.exp(1j * order * angle))
         return np.ptp(curve) / 2
 
     largest = max(map(swing, np.arange(1190, 1200, 0.1)))
@@ -222,9 +213,7 @@ def test_a_peak_beside_its_resonance_is_found():
     w = speeds * np.pi / 30
     stiffness = np.array([1.1e6, 17e3, 45.3e3]) * (1 + 0.002j)
     twist = np.diff(np.eye(4), axis=0)
-    dynamic = twist.T * stiffness @ twist - w[:, None, None] ** 2 * np.diag(
-        [0.038, 0.447, 8.2, 1.63]
-    )
+    dynamic = twist.T * stiffness @ twist - w[:, None, None] ** 2 * np.diag([0.038, 0.447, 8.2, 1.63])
     dynamic[:, 0, 0] += 4.5j * w - w**2 * 0.11 / (1 + 1j * w * 0.11 / 3.3)
     angle = np.linalg.solve(dynamic, np.array([[[80.0], [0], [0], [0]]]))[:, :, 0]
     torque = np.abs(stiffness[0] * (angle[:, 0] - angle[:, 1]))

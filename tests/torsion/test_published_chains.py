@@ -15,9 +15,7 @@ def hertz(text):
 def row(inertias, stiffness):
     """A file of nodes in a row, kg m2 and N m/rad."""
     nodes = [f'{{ name = "{k}", inertia = "{j} kg m^2" }}' for k, j in enumerate(inertias, 1)]
-    shafts = [
-        f'{{ from = "{k}", to = "{k + 1}", stiffness = {s} }}' for k, s in enumerate(stiffness, 1)
-    ]
+    shafts = [f'{{ from = "{k}", to = "{k + 1}", stiffness = {s} }}' for k, s in enumerate(stiffness, 1)]
     return f"node = [{', '.join(nodes)}]\nshaft = [{', '.join(shafts)}]\n"
 
 
@@ -100,10 +98,7 @@ def test_bevan_15_8_in_pounds_and_inches():
         'shear_modulus = "12e6 psi"\n'
         for a, b, length, diameter in zip(names, names[1:], lengths, diameters, strict=False)
     )
-    ends = [
-        f'[[node]]\nname = "{n}"\ninertia = "{j} lb ft^2"\n'
-        for n, j in (("left", 1500), ("right", 1000))
-    ]
+    ends = [f'[[node]]\nname = "{n}"\ninertia = "{j} lb ft^2"\n' for n, j in (("left", 1500), ("right", 1000))]
     (found,) = hertz(ends[0] + inner + ends[1] + shafts)
     in_feet = math.sqrt(32.2 / (9.80665 / 0.3048))
     assert found * in_feet == pytest.approx(22.25625042)

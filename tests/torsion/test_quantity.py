@@ -55,13 +55,8 @@ def test_search_and_scatter_say_over_which_speeds_a_shaft_is_loaded(diesel):
 
 def test_figures_of_lists_and_dampers_vary(tmp_path):
     own = 'damper = { kind = "rubber", inertia = 20000, stiffness = 40000, loss = 0.1 }\n'
-    path = write(
-        tmp_path / "damped.toml",
-        write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}'),
-    )
-    (soft, low), (stiff, high) = sweep(
-        path, "torsion.front.2.damper.stiffness=20000,60000", "torsion.1.Hz"
-    )
+    path = write(tmp_path / "damped.toml", write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
+    (soft, low), (stiff, high) = sweep(path, "torsion.front.2.damper.stiffness=20000,60000", "torsion.1.Hz")
     assert (soft, stiff) == (20000, 60000)
     assert low < high
     (_, one), (_, two) = sweep(path, "torsion.throw_stiffness.3=1e6,2e6", "torsion.2.Hz")
@@ -73,25 +68,17 @@ def test_figures_of_lists_and_dampers_vary(tmp_path):
     [
         (
             "torsion.rear.1.bore = 90",
-            "torsion.rear.1: has a bore of 90 mm and a diameter of 85; the bore is the smaller of "
-            "both",
+            "torsion.rear.1: has a bore of 90 mm and a diameter of 85; the bore is the smaller of both",
         ),
-        (
-            "torsion.rear.1.length = 100",
-            "torsion.rear.1: has stiffness and length; leave one of them out",
-        ),
-        (
-            "torsion.front.2.damper.stiffness = 10000",
-            "torsion.front.2.damper: is viscous, which has no stiffness",
-        ),
+        ("torsion.rear.1.length = 100", "torsion.rear.1: has stiffness and length; leave one of them out"),
+        ("torsion.front.2.damper.stiffness = 10000", "torsion.front.2.damper: is viscous, which has no stiffness"),
     ],
 )
 def test_a_figure_that_contradicts_its_table_is_refused(figure, told, tmp_path):
     """A bore wider than its shaft had a stress below 0."""
     own = 'damper = { kind = "viscous", inertia = 20000, damping = 4 }\n'
     path = write(
-        tmp_path / "damped.toml",
-        write_diesel(extra=GAS).replace('name = "pulley"\n', f'name = "pulley"\n{own}'),
+        tmp_path / "damped.toml", write_diesel(extra=GAS).replace('name = "pulley"\n', f'name = "pulley"\n{own}')
     )
     options = ("--vary", figure.replace(" ", ""), "-q", "shaft.flywheel.stress")
     assert refusal("sweep", path, *options) == f"{path}: {figure}: {told}"
@@ -106,19 +93,10 @@ def test_without_gas_figures_of_the_engine_vary_too(tmp_path):
 @pytest.mark.parametrize(
     ("quantity", "message"),
     [
-        (
-            "torsion.first.Hz",
-            "torsion.first.Hz is no quantity: after torsion comes the number of a mode, from 1",
-        ),
+        ("torsion.first.Hz", "torsion.first.Hz is no quantity: after torsion comes the number of a mode, from 1"),
         ("torsion.9.Hz", "FILE: torsion.9.Hz: there are 8 modes"),
-        (
-            "shaft.flywhel.torque",
-            'FILE: shaft.flywhel.torque: the file has no shaft "flywhel"; did you mean flywheel?',
-        ),
-        (
-            "shaft.pulley.stress",
-            "FILE: shaft.pulley.stress: this shaft has no diameter, so its stress is not known",
-        ),
+        ("shaft.flywhel.torque", 'FILE: shaft.flywhel.torque: the file has no shaft "flywhel"; did you mean flywheel?'),
+        ("shaft.pulley.stress", "FILE: shaft.pulley.stress: this shaft has no diameter, so its stress is not known"),
     ],
 )
 def test_what_is_no_quantity(diesel, quantity, message):
@@ -130,6 +108,4 @@ def test_files_without_torsion_have_none(tmp_path):
     path = write(tmp_path / "plain.toml", write_diesel().partition("[torsion]")[0])
     told = "torsion.1.Hz: the file has no [torsion]; balcli torsion --help says what it needs"
     assert refusal("scatter", path, "-q", "torsion.1.Hz") == told
-    assert refusal("sweep", path, "--vary", "rod.length=200,210", "-q", "torsion.1.Hz") == (
-        f"{path}: {told}"
-    )
+    assert refusal("sweep", path, "--vary", "rod.length=200,210", "-q", "torsion.1.Hz") == (f"{path}: {told}")

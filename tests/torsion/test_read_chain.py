@@ -66,9 +66,7 @@ def test_a_plain_shaft_has_the_stiffness_of_its_steel():
     system = build(TWO.replace("stiffness = 1000", "diameter = 40\nlength = 500\nbore = 10"))
     polar = math.pi / 32 * (0.04**4 - 0.01**4)
     assert system.chain.stiffness == pytest.approx([79.3e9 * polar / 0.5])
-    softer = build(
-        TWO.replace("stiffness = 1000", 'diameter = 40\nlength = 500\nshear_modulus = "12e6 psi"')
-    )
+    softer = build(TWO.replace("stiffness = 1000", 'diameter = 40\nlength = 500\nshear_modulus = "12e6 psi"'))
     modulus = 12e6 * 0.45359237 * 9.80665 / 0.0254**2
     assert softer.chain.stiffness == pytest.approx([modulus * math.pi / 32 * 0.04**4 / 0.5])
 
@@ -81,10 +79,7 @@ def test_loss_of_the_file_is_that_of_shafts_that_name_none():
 
 
 def test_shafts_between_the_same_nodes_are_told_apart():
-    assert build(TWO + '[[shaft]]\nfrom = "a"\nto = "b"\nstiffness = 5\n').shafts == (
-        "a-b",
-        "a-b (2)",
-    )
+    assert build(TWO + '[[shaft]]\nfrom = "a"\nto = "b"\nstiffness = 5\n').shafts == ("a-b", "a-b (2)")
 
 
 def test_a_rubber_ring_is_a_node_and_a_shaft():
@@ -174,13 +169,11 @@ order = 1.3
         '  node.4.damper.kind: "spring" is not "viscous" or "rubber" or "pendulum"',
         "  node.4.damper.foo: unknown key in a damper; it has kind, inertia, damping, stiffness, loss, "
         "mass, radius, length",
-        "  shaft.1: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
-        "a plain shaft",
+        "  shaft.1: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of a plain shaft",
         '  shaft.1.to: is missing; give it, such as to = "flywheel"',
         "  shaft.2.stiffness: 0 is not above 0; a torsional stiffness is wanted: a bare number in "
         'N m/rad, or "1.25e6 N m/rad" or "24.17e6 lbf in/rad", above 0',
-        "  shaft.3: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
-        "a plain shaft",
+        "  shaft.3: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of a plain shaft",
         "  shaft.3: has a bore of 40 mm and a diameter of 30; the bore is the smaller of both",
         "  gear.1.ratio: 0 is no speed ratio; give driven over driving speed, not 0",
         "  excitation.1.order: 1.3 is no order that can be added up over two turns of the first "
@@ -202,14 +195,8 @@ def test_what_a_misspelt_key_would_have_said_is_not_missed():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            "gear = []",
-            'node: is missing; write [[node]] for every inertia, such as name = "flywheel"',
-        ),
-        (
-            "node = 3",
-            "node: is one of several; write [[node]] in double brackets, once for each node",
-        ),
+        ("gear = []", 'node: is missing; write [[node]] for every inertia, such as name = "flywheel"'),
+        ("node = 3", "node: is one of several; write [[node]] in double brackets, once for each node"),
         ("node = []", "node: is an empty list; a chain has at least one node"),
         (
             TWO.replace('to = "b"', 'to = "bb"').replace('name = "b"', 'name = "flywheel"'),
@@ -225,14 +212,11 @@ def test_what_a_misspelt_key_would_have_said_is_not_missed():
             'node.3: "c" hangs on nothing that hangs on "a"; join them by a [[shaft]] or a [[gear]]',
         ),
         (
-            TWO
-            + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 2\n' * 1
-            + '[[gear]]\nfrom = "b"\nto = "a"\nratio = 2\n',
+            TWO + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 2\n' * 1 + '[[gear]]\nfrom = "b"\nto = "a"\nratio = 2\n',
             "gear.1: is in a loop of gears whose ratios lock each other",
         ),
         (
-            TWO.replace("stiffness = 1000", 'stiffness = "rigid"')
-            + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 1\n',
+            TWO.replace("stiffness = 1000", 'stiffness = "rigid"') + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 1\n',
             "gear.1: closes a loop of gears and rigid shafts, fixed nodes counted as one: nothing "
             "says how they share the torque; leave it out, or give a stiffness",
         ),

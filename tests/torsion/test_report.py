@@ -20,12 +20,7 @@ def test_the_page_shows_torsion(tmp_path):
     section = section[: section.index("</section>")]
     for what in ("modes", "campbell", "response", "waterfall"):
         assert f'id="torsion-{what}-' in section
-    for title in (
-        "Natural modes",
-        "Critical speeds",
-        "Vibratory torque, 1000 to 3000 rpm",
-        "Limits",
-    ):
+    for title in ("Natural modes", "Critical speeds", "Vibratory torque, 1000 to 3000 rpm", "Limits"):
         assert title in section
     ids = re.findall(r' id="([^"]+)"', text)
     assert len(ids) == len(set(ids))

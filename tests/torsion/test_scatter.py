@@ -61,19 +61,8 @@ length = 200
 
 def test_two_inertias_by_hand():
     """`f = sqrt(k (1/J1 + 1/J2))/2 pi`, with the same random numbers."""
-    options = (
-        "--samples",
-        "60",
-        "--seed",
-        "5",
-        "--stiffness-scatter",
-        "8%",
-        "--mass-scatter",
-        "2%",
-    )
-    found = ask_json("scatter", "-", "-q", "torsion.1.Hz", *options, stdin=TWO)["quantities"][
-        "torsion.1.Hz"
-    ]
+    options = ("--samples", "60", "--seed", "5", "--stiffness-scatter", "8%", "--mass-scatter", "2%")
+    found = ask_json("scatter", "-", "-q", "torsion.1.Hz", *options, stdin=TWO)["quantities"]["torsion.1.Hz"]
     names = ["inertia throw 1", "stiffness wheel", "inertia wheel", "piston mass 1"]
     assert {*found["sensitivity"]} == {*names}
     theta = np.linspace(0, 2 * np.pi, 4096, endpoint=False)
@@ -115,9 +104,7 @@ def test_what_does_not_scatter(tmp_path):
         "engine, of its mounts and of torsion one after the other"
     )
     told = refusal("scatter", path, "-q", "torsion.1.Hz", "--samples", "30000")
-    assert told == (
-        "30000 samples: of torsion, where each is computed by itself, from 1 to 20000 are allowed"
-    )
+    assert told == ("30000 samples: of torsion, where each is computed by itself, from 1 to 20000 are allowed")
     none = ("--mass-scatter", "0%", "--stiffness-scatter", "0%")
     told = refusal("scatter", path, "-q", "torsion.1.Hz", *none)
     assert told == "nothing deviates; give a tolerance, such as --stiffness-scatter 15%"

@@ -46,9 +46,7 @@ readings = ["0.54 @ 9", "0.52 @ 75", "0.81 @ 196", "0.9 @ 296"]
 
 
 def weights(text: str):
-    return [
-        (abs(p.total), find_angle_deg(p.total)) for p in find_corrections(parse_runs(text)).planes
-    ]
+    return [(abs(p.total), find_angle_deg(p.total)) for p in find_corrections(parse_runs(text)).planes]
 
 
 def test_bruel_kjaer_example_6():
@@ -92,9 +90,7 @@ def test_fan_whose_first_trial_weight_stays_in():
     assert first == pytest.approx((15.32979775, 2.900369967), rel=1e-8)
     assert second == pytest.approx((6.616894702, 112.8743621), rel=1e-8)
     left = np.abs(find_corrections(parse_runs(FAN.format(keep="true"))).after)
-    assert left == pytest.approx(
-        [0.07833039767, 0.09071362293, 0.0504433618, 0.05116882373], rel=1e-8
-    )
+    assert left == pytest.approx([0.07833039767, 0.09071362293, 0.0504433618, 0.05116882373], rel=1e-8)
 
 
 def test_fan_if_the_trial_weight_were_taken_off():
@@ -105,13 +101,7 @@ def test_fan_if_the_trial_weight_were_taken_off():
 
 @pytest.mark.parametrize(
     ("grade", "permitted"),
-    [
-        (4000, 127323.9545),
-        (630, 20053.52283),
-        (16, 509.2958179),
-        (6.3, 200.5352283),
-        (0.4, 12.73239545),
-    ],
+    [(4000, 127323.9545), (630, 20053.52283), (16, 509.2958179), (6.3, 200.5352283), (0.4, 12.73239545)],
 )
 def test_iso_21940_11(grade, permitted):
     """Crankshaft of 20 kg at 6000 rpm, g mm."""

@@ -19,10 +19,7 @@ LAM = np.array([1 / 6, 1 / 4])
 
 
 def percent(coefficients, n, first):
-    return [
-        round(100 * float(abs(x)), 4)
-        for x in coefficients([n], LAM)[0] / coefficients([first], LAM)[0]
-    ]
+    return [round(100 * float(abs(x)), 4) for x in coefficients([n], LAM)[0] / coefficients([first], LAM)[0]]
 
 
 def test_force_orders_relative_to_the_first():
@@ -46,10 +43,7 @@ def test_wrong_coefficients_of_the_series():
 
 @pytest.mark.parametrize(
     ("coefficients", "terms", "orders"),
-    [
-        (closed_form.piston, series.piston, (2, 4, 6, 8)),
-        (closed_form.rod, series.rod, (1, 3, 5, 7)),
-    ],
+    [(closed_form.piston, series.piston, (2, 4, 6, 8)), (closed_form.rod, series.rod, (1, 3, 5, 7))],
 )
 def test_tables_i_and_ii_agree_with_the_series(coefficients, terms, orders):
     """Up to lambda^40, beyond which nothing is left at lambda = 1/4."""
@@ -88,9 +82,7 @@ def test_radial_engines():
     """
     five, seven = layout("radial5"), layout("radial7")
     assert five["F1_major"] == five["F1_minor"] == pytest.approx(5 / 2, rel=1e-14)
-    assert (five["F2_major"], five["F4_major"], five["F6_major"]) == pytest.approx(
-        (0, 5 / 2, 5 / 2), abs=1e-12
-    )
+    assert (five["F2_major"], five["F4_major"], five["F6_major"]) == pytest.approx((0, 5 / 2, 5 / 2), abs=1e-12)
     assert (seven["F4_major"], seven["F6_major"]) == pytest.approx((0, 7 / 2), abs=1e-12)
 
 

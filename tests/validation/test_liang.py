@@ -32,18 +32,14 @@ def test_small_coefficients_at_p_0_3():
     a6, a8 = closed_form.piston([6, 8], 0.3)
     assert float(a6) == pytest.approx(1.91937e-4, rel=1e-5)
     assert float(a8) == pytest.approx(-5.0272e-6, rel=1e-5)
-    assert sum(float(c) * 0.3**p for p, c in series.piston(6, 7).items()) == pytest.approx(
-        1.90081e-4, rel=1e-5
-    )
+    assert sum(float(c) * 0.3**p for p, c in series.piston(6, 7).items()) == pytest.approx(1.90081e-4, rel=1e-5)
     assert float(series.piston(8, 7)[7]) * 0.3**7 == pytest.approx(-4.27148e-6, rel=1e-5)
 
 
 def test_example_1():
     """Reciprocating weight 1 + 2.75 (2/7) lb; r omega^2 (1 + p); their product over g."""
     weight, acceleration = 1 + 2.75 * P, 2 / 12 * OMEGA**2 * (1 + P)
-    assert answers()[:3] == pytest.approx(
-        [weight, acceleration, weight * acceleration / G], rel=1e-12
-    )
+    assert answers()[:3] == pytest.approx([weight, acceleration, weight * acceleration / G], rel=1e-12)
 
 
 def test_example_2():

@@ -104,8 +104,7 @@ def test_paths_of_the_two_shafts():
     table = recompute("liu-1")
     one, other = table.exact[0], table.exact[1]
     assert [
-        one[table.columns.index(g)] == pytest.approx(other[table.columns.index(g)], abs=1e-14)
-        for g in ("90", "180")
+        one[table.columns.index(g)] == pytest.approx(other[table.columns.index(g)], abs=1e-14) for g in ("90", "180")
     ] == [True, True]
     assert table.exact[5][table.columns.index("0")] == -9
 

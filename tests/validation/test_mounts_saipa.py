@@ -10,30 +10,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.rigid_body import (
-    Body,
-    Mounts,
-    find_body_modes,
-    roll_axis,
-    share_energy,
-    stiffness_matrix,
-    turn_axes,
-)
+from balcli.core.rigid_body import Body, Mounts, find_body_modes, roll_axis, share_energy, stiffness_matrix, turn_axes
 
-BODY = Body(
-    163.9,
-    np.zeros(3),
-    np.array([[9.91, -0.813, -0.472], [-0.813, 4.12, 1.34], [-0.472, 1.34, 9.09]]),
-)
+BODY = Body(163.9, np.zeros(3), np.array([[9.91, -0.813, -0.472], [-0.813, 4.12, 1.34], [-0.472, 1.34, 9.09]]))
 NONE = np.zeros((3, 3))
 MOUNTS = Mounts(
-    np.array(
-        [
-            [-0.066446, 0.463093, 0.1561],
-            [-0.00359, -0.455997, 0.100907],
-            [0.250721, -0.044715, -0.200543],
-        ]
-    ),
+    np.array([[-0.066446, 0.463093, 0.1561], [-0.00359, -0.455997, 0.100907], [0.250721, -0.044715, -0.200543]]),
     np.array([turn_axes(0, 0, np.pi / 2), np.eye(3), turn_axes(0, np.radians(-10), 0)]),
     np.array([[349.5e3, 370.5e3, 553e3], [141e3, 57e3, 367.5e3], [640.5e3, 450e3, 225e3]]),
     NONE,
@@ -90,6 +72,4 @@ def test_energy_shares_as_stored():
 
 
 def test_torque_roll_axis():
-    assert roll_axis(BODY, [0, 1, 0]) == pytest.approx(
-        [0.07423512013, 0.9871275941, -0.1416624862], rel=1e-9
-    )
+    assert roll_axis(BODY, [0, 1, 0]) == pytest.approx([0.07423512013, 0.9871275941, -0.1416624862], rel=1e-9)

@@ -26,9 +26,7 @@ M, R, LAM = 1.0, 0.05, 0.25
 A2 = float(closed_form.piston([2], LAM)[0])
 
 
-def engine(
-    throws: list[float], spacing: float = 100, throw_mass: float = 1, more: str = "", **tables: str
-) -> Engine:
+def engine(throws: list[float], spacing: float = 100, throw_mass: float = 1, more: str = "", **tables: str) -> Engine:
     crank = f"stroke = 100\nthrows = {throws}\nspacing = {spacing}\nthrow_mass = {throw_mass}"
     return build_text(engine_text(crank=crank, **tables) + more)
 
@@ -63,9 +61,7 @@ def test_cross_plane_v8_needs_counterweights_alone():
     remedy = size_auto(CROSS_V8)
     assert not remedy.shafts
     assert not remedy.sliders
-    assert sizes(remedy.counterweights) == pytest.approx(
-        [math.sqrt(10) / 3 * (M + 1) * R] * 2, rel=1e-14
-    )
+    assert sizes(remedy.counterweights) == pytest.approx([math.sqrt(10) / 3 * (M + 1) * R] * 2, rel=1e-14)
     after = left(fit_devices(CROSS_V8, remedy))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
@@ -84,18 +80,14 @@ def test_radial_engines_need_a_counterweight_alone(cylinders):
 def test_counterweights_in_any_planes(planes):
     after = left(fit_scheme(INLINE_3, "counterweights", planes=planes), [1])
     assert (after.force.forward[0], after.moment.forward[0]) == (0, 0)
-    assert abs(after.moment.backward[0]) == pytest.approx(
-        abs(left(INLINE_3, [1]).moment.backward[0]), rel=1e-14
-    )
+    assert abs(after.moment.backward[0]) == pytest.approx(abs(left(INLINE_3, [1]).moment.backward[0]), rel=1e-14)
 
 
 def test_a_single_plane_does_what_it_can():
     e = engine([0], layout="bank_angle = 60\nstagger = 20")
     remedy = size_scheme(e, "counterweights", planes=(0.0,))
     assert figures(remedy)["force with crank left"] == 0
-    assert figures(remedy)["moment with crank left"] == pytest.approx(
-        abs(left(e, [1]).moment.forward[0]), rel=1e-14
-    )
+    assert figures(remedy)["moment with crank left"] == pytest.approx(abs(left(e, [1]).moment.forward[0]), rel=1e-14)
 
 
 # ------------------------------------------------------------------ factor and bobweight
@@ -131,10 +123,7 @@ def test_bobweight_card_of_a_cross_plane_v8():
 def test_split_pins_have_a_card_each():
     e = engine([0, 240, 120], layout="bank_angle = 60")
     split = build_text(
-        engine_text(
-            crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60",
-            layout="bank_angle = 60",
-        )
+        engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60", layout="bank_angle = 60")
     )
     assert [len(entry.cylinders) for entry in size(e, "factor").card] == [2, 2, 2]
     assert [len(entry.cylinders) for entry in size(split, "factor").card] == [1] * 6
@@ -182,9 +171,7 @@ def test_shafts_at_different_heights_take_the_roll():
     assert abs(after.roll.forward[0]) <= 1e-14 * inertia_torque * INLINE_4.omega**2
     assert after.force.balanced.all()
     halfway = size_scheme(INLINE_4, "two-shaft", at=(-height / 4 + 0.03j, height / 4 - 0.03j))
-    assert figures(halfway, "order 2")["roll left"] == pytest.approx(
-        inertia_torque * INLINE_4.omega**2 / 2, rel=1e-12
-    )
+    assert figures(halfway, "order 2")["roll left"] == pytest.approx(inertia_torque * INLINE_4.omega**2 / 2, rel=1e-12)
 
 
 def test_roll_vanishes_with_the_first_shaft_given_and_the_reference_elsewhere():
@@ -214,10 +201,7 @@ def test_inline_three_needs_couples():
 
 def test_even_firing_v6_at_60_degrees_has_a_backward_second_order_couple_alone():
     e = build_text(
-        engine_text(
-            crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60",
-            layout="bank_angle = 60",
-        )
+        engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60", layout="bank_angle = 60")
     )
     assert {s.ratio for s in size_auto(e).shafts} <= {-2}
 
@@ -225,9 +209,7 @@ def test_even_firing_v6_at_60_degrees_has_a_backward_second_order_couple_alone()
 def test_single_shaft_on_an_inline_four_says_what_stays():
     remedy = size(INLINE_4, "single-shaft")
     assert remedy.order == 2
-    assert figures(remedy)["force with crank left"] == pytest.approx(
-        2 * A2 * M * R * INLINE_4.omega**2, rel=1e-14
-    )
+    assert figures(remedy)["force with crank left"] == pytest.approx(2 * A2 * M * R * INLINE_4.omega**2, rel=1e-14)
 
 
 def test_inline_six_needs_nothing():
@@ -253,27 +235,11 @@ def test_eccentric_stands_where_the_force_acts():
 @pytest.mark.parametrize(
     ("scheme", "options", "reason"),
     [
-        (
-            "counterweights",
-            SchemeOptions(order=2),
-            "order 2 cannot be cancelled by anything on the crankshaft",
-        ),
-        (
-            "counterweights",
-            SchemeOptions(planes=(0.1, 0.1)),
-            "planes at the same z, cannot take a moment",
-        ),
-        (
-            "couple-shaft",
-            SchemeOptions(planes=(0.1, 0.1)),
-            "planes at the same z, cannot take a moment",
-        ),
+        ("counterweights", SchemeOptions(order=2), "order 2 cannot be cancelled by anything on the crankshaft"),
+        ("counterweights", SchemeOptions(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
+        ("couple-shaft", SchemeOptions(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
         ("couple-shaft", SchemeOptions(planes="throws"), "opposite eccentrics stand in two planes"),
-        (
-            "counterweights",
-            SchemeOptions(planes=(0.1, 0.1 + 1e-10)),
-            r"too much alike: .*condition number .*e\+09",
-        ),
+        ("counterweights", SchemeOptions(planes=(0.1, 0.1 + 1e-10)), r"too much alike: .*condition number .*e\+09"),
         ("two-shaft", SchemeOptions(order=0), "must be a whole number from 1 to 1000"),
         ("auto", SchemeOptions(order=2), "scheme auto has no --order; add --scheme with "),
         (
@@ -283,16 +249,11 @@ def test_eccentric_stands_where_the_force_acts():
             "single-shaft, two-shaft, four-shaft, "
             "couple-shaft, slider, eccentric-slider, oldham, knuckles",
         ),
-        (
-            "knuckle",
-            SchemeOptions(),
-            "there is no scheme 'knuckle': did you mean knuckles\\? choose from",
-        ),
+        ("knuckle", SchemeOptions(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
         (
             "knuckles",
             SchemeOptions(),
-            "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
-            "--scheme knuckles` does so",
+            "scheme knuckles sizes no devices but changes the engine file: `balcli balance --scheme knuckles` does so",
         ),
         ("mini-max", SchemeOptions(), "did you mean minimax"),
         ("two-shaft", SchemeOptions(order=6, roll="nought"), 'only "zero" can be asked for'),
@@ -301,11 +262,7 @@ def test_eccentric_stands_where_the_force_acts():
             SchemeOptions(order=3, roll="zero"),
             "order 3 has no free force.*shafts without unbalance can do nothing about the roll",
         ),
-        (
-            "two-shaft",
-            SchemeOptions(order=6, roll="zero", at=(0.1j, 0.2j)),
-            "fixes the place of the second shaft",
-        ),
+        ("two-shaft", SchemeOptions(order=6, roll="zero", at=(0.1j, 0.2j)), "fixes the place of the second shaft"),
         ("factor", SchemeOptions(factor=(math.nan,)), "is no share of the reciprocating mass"),
     ],
 )

@@ -21,9 +21,7 @@ from balcli.engine.build import Engine
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.remedy import fit_devices
 
-K = (
-    4 * float(closed_form.piston([2], 0.25)[0]) * 1.0 * 0.05
-)  # per omega^2 (kg m): A2 m r, four cylinders in a row
+K = 4 * float(closed_form.piston([2], 0.25)[0]) * 1.0 * 0.05  # per omega^2 (kg m): A2 m r, four cylinders in a row
 EVERY_ANGLE = [0, 15, 30, 45, 59, 60, 61, 75, 90, 105, 120, 135, 150, 165, 179, 180]
 
 
@@ -40,9 +38,7 @@ def unbalances(engine: Engine, **options: object) -> dict[int, complex]:
     """Sum of the unbalances (kg m) at each ratio."""
     found: dict[int, complex] = {}
     for s in size_scheme(engine, "two-shaft", order=2, **options).shafts:
-        found[s.ratio] = found.get(s.ratio, 0j) + cmath.rect(
-            s.unbalance / 1e6, math.radians(s.angle)
-        )
+        found[s.ratio] = found.get(s.ratio, 0j) + cmath.rect(s.unbalance / 1e6, math.radians(s.angle))
     return found
 
 
@@ -50,9 +46,7 @@ def unbalances(engine: Engine, **options: object) -> dict[int, complex]:
 def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
     engine, half = flat_plane(gamma), math.radians(gamma / 2)
     found = unbalances(engine)
-    assert abs(found.get(2, 0j)) * 4 == pytest.approx(
-        K * abs(math.cos(half)), abs=1e-13 * K
-    )  # (2 omega)^2 = 4 omega^2
+    assert abs(found.get(2, 0j)) * 4 == pytest.approx(K * abs(math.cos(half)), abs=1e-13 * K)  # (2 omega)^2 = 4 omega^2
     assert abs(found.get(-2, 0j)) * 4 == pytest.approx(K * abs(math.cos(3 * half)), abs=1e-13 * K)
     after = compute_spectra(fit_scheme(engine, "two-shaft", order=2), [2], ("force", "moment"))
     assert after.force.balanced.all()
@@ -65,19 +59,10 @@ def test_places_that_add_no_roll(gamma):
     remedy = size_scheme(engine, "two-shaft", order=2, at=(0.06 + 0.08j,))
     place = {s.ratio: complex(*s.at) for s in remedy.shafts}
     ratio = abs(place[2]) / abs(place[-2])
-    assert ratio == pytest.approx(
-        abs(math.cos(3 * half)) / math.cos(half), rel=1e-12
-    )  # (4.2), corrected
-    between = (
-        cmath.phase(place[2]) + cmath.phase(place[-2])
-    ) / math.pi  # beta1 + beta2 = k pi from its x axis
-    assert between == pytest.approx(
-        round(between), abs=1e-12
-    )  # (4.1); his x is our y: k odd and even swap
-    rolls = [
-        compute_spectra(e, [2], ("roll",)).roll.forward[0]
-        for e in (engine, fit_devices(engine, remedy))
-    ]
+    assert ratio == pytest.approx(abs(math.cos(3 * half)) / math.cos(half), rel=1e-12)  # (4.2), corrected
+    between = (cmath.phase(place[2]) + cmath.phase(place[-2])) / math.pi  # beta1 + beta2 = k pi from its x axis
+    assert between == pytest.approx(round(between), abs=1e-12)  # (4.1); his x is our y: k odd and even swap
+    rolls = [compute_spectra(e, [2], ("roll",)).roll.forward[0] for e in (engine, fit_devices(engine, remedy))]
     assert abs(rolls[1] - rolls[0]) <= 1e-13 * K * engine.omega**2 * 0.1
 
 
@@ -85,9 +70,7 @@ def test_sixty_degrees_needs_one_shaft_on_the_crank_axis_or_two_halves():
     engine = flat_plane(60)
     (one,) = size_scheme(engine, "two-shaft", order=2).shafts
     assert (one.ratio, one.at) == (2, (0.0, 0.0))
-    assert 4 * one.unbalance / 1e6 == pytest.approx(
-        2 * math.sqrt(3) * K / 4, rel=1e-14
-    )  # 2 sqrt3 A2 m r omega^2
+    assert 4 * one.unbalance / 1e6 == pytest.approx(2 * math.sqrt(3) * K / 4, rel=1e-14)  # 2 sqrt3 A2 m r omega^2
     halves = size_scheme(engine, "two-shaft", order=2, at=(0.03 + 0.04j,)).shafts
     assert sorted(h.at for h in halves) == [(-30.0, -40.0), (30.0, 40.0)]
     assert [h.unbalance for h in halves] == [one.unbalance / 2] * 2
@@ -98,10 +81,7 @@ def test_sliders(gamma):
     """Corrected (5.6): m_z r_z = A2 m r |Z|max of either direction, the pins turning at 2 omega."""
     half = math.radians(gamma / 2)
     wanted = sorted(K / 4 * abs(math.cos(3 * half) + sign * math.cos(half)) for sign in (1, -1))
-    found = {
-        s.direction: s.unbalance / 1e6
-        for s in size_scheme(flat_plane(gamma), "slider", order=2).sliders
-    }
+    found = {s.direction: s.unbalance / 1e6 for s in size_scheme(flat_plane(gamma), "slider", order=2).sliders}
     sizes = sorted([0.0] * (2 - len(found)) + list(found.values()))
     assert sizes == pytest.approx(wanted, abs=1e-13 * K)
     assert set(found) <= {0.0, 90.0, -90.0}
@@ -118,8 +98,7 @@ def test_largest_horizontal_slider():
     assert max(sizes) == pytest.approx(K / 4 * 8 / (3 * math.sqrt(3)), rel=1e-14)
     assert np.all(
         [
-            max(s.unbalance for s in size_scheme(flat_plane(g), "slider", order=2).sliders) / 1e6
-            < max(sizes)
+            max(s.unbalance for s in size_scheme(flat_plane(g), "slider", order=2).sliders) / 1e6 < max(sizes)
             for g in (gamma - 1, gamma + 1)
         ]
     )

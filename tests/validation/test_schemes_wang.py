@@ -27,9 +27,7 @@ M, R = 1.0, 0.05
 
 
 def single(lam: float = 0.25, more: str = "", **tables: str) -> Engine:
-    return build_text(
-        engine_text(rod=f"ratio = {lam}", crank="stroke = 100\nthrow_mass = 0.7", **tables) + more
-    )
+    return build_text(engine_text(rod=f"ratio = {lam}", crank="stroke = 100\nthrow_mass = 0.7", **tables) + more)
 
 
 # lambda, design, criterion, force, k, mu, largest/J, mean/J to the digits of the independent search
@@ -52,14 +50,10 @@ MEANS = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("lam", "design", "criterion", "force", "k", "mu", "largest", "mean"), OPTIMA
-)
+@pytest.mark.parametrize(("lam", "design", "criterion", "force", "k", "mu", "largest", "mean"), OPTIMA)
 def test_eccentric_slider_smallest_peak(lam, design, criterion, force, k, mu, largest, mean):
     found = find_optimum(design, criterion, force, lam)
-    assert (found.k, found.mu, found.largest, found.mean) == pytest.approx(
-        (k, mu, largest, mean), abs=1.1e-6
-    )
+    assert (found.k, found.mu, found.largest, found.mean) == pytest.approx((k, mu, largest, mean), abs=1.1e-6)
 
 
 @pytest.mark.parametrize(("lam", "design", "force", "k", "mu", "mean"), MEANS)
@@ -95,9 +89,7 @@ def test_eccentric_slider_beats_its_neighbours(design):
 
         def phi(t):
             if design == "b":
-                return t + np.arctan2(
-                    np.sin(t), k - np.cos(t)
-                )  # the angle of k e^{it} - 1, without a cut
+                return t + np.arctan2(np.sin(t), k - np.cos(t))  # the angle of k e^{it} - 1, without a cut
             return t + np.arcsin(np.sin(t) / k)  # triangle of disc centre, shaft and pin
 
         rate = (phi(theta + h) - phi(theta - h)) / (2 * h)
@@ -116,9 +108,7 @@ def test_eccentric_slider_beats_its_neighbours(design):
 @pytest.mark.parametrize(("design", "lam"), [("a", 0.99), ("b", 0.9)])
 @pytest.mark.parametrize("criterion", ["largest", "mean"])
 def test_an_eccentric_slider_has_no_optimum_near_lambda_1(design, criterion, lam):
-    with pytest.raises(
-        BalcliError, match=f"no optimum was found for design {design} at lambda = {lam}"
-    ):
+    with pytest.raises(BalcliError, match=f"no optimum was found for design {design} at lambda = {lam}"):
         find_optimum(design, criterion, "all orders", lam)
 
 
@@ -132,9 +122,7 @@ def test_eccentric_slider_says_the_largest_of_what_remains(design, criterion, la
     best = find_optimum(design, criterion, "all orders", lam)
     theta = np.arange(4096) * (2 * np.pi / 4096)
     phi = theta + (
-        np.arctan2(np.sin(theta), best.k - np.cos(theta))
-        if design == "b"
-        else np.arcsin(np.sin(theta) / best.k)
+        np.arctan2(np.sin(theta), best.k - np.cos(theta)) if design == "b" else np.arcsin(np.sin(theta) / best.k)
     )
     waves = np.fft.rfft(np.cos(phi))
     order = np.where(np.arange(len(waves)) < 100, np.arange(len(waves)), 0)
@@ -153,10 +141,7 @@ def test_eccentric_slider_leaves_its_residual():
     theta = np.linspace(0, 2 * np.pi, 3601)
     force = left.values(theta).real / (M * R * engine.omega**2)
     exact = closed_form.piston(np.arange(1.0, 12), 0.25)
-    two_terms = sum(
-        (a - (1 if n == 1 else 0.25 if n == 2 else 0)) * np.cos(n * theta)
-        for n, a in enumerate(exact, 1)
-    )
+    two_terms = sum((a - (1 if n == 1 else 0.25 if n == 2 else 0)) * np.cos(n * theta) for n, a in enumerate(exact, 1))
     assert np.abs(force - two_terms).max() == pytest.approx(0.017595, abs=1e-6)
 
 
@@ -186,12 +171,8 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
     )
     unit = [m * R * e.omega**2 for m, e in ((M, plain), (mass, other))]
     turn = np.exp(1j * math.radians(bank))
-    assert many.force.forward / unit[1] == pytest.approx(
-        one.force.forward / unit[0] * turn, rel=1e-9, abs=1e-13
-    )
-    assert many.force.backward / unit[1] == pytest.approx(
-        one.force.backward / unit[0] * turn, rel=1e-9, abs=1e-13
-    )
+    assert many.force.forward / unit[1] == pytest.approx(one.force.forward / unit[0] * turn, rel=1e-9, abs=1e-13)
+    assert many.force.backward / unit[1] == pytest.approx(one.force.backward / unit[0] * turn, rel=1e-9, abs=1e-13)
     assert np.abs(many.moment.major).max() <= 1e-14 * unit[1]
     assert one.force.forward[0] == 0
     optima = remedy.optima
@@ -205,10 +186,7 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
     )
     assert optima.find_unbalance(fitted) == pytest.approx(fitted.mu * mass * R, rel=1e-12)
     assert {(found.design, found.criterion, found.engine_force) for found in optima.found} == {
-        (design, by, of)
-        for design in "ab"
-        for by in ("largest", "mean")
-        for of in ("orders 1+2", "all orders")
+        (design, by, of) for design in "ab" for by in ("largest", "mean") for of in ("orders 1+2", "all orders")
     }
 
 
@@ -227,9 +205,7 @@ def test_oldham_couplings_cancel_orders_1_and_2(bank):
     (weight,) = remedy.counterweights
     assert weight.unbalance / 1e6 == pytest.approx(0.7 * R, rel=1e-13)
     assert figures(remedy)["first order"] == pytest.approx(M * R / 2, rel=1e-14)
-    assert figures(remedy)["block"] == pytest.approx(
-        float(closed_form.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14
-    )
+    assert figures(remedy)["block"] == pytest.approx(float(closed_form.piston([2], 0.3)[0]) * M * R / 8, rel=1e-14)
     assert all(device.place == 0 for device in remedy.beyond)
 
 
@@ -245,9 +221,7 @@ def test_two_and_four_shafts():
     """
     shafts = {s.ratio: s.unbalance / 1e6 for s in size(single(), "four-shaft").shafts}
     second = float(closed_form.piston([2], 0.25)[0]) * M * R / 8
-    assert shafts == pytest.approx(
-        {-1: M * R / 2, 1: M * R / 2 + 0.7 * R, -2: second, 2: second}, rel=1e-14
-    )
+    assert shafts == pytest.approx({-1: M * R / 2, 1: M * R / 2 + 0.7 * R, -2: second, 2: second}, rel=1e-14)
 
 
 def test_single_shaft_leaves_a_couple():
@@ -261,10 +235,7 @@ def test_single_shaft_leaves_a_couple():
     assert figures(remedy)["axial distance"] == pytest.approx(0.08)
     left = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
     assert left.force.balanced.all()
-    assert (abs(left.moment.backward[0]), left.moment.forward[0]) == (
-        pytest.approx(couple, rel=1e-14),
-        0,
-    )
+    assert (abs(left.moment.backward[0]), left.moment.forward[0]) == (pytest.approx(couple, rel=1e-14), 0)
 
 
 @pytest.mark.parametrize(
@@ -286,9 +257,7 @@ def test_overbalance_optimum_of_both_orders(lam, peak, k):
     """
     engine = single(lam)
     (weight,) = size(engine, "minimax").counterweights
-    found = analyze(fit_scheme(engine, "minimax"), only=["peak"]).force.value / (
-        M * R * engine.omega**2
-    )
+    found = analyze(fit_scheme(engine, "minimax"), only=["peak"]).force.value / (M * R * engine.omega**2)
     rest = sum(abs(float(a)) for a in closed_form.piston([4, 6, 8], lam)) + abs(
         float(closed_form.piston([2], lam)[0]) - lam
     )
@@ -307,9 +276,7 @@ def test_half_balance_leaves_half():
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_only_for_single_cylinders(scheme):
     engine = single(layout="bank_angle = 90")
-    with pytest.raises(
-        BalcliError, match=f"{scheme} is for a single cylinder; this engine has 2 cylinders"
-    ):
+    with pytest.raises(BalcliError, match=f"{scheme} is for a single cylinder; this engine has 2 cylinders"):
         size(engine, scheme)
 
 

@@ -41,9 +41,7 @@ INLINE = {
 
 
 def of(throws: list[float], **layout: Any) -> Spectra:
-    return compute_spectra(
-        engine(crank={"throws": throws, "spacing": 100}, layout=layout), list(ORDERS)
-    )
+    return compute_spectra(engine(crank={"throws": throws, "spacing": 100}, layout=layout), list(ORDERS))
 
 
 def units(found: Spectra, quantity: str, order: int, part: str) -> float:
@@ -58,11 +56,7 @@ def units(found: Spectra, quantity: str, order: int, part: str) -> float:
 
 def free(found: Spectra, quantity: str) -> list[int]:
     """The orders up to 12 that are there."""
-    return [
-        n
-        for n, balanced in zip(ORDERS, getattr(found, quantity).balanced, strict=True)
-        if not balanced
-    ]
+    return [n for n, balanced in zip(ORDERS, getattr(found, quantity).balanced, strict=True) if not balanced]
 
 
 # ------------------------------------------------------------------ in line
@@ -106,9 +100,7 @@ def test_forces_in_line(name, orders):
 def test_moments_in_line(name, first, second):
     found = of(INLINE[name])
     for order, factor in ((1, first), (2, second)):
-        assert units(found, "moment", order, "major") == pytest.approx(
-            factor, rel=RELATIVE, abs=1e-14
-        ), order
+        assert units(found, "moment", order, "major") == pytest.approx(factor, rel=RELATIVE, abs=1e-14), order
         assert (order in free(found, "moment")) is (factor != 0), order
 
 
@@ -117,12 +109,7 @@ def test_moments_of_the_five(order, printed):
     """Firing 1-2-4-5-3; the printed figures are those of every book, |sum z e^(i n phi)| makes them
     exact.
     """
-    exact = abs(
-        sum(
-            z * exp(1j * order * radians(phi))
-            for z, phi in zip(range(-2, 3), INLINE["five"], strict=True)
-        )
-    )
+    exact = abs(sum(z * exp(1j * order * radians(phi)) for z, phi in zip(range(-2, 3), INLINE["five"], strict=True)))
     assert exact == pytest.approx(printed, abs=5e-4)
     assert units(of(INLINE["five"]), "moment", order, "major") == pytest.approx(exact, rel=RELATIVE)
 
@@ -155,12 +142,8 @@ def test_v_twins_of_any_angle(gamma):
     """
     found, half = of([0], bank_angle=gamma), radians(gamma / 2)
     along, across = abs(found.force.x) / F1, abs(found.force.y) / F1
-    assert along[:2] == pytest.approx(
-        [2 * cos(half) ** 2, A[2] * abs(2 * cos(half) * cos(2 * half))], rel=RELATIVE
-    )
-    assert across[:2] == pytest.approx(
-        [2 * sin(half) ** 2, A[2] * 2 * sin(half) * sin(2 * half)], rel=RELATIVE
-    )
+    assert along[:2] == pytest.approx([2 * cos(half) ** 2, A[2] * abs(2 * cos(half) * cos(2 * half))], rel=RELATIVE)
+    assert across[:2] == pytest.approx([2 * sin(half) ** 2, A[2] * 2 * sin(half) * sin(2 * half)], rel=RELATIVE)
 
 
 def test_cross_plane_v8():
@@ -193,12 +176,8 @@ def test_v12(gamma):
     assert min(free(found, "force"), default=99) >= 6
     assert free(found, "moment") == []
     sixth = F1 * abs(A[6])
-    assert abs(found.force.x[5]) / sixth == pytest.approx(
-        abs(12 * cos(half) * cos(6 * half)), abs=1e-12
-    )
-    assert abs(found.force.y[5]) / sixth == pytest.approx(
-        abs(12 * sin(half) * sin(6 * half)), abs=1e-12
-    )
+    assert abs(found.force.x[5]) / sixth == pytest.approx(abs(12 * cos(half) * cos(6 * half)), abs=1e-12)
+    assert abs(found.force.y[5]) / sixth == pytest.approx(abs(12 * sin(half) * sin(6 * half)), abs=1e-12)
 
 
 def v6(gamma: float, splay: float) -> Spectra:

@@ -24,20 +24,14 @@ def test_equal_discs_one_end_fixed(count, inertia, stiffness):
     closed = 2 * np.sqrt(stiffness / inertia) * np.sin((2 * i - 1) * np.pi / (2 * (2 * count + 1)))
     assert modes.omega == pytest.approx(closed, rel=1e-14, abs=0)
     if count == 5:  # n = 5, J = 20, k = 125 recomputed
-        assert modes.omega == pytest.approx(
-            [0.7115741914, 2.077075065, 3.27430367, 4.206267664, 4.797464868], rel=1e-9
-        )
+        assert modes.omega == pytest.approx([0.7115741914, 2.077075065, 3.27430367, 4.206267664, 4.797464868], rel=1e-9)
 
 
 def test_equal_discs_both_ends_free():
     """w_i = 2 sqrt(k/J) sin(i pi/(2n)), shapes cos(i pi (2m - 1)/(2n)): classical."""
     n, i = 8, np.arange(8)[:, None]
-    modes = find_chain_modes(
-        join_chain([0.3] * n, [ChainShaft(m, m + 1, 5e4) for m in range(n - 1)])
-    )
-    assert modes.omega == pytest.approx(
-        2 * np.sqrt(5e4 / 0.3) * np.sin(i[:, 0] * np.pi / (2 * n)), rel=1e-14
-    )
+    modes = find_chain_modes(join_chain([0.3] * n, [ChainShaft(m, m + 1, 5e4) for m in range(n - 1)]))
+    assert modes.omega == pytest.approx(2 * np.sqrt(5e4 / 0.3) * np.sin(i[:, 0] * np.pi / (2 * n)), rel=1e-14)
     shapes = np.cos(i * np.pi * (2 * np.arange(1, n + 1) - 1) / (2 * n))
     assert scale_shapes(modes.shapes) == pytest.approx(scale_shapes(shapes), abs=1e-13)
 
@@ -67,9 +61,7 @@ def test_three_rotors():
     Printed 961 and 1784 a minute; the second from the first rounded to 16 a second: 1787.5.
     """
     inertia = np.array([2.5, 7.5, 3]) * 2240 * 144 / (32.2 * 12)
-    shafts = [
-        ChainShaft(i, i + 1, 11.8e6 * hollow(8.5) / (12 * ft)) for i, ft in enumerate([9.5, 25])
-    ]
+    shafts = [ChainShaft(i, i + 1, 11.8e6 * hollow(8.5) / (12 * ft)) for i, ft in enumerate([9.5, 25])]
     _, first, second = find_chain_modes(join_chain(inertia, shafts)).omega * 60 / (2 * np.pi)
     assert round(first) == 961
     assert second * 16 * 60 / first == pytest.approx(1784, rel=0.002)

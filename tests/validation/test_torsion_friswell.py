@@ -21,21 +21,11 @@ def shaft_stiffness(length, diameter, shear_modulus=68e9):
 TWO_DISCS = join_chain([211.4, 8.3], [ChainShaft(0, 1, 9.775e6)])
 THREE_CYLINDERS = join_chain(
     [0.0035, 0.0035, 0.0035, 0.15, 0.05],
-    [
-        ChainShaft(0, 1, 12e3),
-        ChainShaft(1, 2, 12e3),
-        ChainShaft(2, 3, 14e3),
-        ChainShaft(3, 4, 10e3),
-    ],
+    [ChainShaft(0, 1, 12e3), ChainShaft(1, 2, 12e3), ChainShaft(2, 3, 14e3), ChainShaft(3, 4, 10e3)],
 )
 PAIR_OF_GEARS = join_chain(
     [0.0004, 2.5e-5, 2.5e-5, 0.0007, 0.0007],
-    [
-        ChainShaft(0, 1, 10e3),
-        ChainShaft(1, 2, INF, -1),
-        ChainShaft(2, 3, 5e3),
-        ChainShaft(1, 4, 5e3),
-    ],
+    [ChainShaft(0, 1, 10e3), ChainShaft(1, 2, INF, -1), ChainShaft(2, 3, 5e3), ChainShaft(1, 4, 5e3)],
 )
 BRANCHES = join_chain(
     [3200, 200, 200, 800, 800, 450, 450],
@@ -54,12 +44,7 @@ BRANCHES = join_chain(
     ("chain", "printed", "places", "recomputed"),
     [
         (TWO_DISCS, [0, 176.1], 1, [176.0767468]),
-        (
-            THREE_CYLINDERS,
-            [0, 81.21, 141.21, 378.95, 536.36],
-            2,
-            [81.20762902, 141.2140714, 378.9529539, 536.3632829],
-        ),
+        (THREE_CYLINDERS, [0, 81.21, 141.21, 378.95, 536.36], 2, [81.20762902, 141.2140714, 378.9529539, 536.3632829]),
         (PAIR_OF_GEARS, [0, 425.4, 634.1, 3247.2], 1, [425.3594775, 634.07276, 3247.192354]),
         (BRANCHES, [0, 10.304, 20.479, 24.423], 3, [10.30419334, 20.47926065, 24.42291926]),
     ],

@@ -168,17 +168,7 @@ def exact_loads(rpm):
 def test_natural_frequencies():
     modes = find_chain_modes(CHAIN)
     assert modes.omega / (2 * np.pi) == pytest.approx(
-        [
-            0,
-            216.5836052,
-            592.7404802,
-            984.922964,
-            1171.017408,
-            1415.995017,
-            1660.043912,
-            1794.38758,
-            2993.473563,
-        ],
+        [0, 216.5836052, 592.7404802, 984.922964, 1171.017408, 1415.995017, 1660.043912, 1794.38758, 2993.473563],
         rel=1e-9,
     )
     assert [count_nodes(CHAIN, shape) for shape in modes.shapes] == list(range(9))
@@ -221,9 +211,7 @@ def test_figures_of_the_document():
     twist = respond_chain(CHAIN, DAMPING, frequencies(orders, 2000 * np.pi / 30), load)
     shown = [
         [float(cell) for cell in line.split("|")[2:5]]
-        for line in DOCUMENT.read_text(encoding="utf-8")
-        .partition("At 2000 rpm")[2]
-        .splitlines()[4:12]
+        for line in DOCUMENT.read_text(encoding="utf-8").partition("At 2000 rpm")[2].splitlines()[4:12]
     ]
     half = find_swing(orders, twist.torque).half
     columns = SUMS_OF_AMPLITUDES[2000], sum_amplitudes(twist.torque), half

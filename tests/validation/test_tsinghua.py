@@ -99,16 +99,12 @@ def test_extremes_of_the_two_term_acceleration(lam):
     lowest = -(lam + 1 / (8 * lam))
     assert float(two_term.acceleration(0, lam)) == 1 + lam
     assert float(two_term.acceleration(pi, lam)) == pytest.approx(-(1 - lam), rel=1e-14)
-    assert float(two_term.acceleration(acos(-1 / (4 * lam)), lam)) == pytest.approx(
-        lowest, rel=1e-14
-    )
+    assert float(two_term.acceleration(acos(-1 / (4 * lam)), lam)) == pytest.approx(lowest, rel=1e-14)
     assert two_term.acceleration(PSI, lam).min() == pytest.approx(lowest, rel=1e-6)
 
 
 @pytest.mark.parametrize(("lam", "dips"), [(0.2637, False), (0.2639, True)])
-def test_the_exact_acceleration_dips_below_its_value_at_180_degrees_above_lambda_0_263763(
-    lam, dips
-):
+def test_the_exact_acceleration_dips_below_its_value_at_180_degrees_above_lambda_0_263763(lam, dips):
     """Its curvature at 180 degrees changes sign where 4 lambda - 3 lambda^3 = 1."""
     assert (4 * lam - 3 * lam**3 > 1) is dips
     near = sc.acceleration(np.radians(np.arange(170, 180, 0.1)), lam)

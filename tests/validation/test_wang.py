@@ -34,9 +34,7 @@ def test_smallest_of_these(alpha):
     """(36): (1 + |sin alpha|) J/2 at k = cos alpha/2."""
     best = min(peak(0, k, alpha) for k in np.arange(0, 1, 0.005))
     assert best == pytest.approx((1 + sin(radians(alpha))) / 2, abs=1e-4)
-    assert peak(0, cos(radians(alpha)) / 2, alpha) == pytest.approx(
-        (1 + sin(radians(alpha))) / 2, rel=1e-6
-    )
+    assert peak(0, cos(radians(alpha)) / 2, alpha) == pytest.approx((1 + sin(radians(alpha))) / 2, rel=1e-6)
 
 
 def rows():
@@ -79,9 +77,7 @@ def test_smaller_lambda_leaves_less():
     assert (np.diff([row["Pmax_min"] for row in rows()]) > 0).all()
 
 
-@pytest.mark.parametrize(
-    ("lam", "percent"), [(0.20, 0.344), (0.25, 0.656), (0.30, 1.114), (0.40, 2.603)]
-)
+@pytest.mark.parametrize(("lam", "percent"), [(0.20, 0.344), (0.25, 0.656), (0.30, 1.114), (0.40, 2.603)])
 def test_error_of_orders_1_and_2(lam, percent):
     """Said to be 0.1 %: of (1 + lambda) J it is lambda^3/(w (1 + w) (1 + lambda))."""
     error, w = largest_error(two_term.acceleration, lam) / (1 + lam), sqrt(1 - lam**2)

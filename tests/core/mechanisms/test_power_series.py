@@ -37,15 +37,11 @@ def sum_of_orders(generate, wave, degrees):
     ],
 )
 def test_orders_add_up_to_the_closed_form(generate, wave, closed, degrees):
-    assert sum_of_orders(generate, wave, degrees) == pytest.approx(
-        float(closed(radians(degrees), 0.25)), abs=1e-12
-    )
+    assert sum_of_orders(generate, wave, degrees) == pytest.approx(float(closed(radians(degrees), 0.25)), abs=1e-12)
 
 
 def test_rod_angle_is_the_arc_sine():
-    assert sin(sum_of_orders(series.beta, sin, 65.0)) == pytest.approx(
-        0.25 * sin(radians(65.0)), abs=1e-14
-    )
+    assert sin(sum_of_orders(series.beta, sin, 65.0)) == pytest.approx(0.25 * sin(radians(65.0)), abs=1e-14)
 
 
 def test_piston_orders_at_top_dead_centre_add_up_to_1_plus_lambda():
@@ -63,9 +59,7 @@ def test_leading_terms():
 
     for m in range(1, 9):
         power = 2 * m - 1
-        expected = Fraction(
-            (-1) ** (m + 1) * (2 * m) ** 2 * comb(2 * m, m), (2 * m - 1) * 2 ** (4 * m - 1)
-        )
+        expected = Fraction((-1) ** (m + 1) * (2 * m) ** 2 * comb(2 * m, m), (2 * m - 1) * 2 ** (4 * m - 1))
         assert series.piston(2 * m, power) == {power: expected}
 
 
@@ -80,8 +74,7 @@ def test_to_any_power_and_without_zeros():
 
 @pytest.mark.parametrize("power", range(1, 9))
 @pytest.mark.parametrize(
-    "generate",
-    [series.piston, series.rod, series.velocity, series.displacement, series.cos_beta, series.beta],
+    "generate", [series.piston, series.rod, series.velocity, series.displacement, series.cos_beta, series.beta]
 )
 def test_no_power_beyond_the_one_asked_for(generate, power):
     """And all up to it: one more power adds that power alone."""

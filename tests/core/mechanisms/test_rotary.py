@@ -22,9 +22,7 @@ def test_three_or_more_cylinders_have_no_first_order_force(count):
     """Well known: the pistons run round the crank pin almost on a circle. What is left has the
     order of the cylinders.
     """
-    force = spectrum.compute_spectra(
-        rotary_engine(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]
-    ).force
+    force = spectrum.compute_spectra(rotary_engine(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]).force
     assert force is not None
     assert force.balanced[0]
     left = force.orders[~force.balanced]
@@ -46,9 +44,7 @@ def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
 def test_the_throw_stands_still():
     text = GNOME.format(layout="banks = [0]", offset=0)
     light, heavy = (
-        spectrum.compute_spectra(
-            build_text(text.replace("throw_mass = 3", mass)), np.arange(1.0, 4.0)
-        )
+        spectrum.compute_spectra(build_text(text.replace("throw_mass = 3", mass)), np.arange(1.0, 4.0))
         for mass in ("throw_mass = 0", "throw_mass = 9")
     )
     for (_, a), (_, b) in zip(light.items(), heavy.items(), strict=True):
@@ -58,8 +54,7 @@ def test_the_throw_stands_still():
 def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_crank():
     text = GNOME.format(layout="radial = 5", offset=9)
     turning, still = (
-        find_travel(build_text(text.replace("rotary = true", flag)).cylinders)
-        for flag in ("", "rotary = true")
+        find_travel(build_text(text.replace("rotary = true", flag)).cylinders) for flag in ("", "rotary = true")
     )
     assert still.stroke == pytest.approx(turning.stroke, rel=1e-12)
     assert still.top_deg == pytest.approx(turning.top_deg, abs=1e-9)
@@ -88,28 +83,18 @@ def test_the_throws_of_two_rows_follow_from_the_firing_order():
 @pytest.mark.parametrize(
     ("layout", "message"),
     [
-        (
-            "rotary = 1",
-            "layout.rotary: 1 is neither true nor false; write one of these, without quotes",
-        ),
-        (
-            'rotary = "yes"',
-            'layout.rotary: "yes" is neither true nor false; write one of these, without quotes',
-        ),
+        ("rotary = 1", "layout.rotary: 1 is neither true nor false; write one of these, without quotes"),
+        ('rotary = "yes"', 'layout.rotary: "yes" is neither true nor false; write one of these, without quotes'),
     ],
 )
 def test_true_or_false(layout, message):
     with pytest.raises(InputError) as caught:
-        enginefile.parse(
-            GNOME.format(layout="radial = 5", offset=0).replace("rotary = true", layout)
-        )
+        enginefile.parse(GNOME.format(layout="radial = 5", offset=0).replace("rotary = true", layout))
     assert [str(p) for p in caught.value.problems] == [message]
 
 
 ARTICULATED = (
-    "[articulation]\nknuckle_radius = {radius}\nrod = {{ length = {length}, mass = "
-    "0.9, cg = "
-    "{cg}, inertia = 7000 }}\n"
+    "[articulation]\nknuckle_radius = {radius}\nrod = {{ length = {length}, mass = 0.9, cg = {cg}, inertia = 7000 }}\n"
 )
 
 
@@ -120,9 +105,7 @@ def test_a_master_rod_with_knuckle_pins_nearly_on_the_crank_pin_is_no_master_rod
         for more in ("", ARTICULATED.format(radius=1e-9, length=230, cg=70))
     )
     for (quantity, wanted), (_, found) in zip(equal.items(), hung.items(), strict=True):
-        assert np.abs(found.forward - wanted.forward).max() < 1e-6, (
-            quantity
-        )  # N, N m; a cylinder makes thousands
+        assert np.abs(found.forward - wanted.forward).max() < 1e-6, quantity  # N, N m; a cylinder makes thousands
         assert np.abs(found.backward - wanted.backward).max() < 1e-6, quantity
 
 
@@ -142,14 +125,12 @@ def test_an_articulated_rod_that_is_too_short():
 
 def test_even_knuckles_are_not_for_rotary_engines():
     file = enginefile.parse(
-        GNOME.format(layout="radial = 7", offset=0)
-        + ARTICULATED.format(radius=48, length=184, cg=60)
+        GNOME.format(layout="radial = 7", offset=0) + ARTICULATED.format(radius=48, length=184, cg=60)
     )
     with pytest.raises(BalcliError) as caught:
         even_knuckles(file)
     assert (
-        str(caught.value)
-        == "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
+        str(caught.value) == "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
         "turns only"
     )
 
@@ -157,13 +138,9 @@ def test_even_knuckles_are_not_for_rotary_engines():
 def test_the_page_has_the_knuckle_pins_of_turning_cylinders():
     """As seen from the cylinder, in the mirror."""
     subject = rotary_engine(more=ARTICULATED.format(radius=48, length=184, cg=60))
-    third = next(
-        c for c in scene(analyze(subject), None, SYSTEMS["si"])["cylinders"] if c["number"] == 3
-    )
+    third = next(c for c in scene(analyze(subject), None, SYSTEMS["si"])["cylinders"] if c["number"] == 3)
     assert third["lead"] == pytest.approx(-720 / 7)
-    assert third["knuckle"] == pytest.approx(
-        [48 * np.cos(4 * np.pi / 7), -48 * np.sin(4 * np.pi / 7)]
-    )
+    assert third["knuckle"] == pytest.approx([48 * np.cos(4 * np.pi / 7), -48 * np.sin(4 * np.pi / 7)])
 
 
 def test_variants_along_two_axes():
@@ -183,7 +160,5 @@ def test_variants_along_two_axes():
         for j in range(2):
             alone = spectrum.compute_spectra(variant(strokes[i, 0], lengths[0, j]), orders)
             for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
-                difference = np.abs(
-                    np.broadcast_to(many.forward, (6, 3, 2))[:, i, j] - one.forward
-                ).max()
+                difference = np.abs(np.broadcast_to(many.forward, (6, 3, 2))[:, i, j] - one.forward).max()
                 assert difference <= 1e-12 * np.abs(one.forward).max(initial=1e-6), quantity

@@ -53,23 +53,12 @@ speed = 3000
 
 
 def vee(**changes: object) -> EngineFile:
-    plain = {
-        "throws": [0],
-        "spacing": 100,
-        "splay": 0,
-        "throw_mass": 0,
-        "length": 150,
-        "bank": 90,
-        "stagger": 0,
-    }
+    plain = {"throws": [0], "spacing": 100, "splay": 0, "throw_mass": 0, "length": 150, "bank": 90, "stagger": 0}
     return load(TEXT.format(**plain | changes))
 
 
 def in_line(throws: str) -> str:
-    return (
-        f"[crank]\nstroke = 80\nspacing = 100\nthrows = {throws}\n[rod]\nlength = 150\n"
-        "[piston]\nmass = 0.5\n"
-    )
+    return f"[crank]\nstroke = 80\nspacing = 100\nthrows = {throws}\n[rod]\nlength = 150\n[piston]\nmass = 0.5\n"
 
 
 # ------------------------------------------------------------------ curves by formula
@@ -202,9 +191,7 @@ def test_no_angle_of_a_dense_sweep_is_better(seed: int) -> None:
         (vee(throws=[0, 180, 180, 0]), "bank_angle", "roll.2.amplitude", "force.2.major", 30),
     ],
 )
-def test_a_limit_met_by_hand(
-    file: EngineFile, over: str, goal: str, limit: str, angle: float
-) -> None:
+def test_a_limit_met_by_hand(file: EngineFile, over: str, goal: str, limit: str, angle: float) -> None:
     """The limit is what the engine has at an angle that is on no grid."""
     place = angle + 0.1234
     bound = float(sweep(file, over, parse_objective(limit), np.array([place]))[0])
@@ -359,13 +346,10 @@ def test_no_permutation_of_throws_is_better(seed: int) -> None:
         found = wanted.evaluate(dict(zip(wanted.quantities, figures, strict=True)).__getitem__)
         return np.broadcast_to(found, len(every))
 
-    goal, limited = random.permutation(
-        ["moment.1.major", "moment.2.backward", "force.2.major", "moment.1.forward"]
-    )[:2].tolist()
-    bound = (
-        float(np.quantile(values(parse_objective(limited)), random.choice([0.2, 0.6]))) * 1.001
-        + 1e-3
-    )
+    goal, limited = random.permutation(["moment.1.major", "moment.2.backward", "force.2.major", "moment.1.forward"])[
+        :2
+    ].tolist()
+    bound = float(np.quantile(values(parse_objective(limited)), random.choice([0.2, 0.6]))) * 1.001 + 1e-3
     wanted = parse_objective(goal, [f"{limited}<{bound!r}"])
     angles = search_arrangements(file, "throws", wanted, 1).results
     assert angles[0].objective == pytest.approx(float(values(wanted).min()), rel=1e-9, abs=1e-7)

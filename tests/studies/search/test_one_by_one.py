@@ -67,13 +67,8 @@ def test_firing_orders_by_shaft_torque(tmp_path):
     orders = [tuple(one["firing_order"]) for one in found]
     torques = [one["quantities"]["shaft.flywheel.torque"] for one in found]
     assert torques == sorted(torques)
-    assert torques[0] == pytest.approx(
-        find_torque(text.replace(ORDER, f"firing_order = {list(orders[0])}")), rel=2e-5
-    )
-    every = {
-        order: find_torque(text.replace(ORDER, f"firing_order = {list(order)}"))
-        for order in possible
-    }
+    assert torques[0] == pytest.approx(find_torque(text.replace(ORDER, f"firing_order = {list(orders[0])}")), rel=2e-5)
+    every = {order: find_torque(text.replace(ORDER, f"firing_order = {list(order)}")) for order in possible}
     assert min(every.values()) == pytest.approx(torques[0], rel=2e-5)
     assert {*orders} == {*every}
     for order, torque in zip(orders, torques, strict=True):
@@ -99,8 +94,7 @@ def test_throws_by_shaft_torque_without_gas(tmp_path):
 
 def test_the_firing_order_decides_where_gas_fires_in_two_turns(tmp_path):
     path = write(
-        tmp_path / "six.toml",
-        SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]"),
+        tmp_path / "six.toml", SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]")
     )
     told = refusal("search", path, "--over", "throws", "--minimise", "torque.2.amplitude")
     assert told.startswith("with [gas] in four strokes the firing order decides, too")
@@ -181,24 +175,14 @@ def test_numbers_are_shown_and_not_written(tmp_path):
 @pytest.mark.parametrize(
     ("over", "minimise", "message"),
     [
-        (
-            "rod.lenth=1:2",
-            "force.2.major",
-            "rod.lenth: unknown parameter; did you mean rod.length?",
-        ),
-        (
-            "rod.length=1:2:3",
-            "force.2.major",
-            '--over "rod.length=1:2:3": give the ends of a range',
-        ),
+        ("rod.lenth=1:2", "force.2.major", "rod.lenth: unknown parameter; did you mean rod.length?"),
+        ("rod.length=1:2:3", "force.2.major", '--over "rod.length=1:2:3": give the ends of a range'),
         ("throws", "torque.min", "torque.min may be negative; name a size such as torque.max"),
         ("throws", "shaft.x.torque", "shaft.x.torque: the file has no [torsion]"),
     ],
 )
 def test_mistakes(over, minimise, message):
-    assert refusal(
-        "search", ENGINES / "i4.toml", "--over", over, "--minimise", minimise
-    ).startswith(message)
+    assert refusal("search", ENGINES / "i4.toml", "--over", over, "--minimise", minimise).startswith(message)
 
 
 def test_no_more_designs_than_can_be_waited_for(monkeypatch):

@@ -36,11 +36,7 @@ def engine(throws: list[float], layout: str = "") -> EngineFile:
 
 def test_in_line_four() -> None:
     found = search_least(load(SHUFFLED), "throws", "moment.1.major,force.1.major=1").results
-    assert [r.design.throws for r in found] == [
-        (0, 180, 180, 0),
-        (0, 180, 0, 180),
-        (0, 0, 180, 180),
-    ]
+    assert [r.design.throws for r in found] == [(0, 180, 180, 0), (0, 180, 0, 180), (0, 0, 180, 180)]
     assert found[0].objective == 0
 
 
@@ -55,24 +51,13 @@ def test_in_line_four() -> None:
     ],
 )
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
-    file, wanted = (
-        engine(throws, layout),
-        parse_objective("moment.1.major,moment.2.backward=2,force.1.major=0.5"),
-    )
+    file, wanted = (engine(throws, layout), parse_objective("moment.1.major,moment.2.backward=2,force.1.major=0.5"))
     every = np.array(
-        sorted(set(permutations(throws)))
-        if len(throws) < 8
-        else [(0, *p) for p in permutations(throws[1:])]
+        sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])]
     )
-    sample = (
-        every
-        if len(every) < 1000
-        else every[np.random.default_rng(1).choice(len(every), 1000, replace=False)]
-    )
+    sample = every if len(every) < 1000 else every[np.random.default_rng(1).choice(len(every), 1000, replace=False)]
     whole = build(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)})
-    values = dict(
-        zip(wanted.quantities, evaluate_quantities(whole, wanted.quantities), strict=True)
-    )
+    values = dict(zip(wanted.quantities, evaluate_quantities(whole, wanted.quantities), strict=True))
     tried = np.broadcast_to(wanted.evaluate(values.__getitem__), len(sample)).min()
     first = search_arrangements(file, "throws", wanted, 1).results[0].objective
     if len(sample) == len(every):
@@ -81,9 +66,7 @@ def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layou
 
 
 def test_every_arrangement_of_a_five_once() -> None:
-    found = search_least(
-        engine([0, 72, 144, 216, 288]), "throws", "moment.1.major", count=100
-    ).results
+    found = search_least(engine([0, 72, 144, 216, 288]), "throws", "moment.1.major", count=100).results
     keys = {tuple(r.design.throws) for r in found}
     assert len(keys) == len(found) == 8  # 5!/5 rotations = 24 cranks, 8 but for mirror images
     assert all(r.design.throws[0] == 0 for r in found)
@@ -138,9 +121,7 @@ def test_who_has_seen_enough_gets_the_best_so_far() -> None:
 
 def evaluate_alone(file: EngineFile, throws: np.ndarray) -> float:
     crank = file.crank.model_copy(update={"throws": tuple(map(float, throws))})
-    (value,) = evaluate_quantities(
-        build(file.model_copy(update={"crank": crank})), parse_quantities("moment.1.major")
-    )
+    (value,) = evaluate_quantities(build(file.model_copy(update={"crank": crank})), parse_quantities("moment.1.major"))
     return float(value)
 
 
@@ -156,10 +137,7 @@ def test_limits_are_kept() -> None:
 
 def test_firing_orders_of_a_given_crank_once() -> None:
     found = search_least(load(GOOD), "firing_order", "moment.1.major").results
-    assert [r.design.firing_order for r in found] in (
-        [(1, 3, 4, 2)],
-        [(1, 2, 4, 3)],
-    )  # mirror images
+    assert [r.design.firing_order for r in found] in ([(1, 3, 4, 2)], [(1, 2, 4, 3)])  # mirror images
 
 
 def test_firing_orders_bring_their_cranks() -> None:
@@ -221,10 +199,7 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
     count = layout[layout.index("firing_order") :].partition("]")[0].count(",") + 1
     every = {order for rest in permutations(range(2, count + 1)) if fits(order := (1, *rest))}
     given = load(text(next(iter(every))))
-    found = [
-        r.design.firing_order
-        for r in search_least(given, "firing_order", "moment.1.major", count=1000).results
-    ]
+    found = [r.design.firing_order for r in search_least(given, "firing_order", "moment.1.major", count=1000).results]
     mirrored = {other for order in found for other in _images(order, given)}
     assert every <= mirrored
     assert set(found) <= every
@@ -257,10 +232,7 @@ def test_millions_of_firing_orders_are_no_hindrance() -> None:
                     write_design(
                         changed(
                             ("throws = [0, 180, 180, 0]\n", ""),
-                            (
-                                "firing_order = [1, 3, 4, 2]",
-                                f"bank_angle = 90\nfiring_order = {order}",
-                            ),
+                            ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}"),
                         ).encode(),
                         r.design,
                     )
@@ -312,10 +284,7 @@ CHOICES = (
             '--over "rod.length=150": give the ends of a range, such as rod.length=from:to; balcli '
             "sweep takes steps and lists",
         ),
-        (
-            "bank_angle",
-            "there is no bank angle to look for: the engine is no vee (give layout.bank_angle)",
-        ),
+        ("bank_angle", "there is no bank angle to look for: the engine is no vee (give layout.bank_angle)"),
         ("splay", "there is no splay to look for: the engine is no vee (give layout.bank_angle)"),
     ],
 )
@@ -329,10 +298,7 @@ def test_mistakes_in_words(over: str, message: str) -> None:
 def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
     """Two rods on one pin, 90 degrees apart, fire in turn with this bank angle alone."""
     file = load(
-        changed(
-            ("throws = [0, 180, 180, 0]\n", ""),
-            ("[1, 3, 4, 2]", "[1, 3, 2, 4]\nbank_angle = 90\nstrokes = 2"),
-        )
+        changed(("throws = [0, 180, 180, 0]\n", ""), ("[1, 3, 4, 2]", "[1, 3, 2, 4]\nbank_angle = 90\nstrokes = 2"))
     )
     with pytest.raises(BalcliError, match=r"give crank\.throws, so that the crank stays as it is"):
         search_least(file, over, "force.1.major")
@@ -350,8 +316,7 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
         (
             "force.1.axis",
             (),
-            "force.1.axis is a direction, which cannot be large or small; name a size such as "
-            "force.1.major",
+            "force.1.axis is a direction, which cannot be large or small; name a size such as force.1.major",
         ),
         (
             "roll.2.cos",
@@ -375,14 +340,11 @@ def test_peaks_do_not_add_up() -> None:
 def test_written_file_keeps_its_comments() -> None:
     text = (
         changed(
-            ("throws = [0, 180, 180, 0]", "throws = [0, 180, 180, 0]  # deg"),
-            ("firing_order = [1, 3, 4, 2]\n", ""),
+            ("throws = [0, 180, 180, 0]", "throws = [0, 180, 180, 0]  # deg"), ("firing_order = [1, 3, 4, 2]\n", "")
         )
         + "# the end\n"
     )
-    wanted = text.replace(
-        "[0, 180, 180, 0]  # deg", "[0.0, 180.0, 0.0, 180.0]  # deg (found by balcli)"
-    )
+    wanted = text.replace("[0, 180, 180, 0]  # deg", "[0.0, 180.0, 0.0, 180.0]  # deg (found by balcli)")
     assert write_design(text.encode(), Design(throws=(0.0, 180.0, 0.0, 180.0))) == wanted
 
 
@@ -407,17 +369,12 @@ def test_articulated_rods_count_once_for_their_throw() -> None:
     angles = np.array([0.0, 100, 190, 250])
     found = tabulate_contributions(file, angles, 0, quantities)
     for q, whole in zip(quantities, evaluate_quantities(build(file), quantities), strict=True):
-        forward, backward = found[q.kind, q.order].add_throws(
-            range(4), np.array([[0, 1, 2, 3]], np.int8)
-        )
-        assert found[q.kind, q.order].read(q, forward, backward)[0] == pytest.approx(
-            float(whole), rel=1e-9
-        )
+        forward, backward = found[q.kind, q.order].add_throws(range(4), np.array([[0, 1, 2, 3]], np.int8))
+        assert found[q.kind, q.order].read(q, forward, backward)[0] == pytest.approx(float(whole), rel=1e-9)
 
 
 @pytest.mark.parametrize(
-    ("minimise", "told"),
-    [("moment.1.major,force.1.major=2", True), ("moment.1.major,moment.2.major", False)],
+    ("minimise", "told"), [("moment.1.major,force.1.major=2", True), ("moment.1.major,moment.2.major", False)]
 )
 def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool) -> None:
     found = search_least(load(SHUFFLED), "throws", minimise)
