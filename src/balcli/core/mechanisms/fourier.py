@@ -6,18 +6,16 @@ real and a sine series imaginary coefficients. All is for one crank of radius 1 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ..phasors import EPS, Array, Complex, unit
+from ..phasors import Array, Complex
 
-Rows: TypeAlias = NDArray[np.intp]  # which of several mechanisms each cylinder has
-
-SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
+Rows: TypeAlias = NDArray[np.intp]  # the mechanism of each cylinder, by its number
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,25 +38,22 @@ class Series:
         return Series(factor * self.c, abs(factor) * self.noise)
 
     def select_orders(self, rows: slice) -> Series:
-        """The orders in these rows; what is left out (`NONE`) has none."""
+        """Return the orders in these rows."""
         return self if self is NONE else Series(self.c[rows], self.noise)
 
     def select_cylinders(self, which: Rows) -> Series:
-        """The mechanisms with these numbers; what is left out (`NONE`) has none."""
+        """Return the mechanisms with these numbers."""
         if self is NONE:
             return self
-        if which.size == self.c.shape[1] and np.array_equal(which.ravel(), np.arange(which.size)):
-            shape = np.shape(self.noise) and which.shape  # all, in their order
-            return Series(self.c.reshape(-1, *which.shape), np.reshape(self.noise, shape))
         noise = self.noise if np.ndim(self.noise) == 0 else np.asarray(self.noise)[which]
         return Series(self.c[:, which], noise)
 
 
-NONE = Series(np.zeros((1, 1)))  # what is left out
+NONE = Series(np.zeros((1, 1)))  # a series that is not wanted
 
 
 class Curve(NamedTuple):
-    """What unit mass does on a closed curve z(psi) (complex, crank radii, x along the cylinder)."""
+    """Series of unit mass on a closed curve z(psi) (complex, crank radii, x along the cylinder)."""
 
     along: Series  # -Re z''
     across: Series  # -Im z''
@@ -68,7 +63,7 @@ class Curve(NamedTuple):
 
 
 class Harmonics(NamedTuple):
-    """The Fourier series of a mechanism, or of many; those that are not wanted are left out."""
+    """The Fourier series of a mechanism, or of many; those that are not wanted are `NONE`."""
 
     piston: Series  # -s''/r: acceleration towards the crank
     rod: Series  # -beta'': angular acceleration of the rod, in the crank's sense
@@ -78,13 +73,11 @@ class Harmonics(NamedTuple):
     turns: float = 0.0  # of the rod for each of the crank
 
     def select_orders(self, rows: slice) -> Harmonics:
-        """The orders in these rows."""
+        """Return the orders in these rows."""
         return self._change_each(lambda series: series.select_orders(rows))
 
     def select_cylinders(self, which: Rows) -> Harmonics:
-        """The mechanisms with these numbers."""
-        if which.shape == self.piston.c.shape[1:] == (1,):  # there is but one
-            return self
+        """Return the mechanisms with these numbers."""
         return self._change_each(lambda series: series.select_cylinders(which))
 
     def _change_each(self, change: Callable[[Series], Series]) -> Harmonics:
@@ -97,52 +90,3 @@ class Harmonics(NamedTuple):
 SERIES = frozenset(
     {"piston", "rod", "kinetic", "rod_kinetic", "along", "across", "couple", "energy", "swirl"}
 )
-
-
-def join_mechanisms(each: Sequence[Harmonics]) -> Harmonics:
-    """Several mechanisms without curves side by side."""
-    return Harmonics(
-        _join([one.piston for one in each]),
-        _join([one.rod for one in each]),
-        _join([one.kinetic for one in each]),
-        _join([one.rod_kinetic for one in each]),
-    )
-
-
-def _join(each: list[Series]) -> Series:
-    if each[0] is NONE or len(each) == 1:
-        return each[0]
-    noises = [np.broadcast_to(series.noise, series.c.shape[1:]) for series in each]
-    return Series(np.concatenate([series.c for series in each], axis=1), np.concatenate(noises))
-
-
-# ------------------------------------------------------------------ from samples
-def unit_circle(count: int) -> Complex:
-    """e^{i psi} at so many evenly spaced psi, each component within 2 ulp of itself: `np.exp` would
-    round psi before.
-    """
-    return unit(np.arange(count) * (360 / count))
-
-
-def pick_orders(spectrum: Complex, orders: ArrayLike) -> Complex:
-    """The coefficients of these orders in transforms (`rfft`) of revolutions, shape (*any axes,
-    samples/2 + 1); order first. Orders that are not whole, or that samples do not show, are 0.
-    """
-    n, half = np.asarray(orders), spectrum.shape[-1] - 1
-    inside = (n % 1 == 0) & (n < half)
-    numbers = np.where(inside, n, 0).astype(int)
-    scale = np.where(numbers == 0, 1, 2) * inside
-    picked = spectrum[..., numbers] / (2 * half) * scale
-    return np.moveaxis(picked, -1, 0)
-
-
-def amplify_rounding(samples: Array, condition: Array | float = 1.0) -> Array:
-    """What one rounding of every sample does to a coefficient, in units of the rounding.
-
-    It is the root mean square of the samples and, where they are not good to some ulp, the mean of
-    what each is multiplied by (`condition`). Shape of the samples without their last axis.
-    """
-    spread: Array = np.sqrt(2 * np.mean(samples**2, axis=-1))
-    if np.ndim(condition) == 0:
-        return spread
-    return spread + np.mean(np.abs(samples) * condition, axis=-1)

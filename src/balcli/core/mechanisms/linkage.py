@@ -18,14 +18,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..phasors import Array, Complex
-from .distinct import Distinct, find_distinct
 from .fourier import Harmonics, Rows
-from .harmonics import count_samples
+from .harmonics import Distinct, count_samples, find_distinct
 from .motion import Motion
 from .sampled import Sampled, sample_mechanisms
 
 STEPS = 1440  # crank angles that do not miss a lock
-_FEWEST_SAMPLES, _FEWEST_OF_VARIANTS = 64, 32
+_FEWEST_SAMPLES = 32
 _AT_ONCE = 1 << 16  # cylinders x angles of figures by themselves
 _SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series that decay the slowest
 
@@ -81,9 +80,7 @@ class Linkage(ABC):
             wanted: names of series (`fourier.SERIES`).
         """
         few = self.find_distinct(lam, eps)
-        one_engine = few.which.ndim == 1  # of one an order is the same among any others
-        highest = np.inf if one_engine else float(np.max(orders, initial=0))
-        found = self._sample(few, orders, wanted, highest)
+        found = self._sample(few, orders, wanted, float(np.max(orders, initial=0)))
         return found.as_harmonics(float(self.turning)), few.which
 
     def sample(
@@ -118,8 +115,7 @@ class Linkage(ABC):
     def _sample(
         self, few: Distinct, orders: ArrayLike, wanted: Collection[str], highest: float
     ) -> Sampled:
-        fewest = _FEWEST_SAMPLES if np.isinf(highest) else _FEWEST_OF_VARIANTS
-        counts = np.full(len(few.figures[0]), fewest)
+        counts = np.full(len(few.figures[0]), _FEWEST_SAMPLES)
         return sample_mechanisms(orders, wanted, self.move, few.figures, counts, highest)
 
 

@@ -1,34 +1,25 @@
-"""Harmonics of many mechanisms, each sampled over a revolution as often as it needs, in blocks that
-stay in the processor's cache.
+"""Harmonics of many mechanisms by the FFT of one revolution of samples.
 
 Accelerations are sampled as such, not differentiated, so that no order's error grows.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..phasors import Array, Complex
-from .fourier import (
-    NONE,
-    SAMPLING,
-    Curve,
-    Harmonics,
-    Series,
-    amplify_rounding,
-    pick_orders,
-    unit_circle,
-)
+from ..phasors import EPS, Array, Complex, unit
+from .fourier import NONE, Curve, Harmonics, Series
 from .motion import Motion, Move
 
+SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
 MOST_SAMPLES = 1 << 18
-_AT_ONCE = 1 << 16  # samples: of fewer, threads hand each other Python's lock; more leave the cache
-_LIMIT = SAMPLING / 4  # of the upper half of a spectrum that holds rounding errors alone
+_AT_ONCE = 1 << 16  # samples of all mechanisms together that stay in the processor's cache
+_LIMIT = SAMPLING / 16  # of the aliases of an order that is wanted
 
 _OF_ROD: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
     {
@@ -50,26 +41,19 @@ _OF_MASS: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
 
 
 class Sampled(NamedTuple):
-    """Series of mechanisms by name, each of shape (orders, mechanisms), and how many samples each
-    mechanism took, shape (mechanisms,).
+    """Series of mechanisms by name, each of shape (orders, mechanisms), and the number of samples
+    of each mechanism, shape (mechanisms,).
     """
 
     series: dict[str, Series]
     counts: NDArray[np.intp]
 
     def as_harmonics(self, turns: float = 0.0) -> Harmonics:
-        """The series that there are; `turns` as in `Harmonics`."""
+        """Return the series as `Harmonics`, with its `turns`."""
         of_rod = {name: self.series.get(name, NONE) for name in _OF_ROD}
         of_mass = {name: self.series.get(name, NONE) for name in _OF_MASS}
         on_curve = bool(self.series.keys() & of_mass.keys())
         return Harmonics(**of_rod, curve=Curve(**of_mass) if on_curve else None, turns=turns)
-
-
-class _Room(NamedTuple):
-    """For a series of all mechanisms."""
-
-    c: Complex
-    noise: Array
 
 
 def sample_mechanisms(
@@ -78,85 +62,97 @@ def sample_mechanisms(
     move: Move,
     figures: Sequence[NDArray[Any]],
     counts: NDArray[np.intp],
-    highest: float | None = None,
+    highest: float,
 ) -> Sampled:
-    """Series of many mechanisms, each sampled as often as it needs, whatever the others need.
+    """Return series of many mechanisms, each sampled as often as it needs.
 
     Args:
         orders: shape (orders,).
         wanted: names of series (`fourier.SERIES`).
         move: the mechanisms in motion, by e^{i psi} of shape (samples, 1) and figures of shape
-            (mechanisms,): arrays that run along many mechanisms are quicker than along samples.
+            (mechanisms,).
         figures: what distinguishes them, each of shape (mechanisms,).
-        counts: samples of a revolution that each takes at first, powers of two.
-        highest: where given, a mechanism whose samples are too few for orders up to this one takes
-            twice as many, and so on; else the counts are enough.
+        counts: samples of a revolution that each takes at first, powers of two, shape
+            (mechanisms,); doubled until the orders up to `highest` have no alias above rounding.
+        highest: order.
     """
     n = np.asarray(orders)
-    found: dict[str, _Room] = {}
     taken = counts.copy()
-    # np.unique would import masked arrays, which takes longer than sampling most engines
-    waiting = {count: np.flatnonzero(counts == count) for count in set(counts.tolist())}
+    series: dict[str, Series] = {}
+    waiting = [(count, np.flatnonzero(counts == count)) for count in set(counts.tolist())]
     while waiting:
-        count = min(waiting)
-        circle, again = unit_circle(count), []
-        for rows in _divide(waiting.pop(count), max(_AT_ONCE // count, 1)):
-            motion = move(circle[:, None], *(values[rows] for values in figures))
-            enough = np.ones(len(rows), bool)
-            for name, samples, condition in _take_samples(motion, wanted):
-                rounding = amplify_rounding(samples.T, np.transpose(condition))
-                spectrum = np.fft.rfft(samples, axis=0).T
-                if name not in found:
-                    shape = len(n), len(counts)
-                    found[name] = _Room(np.zeros(shape, complex), np.zeros(shape[1]))
-                found[name].c[:, rows] = pick_orders(spectrum, n)
-                found[name].noise[rows] = SAMPLING * rounding
-                if highest is not None and count < MOST_SAMPLES:
-                    enough &= _is_enough(spectrum, rounding, highest)
-            taken[rows] = count
-            again.append(rows[~enough])
-        if any(map(len, again)):
-            again.append(waiting.get(2 * count, again[0][:0]))
-            waiting[2 * count] = np.concatenate(again)
-    return Sampled({name: Series(*room) for name, room in found.items()}, taken)
+        count, rows = waiting.pop()
+        most = max(_AT_ONCE // count, 1)
+        if len(rows) > most:
+            waiting.append((count, rows[most:]))
+            rows = rows[:most]
+        motion = move(unit_circle(count)[:, None], *(values[rows] for values in figures))
+        enough = np.ones(len(rows), bool)
+        for name, find in {**_OF_ROD, **(_OF_MASS if motion.points else {})}.items():
+            if name not in wanted:
+                continue
+            samples = find(motion)
+            rounding = _amplify_rounding(samples, motion.condition if name in _OF_ROD else 1.0)
+            spectrum = np.fft.rfft(samples, axis=0, norm="forward")
+            if name not in series:
+                shape = len(n), len(counts)
+                series[name] = Series(np.zeros(shape, complex), np.zeros(shape[1]))
+            series[name].c[:, rows] = _pick_orders(spectrum, n)
+            np.asarray(series[name].noise)[rows] = SAMPLING * rounding
+            enough &= _is_enough(spectrum, rounding, highest) | (count >= MOST_SAMPLES)
+        taken[rows] = count
+        if not enough.all():
+            waiting.append((2 * count, rows[~enough]))
+    return Sampled(series, taken)
 
 
-def _divide(rows: NDArray[np.intp], step: int) -> Iterator[NDArray[np.intp]]:
-    """So many at a time."""
-    return (rows[k : k + step] for k in range(0, len(rows), step))
+def unit_circle(count: int) -> Complex:
+    """Return e^{i psi} at `count` evenly spaced psi, each component within 2 ulp of itself."""
+    return unit(np.arange(count) * (360 / count))
 
 
-def _take_samples(
-    motion: Motion, wanted: Collection[str]
-) -> Iterator[tuple[str, Array, Array | float]]:
-    """Name, samples and condition of these of each series that is wanted and there."""
-    for name, find in _OF_ROD.items():
-        if name in wanted:
-            yield name, find(motion), motion.condition
-    for name, find in _OF_MASS.items():
-        if name in wanted and motion.points:
-            yield name, find(motion), 1.0
+def _pick_orders(spectrum: Complex, orders: NDArray[Any]) -> Complex:
+    """Return the coefficients of these orders, shape (orders, mechanisms), 0 for orders that are
+    not whole or beyond the samples.
+
+    Args:
+        spectrum: `rfft` of the samples with norm "forward", shape (samples/2 + 1, mechanisms).
+        orders: shape (orders,).
+    """
+    inside = (orders % 1 == 0) & (orders < len(spectrum) - 1)
+    numbers = np.where(inside, orders, 0).astype(int)
+    scale = np.where(numbers == 0, 1, 2) * inside
+    return np.asarray(spectrum[numbers] * scale[:, None])
+
+
+def _amplify_rounding(samples: Array, condition: Array | float) -> Array:
+    """Return the error of a coefficient by one rounding of every sample, in units of the rounding,
+    shape (mechanisms,).
+
+    It is the root mean square of the samples and, where they have larger errors than some ulp, the
+    mean of their sizes times `condition`.
+    """
+    spread: Array = np.sqrt(2 * np.mean(samples**2, axis=0))
+    if np.ndim(condition) == 0:
+        return spread
+    return spread + np.mean(np.abs(samples) * condition, axis=0)
 
 
 def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np.bool_]:
-    """Whether these samples are enough for orders up to the highest.
+    """Return whether the orders up to the highest have no alias above rounding.
 
-    They are where the upper half of the spectrum holds rounding errors alone. Low orders need less:
-    order n of N samples is mixed with N - n, and what is there follows from how the
-    upper half falls. From one half of it to the other it does so by some factor, and by that factor
-    again for every N/8 orders from there on.
+    Order n of N samples is mixed with order N - n, and orders from N/2 on are missing. The size of
+    that order follows from the decay in the upper half of the spectrum: the largest coefficient
+    falls by some factor from the third eighth of the N orders to the fourth, and by that factor
+    again in every further eighth, of which one half is left out as a margin.
 
     Args:
-        spectrum: shape (mechanisms, samples/2 + 1).
-        rounding: `amplify_rounding` of the samples, shape (mechanisms,).
+        spectrum: `rfft` of the samples with norm "forward", shape (N/2 + 1, mechanisms).
+        rounding: `_amplify_rounding` of the samples, shape (mechanisms,).
     """
-    count = 2 * (spectrum.shape[-1] - 1)
-    upper = spectrum[:, count // 4 :]
-    sizes = np.sqrt(upper.real**2 + upper.imag**2) / count
-    before, last = sizes[:, : count // 8].max(axis=-1), sizes[:, count // 8 :].max(axis=-1)
-    enough = np.maximum(before, last) <= _LIMIT * np.maximum(rounding, 1.0)
-    if highest <= count / 8:
-        factor = last / np.maximum(before, last + 1e-300)
-        mixed = last * factor ** ((count - highest) / (count / 8) - 3)
-        enough |= mixed <= _LIMIT / 16 * rounding
-    return np.asarray(enough)
+    eighth = (len(spectrum) - 1) / 4
+    sizes = np.abs(spectrum[round(2 * eighth) :])
+    third, fourth = sizes[: round(eighth)].max(axis=0), sizes[round(eighth) :].max(axis=0)
+    decay = fourth / np.maximum(third, fourth + 1e-300)
+    alias = fourth * decay ** (max(8 - highest / eighth, 4) - 3.5)
+    return np.asarray(alias <= _LIMIT * np.maximum(rounding, 1.0))
