@@ -717,7 +717,7 @@ IMPORTED = {
     "commands": "amounts analysis_answer analysis_options analyze declare defaults file_names "
     "format_names inputs options output overwrite_guard speed_range",
     "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple speeds",
-    "core.mechanisms": "closed_form distinct fourier harmonics",
+    "core.mechanisms": "closed_form fourier harmonics",
     "engine": "arrays assembly build devices even_order figures firing layout load positions rods rules split_pins",
     "enginefile": "conflicts exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
     "units unknown_keys",
