@@ -7,9 +7,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core import many_peaks
-from balcli.core.many_peaks import find_largest
-from balcli.core.peaks import find_peak
+from balcli.core import peaks
+from balcli.core.peaks import find_largest, find_peak
 from balcli.core.phasors import Phasors
 
 DENSE = np.linspace(0, 4 * np.pi, 200_001)
@@ -65,7 +64,7 @@ def test_trailing_axes_and_blocks(monkeypatch):
     grid = curves(many.orders, many.forward.reshape(3, 3, 4), many.backward[:, :1].reshape(3, 1, 1))
     whole = find_largest(grid)
     assert whole.shape == (3, 4)
-    monkeypatch.setattr(many_peaks, "_AT_ONCE", 5 * 48)
+    monkeypatch.setattr(peaks, "_AT_ONCE", 5 * 96)
     assert np.array_equal(find_largest(grid), whole)
     one = curves(many.orders, grid.forward[:, 1, 2], grid.backward[:, 0, 0])
     assert whole[1, 2] == pytest.approx(find_peak(one).value, rel=4e-15, abs=0)

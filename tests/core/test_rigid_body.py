@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support import high_precision
 
-from balcli.core.cycle_peaks import find_longest, largest_of_ellipse
+from balcli.core.peaks import find_longest, largest_of_ellipse
 from balcli.core.rigid_body import (
     Body,
     Mounts,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.close_peaks import find_highest
-from ..core.cycle_peaks import find_longest, largest_of_ellipse
+from ..core.peaks import find_longest, largest_of_ellipse
 from ..core.rigid_body import (
     BodyResponse,
     carry_points,
