@@ -77,6 +77,10 @@ def test_a_peak_that_no_sample_shows_as_highest():
         assert top.angle == pytest.approx([shift], abs=1e-6)
 
 
+def test_of_equal_peaks_the_first():
+    assert find_swing([3], np.array([np.exp(-0.3j)])).highest.angle == pytest.approx(0.1)
+
+
 def test_a_mean_counts_with_its_real_part():
     swing = find_swing([0, 1], np.array([2 + 9j, 1]))
     assert (swing.highest.value, swing.lowest.value) == pytest.approx((3, 1))

@@ -78,6 +78,13 @@ def test_a_branch_point_at_a_breakpoint(power):
     np.testing.assert_allclose(curve.at(angle), angle**power, rtol=0, atol=1e-11)
 
 
+def test_panels_end_where_the_function_is_no_better_than_its_own_noise():
+    noise = np.random.default_rng(1)
+    rough = resolved(lambda x: np.sin(x) + 1e-11 * noise.uniform(-1, 1, x.shape), [0, TURN])
+    assert len(rough.breaks) < 400
+    np.testing.assert_allclose(rough.harmonics(np.arange(4)), [0, -1j, 0, 0], rtol=0, atol=1e-10)
+
+
 def test_many_pieces_lose_nothing():
     breaks = np.linspace(0, TURN, 1001)
     curve = resolved(smooth, breaks)
