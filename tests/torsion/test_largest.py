@@ -9,7 +9,7 @@ from support.diesel import write_diesel
 from support.paths import ENGINES
 
 from balcli import BalcliError, analyze_torsion
-from balcli.core.cycle_peaks import find_swing
+from balcli.core.peaks import find_swing
 from balcli.engine.build import build
 from balcli.engine.load import parse
 from balcli.torsion.build_engine import build_engine_system, excite_engine

@@ -13,7 +13,7 @@ import pytest
 from support.chains import balance_power
 from support.paths import ROOT
 
-from balcli.core.cycle_peaks import find_swing, sum_amplitudes
+from balcli.core.peaks import find_swing, sum_amplitudes
 from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
 from balcli.core.torsional_modes import count_nodes, find_chain_modes
 from balcli.core.torsional_response import respond_chain

@@ -38,9 +38,7 @@ def find_highest(
     at, which = np.nonzero(may)
     if len(at):
         place, height = find_peaks_between(judge, places[at], places[at + 1], which)
-        for k in np.argsort(height):  # the highest last
-            if height[k] > highest[which[k]]:
-                best[which[k]], highest[which[k]] = place[k], height[k]
+        _raise(best, highest, which, place, height)
     return best, highest
 
 

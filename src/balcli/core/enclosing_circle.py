@@ -1,24 +1,25 @@
 """Smallest circle that encloses a closed curve, found on the analytic curve itself.
 
 The curve is a force seen from the turning crank, `f = F e^{-i theta}`. An exchange: the smallest
-circle of a few of its points, which can only be too small, then the points of the curve farthest
-from its centre, until both agree; Newton's method on the points that fix the circle makes it quick
-and gives the centre to rounding even where the radius is flat. Any weights w of points bound the
-radius from below, `R^2 >= sum w |f|^2 - |sum w f|^2`: the error is known.
+circle of a few of its points, which can only be too small, then the peaks of the difference
+between curve and centre, until both agree. Newton's method on the two or three angles that fix the
+circle gives the centre to rounding even where the radius is flat. Weights w >= 0 of points with sum
+1 bound the radius from below, `R^2 >= sum w |f|^2 - |sum w f|^2`: the error is known.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
-from .peaks import climb_peaks, find_candidates
-from .phasors import EPS, Array, Complex, Phasors
+from .peaks import find_near_peaks
+from .phasors import EPS, Complex, Phasors
+from .singular_values import Real
 
 _SAME = 8 * EPS  # points no farther outside than this, relative, are on the circle
-_TOUCHING = 1e-11  # likewise for the angles that are reported
+_TOUCHING = 1e-11  # the same for the angles that are reported
 _APART = 1e-3  # rad; angles nearer than this are one peak
 _ROUNDS = 60
 _NEWTON_STEPS = 4  # from points that nearly fix the circle, to rounding
@@ -31,117 +32,115 @@ class Circle(NamedTuple):
 
     Attributes:
         theta: angles (rad, ascending) at which the curve touches it.
-        excess: bound by which the radius may be too large; 0 where that is no more than `noise`.
+        excess: bound by which the radius may be too large; 0 if that is no more than `noise`.
         noise: rounding error of the radius.
     """
 
     centre: complex
     radius: float
-    theta: Array
+    theta: Real
     excess: float
     noise: float = 0.0
 
 
 def enclose_curve(curve: Phasors) -> Circle:
-    """Smallest circle around `F e^{-i theta}` for phasors of whole orders, 1 among them, without
-    trailing axes.
+    """Return the smallest circle around `F e^{-i theta}` for phasors of whole orders, 1 among them,
+    without trailing axes.
     """
     there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
     if not np.any(curve.major):
         return Circle(0j, 0.0, np.zeros(0), 0.0)
     curve = Phasors(curve.orders[there], curve.vectors[:, there], np.zeros(1))
-    best = _enclose_from(curve, complex(curve.forward[curve.orders == 1].sum()), np.zeros(0))
+    noise = _SAME * float(curve.major.sum())
+    best = _reach(curve, complex(curve.forward[curve.orders == 1].sum()))
     theta, lower = best.theta, 0.0
     for _ in range(_ROUNDS):
         points = _seen(curve, theta)
-        centre, _, fixing = enclose_points(points)
+        centre, fixing = enclose_points(points)
         theta = theta[fixing]
         lower = max(lower, _lower_bound(points[fixing], centre))
-        trials = [_enclose_from(curve, c, theta) for c in (centre, _newton(curve, theta, centre))]
+        trials = [_reach(curve, c) for c in (centre, _newton(curve, theta, centre))]
         best = min(best, *trials, key=lambda circle: circle.radius)
-        if best.radius - lower <= _SAME * best.radius:
+        if best.radius - lower <= noise:
             break
-        theta = _drop_near(np.concatenate([theta, *(circle.theta for circle in trials)]), _SAME)
-    fine = _enclose_from(curve, _newton(curve, theta, best.centre), theta)
-    best = fine if fine.radius <= best.radius * (1 + _SAME) else best
-    noise = _SAME * float(curve.major.sum())
+        theta = np.concatenate([theta, *(circle.theta for circle in trials)])
+    fine = _reach(curve, _newton(curve, best.theta if len(theta) < 2 else theta, best.centre))
+    best = fine if fine.radius <= best.radius + noise else best
     on = np.abs(_seen(curve, best.theta) - best.centre) >= best.radius * (1 - _TOUCHING) - noise
     excess = best.radius - lower
-    return best._replace(
-        theta=best.theta[on], excess=excess if excess > noise else 0.0, noise=noise
-    )
+    return Circle(best.centre, best.radius, best.theta[on], excess * (excess > noise), noise)
 
 
-def enclose_points(points: Complex) -> tuple[complex, float, list[int]]:
-    """Smallest circle around some points: centre, radius, and the (at most three) points that fix
-    it.
-
-    Point after point, the circle growing where one lies outside, which must then lie on it (Welzl
-    1991, as loops).
+def enclose_points(points: Complex) -> tuple[complex, list[int]]:
+    """Return the centre of the smallest circle around some points, and the (at most three) points
+    that fix it: of those and the farthest point, again and again.
     """
+    centre, radius, fixing = complex(points[0]), 0.0, [0]
+    for _ in range(len(points) + _ROUNDS):
+        distance = np.abs(points - centre)
+        farthest = int(np.argmax(distance))
+        if distance[farthest] <= radius * (1 + _SAME) or farthest in fixing:
+            break
+        few = [*fixing, farthest]
+        circles = [
+            (float(np.abs(points[list(some)] - middle).max()), middle, list(some))
+            for count in (2, 3)
+            for some in combinations(few, count)
+            if (middle := _find_middle(points[list(some)])) is not None
+        ]
+        holding = [
+            one for one in circles if np.abs(points[few] - one[1]).max() <= one[0] * (1 + _TOUCHING)
+        ]
+        radius, centre, fixing = min(holding or circles, key=lambda one: one[0])
+    return centre, fixing
 
-    def grown(count: int, fixed: list[int]) -> tuple[complex, float, list[int]]:
-        centre, radius, on = _through(points, fixed)
-        for k in range(count):
-            if abs(points[k] - centre) > radius * (1 + _SAME) and len(fixed) < 3:
-                centre, radius, on = grown(k, [*fixed, k])
-        return centre, radius, on
 
-    return grown(len(points), [])
-
-
-def _through(points: Complex, fixed: Sequence[int]) -> tuple[complex, float, list[int]]:
-    """Circle of none, one, two (as diameter) or three points."""
-    if not fixed:
-        return 0j, -1.0, []
-    a = complex(points[fixed[0]])
-    if len(fixed) == 1:
-        return a, 0.0, list(fixed)
-    b = complex(points[fixed[1]]) - a
-    if len(fixed) == 2:
-        return a + b / 2, abs(b) / 2, list(fixed)
-    c = complex(points[fixed[2]]) - a
+def _find_middle(points: Complex) -> complex | None:
+    """Return the centre of the circle through two points (as diameter) or three; None: in line."""
+    a, b = complex(points[0]), complex(points[1] - points[0])
+    if len(points) == 2:
+        return a + b / 2
+    c = complex(points[2]) - a
     across = 2 * (b.conjugate() * c).imag
-    if across == 0:
-        return a, np.inf, list(fixed)
-    middle = 1j * (b * abs(c) ** 2 - c * abs(b) ** 2) / across
-    return a + middle, abs(middle), list(fixed)
+    return a + 1j * (b * abs(c) ** 2 - c * abs(b) ** 2) / across if across else None
 
 
 def _lower_bound(points: Complex, centre: complex) -> float:
-    """A lower bound of the radius, by the weights with which the points balance about a centre."""
+    """Return a lower bound of the radius, by weights with which the points balance about the
+    centre.
+    """
     arms = points - centre
-    rows = np.stack([arms.real, arms.imag, np.full(len(arms), np.abs(arms).max() or 1.0)])
-    weights = np.clip(
-        np.linalg.lstsq(rows, rows[2, 0] * np.array([0, 0, 1.0]), rcond=None)[0], 0, None
-    )
+    size = np.abs(arms).max() or 1.0
+    rows = np.stack([arms.real / size, arms.imag / size, np.ones(len(arms))])
+    weights = np.clip(np.linalg.lstsq(rows, np.array([0, 0, 1.0]), rcond=None)[0], 0, None)
     weights /= weights.sum()
     return float(np.sqrt(max(weights @ np.abs(arms) ** 2 - abs(weights @ arms) ** 2, 0.0)))
 
 
-def _enclose_from(curve: Phasors, centre: complex, theta: Array) -> Circle:
-    """The smallest circle with this centre; its angles are those of the highest peaks, and of those
-    beside the angles given.
-    """
+def _reach(curve: Phasors, centre: complex) -> Circle:
+    """Return the smallest circle with this centre, and the peaks of the difference."""
     forward = np.where(curve.orders == 1, curve.forward - centre, curve.forward)
-    shifted = Phasors.of(curve.orders, forward, curve.backward, curve.noise)
-    start = np.concatenate([find_candidates(shifted), theta])
-    found = _drop_near(climb_peaks(shifted, start, np.pi / (8 * curve.orders[-1])))
-    return Circle(centre, float(np.abs(shifted.values(found)).max()), found, np.inf)
+    difference = Phasors.of(curve.orders, forward, curve.backward, curve.noise)
+    if not np.any(difference.vectors):
+        return Circle(centre, 0.0, np.zeros(1), np.inf)
+    theta = find_near_peaks(difference)
+    first = np.diff(theta, prepend=theta[-1] - 2 * np.pi) > _APART
+    theta = theta[first] if np.any(first) else theta[:1]
+    return Circle(centre, float(np.abs(difference.values(theta)).max()), theta, np.inf)
 
 
-def _newton(curve: Phasors, theta: Array, centre: complex) -> complex:
-    """The centre of the circle through the points that fix it once each is where the curve is
-    farthest from that centre.
+def _newton(curve: Phasors, theta: Real, centre: complex) -> complex:
+    """Return the centre of the circle through two or three points of the curve once each is where
+    the curve is farthest from that centre.
     """
-    theta = _drop_near(theta)
-    if len(theta) < 2:
+    if not 2 <= len(theta) <= 3:
         return centre
 
-    def slopes(theta: Array) -> tuple[Array, complex]:
+    def slopes(theta: Real) -> tuple[Real, complex]:
         seen = _seen(curve, theta)
-        middle = _through(seen, range(len(theta)))[0]
-        return (np.conj(seen - middle) * _rate(curve, theta)).real, middle
+        middle = _find_middle(seen)
+        middle = centre if middle is None else middle
+        return (np.conj(seen - middle) * _seen(curve, theta, 1)).real, middle
 
     for _ in range(_NEWTON_STEPS):
         columns = [
@@ -153,22 +152,10 @@ def _newton(curve: Phasors, theta: Array, centre: complex) -> complex:
     return slopes(theta)[1]
 
 
-def _drop_near(theta: Array, apart: float = _APART) -> Array:
-    """Angles in [0, 2 pi), ascending, of several that lie together the first."""
-    theta = np.sort(theta % (2 * np.pi))
-    first = np.diff(theta, prepend=theta[-1:] - 2 * np.pi) > apart
-    return theta[first] if first.any() else theta[:1]
-
-
-def _seen(curve: Phasors, theta: Array) -> Complex:
-    seen: Complex = curve.values(theta) * np.exp(-1j * theta)
-    return seen
-
-
-def _rate(curve: Phasors, theta: Array) -> Complex:
-    """Derivative of the curve seen from the crank."""
-    n = curve.orders
-    return _seen(
-        Phasors.of(n, 1j * (n - 1) * curve.forward, -1j * (n + 1) * curve.backward, curve.noise),
-        theta,
+def _seen(curve: Phasors, theta: Real, times: int = 0) -> Complex:
+    """Return the curve seen from the crank, differentiated so many times, at angles (rad)."""
+    ahead, against = 1j * (curve.orders - 1), -1j * (curve.orders + 1)
+    return np.asarray(
+        np.exp(np.multiply.outer(theta, ahead)) @ (ahead**times * curve.forward)
+        + np.exp(np.multiply.outer(theta, against)) @ (against**times * curve.backward)
     )

@@ -141,11 +141,6 @@ def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
     return np.concatenate([still, -cross_matrix(arms)], axis=-1)
 
 
-def move_points(points: ArrayLike, centre: ArrayLike, motion: Complex) -> Complex:
-    """Displacement (..., points, 3) of points (points, 3) of a body that moves by (..., 6)."""
-    return np.einsum("pij,...j->...pi", carry_points(points, centre), motion)
-
-
 def load_at_centre(
     force: Complex, moment: Complex, reference: ArrayLike, centre: ArrayLike
 ) -> Complex:
@@ -283,10 +278,26 @@ def respond_body(body: Body, mounts: Mounts, frequency: ArrayLike, load: Complex
 
 
 def press_mounts(body: Body, mounts: Mounts, frequency: ArrayLike, motion: Complex) -> Complex:
-    """Forces (*frequency, mounts, 3) of a body that moves by (*frequency, 6) on its mounts, along
-    the engine's axes.
+    """Return the forces (*frequency, mounts, 3) of a body that moves by (*frequency, 6) on its
+    mounts, along the engine's axes.
     """
-    w = np.asarray(frequency, float)[..., None, None]
-    own = (motion @ stretch_mounts(body, mounts).reshape(-1, 6).T).reshape(*w.shape[:-2], -1, 3)
-    own = (mounts.stiffness * (1 + 1j * mounts.loss) + 1j * w * mounts.damping) * own
-    return (mounts.axes @ own[..., None])[..., 0]
+    w, (springs, dashpots) = np.asarray(frequency, float), couple_mounts(body, mounts)
+    return apply_couplings(springs, motion) + 1j * w[..., None, None] * apply_couplings(
+        dashpots, motion
+    )
+
+
+def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
+    """Return the force on every mount along the engine's axes for a unit of each motion of the
+    body: of springs with their loss, and of dashpots, for a unit of each speed; (mounts, 3, 6).
+    """
+    travel = stretch_mounts(body, mounts)
+    springs = (mounts.stiffness * (1 + 1j * mounts.loss))[..., None] * travel
+    dashpots = mounts.damping[..., None] * travel
+    return np.asarray(mounts.axes @ springs, complex), mounts.axes @ dashpots
+
+
+def apply_couplings(couplings: Complex | Real, motion: Complex) -> Complex:
+    """Return the vectors (..., places, 3) of couplings (places, 3, 6) and a motion (..., 6)."""
+    found = motion @ couplings.reshape(-1, 6).T
+    return found.reshape(*motion.shape[:-1], -1, 3)

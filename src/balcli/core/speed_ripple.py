@@ -16,7 +16,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .peaks import Peak, find_peak
+from .peaks import Peak, find_swing
 from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 
 Number = TypeVar("Number", np.float64, np.complex128)
@@ -54,17 +54,14 @@ def find_speed(lines: Iterable[RippleLine], step: float = 1.0) -> Complex:
 
 
 def find_slowest(lines: Sequence[RippleLine]) -> Peak:
-    """The least W over a cycle, to rounding, and a crank angle (rad) at which it is reached; of
+    """Return the least W over a cycle and the first crank angle (rad) at which it is reached, for
     lines without trailing axes.
-
-    It is where `sum |amplitude| + 1 - W`, which is nowhere negative, has its peak.
     """
     step = find_step(order for order, _, _ in lines)
-    w, size = find_speed(lines, step), sum(abs(float(amplitude)) for _, amplitude, _ in lines)
+    w = find_speed(lines, step)
     orders = np.arange(len(w) // 2 + 1.0) * step
-    rest = np.where(orders, -w[len(w) // 2 :], size)
-    top = find_peak(Phasors.of(orders, rest, np.where(orders, rest.conj(), 0), np.zeros(1)))
-    return Peak(1 + size - top.value, top.theta)
+    lowest = find_swing(orders, np.where(orders, 2, 1) * w[len(w) // 2 :]).lowest
+    return Peak(float(lowest.value), float(lowest.angle))
 
 
 class Timetable(NamedTuple):

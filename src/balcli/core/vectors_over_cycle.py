@@ -13,16 +13,17 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
+from numpy.polynomial.legendre import legvander
 
 from .cached_property import cached_property
 from .peaks import Peak
 from .phasors import Array, Complex
-from .piecewise import PiecewiseCurve, cut, gauss, legendre, resolved, values_to_series
+from .piecewise import PiecewiseCurve, cut, gauss, quadrature, resolved, values_to_series
 
 Vectors: TypeAlias = Callable[[Array], Complex]  # at angles, shape (vectors, angles)
 
-_TERMS = 16  # of a series; a panel on which e^{in angle} turns no farther adds none
-_TURN_ON_PANEL = 4.0  # rad, so far
+_TERMS = 16  # of a series, as many as `quadrature` has nodes
+_TURN_ON_PANEL = 4.0  # rad; e^{in angle} that turns no farther on a panel needs no more terms
 _AT_ONCE = 1 << 20  # orders x angles, which bounds the memory
 
 
@@ -38,15 +39,8 @@ class Panels:
 
     @cached_property
     def angles(self) -> Array:
-        """Of the samples, rad, shape (samples,): node by node, each on every panel."""
-        middle, half = (self.breaks[1:] + self.breaks[:-1]) / 2, np.diff(self.breaks) / 2
-        return np.asarray(middle + half * gauss(_TERMS)[0][:, None]).reshape(-1)
-
-    @cached_property
-    def _weights(self) -> Array:
-        """Of the samples in a mean over the period."""
-        half = np.diff(self.breaks) / 2 / (self.breaks[-1] - self.breaks[0])
-        return np.asarray(half * gauss(_TERMS)[1][:, None]).reshape(-1)
+        """Angles of the samples, rad, shape (samples,): node by node, each on every panel."""
+        return quadrature(self.breaks)[0].reshape(-1)
 
     def find_orders(self, samples: Complex, orders: Array) -> tuple[Complex, Complex]:
         """Vectors that turn with the crank, and against it, each of shape (orders, forces).
@@ -56,7 +50,7 @@ class Panels:
             orders: shape (orders,), none higher than the panels were made for; those that the
                 period does not have are 0.
         """
-        weighed = (samples * self._weights).T
+        weighed = (samples * quadrature(self.breaks)[1].reshape(-1)).T
         step = max(_AT_ONCE // len(self.angles), 1)
         forward, backward = [], []
         for k in range(0, len(orders), step):
@@ -76,9 +70,9 @@ class Panels:
         """
         series = self._find_series(samples)
         finer = 2 * _TERMS - 1  # terms of the square
-        values = legendre(gauss(finer)[0], _TERMS).T @ series
+        values = legvander(gauss(finer)[0], _TERMS - 1) @ series
         squares = values_to_series(finer) @ (values.real**2 + values.imag**2)
-        highest = PiecewiseCurve(self.breaks, squares).highest()
+        highest = PiecewiseCurve(self.breaks, squares).extremes()[1]
         return Peak(float(np.sqrt(max(highest.value, 0.0))), highest.angle)
 
     def find_mean_size(self, samples: Complex) -> float:

@@ -11,7 +11,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ..core.factored_phasors import FactoredPhasors
-from ..core.many_peaks import find_largest
+from ..core.peaks import find_largest
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN

@@ -103,30 +103,35 @@ class Variants:
         mounted = build_mounted_body(change_figures(self._model, values, _TABLES))
         if not (self._runs or self._leans):
             modes = find_mounted_modes(mounted)
-            return [self._read(q, modes, ()) for q in self._quantities]
+            return [self._read(q, modes, {}) for q in self._quantities]
         own = {
             path: value for path, value in values.items() if path.partition(".")[0] not in _TABLES
         }
         engine = self._engines.build(own)
         loads = find_loads(engine, mounted.body.centre)
         modes = find_mounted_modes(mounted, loads.mean)
-        largest: Sequence[LargestAmplitude] = ()
+        largest: Mapping[int, LargestAmplitude] = {}
         if self._runs:
             omega = choose_mount_speeds(engine) * RPM
-            largest = find_largest_amplitudes(mounted, modes, loads, omega)
+            curves = sorted({self._number(q) for q in self._quantities if q.part in _RUNS})
+            found = find_largest_amplitudes(mounted, modes, loads, omega, curves)
+            largest = dict(zip(curves, found, strict=True))
         return [self._read(q, modes, largest) for q in self._quantities]
 
     def _read(
-        self, q: TargetQuantity, modes: BodyModes, largest: Sequence[LargestAmplitude]
+        self, q: TargetQuantity, modes: BodyModes, largest: Mapping[int, LargestAmplitude]
     ) -> float:
-        """A quantity; `largest`: of every mount, then of every point, if one asks for it."""
+        """Return the value of a quantity; `largest` holds the curves by `_number`."""
         if q.kind == "mode":
             return _read_mode(modes, q)
-        k = self._targets[q.kind].index(q.target)
         if q.part == "static":
-            return float(np.linalg.norm(modes.settled.forces[k]))
+            return float(np.linalg.norm(modes.settled.forces[self._number(q)]))
+        return largest[self._number(q)].value
+
+    def _number(self, q: TargetQuantity) -> int:
+        """Return the number of a mount, or of a point after all mounts."""
         first = 0 if q.kind == "mount" else len(self._targets["mount"])
-        return largest[first + k].value
+        return first + self._targets[q.kind].index(q.target)
 
 
 def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:

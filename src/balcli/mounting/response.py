@@ -4,7 +4,7 @@ up in time, at every speed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -12,21 +12,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.close_peaks import find_highest
-from ..core.cycle_peaks import find_longest, largest_of_ellipse
+from ..core.peaks import find_longest, largest_of_ellipse
 from ..core.rigid_body import (
-    BodyResponse,
+    apply_couplings,
     carry_points,
+    couple_mounts,
+    damping_matrix,
     load_at_centre,
     mass_matrix,
-    move_points,
-    press_mounts,
-    respond_body,
+    stiffness_matrix,
 )
 from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_others
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
-from ..core.vibration import UNDAMPED, UndampedResonanceError, find_resonances, frequencies
+from ..core.vibration import (
+    UNDAMPED,
+    UndampedResonanceError,
+    find_resonances,
+    frequencies,
+    solve_response,
+)
 from ..engine.arrays import find_first_largest
 from ..engine.build import NONE_SILENT, Engine, SilentCylinders
 from ..engine.positions import MOMENTS_UNKNOWN
@@ -207,14 +213,84 @@ def _find_load(found: Spectra, reference: Real, centre: Real) -> Complex:
     return load_at_centre(force, moment, reference, centre)
 
 
+class _Couplings(NamedTuple):
+    """Matrices of a body on its mounts, and what its motion does at places: forces of mounts (N),
+    then motion of points (m), each a curve of three components.
+
+    Attributes:
+        stiffness, damping, mass: (6, 6) about the centre of gravity.
+        direct: (curves, 3, 6) for a unit of each motion of the body.
+        by_speed: (curves, 3, 6) for a unit of each of its speeds.
+    """
+
+    stiffness: Complex
+    damping: Real
+    mass: Real
+    direct: Complex
+    by_speed: Real
+
+    @classmethod
+    def of(cls, mounted: MountedBody) -> _Couplings:
+        body, mounts = mounted.body, mounted.dynamic
+        springs, dashpots = couple_mounts(body, mounts)
+        points = carry_points(mounted.points, body.centre)
+        return cls(
+            stiffness_matrix(body, mounts),
+            damping_matrix(body, mounts),
+            mass_matrix(body),
+            np.concatenate([springs, points]),
+            np.concatenate([dashpots, np.zeros_like(points)]),
+        )
+
+    def select(self, curves: Sequence[int] | NDArray[np.intp]) -> _Couplings:
+        """Return the couplings of some of the curves."""
+        return self._replace(direct=self.direct[curves], by_speed=self.by_speed[curves])
+
+    def move(self, loads: BodyLoads, omega: Real) -> Complex:
+        """Return the motion (orders, *speeds, 6) of the body at speeds (rad/s, any shape)."""
+        w = frequencies(loads.orders, omega)
+        try:
+            return solve_response(self.stiffness, self.damping, self.mass, w, loads.at(omega))
+        except UndampedResonanceError as error:  # resonances are refused before
+            raise BalcliError(
+                f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in "
+                "rounding errors, so far apart are stiffness and damping of the mounts: is damping "
+                "in N s/mm?"
+            ) from None
+
+    def read_all(self, frequency: Real, motion: Complex) -> Complex:
+        """Return all curves (*frequency, curves, 3) of a motion (*frequency, 6)."""
+        direct, by_speed = (apply_couplings(one, motion) for one in (self.direct, self.by_speed))
+        return direct + 1j * frequency[..., None, None] * by_speed
+
+    def read_each(self, frequency: Real, motion: Complex, curve: NDArray[np.intp]) -> Complex:
+        """Return the curve (some,) at each place of the last axis: (*frequency, 3) of a motion
+        (*frequency, 6), both with a last axis (some,) of frequencies.
+        """
+        direct, by_speed = (
+            np.einsum("sij,...sj->...si", one[curve], motion)
+            for one in (self.direct, self.by_speed)
+        )
+        return direct + 1j * frequency[..., None] * by_speed
+
+    def find_peaks(self, loads: BodyLoads, omega: Real) -> Real:
+        """Return the longest that each curve is, (speeds, curves), some speeds at a time."""
+        parts: list[Real] = [np.zeros((0, len(self.direct)))]
+        for start in range(0, len(omega), _SPEEDS_AT_A_TIME):
+            some = omega[start : start + _SPEEDS_AT_A_TIME]
+            curves = self.read_all(frequencies(loads.orders, some), self.move(loads, some))
+            parts.append(find_longest(loads.orders, curves).value)
+        return np.concatenate(parts)
+
+
 def respond(
     mounted: MountedBody, modes: BodyModes, loads: BodyLoads, omega: Real, tell: Tell = tell_nobody
 ) -> MountingResponse:
-    """The response at every order and speed.
+    """Return the response at every order and speed.
 
     Args:
         omega: (speeds,) rad/s, rising.
-        tell: is told which share of the speeds is done.
+        tell: is called with 1 when all speeds are done.
 
     Raises:
         BalcliError: too many results; an undamped mode that the engine drives at its own frequency
@@ -222,14 +298,15 @@ def respond(
     """
     _refuse_too_many(loads, omega, mounted)
     refuse_mount_resonance(modes, loads, omega)
-    found = _move(mounted, loads, omega)
-    curves = _list_curves(mounted, found)
-    count = len(mounted.names)
-    free, peak = loads.at(omega), _find_peaks(loads.orders, curves, tell)
+    couplings, count = _Couplings.of(mounted), len(mounted.names)
+    motion = couplings.move(loads, omega)
+    curves = couplings.read_all(frequencies(loads.orders, omega), motion)
+    free, peak = loads.at(omega), find_longest(loads.orders, curves).value
+    tell(1.0)
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     passed = np.einsum("pij,nspi->nsj", arms, curves[:, :, :count])
     by_order = largest_of_ellipse(curves)
-    worst = _find_worst(mounted, modes, loads, omega, peak)
+    worst = _find_worst(couplings, modes, loads, omega, peak)
     return MountingResponse(
         loads,
         omega,
@@ -241,35 +318,8 @@ def respond(
         np.abs(passed),
         worst[:count],
         worst[count:],
-        found.motion,
+        motion,
     )
-
-
-def _find_peaks(orders: Real, curves: Complex, tell: Tell) -> Real:
-    """The longest that each curve is, shape (speeds, mounts + points), some speeds at a time."""
-    speeds, parts = curves.shape[1], []
-    for start in range(0, speeds, _SPEEDS_AT_A_TIME):
-        some = curves[:, start : start + _SPEEDS_AT_A_TIME]
-        parts.append(find_longest(orders, some).value)
-        tell(min(start + _SPEEDS_AT_A_TIME, speeds) / speeds)
-    return np.concatenate(parts)
-
-
-def _move(mounted: MountedBody, loads: BodyLoads, omega: Real) -> BodyResponse:
-    w = frequencies(loads.orders, omega)
-    try:
-        return respond_body(mounted.body, mounted.dynamic, w, loads.at(omega))
-    except UndampedResonanceError as error:  # resonances are refused before
-        raise BalcliError(
-            f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in rounding "
-            "errors, so far apart are stiffness and damping of the mounts: is damping in N s/mm?"
-        ) from None
-
-
-def _list_curves(mounted: MountedBody, found: BodyResponse) -> Complex:
-    """Forces of mounts (N), then motion of points (m): (orders, speeds, mounts + points, 3)."""
-    moved = move_points(mounted.points, mounted.body.centre, found.motion)
-    return np.concatenate([found.forces, moved], axis=2)
 
 
 def _refuse_too_many(loads: BodyLoads, omega: Real, mounted: MountedBody) -> None:
@@ -301,18 +351,24 @@ def refuse_mount_resonance(modes: BodyModes, loads: BodyLoads, omega: Real) -> N
 
 
 def find_largest_amplitudes(
-    mounted: MountedBody, modes: BodyModes, loads: BodyLoads, omega: Real
+    mounted: MountedBody,
+    modes: BodyModes,
+    loads: BodyLoads,
+    omega: Real,
+    curves: Sequence[int],
 ) -> tuple[LargestAmplitude, ...]:
-    """The largest force of each mount, then the largest motion of each point, over a range of
-    speeds (rad/s, rising); as `respond` has them.
+    """Return the largest value of some curves over a range of speeds (rad/s, rising), as `respond`
+    has them.
+
+    Args:
+        curves: numbers of forces of mounts, from 0, then of motion of points, after the mounts.
 
     Raises:
         BalcliError: an undamped mode that is driven within the range.
     """
     refuse_mount_resonance(modes, loads, omega)
-    curves = _list_curves(mounted, _move(mounted, loads, omega))
-    peaks = _find_peaks(loads.orders, curves, tell_nobody)
-    return _find_worst(mounted, modes, loads, omega, peaks)
+    couplings = _Couplings.of(mounted).select(curves)
+    return _find_worst(couplings, modes, loads, omega, couplings.find_peaks(loads, omega))
 
 
 def find_meetings(modes: BodyModes, loads: BodyLoads, omega: Real) -> tuple[Meeting, ...]:
@@ -326,34 +382,37 @@ def find_meetings(modes: BodyModes, loads: BodyLoads, omega: Real) -> tuple[Meet
 
 
 def _find_worst(
-    mounted: MountedBody, modes: BodyModes, loads: BodyLoads, omega: Real, peaks: Real
+    couplings: _Couplings, modes: BodyModes, loads: BodyLoads, omega: Real, peaks: Real
 ) -> tuple[LargestAmplitude, ...]:
-    """Of each curve (speeds, curves) of peaks its highest value, closer than the speeds are: every
-    peak that may be the highest is approached. Where damping is little, a resonance is narrower
-    than their step: the speeds at which an order meets a mode are looked at as well, and beside
-    them as far as the resonance is wide.
+    """Return the highest value of each curve (speeds, curves) of peaks, closer than the speeds are:
+    every peak that may be the highest is approached. Where damping is little, a resonance is
+    narrower than their step: the speeds at which an order meets a mode are looked at as well, and
+    speeds next to them as far as the resonance is wide.
     """
     met = [one for one in find_meetings(modes, loads, omega) if modes.loss[one.mode] > UNDAMPED]
     at_modes, loss = np.array([(one.omega, modes.loss[one.mode]) for one in met]).reshape(-1, 2).T
     about = (at_modes * (1 + loss * _BESIDE[:, None])).ravel()
     about = sort_others(about[(about > omega[0]) & (about < omega[-1])], omega)
-    heights = np.concatenate([peaks, *_press_some(mounted, loads, about)])
+    heights = np.concatenate([peaks, couplings.find_peaks(loads, about)])
     rising = np.argsort(np.concatenate([omega, about]))
     speeds, heights = np.concatenate([omega, about])[rising], heights[rising]
 
+    def read(at: Real, curve: NDArray[np.intp]) -> tuple[Complex, Complex]:
+        motion = couplings.move(loads, at)
+        return motion, couplings.read_each(frequencies(loads.orders, at), motion, curve)
+
     def judge(at: Real, curve: NDArray[np.intp]) -> Real:
-        each = np.arange(len(curve))
-        moved = (_list_curves(mounted, _move(mounted, loads, one))[:, each, curve] for one in at)
-        return np.array([find_longest(loads.orders, own).value for own in moved])
+        return find_longest(loads.orders, read(at, curve)[1]).value
 
     best, _ = find_highest(judge, speeds, heights, heights.max(axis=0), _NEAR)
-    found, each = _move(mounted, loads, best), np.arange(len(best))
-    own = _list_curves(mounted, found)[:, each, each]
-    value = find_longest(loads.orders, own).value
-    alone = largest_of_ellipse(own)
+    each = np.arange(len(best))
+    motion, own = read(best, each)
+    value, alone = find_longest(loads.orders, own).value, largest_of_ellipse(own)
     leading = find_first_largest(alone)
-    orders = loads.orders[leading]
-    mode = _find_leading_modes(mounted, modes, orders * best, found.motion[leading, each])
+    orders, shapes = loads.orders[leading], modes.modes.shapes
+    shares = (shapes @ couplings.mass @ motion[leading, each].T)[..., None] * shapes[:, None]
+    every = np.broadcast_to(orders * best, shares.shape[:2])
+    mode = find_first_largest(np.linalg.norm(couplings.read_each(every, shares, each), axis=-1))
     return tuple(
         LargestAmplitude(
             float(value[k]),
@@ -364,27 +423,3 @@ def _find_worst(
         )
         for k in range(len(best))
     )
-
-
-def _find_leading_modes(
-    mounted: MountedBody, modes: BodyModes, frequency: Real, motion: Complex
-) -> NDArray[np.intp]:
-    """Which mode (curves,) makes most of each curve, mounts first, then points, where the body
-    moves by (curves, 6) at a frequency (curves,) in rad/s; of equal ones the first.
-    """
-    shapes, body = modes.modes.shapes, mounted.body
-    parts = (shapes @ mass_matrix(body) @ motion.T)[..., None] * shapes[:, None]
-    every = np.broadcast_to(frequency, parts.shape[:2])
-    forces = press_mounts(body, mounted.dynamic, every, parts)
-    each = np.arange(len(motion))
-    curves = _list_curves(mounted, BodyResponse(parts, forces))[:, each, each]
-    sizes = np.linalg.norm(curves, axis=-1)
-    return find_first_largest(sizes)
-
-
-def _press_some(mounted: MountedBody, loads: BodyLoads, omega: Real) -> Iterator[Real]:
-    """Peaks (speeds, mounts + points) at any speeds, some speeds at a time."""
-    for start in range(0, len(omega), _SPEEDS_AT_A_TIME):
-        some = omega[start : start + _SPEEDS_AT_A_TIME]
-        curves = _list_curves(mounted, _move(mounted, loads, some))
-        yield find_longest(loads.orders, curves).value

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.close_peaks import find_highest
-from ..core.cycle_peaks import find_swing, sum_amplitudes
+from ..core.peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_distinct
 from ..core.speeds import RPM

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.cycle_peaks import find_swing, sum_amplitudes
+from ..core.peaks import find_swing, sum_amplitudes
 from ..core.singular_values import Real
 from ..core.sorted_sets import sort_others
 from ..core.telling import Tell, tell_nobody

@@ -1,11 +1,11 @@
-"""Harmonics added up in time, against the curve itself on a fine grid and in closed form."""
+"""Curves over a cycle against the curve itself on a fine grid and in closed form."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from balcli.core.cycle_peaks import find_longest, find_swing, largest_of_ellipse, sum_amplitudes
+from balcli.core.peaks import find_longest, find_swing, largest_of_ellipse, sum_amplitudes
 
 RELATIVE = 1e-13
 FINE = np.linspace(0, 4 * np.pi, 1 << 16, endpoint=False)
