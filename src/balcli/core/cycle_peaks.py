@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .singular_values import Complex, Real
 from .sorted_sets import sort_distinct
+from .vibration import Complex, Real
 
 _SAMPLES = 12  # for each period of the highest order
 _ROUNDS = 40  # Newton's method needs 3 or 4 where a peak is round, more where it is flat

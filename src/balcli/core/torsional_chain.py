@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .singular_values import Indices, Real
 from .sorted_sets import are_among, sort_distinct, sort_others
+from .vibration import Indices, Real
 
 SAME_RATIO = 1e-9  # two ways round a loop of gears that differ by less turn alike
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .singular_values import Complex, Indices, Real
 from .sorted_sets import find_middle
 from .torsional_chain import Chain, Damping, follow_gears, grow_branches, incidence, rigid_motions
-from .vibration import Modes, find_modes
+from .vibration import Complex, Indices, Modes, Real, find_modes
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
 _SIGMA = np.exp(0.25j * np.pi)  # where no pole can be: off both axes, and it would grow

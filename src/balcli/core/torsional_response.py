@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .singular_values import Complex, Real
 from .sorted_sets import find_middle, sort_distinct
 from .torsional_chain import (
     Branch,
@@ -22,7 +21,7 @@ from .torsional_chain import (
     grow_branches,
     incidence,
 )
-from .vibration import solve_equations
+from .vibration import Complex, Real, solve_equations
 
 _WEAK_PIVOT = 1e-3  # sums that cancel to less than this are solved anew, with pivoting
 _RESONANT = 1e-9  # the same of the whole chain

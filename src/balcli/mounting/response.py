@@ -22,11 +22,17 @@ from ..core.rigid_body import (
     press_mounts,
     respond_body,
 )
-from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_others
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
-from ..core.vibration import UNDAMPED, UndampedResonanceError, find_resonances, frequencies
+from ..core.vibration import (
+    UNDAMPED,
+    Complex,
+    Real,
+    UndampedResonanceError,
+    find_resonances,
+    frequencies,
+)
 from ..engine.arrays import find_first_largest
 from ..engine.build import NONE_SILENT, Engine, SilentCylinders
 from ..engine.positions import MOMENTS_UNKNOWN

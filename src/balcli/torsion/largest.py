@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 
 from ..core.close_peaks import find_highest
 from ..core.cycle_peaks import find_swing, sum_amplitudes
-from ..core.singular_values import Complex, Real
 from ..core.sorted_sets import sort_distinct
 from ..core.speeds import RPM
-from ..core.vibration import ROUNDING
+from ..core.vibration import ROUNDING, Complex, Real
 from .modes import find_poles
 from .motion import (
     move,

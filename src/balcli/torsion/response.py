@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.cycle_peaks import find_swing, sum_amplitudes
-from ..core.singular_values import Real
 from ..core.sorted_sets import sort_others
 from ..core.telling import Tell, tell_nobody
+from ..core.vibration import Real
 from .largest import LargestVibration, find_largest_vibration, find_resonant_speeds
 from .motion import (
     move,
