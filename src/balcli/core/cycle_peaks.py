@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .sorted_sets import sort_distinct
 from .vibration import Complex, Real
 
 _SAMPLES = 12  # for each period of the highest order
@@ -124,7 +123,7 @@ def _common_harmonics(
     """
     halves = 2 * np.asarray(orders, float)
     harmonics = np.rint(halves).astype(np.int64)
-    once = len(sort_distinct(harmonics)) == len(harmonics)
+    once = len(np.unique(harmonics)) == len(harmonics)
     if not once or np.any(harmonics != halves) or np.any(harmonics < 0):
         raise ValueError("orders have to be different multiples of 1/2, none below 0")
     there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
