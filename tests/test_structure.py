@@ -156,7 +156,6 @@ ON_REQUEST = {
     "balcli.engine.rules": ("balcli.engine.articulation",),
     "balcli.enginefile.toml_text": ("balcli.enginefile.examples", "balcli.enginefile.toml_slips"),
     "balcli.forces.spectrum": ("balcli.forces.gas",),
-    "balcli.forces.symmetry": ("balcli.forces.gas_symmetry",),
     "balcli.library.arguments": ("balcli.studies.stated_tolerances",),
     "balcli.render.analyses": ("balcli.render.analysis", "balcli.render.analysis_document"),
     "balcli.render.analysis_document": (

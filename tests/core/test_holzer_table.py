@@ -23,7 +23,7 @@ def test_holzers_table_closes_at_natural_frequencies(kind, seed):
         table = tabulate_holzer(chain, omega, first, last)
         assert table.angle == pytest.approx(shape / shape[first], abs=1e-7 * abs(table.angle).max())
         if kind != "clamped":
-            assert abs(table.residual) <= 1e-8 * max(abs(table.total).max(), 1)
+            assert abs(table.residual) <= 1e-7 * max(abs(table.total).max(), 1)
 
 
 def test_holzers_table_away_from_them_is_the_response():

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from support import high_precision
 
-from balcli.core.singular_values import find_singular_vectors
 from balcli.core.vibration import (
     Resonance,
     UndampedResonanceError,
@@ -69,15 +68,6 @@ def test_rigid_motions_have_exactly_0():
     assert modes.omega[2:] == pytest.approx(sorted(expected), rel=1e-15)
     assert modes.shapes @ np.diag(mass) @ modes.shapes.T == pytest.approx(np.eye(4), abs=1e-15)
     assert springs @ modes.shapes[:2].T == pytest.approx(np.zeros((2, 2)), abs=1e-15)
-
-
-def test_singular_values_of_a_rank_below_both_sides():
-    left, right = (np.random.default_rng(seed).normal(size=(6, 3)) for seed in (1, 2))
-    matrix = left @ np.diag([1e-3, 1, 1e3]) @ right.T
-    values, vectors = find_singular_vectors(matrix, 3)
-    assert values == pytest.approx(np.linalg.svd(matrix)[1][2::-1], rel=1e-9)
-    assert values == pytest.approx(np.linalg.norm(matrix @ vectors.T, axis=0), rel=1e-9)
-    assert vectors @ vectors.T == pytest.approx(np.eye(3), abs=1e-14)
 
 
 def test_largest_element_of_a_shape_is_1():

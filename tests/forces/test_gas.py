@@ -142,7 +142,7 @@ def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(
     assert np.abs(scalar(total))[alone] == pytest.approx(sum_of_sizes[alone], rel=1e-13)
     why = {r.order: r.verdict for r in explain_symmetry(found, ORDERS[1:], ["gas"]).reasons}
     if strokes == 4:
-        assert [why[n] == "exact" for n in ORDERS[1:]] == (~alone[1:]).tolist()
+        assert [why[n] == "symmetry" for n in ORDERS[1:]] == (~alone[1:]).tolist()
     else:
         assert why[0.5] == "none"
 
@@ -202,7 +202,7 @@ def test_shares_that_are_fractions_of_each_other_may_cancel():
     weak = "[cylinder.2]\ngas = 0.5\n[cylinder.3]\ngas = 0.5\n"
     found = build_text(FOUR + WIEBE + weak)
     why = {r.order: r.verdict for r in explain_symmetry(found, [0.5, 1], ["gas"]).reasons}
-    assert why == {0.5: "exact", 1: "free"}
+    assert why == {0.5: "symmetry", 1: "unbalanced"}
     silent = build_text(FOUR + WIEBE + "".join(f"[cylinder.{n}]\ngas = 0\n" for n in (1, 2, 3, 4)))
     reasons = explain_symmetry(silent, [0.5], ["gas"]).reasons
     assert [r.verdict for r in reasons] == ["none"]

@@ -69,8 +69,8 @@ def _reasons(text: str) -> dict[tuple[str, int], float]:
     """What `--why` says is left, by kind and order."""
     found = {}
     for orders, kind, told in re.findall(r"orders? ([\d, ]+) (force|moment): (.*)", text):
-        left = re.match(r"free: ([0-9.]+) F\d(?!.* as built [(]0 )", told)
-        nothing = re.match("balanced exactly|no cylinder has any|free: .* as built [(]0 ", told)
+        left = re.match(r"unbalanced: ([0-9.]+) F\d(?!.* as built [(]0 )", told)
+        nothing = re.match("balanced by|no cylinder has any|unbalanced: .* as built [(]0 ", told)
         if kind == "moment" and "of one cylinder" in told:  # one throw has no distance a
             nothing = left
         assert bool(left) != bool(nothing) or "of one cylinder" in told, told

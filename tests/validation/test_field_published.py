@@ -78,8 +78,8 @@ def test_goodman_least_squares():
 def test_goodman_smallest_largest():
     """By hand: all three residuals are 0.4 at (1, 1.8)."""
     result = find_corrections(parse_runs(GOODMAN), "max")
-    assert [p.total for p in result.planes] == pytest.approx([1, 1.8], abs=1e-9)
-    assert (result.largest, result.bound) == pytest.approx((0.4, 0.4), rel=1e-12)
+    assert [p.total for p in result.planes] == pytest.approx([1, 1.8], abs=1e-7)
+    assert (result.largest, result.bound) == pytest.approx((0.4, 0.4), rel=1e-7)
 
 
 def test_fan_whose_first_trial_weight_stays_in():

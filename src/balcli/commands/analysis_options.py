@@ -49,7 +49,8 @@ SpeedsOption = Annotated[
 ]
 By = Annotated[str, optional("cylinder", "cylinder: also each cylinder's share.", "--by")]
 Why = Annotated[
-    bool, typer.Option("--why", help="Also say in words why each order is balanced, or is not.")
+    bool,
+    typer.Option("--why", help="Also print what is balanced by symmetry, and what by chance."),
 ]
 Plot = Annotated[
     bool,

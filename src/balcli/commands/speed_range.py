@@ -10,7 +10,7 @@ from .amounts import convert_speed, doubt_thousands
 from .declare import optional
 
 if TYPE_CHECKING:
-    from ..core.singular_values import Real
+    from ..core.vibration import Real
 
 Speeds = Annotated[
     str | None,

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from ..core.singular_values import Real
+from ..core.vibration import Real
 from ..enginefile.units import Dimension, Powers, convert
 from ..errors import BalcliError
 from ..limits import HIGHEST_TORSION_ORDER

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from .singular_values import Indices, Real
+from .vibration import Indices, Real
 
 _PARTS = 8  # of an interval, before the two beside each peak are the next interval
 _ROUNDS = 4

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .singular_values import Real
 from .torsional_chain import Branch, Chain, find_still, grow_branches
+from .vibration import Real
 
 
 class Holzer(NamedTuple):

@@ -12,8 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .singular_values import Complex, Real
-from .vibration import Modes, find_modes, solve_response
+from .vibration import Complex, Modes, Real, find_modes, solve_response
 
 _NO_SHARE = 1e-14  # of a mode's energy, which is 1
 _FREE = 1e-9  # singular values below this share of the largest mean a motion that nothing holds

@@ -14,8 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .singular_values import Indices, Real
-from .sorted_sets import are_among, sort_distinct, sort_others
+from .vibration import Indices, Real
 
 SAME_RATIO = 1e-9  # two ways round a loop of gears that differ by less turn alike
 
@@ -149,7 +148,7 @@ def _neighbours(chain: Chain, shafts: NDArray[np.bool_]) -> list[list[tuple[int,
 def find_still(chain: Chain) -> NDArray[np.bool_]:
     """Which nodes (nodes,) stand still: clamped ones, and what meshes with these."""
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    return are_among(meshes.first, meshes.first[chain.clamped])
+    return np.isin(meshes.first, meshes.first[chain.clamped])
 
 
 def rigid_motions(chain: Chain) -> Real:
@@ -157,8 +156,8 @@ def rigid_motions(chain: Chain) -> Real:
     first of them; one row for each piece that can.
     """
     pieces = find_pieces(chain, chain.stiffness > 0)
-    stopped = sort_distinct(pieces.first[chain.clamped | pieces.locked])
-    free = sort_others(pieces.first, stopped)
+    stopped = np.unique(pieces.first[chain.clamped | pieces.locked])
+    free = np.setdiff1d(pieces.first, stopped)
     return np.where(pieces.first == free[:, None], pieces.pace, 0)
 
 
@@ -176,7 +175,7 @@ def follow_gears(chain: Chain) -> tuple[Real, Indices]:
     whose angles these are: of nodes joined by meshes the first; none of those at rest.
     """
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    independent = sort_distinct(meshes.first[~find_still(chain)])
+    independent = np.unique(meshes.first[~find_still(chain)])
     return np.where(meshes.first[:, None] == independent, meshes.pace[:, None], 0), independent
 
 

@@ -10,7 +10,7 @@ from math import sqrt
 
 import numpy as np
 
-from .singular_values import Complex, Real
+from .vibration import Complex, Real
 
 _TUNED = 1e-12  # a damper tuned closer than this holds its node as still as figures can say
 

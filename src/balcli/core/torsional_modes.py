@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .singular_values import Complex, Indices, Real
-from .sorted_sets import find_middle
 from .torsional_chain import Chain, Damping, follow_gears, grow_branches, incidence, rigid_motions
-from .vibration import Modes, find_modes
+from .vibration import Complex, Indices, Modes, Real, find_modes
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
 _SIGMA = np.exp(0.25j * np.pi)  # where no pole can be: off both axes, and it would grow
@@ -109,7 +107,7 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
     scale = np.abs(k).max(initial=0.0)
     if not scale:
         return np.zeros(0, complex)
-    unit = np.sqrt(scale / find_middle(np.abs(np.diag(m)[np.diag(m) != 0])))  # rad/s
+    unit = np.sqrt(scale / np.median(np.abs(np.diag(m)[np.diag(m) != 0])))  # rad/s
     k, c, m = k / scale, c * (unit / scale), m * (unit**2 / scale)
     one, none = np.eye(len(m)), np.zeros_like(m)
     shifted = np.block([[-_SIGMA * one, one], [-k, -c - _SIGMA * m]])

@@ -11,8 +11,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .singular_values import Complex, Real
-from .sorted_sets import find_middle, sort_distinct
 from .torsional_chain import (
     Branch,
     Chain,
@@ -22,7 +20,7 @@ from .torsional_chain import (
     grow_branches,
     incidence,
 )
-from .vibration import solve_equations
+from .vibration import Complex, Real, solve_equations
 
 _WEAK_PIVOT = 1e-3  # sums that cancel to less than this are solved anew, with pivoting
 _RESONANT = 1e-9  # the same of the whole chain
@@ -139,7 +137,7 @@ def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
     weight = np.where(chain.clamped, -1, chain.inertia * pieces.pace**2)
     return [
         int(max(np.flatnonzero(pieces.first == first), key=lambda node: weight[node]))
-        for first in sort_distinct(pieces.first)
+        for first in np.unique(pieces.first)
     ]
 
 
@@ -220,7 +218,7 @@ def _solve_dense(
     """
     w, own, flexible, load, carrying = equations
     elastic = np.isfinite(chain.stiffness) & (chain.stiffness > 0)
-    scale = float(find_middle(chain.stiffness[elastic])) if np.any(elastic) else 1.0
+    scale = float(np.median(chain.stiffness[elastic])) if np.any(elastic) else 1.0
     nodes, shafts = np.arange(len(own)), len(own) + np.arange(np.count_nonzero(carrying))
     unknowns = len(nodes) + len(shafts)
     rows = incidence(chain)[carrying]

@@ -12,7 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .singular_values import Complex, Real, find_singular_vectors
+Real = NDArray[np.floating]
+Complex = NDArray[np.complexfloating]
+Indices = NDArray[np.intp]
 
 UNDAMPED = 2e-9  # a loss factor up to here is none: no machine vibrates for a billion turns
 ROUNDING = 1e-12  # a share of damping, or a distance of two frequencies, up to here is rounding
@@ -63,8 +65,8 @@ def frequencies(orders: ArrayLike, speeds: ArrayLike) -> Real:
 def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = None) -> Modes:
     """Natural modes of masses on springs.
 
-    They are the singular values of `k^1/2 S M^-1/2`, not eigenvalues of `(S^T k S, M)`: squaring
-    would lose half the figures of the low ones.
+    The frequencies are the singular values of `k^1/2 S M^-1/2`, not the roots of the eigenvalues of
+    `(S^T k S, M)`: squaring would lose half the figures of the low ones.
 
     Args:
         springs: S (springs, dof), stretch of each spring for a unit of each motion.
@@ -74,7 +76,9 @@ def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = 
     """
     rigid = np.zeros((0, springs.shape[1])) if rigid is None else rigid
     scaled = np.sqrt(stiffness)[:, None] * _over_root(mass, springs)
-    omega, turned = find_singular_vectors(scaled, springs.shape[1] - len(rigid))
+    _, falling, turned = np.linalg.svd(scaled, full_matrices=False)
+    elastic = slice(springs.shape[1] - len(rigid))
+    omega, turned = falling[elastic][::-1], turned[elastic][::-1]
     still = _normalise_rigid(rigid, mass)
     shapes = np.concatenate([still, _from_root(mass, turned)])
     return Modes(np.concatenate([np.zeros(len(still)), omega]), shapes, len(still))

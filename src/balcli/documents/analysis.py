@@ -114,7 +114,6 @@ class Reason(TypedDict):
     reciprocating: float | None
     built: float | None
     unit: str
-    because: str
 
 
 class Why(TypedDict):

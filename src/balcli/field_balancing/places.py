@@ -70,28 +70,25 @@ def split_weight(
 
 
 def find_region(angles_deg: Array, most: float) -> Region:
-    """What weights at these places can stand for together: a polygon, or without a limit a wedge.
+    """Return the region of all weights that weights at these places can stand for together: a
+    polygon whose edges are parallel to the places, or without a limit a wedge.
 
-    It is the sum of the rays of all places, each from 0 to `most`; so its edges are parallel to
-    them, and how far it goes in a direction is the sum of how far each goes.
-
-    Args: as of `split_weight`.
+    Args: as for `split_weight`.
     """
-    _, _, unit = _sort_places(angles_deg)
-    on_a_line = np.abs((np.conj(unit[0]) * unit).imag).max() < _ROUNDING
-    normals = np.concatenate([1j * unit, -1j * unit])
-    if on_a_line:
-        normals = np.concatenate([normals, unit, -unit])
-    normals = normals[np.unique(np.round(np.degrees(np.angle(normals)), 9) % 360, True)[1]]
-    parts = (np.conj(normals)[:, None] * unit).real
-    ahead = np.where(parts > _ROUNDING, parts, 0.0).sum(axis=1)
+    angles, _, unit = _sort_places(angles_deg)
     if np.isfinite(most):
-        inside, supports = complex(unit.sum() * most / 2), most * ahead
-    else:
-        inside, supports = complex(unit.sum()), np.zeros(len(normals))
-        normals, supports = normals[ahead == 0], supports[ahead == 0]
-    line = complex(unit[0]) if on_a_line else None
-    return Region(inside, normals, supports, line=line)
+        order = np.argsort(np.append(angles, angles + 180) % 360, kind="stable")
+        ways = np.append(unit, -unit)[order]
+        lowest = (unit.imag < -_ROUNDING) | ((np.abs(unit.imag) <= _ROUNDING) & (unit.real < 0))
+        starts = most * (unit[lowest].sum() + np.append(0, np.cumsum(ways)[:-1]))
+        return Region(starts=starts, ways=ways, lengths=np.full(len(ways), most), inward=1j * ways)
+    gaps = np.append(angles[1:], angles[0] + 360) - angles
+    before = np.flatnonzero(gaps >= 180 - _ROUNDING)
+    after = (before + 1) % len(angles)
+    ways = np.append(unit[after], unit[before])
+    inward = np.append(1j * unit[after], -1j * unit[before])
+    zeros, endless = np.zeros(len(ways), complex), np.full(len(ways), np.inf)
+    return Region(starts=zeros, ways=ways, lengths=endless, inward=inward)
 
 
 def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:

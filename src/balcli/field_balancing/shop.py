@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.drilled_hole import find_drill_depth, find_drilled_unbalance
-from ..core.smallest_largest import ANYWHERE, Region, make_disc
+from ..core.smallest_largest import ANYWHERE, Region
 from .model import RunsFile, read_amount_unit
 from .places import Placed, find_region, split_weight
 from .read import is_mass
@@ -66,7 +66,7 @@ class Shop(NamedTuple):
             return find_region(turned, self.most)
         if math.isinf(self.most):
             return ANYWHERE
-        return make_disc(self.most, 0j if self.hole else -on)
+        return Region(0j if self.hole else -on, self.most)
 
     def plan(self, step: complex, nothing: float) -> tuple[Piece, ...]:
         """Weights or holes that together are a step in the region.

@@ -18,7 +18,6 @@ from ..core.cylinders import Device
 from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Phasors
-from ..core.sorted_sets import sort_distinct
 from ..engine.arrays import find_first_largest
 from ..engine.build import Engine
 from ..errors import BalcliError
@@ -93,7 +92,7 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = _compute_loads(engine, every)
-    sections = sort_distinct(z)
+    sections = np.unique(z)
     ahead = find_ahead(z, sections)
     shear = _sum_weighted(loads, ahead, ahead)
     bending = 1j * _sum_weighted(loads, find_arms(z, sections), bound_arms(z, sections))
@@ -122,7 +121,7 @@ def place_bearings(throws_m: Array) -> Array | None:
     """Places of main bearings half-way between throws and as far outside the end ones, m, shape
     (bearings,); None for throws in one place.
     """
-    places = sort_distinct(throws_m)
+    places = np.unique(throws_m)
     if len(places) < 2:
         return None
     between = (places[1:] + places[:-1]) / 2

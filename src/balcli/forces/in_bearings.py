@@ -20,7 +20,6 @@ from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import merged_breaks
-from ..core.sorted_sets import sort_distinct
 from ..core.vectors_over_cycle import Panels, Vectors, find_panels
 from ..engine.build import Engine
 from ..errors import BalcliError
@@ -116,7 +115,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     samples = compute(panels.angles)
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
-    sections = sort_distinct(np.concatenate([on_shaft, on_block, span]))
+    sections = np.unique(np.concatenate([on_shaft, on_block, span]))
     every = (
         *_cut_shaft(sections, on_shaft, len(on_block), span, shares),
         _load_bearings(span, shares, len(on_block)),

@@ -18,7 +18,6 @@ import numpy as np
 
 from ..core.mechanisms import harmonics
 from ..core.phasors import Array
-from ..core.sorted_sets import sort_distinct
 from ..engine.build import Engine
 from .kinds import Kind
 from .spectrum import Spectra, compute_spectra
@@ -109,7 +108,7 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
     lam, eps = of_this_one(c.lam), of_this_one(c.eps)
     series = harmonics.find_harmonics(orders, lam, eps, {"piston"}).piston
     mass = float(of_this_one(c.reciprocating)[0])
-    gaps = np.diff(sort_distinct(np.round(engine.throws_m, 9)))
+    gaps = np.diff(np.unique(np.round(engine.throws_m, 9)))
     return TextbookUnits(
         orders=orders,
         force=float(mass * c.radius * engine.omega**2),

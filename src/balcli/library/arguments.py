@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
-from ..core.sorted_sets import sort_distinct
 from ..enginefile.fields import shorten
 from ..errors import BalcliError, InputError, wrong_type
 from ..forces.orders import check_orders
@@ -98,7 +97,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
         given = np.asarray(speeds_rpm)
         if given.dtype.kind not in "iufO":  # numpy would read numbers out of texts
             raise TypeError
-        found = sort_distinct(given.astype(float).ravel())
+        found = np.unique(given.astype(float).ravel())
     except (TypeError, ValueError):
         raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
     except OverflowError:  # a whole number of hundreds of digits

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.rigid_body import Body, Mounts, complete_axes, find_free_motions, turn_axes
-from ..core.singular_values import Real
+from ..core.vibration import Real
 from ..enginefile.fields import counted, printable, shorten
 from ..enginefile.model import EngineFile
 from ..enginefile.mounting_tables import Body as BodyTable

@@ -18,8 +18,7 @@ from ..core.rigid_body import (
     share_energy,
     stiffness_matrix,
 )
-from ..core.singular_values import Real
-from ..core.vibration import Modes, modal_loss
+from ..core.vibration import Modes, Real, modal_loss
 from ..engine.arrays import find_first_largest
 from .build import MountedBody
 from .motions import name_mode, name_motions

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.rigid_body import find_screw
-from ..core.singular_values import Real
+from ..core.vibration import Real
 
 AXES = ("x", "y", "z", "rx", "ry", "rz")
 ROLL = AXES.index("rz")  # the turn about the crankshaft's axis

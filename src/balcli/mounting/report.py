@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.singular_values import Real
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
+from ..core.vibration import Real
 from ..engine.build import Engine
 from ..enginefile.fields import printable
 from ..enginefile.model import EngineFile

@@ -22,12 +22,12 @@ from ..core.rigid_body import (
     mass_matrix,
     stiffness_matrix,
 )
-from ..core.singular_values import Complex, Real
-from ..core.sorted_sets import sort_others
 from ..core.speeds import RPM
 from ..core.telling import Tell, tell_nobody
 from ..core.vibration import (
     UNDAMPED,
+    Complex,
+    Real,
     UndampedResonanceError,
     find_resonances,
     frequencies,
@@ -392,7 +392,7 @@ def _find_worst(
     met = [one for one in find_meetings(modes, loads, omega) if modes.loss[one.mode] > UNDAMPED]
     at_modes, loss = np.array([(one.omega, modes.loss[one.mode]) for one in met]).reshape(-1, 2).T
     about = (at_modes * (1 + loss * _BESIDE[:, None])).ravel()
-    about = sort_others(about[(about > omega[0]) & (about < omega[-1])], omega)
+    about = np.setdiff1d(about[(about > omega[0]) & (about < omega[-1])], omega)
     heights = np.concatenate([peaks, couplings.find_peaks(loads, about)])
     rising = np.argsort(np.concatenate([omega, about]))
     speeds, heights = np.concatenate([omega, about])[rising], heights[rising]

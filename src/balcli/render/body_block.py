@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 
 from ..core.rigid_body import Body
-from ..core.singular_values import Real
+from ..core.vibration import Real
 
 _FLATTEST = 0.05  # square of a side, of the largest, below which a block is not drawn
 # On the page x of the engine is up, z runs to the right, y to the left and towards the reader.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from ..core.singular_values import Real
+from ..core.vibration import Real
 from ..engine.arrays import find_first_largest
 from ..mounting.motions import AXES
 from ..mounting.report import MountReport

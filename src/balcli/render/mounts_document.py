@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ..core.singular_values import Real
+from ..core.vibration import Real
 from ..mounting.motions import AXES
 from ..mounting.report import MountReport
 from ..mounting.response import LargestAmplitude, MountingResponse

@@ -37,8 +37,6 @@ def rows(why: Symmetry) -> Iterator[FigureRow]:
         about = 0, reason.quantity, reason.order
         yield FigureRow(*about, "why", reason.verdict, "")
         yield FigureRow(*about, "why_size", clean(reason.size), "of one cylinder")
-        if reason.because:
-            yield FigureRow(*about, "why_because", reason.because, "")
         if reason.reciprocating is not None:
             yield FigureRow(*about, "why_reciprocating", clean(reason.reciprocating), reason.unit)
             yield FigureRow(*about, "why_built", clean(reason.built), reason.unit)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.singular_values import Real
+from ..core.vibration import Real
 from ..torsion.analysis import HolzerTable, TorsionAnalysis
 from ..torsion.damper_sizing import SizedDamper
 from ..torsion.modes import NaturalMode

@@ -15,7 +15,6 @@ from ..core.golden_section import find_least
 from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
-from ..core.sorted_sets import sort_distinct
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
@@ -222,7 +221,7 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
     """
     if options.planes is None:
         places = np.round(_find_counterweights(engine)[0], 12)  # decimals of one place: one
-        own = sort_distinct(places)
+        own = np.unique(places)
         return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
     if not engine.places_known:
         raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.holzer_table import Holzer, tabulate_holzer
-from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
+from ..core.vibration import Real
 from ..enginefile.fields import printable
 from ..result import Result
 from .damper_proposal import DamperAsked

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..core.sorted_sets import sort_distinct
 from ..core.torsional_chain import (
     SAME_RATIO,
     Chain,
@@ -76,7 +75,7 @@ def _tell_apart(names: Sequence[str]) -> Iterator[str]:
 def _excite(file: ChainFile, index: dict[str, int]) -> Excitation | None:
     if not file.excitation:
         return None
-    orders = sort_distinct(np.array([each.order for each in file.excitation]))
+    orders = np.unique(np.array([each.order for each in file.excitation]))
     sources = sorted({index[each.node] for each in file.excitation})
     steady = np.zeros((len(orders), len(sources)), complex)
     for each in file.excitation:
@@ -98,7 +97,7 @@ def _find_faults(
     names = [node.name for node in nodes]
     inertia = [node.inertia for node in nodes]
     chain = tabulate_chain(inertia, [each.shaft for each in shafts], clamped)
-    apart = sort_distinct(find_pieces(chain).first)[1:].tolist()
+    apart = np.unique(find_pieces(chain).first)[1:].tolist()
     for node in apart:
         text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"
         yield Problem(f"node.{node + 1}", f"{text}; join them by a [[shaft]] or a [[gear]]")

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.loads import find_inertia, find_needed_series
-from ..core.singular_values import Real
 from ..core.speeds import RPM
 from ..core.torsional_chain import ChainShaft
+from ..core.vibration import Real
 from ..engine.build import Engine
 from ..enginefile.fields import counted, printable, shorten, suggest_nearest
 from ..enginefile.model import EngineFile

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
-from ..core.singular_values import Real
 from ..core.speeds import RPM
 from ..core.torsional_dampers import best_viscous_damping
+from ..core.vibration import Real
 from ..enginefile.fields import printable
 from ..enginefile.messages import describe_finding
 from ..enginefile.shafting import Damper

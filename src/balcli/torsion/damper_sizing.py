@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.golden_section import ROUNDS, find_least
-from ..core.singular_values import Real
 from ..core.telling import Tell, tell_nobody
+from ..core.vibration import Real
 from ..enginefile.fields import printable
 from ..enginefile.shafting import Damper
 from ..errors import BalcliError

@@ -12,10 +12,8 @@ from numpy.typing import NDArray
 
 from ..core.close_peaks import find_highest
 from ..core.peaks import find_swing, sum_amplitudes
-from ..core.singular_values import Complex, Real
-from ..core.sorted_sets import sort_distinct
 from ..core.speeds import RPM
-from ..core.vibration import ROUNDING
+from ..core.vibration import ROUNDING, Complex, Real
 from .modes import find_poles
 from .motion import (
     move,
@@ -88,7 +86,7 @@ class _Curves(NamedTuple):
 
     def pick(self, rpm: Real, curve: NDArray[np.intp]) -> Complex:
         """By order, (orders, *speeds), one curve at each speed; `curve` broadcasts to these."""
-        few = sort_distinct(rpm)  # many curves peak between the same two
+        few = np.unique(rpm)  # many curves peak between the same two
         which, curve = np.searchsorted(few, rpm), np.broadcast_to(curve, rpm.shape)
         found = np.empty((len(self.orders), *rpm.shape), complex)
         for some in split_speeds(self.system, few):
@@ -259,7 +257,7 @@ def _approach_hottest(system: TorsionalSystem, rpm: Real, heat: Real) -> tuple[R
     heat = np.concatenate([heat, _find_heat(system, more)])[rising]
 
     def judge(rpm: Real, damper: NDArray[np.intp]) -> Real:
-        few = sort_distinct(rpm)
+        few = np.unique(rpm)
         return _find_heat(system, few)[np.searchsorted(few, rpm), damper]
 
     return find_highest(judge, speeds, heat, heat.max(axis=0), _NEAR)

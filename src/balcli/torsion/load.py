@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from ..core.singular_values import Real
+from ..core.vibration import Real
 from ..engine.build import Engine
 from ..engine.load import build_named, parse
 from ..enginefile.file_kinds import CHAIN, ENGINE, refuse_other_kind

@@ -9,11 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.singular_values import Complex, Real
 from ..core.speeds import RPM
 from ..core.torsional_chain import Chain, Damping, find_still
 from ..core.torsional_modes import chain_loss, count_nodes, find_chain_modes, find_chain_poles
-from ..core.vibration import scale_shapes
+from ..core.vibration import Complex, Real, scale_shapes
 from .system import Excitation, TorsionalSystem, ViscousRing
 
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding

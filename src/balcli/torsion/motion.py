@@ -8,11 +8,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.singular_values import Complex, Real
 from ..core.speeds import RPM
 from ..core.torsional_modes import chain_loss, find_chain_modes
 from ..core.torsional_response import respond_chain
-from ..core.vibration import UNDAMPED, UndampedResonanceError, find_resonances, frequencies
+from ..core.vibration import (
+    UNDAMPED,
+    Complex,
+    Real,
+    UndampedResonanceError,
+    find_resonances,
+    frequencies,
+)
 from ..errors import BalcliError
 from ..limits import MOST_TORSION_TORQUES
 from .modes import find_poles

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..core.singular_values import Real
+from ..core.vibration import Real
 from ..engine.build import Engine, build
 from ..engine.variants import EngineVariants, Values, remember
 from ..enginefile.changed_figures import change_figures

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.peaks import find_swing, sum_amplitudes
-from ..core.singular_values import Real
-from ..core.sorted_sets import sort_others
 from ..core.telling import Tell, tell_nobody
+from ..core.vibration import Real
 from .largest import LargestVibration, find_largest_vibration, find_resonant_speeds
 from .motion import (
     move,
@@ -123,7 +122,7 @@ def find_barred(
     resonant, width = find_resonant_speeds(system, known)
     worst = [*response.worst.speeds_rpm, response.worst.swing_rpm]
     about = np.concatenate([worst, criticals_rpm, resonant, resonant - width, resonant + width])
-    between = sort_others(about[(about > known[0]) & (about < known[-1])], known)
+    between = np.setdiff1d(about[(about > known[0]) & (about < known[-1])], known)
     speeds = np.concatenate([known, between])
     swings = np.column_stack([response.torque, response.free_end])
     here = np.any(swings * _weigh_limits(system) > 1, axis=1)

@@ -11,10 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cached_property import cached_property
-from ..core.singular_values import Complex, Indices, Real
-from ..core.sorted_sets import are_among
 from ..core.torsional_chain import Chain, Damping, find_pieces
 from ..core.torsional_dampers import pendulum_inertia, pendulum_swing, viscous_inertia
+from ..core.vibration import Complex, Indices, Real
 from ..engine.build import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
 
@@ -78,7 +77,7 @@ class Excitation(NamedTuple):
 
     def only(self, orders: Real) -> Excitation:
         """Some of its orders."""
-        kept = are_among(self.orders, orders)
+        kept = np.isin(self.orders, orders)
         return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept])
 
 

@@ -321,7 +321,7 @@ def test_sevenths_of_a_turn_stay_such() -> None:
     (line,) = rows(found, SYSTEMS["si"]).lines
     assert list(map(float, line[0].split("-"))) == list(best.design.throws)
     verdicts = [reason.verdict for reason in explain_symmetry(written, [1, 2], ["force"]).reasons]
-    assert verdicts == ["exact", "exact"]
+    assert verdicts == ["symmetry", "symmetry"]
 
 
 def test_firing_orders_bring_cranks_of_exact_fractions() -> None:

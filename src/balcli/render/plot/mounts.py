@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.singular_values import Real
+from ...core.vibration import Real
 from ...engine.arrays import find_first_largest
 from ...mounting.modes import BodyMode
 from ...mounting.report import MountReport

@@ -11,14 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array
-from ...core.roots_of_unity import LARGEST_DENOMINATOR, rational
-from ...core.sorted_sets import sort_distinct
 from ...engine.arrays import ranked
 
 Curve = Callable[[Array], Array]  # a figure at some angles (deg), same shape
@@ -31,6 +30,7 @@ ROUND = (1.0, 0.1, 0.01, 0.001, 1e-4)  # deg: the roundest angle that is as good
 AS_GOOD = 1e-9  # of the function's largest value
 BELOW = 1e-10  # a limit, of itself: nearer to it, rounding says whether it is kept
 _DECIMALS = 9  # of a short angle in degrees
+_LARGEST_DENOMINATOR = 5040  # of a fraction of a turn: 7!, which has all common divisions
 _NEAR = 1e-11  # deg, from a short one
 
 
@@ -86,12 +86,12 @@ def find_minima(
     if not lowest:
         return nodes[:0]
     slack = AS_GOOD * y[np.isfinite(y)].max()
-    found = sort_distinct(span.bring_inside(_round_off(keep_limits, nodes[lowest], step, slack)))
+    found = np.unique(span.bring_inside(_round_off(keep_limits, nodes[lowest], step, slack)))
     return found[np.argsort(ranked(keep_limits(found)), kind="stable")]
 
 
 def _join(span: Span, *parts: Array) -> Array:
-    return sort_distinct(span.bring_inside(np.concatenate(parts)))
+    return np.unique(span.bring_inside(np.concatenate(parts)))
 
 
 def _find_bottoms(y: Array, ring: bool) -> list[NDArray[np.intp]]:
@@ -169,5 +169,6 @@ def _neaten(angle: float) -> float:
     short = round(angle, _DECIMALS)
     if abs(short - angle) <= _NEAR:
         return short
-    share = rational(angle / TURN, LARGEST_DENOMINATOR, _NEAR / TURN)
-    return angle if share is None else float(share * TURN)
+    fraction = Fraction(angle / TURN).limit_denominator(_LARGEST_DENOMINATOR)
+    neat = float(fraction * TURN)
+    return neat if abs(neat - angle) <= _NEAR else angle

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array
-from ...core.sorted_sets import sort_distinct
 from ...engine.build import Engine
 from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import cycle_deg
@@ -46,7 +45,7 @@ def find_even_angles(model: EngineFile, key: str, span: Span) -> Array | None:
     ahead = (_list_slots(len(ready), model) + turns[:, None] - ready[row, 0]) / speeds[row]
     places = some[0] + ahead
     places = neaten(places[(span.low <= places) & (places <= span.high)])
-    angles = sort_distinct(span.bring_inside(places))
+    angles = np.unique(span.bring_inside(places))
     angles = angles[find_buildable(model, key, angles)]
     if not len(angles):
         return angles
