@@ -11,7 +11,7 @@ from balcli.studies.search.search import Search, search_arrangements
 
 def search_least(
     model: EngineFile,
-    over: str,
+    over: str | Sequence[str],
     quantities: str,
     limits: Sequence[str] = (),
     *,

@@ -27,18 +27,19 @@ if TYPE_CHECKING:
 def search(
     path: EnginePath,
     over: Annotated[
-        str,
+        list[str],
         optional(
             "throws|firing_order|bank_angle|splay|NUMBER=FROM:TO",
             "What to arrange: the file's throw angles along the crank (or those of its firing "
             "order), the firing order, the angle of the vee, or of its split pins; or any number "
-            "of the file in a range, such as mount.left.loss=0.05:0.3.",
+            "of the file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles "
+            "are searched together.",
             "--over",
             autocompletion=complete_searches,
         ),
     ],
     minimise: Annotated[
-        str,
+        str | None,
         optional(
             "WHAT[=WEIGHT],...",
             "What should be small, such as moment.1.major,force.2.major=0.5; any quantity that "
@@ -47,7 +48,17 @@ def search(
             "--minimize",
             autocompletion=complete_quantities,
         ),
-    ],
+    ] = None,
+    maximise: Annotated[
+        str | None,
+        optional(
+            "WHAT[=WEIGHT],...",
+            "What should be large, instead of --minimise.",
+            "--maximise",
+            "--maximize",
+            autocompletion=complete_quantities,
+        ),
+    ] = None,
     limit: Annotated[
         list[str] | None,
         optional(
@@ -69,8 +80,8 @@ def search(
         Path | None, optional("OUT.toml", "Write the engine file with the best one.", "--write")
     ] = None,
 ) -> None:
-    """The best crank, firing order, bank angle or splay, or value of any number; mirror images and
-    rotations once.
+    """The best crank, firing order, bank angle or splay, or values of any numbers; mirror images
+    and rotations once.
 
     \b
     Example:
@@ -78,11 +89,13 @@ def search(
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
+    if (minimise is None) == (maximise is None):
+        raise typer.BadParameter("give exactly one of --minimise and --maximise")
     require_ending(write, ".toml", "--write")
     from ..engine.load import parse
+    from ..studies.search.designs import write_design
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
-    from ..studies.search.write import write_design
 
     if require not in ("", "even-firing"):
         message = f'"{require}": only even-firing can be required'
@@ -93,8 +106,13 @@ def search(
         _doubt(model, over, name)
     if write is not None:
         refuse_leaving_files(text, path, write)
-    goal = parse_objective(minimise, limit or (), with_gas=model.gas is not None)
-    watching = reporting_until_stopped if over in ("throws", "firing_order") else reporting
+    goal = parse_objective(
+        minimise or maximise or "",
+        limit or (),
+        maximise=maximise is not None,
+        with_gas=model.gas is not None,
+    )
+    watching = reporting if any("=" in one for one in over) else reporting_until_stopped
     with watching("arrangements") as progress, naming_file(name):
         found = search_arrangements(model, over, goal, top, bool(require), progress)
     show([found], renderer, form, output)
@@ -103,13 +121,13 @@ def search(
     exit_if_cut_short(progress, "these are the best of them")
 
 
-def _doubt(model: EngineFile, over: str, name: str) -> None:
-    """Say what is unlikely of the file, but of what is arranged or varies."""
+def _doubt(model: EngineFile, over: list[str], name: str) -> None:
+    """Warn of what is unlikely in the file, except of what is arranged or varies."""
     from ..engine.build import build
-    from ..studies.search.search import read_range
+    from ..studies.search.search import read_ranges
     from ..studies.unlikely import doubt_unvaried
     from .inputs import warn_each
 
-    ranges = [read_range(model, over)] if "=" in over else []
+    ranges = [one.number for one in read_ranges(model, over) if "." in one.key]
     doubts = doubt_unvaried(model, ranges, lambda variant: build(variant).unlikely)
-    warn_each((doubt for doubt in doubts if over not in doubt), name)
+    warn_each((doubt for doubt in doubts if not any(one in doubt for one in over)), name)

@@ -1,140 +1,135 @@
-"""Designs of an engine file that a search compares: all as one engine, and their figures."""
+"""Arrangements of an engine that a search finds, and engine files with them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ...core.phasors import Array
-from ...engine.arrays import ranked
-from ...engine.build import Engine, build
+from ...engine.build import build
 from ...engine.layout import plan_cylinders
+from ...engine.load import parse
+from ...enginefile.edit import set_keys
 from ...enginefile.model import EngineFile
-from ...errors import InputError
-from ...forces.quantity import Quantity, evaluate_quantities
-from ..varied_gas import attach_gas_torque
-from .objective import Objective
+from ...errors import BalcliError, InputError
 
-# One column by its key of the engine file: `throws`, shape (candidates, throws), or `bank_angle` or
-# `splay`, shape (candidates,); angles in deg.
-Candidates = Mapping[str, Array]
-# The table of the engine file in which each of these stands.
-TABLES = {"throws": "crank", "splay": "crank", "firing_order": "layout", "bank_angle": "layout"}
+PATHS = {
+    "throws": "crank.throws",
+    "firing_order": "layout.firing_order",
+    "bank_angle": "layout.bank_angle",
+    "splay": "crank.splay",
+}
+NOTE = "found by balcli"
+SAME = 1e-9  # relative difference of the objectives of mirror images
 
 
 class Design(NamedTuple):
-    """What an engine file says of one arrangement; None: as it was.
+    """One arrangement; None: as the file has it.
 
     Attributes:
         firing_order: numbers of the cylinders.
         throws: angles along the crank, deg.
         bank_angle, splay: deg.
-        number: any other number of the file, by its dotted name, with its value.
+        numbers: other numbers of the file by dotted name.
     """
 
     firing_order: tuple[int, ...] | None = None
     throws: tuple[float, ...] | None = None
     bank_angle: float | None = None
     splay: float | None = None
-    number: tuple[str, float] | None = None
+    numbers: Mapping[str, float] = {}
 
     def given(self) -> dict[str, float | list[float] | list[int]]:
-        """What is not as it was, by key of the engine file, as JSON has it."""
-        if self.number is not None:
-            return dict([self.number])
-        there = {key: value for key, value in self._asdict().items() if value is not None}
-        return {key: list(v) if isinstance(v, tuple) else v for key, v in there.items()}
+        """Return what differs from the file, by key, as JSON has it."""
+        named = {k: v for k, v in self._asdict().items() if k != "numbers" and v is not None}
+        return {k: list(v) if isinstance(v, tuple) else v for k, v in named.items()} | dict(
+            self.numbers
+        )
 
     def changes(self) -> dict[str, Any]:
-        """The same by dotted keys, as `engine.vary.vary_engine` takes them."""
-        if self.number is not None:
-            return dict([self.number])
-        changed: dict[str, Any] = {
-            f"{TABLES[key]}.{key}": value for key, value in self.given().items()
-        }
+        """Return the same by dotted keys, as `engine.vary.vary_engine` takes them."""
+        changed: dict[str, Any] = {PATHS.get(key, key): v for key, v in self.given().items()}
         if self.firing_order is not None:
             changed["layout.firing_intervals"] = None
         return changed
 
 
 class Found(NamedTuple):
-    """One design, the value of its objective, and its figures by the names of their quantities."""
+    """One arrangement, the value of its objective, and its figures by name of quantity."""
 
     design: Design
     objective: float
     figures: Mapping[str, float]
 
 
-def build_candidates(model: EngineFile, candidates: Candidates) -> Engine:
-    """All candidates as one engine, with these as its trailing axis; also of a number of the file,
-    by its dotted name.
+def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Found]:
+    """Yield the arrangements without those that are an earlier one seen from the other end of the
+    crank, or turning the other way, with the same objective.
     """
-    paths: dict[str, Array] = {key: figures for key, figures in candidates.items() if "." in key}
-    if "throws" in candidates:
-        model = drop_firing_order(model)
-        for number, column in enumerate(candidates["throws"].T, 1):
-            paths[f"crank.throws.{number}"] = column
-    if "bank_angle" in candidates:
-        paths["layout.bank_angle"] = candidates["bank_angle"]
-    if "splay" in candidates:
-        paths["crank.splay"] = candidates["splay"]
-    return attach_gas_torque(build(model, paths), model, paths)
+    cells = plan_cylinders(model.crank, model.layout).cells
+    numbers = {(cell.bank, cell.throw): cell.number for cell in cells}
+    last = max(cell.throw for cell in cells)
+    other_end = {c.number: numbers.get((c.bank, last - c.throw), c.number) for c in cells}
+    seen: dict[tuple[float, ...], float] = {}
+    for one in found:
+        images = list(_find_images(one.design, other_end))
+        known = [seen[image] for image in images if image in seen]
+        if not any(abs(value - one.objective) <= SAME * abs(one.objective) for value in known):
+            yield one
+        seen |= dict.fromkeys(images, one.objective)
 
 
-def find_buildable(model: EngineFile, key: str, angles: Array) -> NDArray[np.bool_]:
-    """At which of these values of an angle of the file (deg) there is an engine, and not a
-    mechanism that locks: shape (candidates,).
+def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple[float, ...]]:
+    """Yield a firing order or throws, their mirror images from the other end and in the other
+    sense of rotation, and both.
     """
+    if (order := design.firing_order) is not None:
+        for row in (order, tuple(other_end[number] for number in order)):
+            start = row.index(1)
+            turned = row[start:] + row[:start]
+            yield turned
+            yield (turned[0], *reversed(turned[1:]))
+    elif (throws := design.throws) is not None:
+        for angles in (throws, throws[::-1]):
+            for sign in (1, -1):
+                from_first = ((sign * (angle - angles[0])) % 360.0 for angle in angles)
+                yield tuple(round(angle, 6) % 360.0 for angle in from_first)
+
+
+def write_design(text: bytes, design: Design, name: str = "") -> str:
+    """Return the text of an engine file, comments included, with a design; a firing order that no
+    longer fits is left out.
+
+    Args:
+        text: of the file.
+        name: of the file; files that it names are beside it.
+
+    Raises:
+        BalcliError: the engine needs the firing order, or the design has other numbers.
+    """
+    if design.numbers:
+        settings = ", ".join(f"{path} = {best:.9g}" for path, best in design.numbers.items())
+        raise BalcliError(
+            f"--write takes throws, firing orders and angles; write {settings} by hand"
+        )
+    new = text.decode("utf-8-sig")
+    for key, value in design.given().items():
+        table, _, last = PATHS[key].partition(".")
+        new = set_keys(new, table, {last: value}, NOTE)
+    if design.firing_order is not None:
+        new = set_keys(new, "layout", {"firing_intervals": None}, NOTE)
+    if not _is_engine(new, name):
+        new = set_keys(new, "layout", {"firing_order": None, "firing_intervals": None}, NOTE)
+        if not _is_engine(new, name):
+            raise BalcliError(
+                "--write: the firing order of the file does not fit what was found, and [gas] "
+                "needs one: look for it by --over firing_order, or leave [gas] out"
+            )
+    return new
+
+
+def _is_engine(text: str, name: str) -> bool:
     try:
-        if len(angles):
-            build_candidates(model, {key: angles})
+        build(parse(text, name))
     except InputError:
-        if len(angles) == 1:
-            return np.array([False])
-        halves = np.array_split(angles, 2)
-        return np.concatenate([find_buildable(model, key, half) for half in halves])
-    return np.ones(len(angles), bool)
-
-
-def drop_firing_order(model: EngineFile) -> EngineFile:
-    """With throws of some kind and no firing order, so that any throws can be tried."""
-    throws = model.crank.throws or (0.0,) * plan_cylinders(model.crank, model.layout).throws
-    model = model.with_table("crank", throws=throws)
-    return model.with_table("layout", firing_order=None, firing_intervals=None)
-
-
-def evaluate_candidates(
-    engine: Engine, objective: Objective[Quantity], count: int
-) -> tuple[dict[Quantity, Array], Array]:
-    """Each quantity and the objective of so many candidates, shape (candidates,) each."""
-    found = evaluate_quantities(engine, objective.quantities)
-    values = {
-        q: np.broadcast_to(value, count)
-        for q, value in zip(objective.quantities, found, strict=True)
-    }
-    return values, np.broadcast_to(objective.evaluate(values.__getitem__), count)
-
-
-def rank_candidates(
-    model: EngineFile, candidates: Candidates, objective: Objective[Quantity]
-) -> Iterator[Found]:
-    """Candidates that keep the limits, best first, with figures of the whole engine anew."""
-    count = len(next(iter(candidates.values())))
-    if not count:
-        return
-    values, totals = evaluate_candidates(build_candidates(model, candidates), objective, count)
-    for k in np.argsort(ranked(totals), kind="stable"):
-        if np.isfinite(totals[k]):
-            figures = {q.name: float(value[k]) for q, value in values.items()}
-            yield Found(_design(candidates, int(k)), float(totals[k]), figures)
-
-
-def _design(candidates: Candidates, row: int) -> Design:
-    if "throws" in candidates:
-        return Design(throws=tuple(candidates["throws"][row].tolist()))
-    if "bank_angle" in candidates:
-        return Design(bank_angle=float(candidates["bank_angle"][row]))
-    return Design(splay=float(candidates["splay"][row]))
+        return False
+    return True

@@ -1,12 +1,14 @@
-"""What makes an arrangement good: a weighted sum of quantities, and limits that must be kept."""
+"""Objective of a search: a weighted sum of quantities to minimise or maximise, and limits."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Generic, NamedTuple, TypeGuard, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...errors import BalcliError
@@ -14,69 +16,81 @@ from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity
 from ..quantities import AnyQuantity, parse_quantities
 
-Asked = TypeVar("Asked", bound=AnyQuantity)
 _SIGNED = ("torque.mean", "torque.min")
 
 
 class Merit(NamedTuple):
-    """How good one arrangement is: the less the better, what keeps its limits before all else.
+    """Merits of candidates, shape (candidates,): the one with less excess is better, of equal ones
+    the one with less cost.
 
     Attributes:
-        excess: the largest share of its limit that a quantity has, if that is 1 or more; else 0.
-        value: the weighted sum.
+        excess: 0 where all limits are kept, else the largest ratio of a quantity to its limit.
+        cost: weighted sum of the quantities; its negative where it is maximised.
     """
 
-    excess: float
-    value: float
+    excess: Array
+    cost: Array
+
+    def take(self, where: Any) -> Merit:
+        """Return the merits of some candidates, by an index as of numpy."""
+        return Merit(self.excess[where], self.cost[where])
+
+    def is_at_most(self, other: Merit) -> NDArray[np.bool_]:
+        """Return whether each candidate is as good as the other one, or better."""
+        cheaper = (self.excess == other.excess) & (self.cost <= other.cost)
+        return np.asarray((self.excess < other.excess) | cheaper)
+
+    def rank(self) -> NDArray[np.intp]:
+        """Return the indices of the candidates, best first, along the last axis."""
+        return np.lexsort((self.cost, self.excess), axis=-1)
 
 
 @dataclass(frozen=True)
-class Objective(Generic[Asked]):
-    """Weights by quantity, and upper limits by quantity (SI)."""
+class Objective:
+    """Weights by quantity, upper limits by quantity (SI), and whether the sum is maximised."""
 
-    weights: dict[Asked, float]
-    limits: dict[Asked, float]
+    weights: Mapping[AnyQuantity, float]
+    limits: Mapping[AnyQuantity, float]
+    maximise: bool = False
 
     @property
-    def quantities(self) -> tuple[Asked, ...]:
-        """All that have to be known, each once."""
+    def quantities(self) -> tuple[AnyQuantity, ...]:
+        """All quantities of the sum and of the limits, each once."""
         return tuple(dict.fromkeys((*self.weights, *self.limits)))
 
-    def evaluate(self, value: Callable[[Asked], float | Array]) -> Array:
-        """The weighted sum, infinite where a limit is broken, shape (candidates,).
+    @property
+    def is_sum_over_cylinders(self) -> bool:
+        """Whether all quantities are orders of inertia forces, which throws contribute to."""
+        return all(isinstance(q, Quantity) and q.kind not in GAS_KINDS for q in self.quantities)
 
-        Args:
-            value: gives a quantity for all candidates.
-        """
-        total = self._add_up(value)
+    def add_up(self, value: Callable[[AnyQuantity], Any]) -> Any:
+        """Return the weighted sum; `value` gives each quantity."""
+        return sum(weight * value(q) for q, weight in self.weights.items())
+
+    def judge(self, values: Mapping[Any, Array]) -> Merit:
+        """Return the merits of candidates by their quantities, shape (candidates,) each."""
+        total = np.asarray(self.add_up(values.__getitem__), float)
+        excess = np.zeros_like(total)
         for q, limit in self.limits.items():
-            total = np.where(value(q) < limit, total, np.inf)
-        return total
-
-    def judge(self, value: Callable[[Asked], float]) -> Merit:
-        """How good one candidate is, whose quantities `value` gives."""
-        shares = [value(q) / limit for q, limit in self.limits.items()]
-        broken = [share for share in shares if not share < 1]
-        return Merit(max(broken, default=0.0), float(self._add_up(value)))
-
-    def _add_up(self, value: Callable[[Asked], float | Array]) -> Array:
-        """The weighted sum, limits left aside."""
-        return np.asarray(sum(weight * value(q) for q, weight in self.weights.items()), float)
+            share = values[q] / limit
+            excess = np.where(share < 1, excess, np.maximum(excess, share))
+        return Merit(excess, -total if self.maximise else total)
 
 
 def parse_objective(
-    minimise: str, limits: Sequence[str] = (), *, with_gas: bool = False
-) -> Objective[AnyQuantity]:
-    """`moment.1.major,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
+    goal: str, limits: Sequence[str] = (), *, maximise: bool = False, with_gas: bool = False
+) -> Objective:
+    """Read `moment.1.major,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
 
     Args:
+        maximise: whether the sum is maximised.
         with_gas: whether the engine has gas.
 
     Raises:
-        BalcliError: what is no quantity, weight or limit.
+        BalcliError: an unknown quantity, or a wrong weight or limit.
     """
     weights: dict[AnyQuantity, float] = {}
-    for term in minimise.split(","):
+    for term in goal.split(","):
         name, _, weight = term.partition("=")
         share = _parse_positive(weight, term) if weight else 1.0
         weights |= dict.fromkeys(_parse_sizes(name, with_gas), share)
@@ -89,51 +103,29 @@ def parse_objective(
                 '"moment.2.major<100"'
             )
         bounds |= dict.fromkeys(_parse_sizes(name, with_gas), _parse_positive(bound, text))
-    return Objective(weights, bounds)
-
-
-def choose_sums(objective: Objective[AnyQuantity]) -> Objective[Quantity] | None:
-    """The same objective, if all its quantities are sums over the cylinders by inertia, which are
-    evaluated for many candidates at once; else None.
-    """
-    weights = {q: w for q, w in objective.weights.items() if _is_sum(q)}
-    limits = {q: limit for q, limit in objective.limits.items() if _is_sum(q)}
-    if len(weights) < len(objective.weights) or len(limits) < len(objective.limits):
-        return None
-    return Objective(weights, limits)
-
-
-def _is_sum(q: AnyQuantity) -> TypeGuard[Quantity]:
-    return isinstance(q, Quantity) and q.kind not in GAS_KINDS
+    return Objective(weights, bounds, maximise)
 
 
 def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
-    """Quantities that can be large or small."""
+    """Return quantities that cannot be negative."""
     found = parse_quantities(name, with_gas=with_gas)
     for q in found:
-        if not isinstance(q, Quantity):
-            if q.name in _SIGNED:
-                raise BalcliError(f"{q.name} may be negative; name a size such as torque.max")
-            continue
-        if q.part == "axis":
+        if isinstance(q, Quantity) and (q.signed or q.part == "axis"):
             raise BalcliError(
-                f"{q.name} is a direction, which cannot be large or small; name a size such as "
+                f"{q.name} has a sign or a direction; name a size such as "
                 f"{q.kind}.{q.order:g}.major"
             )
-        if q.signed:
-            raise BalcliError(
-                f"{q.name} may be negative, and then would be the better the larger it is; "
-                f"name a size such as {q.kind}.{q.order:g}.major"
-            )
+        if q.name in _SIGNED:
+            raise BalcliError(f"{q.name} may be negative; name a size such as torque.max")
     return found
 
 
 def _parse_positive(text: str, whole: str) -> float:
-    """A positive number; `whole` is what it stands in."""
+    """Return a positive number; `whole` is the text that it stands in."""
     try:
         number = float(text)
     except ValueError:
-        number = float("nan")
-    if not 0 < number < float("inf"):
+        number = math.nan
+    if not 0 < number < math.inf:
         raise BalcliError(f'"{whole}": {text.strip() or "nothing"} is no positive number')
     return number

@@ -1,19 +1,19 @@
-"""Best arrangements of an engine: throws along the crank, firing order, bank angle, splay; or the
-best value of any number of its file.
-"""
+"""Best arrangements of an engine: throws of the crank, firing order, or numbers of its file."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from functools import partial
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import islice
-from typing import Literal
+from typing import NamedTuple
 
 import numpy as np
 
+from ...core.phases import TURN
 from ...core.telling import Tell, tell_nobody
 from ...engine.build import Engine, build
+from ...engine.layout import plan_cylinders
 from ...engine.load import parse_dict
 from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
@@ -25,20 +25,37 @@ from ...forces.quantity import Quantity, refuse_unknown
 from ...forces.textbook import TextbookUnits, find_textbook_units
 from ...result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
-from ..quantities import AnyQuantity, choose_of_engine, refuse_unknown_of_chapters
-from .angles import Span
-from .designs import Design, Found, drop_firing_order
-from .even_firing import find_even_angles, fires_evenly
-from .mirror_images import drop_mirror_images
-from .objective import Objective, choose_sums
-from .one_by_one import BestNumbers, find_best_designs, list_throws, rank_one_by_one
-from .over_angle import SPANS, check_angle, find_locked, search_angle
-from .over_firing_order import find_slots, search_firing_order
-from .over_throws import give_throws, search_throws
-from .task import Task
+from ..quantities import choose_of_engine, refuse_unknown_of_chapters
+from .designs import PATHS, Design, Found, drop_mirror_images
+from .evaluate import NumbersJudge, drop_firing_order, fires_evenly, rank_designs, rank_one_by_one
+from .firing_orders import find_slots, search_firing_order
+from .local import Box, Effort, Optima, find_optima
+from .objective import Objective
+from .throws import give_throws, list_throws, search_throws
 
-What = Literal["throws", "firing_order", "bank_angle", "splay"]
-NEAR_AN_END = 1e-4  # of a range: as close as a minimum is found
+ARRANGED = ("throws", "firing_order")
+ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # deg
+NEAR_AN_END = 1e-4  # of a range
+_ROUNDING = 1e-13  # relative difference of equal objectives
+_GRID, _SPREAD = 720, 2048  # candidates of one number, of several
+_SLOW = 32  # candidates a number, where each takes a computation of its own
+
+
+class Range(NamedTuple):
+    """A number that is searched over.
+
+    Attributes:
+        key: as the user names it.
+        number: its dotted name, its unit, and the ends of its range, ascending.
+    """
+
+    key: str
+    number: Parameter
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Least and largest value."""
+        return float(self.number.values.min()), float(self.number.values.max())
 
 
 @dataclass(frozen=True, repr=False)
@@ -47,47 +64,47 @@ class Search(Result):
 
     Attributes:
         model: the engine file.
-        over: what was arranged.
-        objective: what was made small, and its limits.
+        over: what was arranged: `throws`, or numbers with commas between.
+        objective: the quantities, their weights and limits.
         results: best first, each with its `design`, the value of its `objective` and its `figures`.
-        scale: what textbooks measure its forces and moments by.
-        locked: from where to where (deg, to `angles.STEP`) the mechanism locks, so that no angle
-            there was a candidate.
-        ends: of the range in which a number of the file was searched for; None for anything else.
-        constant: whether that number changes nothing of the objective.
-        refused: a value of that range that makes no engine, and why; empty if all do.
+        scale: units of forces and moments in textbooks.
+        ranges: the numbers that were searched over.
+        locked: from where to where (deg) a bank angle makes the mechanism lock.
+        constant: whether the numbers change nothing of the objective.
+        refused: values of the numbers that make no engine, and why; empty if all do.
     """
 
     model: EngineFile
     over: str
-    objective: Objective[AnyQuantity]
+    objective: Objective
     results: tuple[Found, ...]
     scale: TextbookUnits
+    ranges: tuple[Range, ...] = ()
     locked: tuple[tuple[float, float], ...] = ()
-    ends: tuple[float, float] | None = None
     constant: bool = False
     refused: str = ""
 
     @property
-    def best_at_end(self) -> bool:
-        """Whether the best value is an end of the range, beyond which there may be a better one,
-        and not as far as its number goes at all.
+    def at_ends(self) -> tuple[str, ...]:
+        """Numbers of the file whose best value is an end of their range, beyond which there may be
+        a better one.
         """
-        design = self.results[0].design
-        if self.ends is None or design.number is None or self.constant:
-            return False
-        low, high = self.ends
-        (path, value), near = design.number, NEAR_AN_END * (high - low)
-        number = find_numbers(self.model).get(path)
-        last = () if number is None else (number.least, number.most)
-        return any(abs(value - end) <= near for end in self.ends if end not in last)
+        if self.constant:
+            return ()
+        numbers, best = find_numbers(self.model), self.results[0].design.numbers
+        named = []
+        for one in self.ranges:
+            if one.key not in best:
+                continue
+            last = numbers[one.key].least, numbers[one.key].most
+            near = NEAR_AN_END * (one.ends[1] - one.ends[0])
+            if any(abs(best[one.key] - end) <= near for end in one.ends if end not in last):
+                named.append(one.key)
+        return tuple(named)
 
     def find_unit(self, key: str) -> str:
-        """That of an angle, and of a number of the file by its dotted name; else empty."""
-        if key in ("bank_angle", "splay"):
-            return "deg"
-        number = find_numbers(self.model).get(key)
-        return "" if number is None else number.dimension.unit
+        """Return the unit of a number that was searched over; empty for anything else."""
+        return next((one.number.unit for one in self.ranges if one.key == key), "")
 
     @property
     def summary(self) -> str:
@@ -101,11 +118,11 @@ class Search(Result):
         return choose_of_engine(self.objective.quantities)
 
     def engine(self, rank: int = 1) -> Engine:
-        """The engine with the arrangement of this rank, the best being 1. A firing order that its
-        throws no longer fit is left out.
+        """Return the engine with the arrangement of this rank, the best being 1. A firing order
+        that its throws no longer fit is left out.
 
         Raises:
-            IndexError: so many were not found.
+            IndexError: there are fewer arrangements.
             TypeError: the rank is no whole number.
         """
         check_type("rank", rank, (int, np.integer), "give a whole number from 1")
@@ -116,155 +133,206 @@ class Search(Result):
 
 def search_arrangements(
     model: EngineFile,
-    over: str,
-    objective: Objective[AnyQuantity],
+    over: str | Sequence[str],
+    objective: Objective,
     count: int = 10,
     even_firing: bool = False,
     tell: Tell = tell_nobody,
 ) -> Search:
-    """The best arrangements, mirror images and rotations once.
+    """Return the best arrangements, mirror images and rotations once.
 
     Args:
-        over: throws (permutes those of the file, or those that its firing order asks for),
-            firing_order (all even ones; cranks follow where the file gives no throws), bank_angle
-            (of a vee), splay; or a number of the file and its range, `mount.left.loss=0.05:0.3`.
+        over: throws (permutes those of the file, or those that its firing order needs) or
+            firing_order (all even ones; cranks follow where the file gives no throws); or one or
+            several of bank_angle (of a vee), splay, and numbers of the file with their ranges,
+            `mount.left.loss=0.05:0.3`.
         count: at most so many.
         even_firing: only arrangements that can fire evenly.
-        tell: of what takes long: `throws.find_best_throws`, and designs one by one.
+        tell: is told the share that is done; a search over throws or firing orders asks whether
+            that is enough.
 
     Raises:
-        BalcliError: an engine that has nothing to arrange, or no arrangement that keeps the limits,
-        a moment of an engine whose file does not say where its throws stand.
+        BalcliError: the engine has nothing to arrange, no arrangement keeps the limits, or a
+            moment is asked for and the file does not say where the throws stand.
     """
+    wanted = [over] if isinstance(over, str) else list(over)
     engine = build(model)
     refuse_unknown(engine, choose_of_engine(objective.quantities))
     refuse_unknown_of_chapters(model, objective.quantities)
-    key, is_number, _ = over.partition("=")
-    what = None if is_number else _parse_over(over)
-    sums = choose_sums(objective)
-    locked: tuple[tuple[float, float], ...] = ()
-    ends, constant, refused = None, False, ""
-    fires_at_will = model.gas is None and model.crank.throws is not None and what != "firing_order"
-    base = drop_firing_order(model) if fires_at_will or what == "throws" else model
-    if what is None:
-        number = read_range(model, over)
-        key, ends = number.path, (float(number.values.min()), float(number.values.max()))
-        best = _find_best(base, key, Span(*ends), objective, even_firing, tell)
-        constant, refused = best.constant, best.refused
-        candidates = rank_one_by_one(base, best.designs, objective, tell_nobody)
-    elif sums is None:
-        designs = _list_designs(model, base, what, objective, even_firing, tell)
-        candidates = rank_one_by_one(base, designs, objective, tell)
+    ranges = read_ranges(model, wanted)
+    named = ", ".join(one.key for one in ranges) or wanted[0]
+    numbers = NumbersFound((), ())
+    if ranges:
+        numbers = _search_numbers(model, ranges, objective, even_firing, tell)
+        candidates = iter(numbers.found)
+    elif objective.is_sum_over_cylinders:
+        if named == "throws":
+            base = drop_firing_order(give_throws(model))
+            candidates = search_throws(base, objective, count, even_firing, tell)
+        else:
+            candidates = search_firing_order(model, objective)
     else:
-        locked = find_locked(model, what)
-        candidates = _SEARCHES[what](Task(model, sums, count, even_firing, locked, tell))
+        designs = _list_designs(model, named, even_firing)
+        base = drop_firing_order(model) if named == "throws" else model
+        candidates = rank_one_by_one(base, designs, objective, tell)
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
-        wanted = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
-        named = key if is_number else key.replace("_", " ")
-        raise BalcliError(f"no {named} can {' and '.join(wanted or ['be computed'])}")
+        asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
+        words = named if "." in named else named.replace("_", " ")
+        raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
     orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
     scale = find_textbook_units(engine, orders)
-    return Search(model, key, objective, found, scale, locked, ends, constant, refused)
+    return Search(model, named, objective, found, scale, ranges, *numbers[1:])
 
 
-def read_range(model: EngineFile, over: str) -> Parameter:
-    """A number of the file and the ends of its range: `mount.left.loss=0.1:0.4`.
-
-    Raises:
-        BalcliError: what is no number and range.
-    """
-    path, _, ends = over.partition("=")
-    if ends.count(":") != 1:
-        raise BalcliError(
-            f'--over "{over}": give the ends of a range, such as {path}=from:to; balcli sweep '
-            "takes steps and lists"
-        )
-    return parse_parameter(f"{path}={ends.replace(':', ',')}", model)
-
-
-def _list_designs(
-    model: EngineFile,
-    free: EngineFile,
-    what: What,
-    objective: Objective[AnyQuantity],
-    even_firing: bool,
-    tell: Tell,
-) -> Iterator[Design]:
-    """What there is to arrange in a file, for figures that take each arrangement by itself; `free`
-    is the file with what may be changed for it.
-    """
+# ------------------------------------------------------------------ throws and firing orders
+def _list_designs(model: EngineFile, what: str, even_firing: bool) -> Iterator[Design]:
+    """Yield what there is to arrange, for figures that take each arrangement by itself."""
     if what == "firing_order":
         slots, cranks = find_slots(model)
-        return (
-            Design(firing_order=order, throws=tuple(throws))
-            for throws in cranks.tolist()
-            for order in slots.find_orders(throws)
-        )
-    if what == "throws":
-        designs = list_throws(give_throws(model))
-        return (one for one in designs if not even_firing or _fires_evenly(free, one))
-    check_angle(model, what)
-    return iter(_find_best(free, what, SPANS[what], objective, even_firing, tell).designs)
+        for throws in cranks.tolist():
+            for order in slots.find_orders(throws):
+                yield Design(firing_order=order, throws=tuple(throws))
+        return
+    free = drop_firing_order(model)
+    for design in list_throws(give_throws(model)):
+        changed = parse_dict(change_tables(free, design.changes()), free.folder)
+        if not even_firing or fires_evenly(build(changed), changed).all():
+            yield design
 
 
-def _find_best(
-    model: EngineFile,
-    key: str,
-    span: Span,
-    objective: Objective[AnyQuantity],
-    even_firing: bool,
-    tell: Tell,
-) -> BestNumbers:
-    """Designs with the best values of a number of the file (bank_angle, splay, or its dotted name)
-    in a span; of those with which the cylinders fire evenly, if that is asked for.
+# ------------------------------------------------------------------ numbers
+def read_ranges(model: EngineFile, over: Sequence[str]) -> tuple[Range, ...]:
+    """Read the numbers that are searched over; none for throws and firing orders.
+
+    Raises:
+        BalcliError: an unknown name or a wrong range, what cannot be combined, a number twice.
     """
-    even = find_even_angles(model, key, span) if even_firing and _moves_dead_centres(key) else None
-    if even is not None:
-        return BestNumbers([_name_design(key, value) for value in even.tolist()], False, "")
-    ends = span.low, span.high
-    best = find_best_designs(model, partial(_name_design, key), *ends, objective, tell)
-    found = best.designs
-    if key in SPANS and span.ring:
-        first, last = (_name_design(key, end) for end in ends)
-        found = [*dict.fromkeys(last if one == first else one for one in found)]
-    kept = [one for one in found if not even_firing or _fires_evenly(model, one)]
-    return best._replace(designs=kept)
+    arranged = [text for text in over if text in ARRANGED]
+    if arranged and len(over) == 1:
+        return ()
+    if arranged:
+        other = next((text for text in over if text != arranged[0]), arranged[0])
+        raise BalcliError(
+            f"--over {arranged[0]} goes with no other --over ({other}); several numbers can be "
+            "searched together"
+        )
+    ranges = tuple(_read_range(model, text) for text in over)
+    paths = [one.number.path for one in ranges]
+    if twice := [path for path in paths if paths.count(path) > 1]:
+        raise BalcliError(f"--over {twice[0]} is given twice; give one range")
+    return ranges
 
 
-def _name_design(key: str, value: float) -> Design:
-    if key == "bank_angle":
-        return Design(bank_angle=value)
-    return Design(splay=value) if key == "splay" else Design(number=(key, value))
+def _read_range(model: EngineFile, text: str) -> Range:
+    if text in ANGLES:
+        _check_angle(model, text)
+        return Range(text, Parameter(PATHS[text], np.array(ANGLES[text]), "deg"))
+    path, is_number, ends = text.partition("=")
+    if not is_number:
+        known = (*ARRANGED, *ANGLES)
+        near = nearest(text, known)
+        meant = f"; did you mean {near}?" if near else ""
+        raise BalcliError(
+            f'--over "{text}": choose from {", ".join(known)}, or give a number of the file with '
+            f"its range, such as mount.left.loss=0.05:0.3{meant}"
+        )
+    if ends.count(":") != 1:
+        raise BalcliError(
+            f'--over "{text}": give the ends of a range, such as {path}=from:to; balcli sweep '
+            "takes steps and lists"
+        )
+    number = parse_parameter(f"{path}={ends.replace(':', ',')}", model)
+    return Range(number.path, number)
 
 
-def _moves_dead_centres(key: str) -> bool:
-    """Whether it is an angle of the crank or of cylinders."""
-    if key.startswith("cylinder."):
-        return key.endswith((".throw", ".bank"))
-    return key in SPANS or key.startswith(("crank.throws.", "crank.splay", "layout.bank"))
+def _check_angle(model: EngineFile, key: str) -> None:
+    """Raise BalcliError if the engine has no such angle, or its crank follows from it."""
+    name = key.replace("_", " ")
+    one_bank = plan_cylinders(model.crank, model.layout).banks < 2
+    if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
+        raise BalcliError(
+            f"there is no {name} to look for: the engine is no vee (give layout.bank_angle)"
+        )
+    if model.crank.throws is None and model.layout.firing_order is not None:
+        raise BalcliError(
+            f"the crank follows from the firing order, which fits no other {name}: give "
+            "crank.throws, so that the crank stays as it is"
+        )
 
 
-def _fires_evenly(model: EngineFile, design: Design) -> bool:
-    changed = parse_dict(change_tables(model, design.changes()), model.folder)
-    return bool(fires_evenly(build(changed), changed).all())
+class NumbersFound(NamedTuple):
+    """Result of a search over numbers; attributes as of `Search`."""
+
+    found: Iterable[Found]
+    locked: tuple[tuple[float, float], ...]
+    constant: bool = False
+    refused: str = ""
 
 
-def _parse_over(text: str) -> What:
-    for what in _SEARCHES:
-        if what == text:
-            return what
-    near = nearest(text, tuple(_SEARCHES))
-    raise BalcliError(
-        f'--over "{text}": choose from '
-        f"{', '.join(_SEARCHES)}, or give a number of the file with its range, such as "
-        f"mount.left.loss=0.05:0.3{f'; did you mean {near}?' if near else ''}"
+def _search_numbers(
+    model: EngineFile, ranges: Sequence[Range], objective: Objective, even_firing: bool, tell: Tell
+) -> NumbersFound:
+    """Return the local optima over some numbers, best first.
+
+    Raises:
+        InputError: no values make an engine.
+    """
+    if model.gas is None and model.crank.throws is not None:
+        model = drop_firing_order(model)
+    ends = np.array([one.ends for one in ranges])
+    spans = ends[:, 1] - ends[:, 0]
+    angles = np.array([one.number.unit == "deg" for one in ranges])
+    box = Box(ends[:, 0], ends[:, 1], angles & (spans == TURN))
+    total = 1.0
+    paths = [one.number.path for one in ranges]
+    judge = NumbersJudge(model, paths, objective, even_firing, lambda n: tell(min(n / total, 1.0)))
+    effort = _choose_effort(box, objective, judge.alone)
+    if even_firing:  # candidates fire evenly to 1e-9 deg, a round angle may do so exactly
+        effort = replace(effort, as_good=1e-9)
+    total = effort.count_evaluations(box.size)
+    optima = find_optima(judge, box, effort)
+    if not np.isfinite(optima.merits.excess).any() and judge.first_error is not None:
+        raise judge.first_error
+    designs = [_name_numbers(ranges, place) for place in optima.places.tolist()]
+    values = judge.evaluate(optima.places) if designs else {}
+    costs = optima.merits.cost
+    same = np.ptp(costs) <= _ROUNDING * np.abs(costs).max()
+    constant = bool(same and spans.all() and not judge.refused)
+    locked = _find_locked(model, ranges, optima)
+    return NumbersFound(
+        rank_designs(designs, values, objective) if designs else [],
+        locked,
+        constant,
+        "" if locked else judge.refused,
     )
 
 
-_SEARCHES: dict[What, Callable[[Task], Iterator[Found]]] = {
-    "throws": search_throws,
-    "firing_order": search_firing_order,
-    "bank_angle": partial(search_angle, "bank_angle"),
-    "splay": partial(search_angle, "splay"),
-}
+def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
+    """Return how much is evaluated: less where each candidate takes a computation of its own."""
+    if alone:
+        return Effort(_SLOW, 3, 1e-10) if box.size == 1 else Effort(2 * _SLOW * box.size, 3, 1e-8)
+    if box.size > 1:
+        return Effort(_SPREAD, 24, 1e-15)
+    highest = max(q.order for q in choose_of_engine(objective.quantities))
+    return Effort(max(_GRID, 16 * (math.ceil(highest) + 1)), _GRID, 1e-13)
+
+
+def _name_numbers(ranges: Sequence[Range], place: Sequence[float]) -> Design:
+    named = {one.key: value for one, value in zip(ranges, place, strict=True)}
+    angles = {key: named.pop(key) for key in ANGLES if key in named}
+    return Design(**angles, numbers=named)  # type: ignore[arg-type]
+
+
+def _find_locked(
+    model: EngineFile, ranges: Sequence[Range], optima: Optima
+) -> tuple[tuple[float, float], ...]:
+    """Return from where to where a bank angle leaves articulated rods that cannot follow, deg, to
+    the step of the grid.
+    """
+    if model.articulation is None or [one.key for one in ranges] != ["bank_angle"]:
+        return ()
+    bad = np.flatnonzero(~np.isfinite(optima.merits.excess))
+    runs = np.split(bad, np.flatnonzero(np.diff(bad) > 1) + 1) if len(bad) else []
+    spans = [optima.points[[run[0], run[-1]], 0].tolist() for run in runs]
+    return tuple((low, high) for low, high in spans)

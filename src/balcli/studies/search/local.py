@@ -1,0 +1,244 @@
+"""Local optima of a function of one or several numbers in a box.
+
+Candidates are spread over the box: a grid of one number, a quasi-random sequence of several. From
+each candidate that is better than its neighbours a local search starts. It compares candidates and
+uses no derivatives, because sizes of vectors have kinks where they vanish, limits have edges, and
+some numbers make no engine: golden section for one number, the evolution strategy with covariance
+adaptation (Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772) for several.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.phasors import Array
+from ...engine.arrays import ranked
+from .objective import Merit
+
+Judge = Callable[[Array], Merit]  # of points, shape (points, numbers)
+_GOLDEN = (math.sqrt(5) - 1) / 2
+_SAME = 1e-5  # share of the box: closer optima are one
+_DIGITS = 12  # of numbers
+
+
+@dataclass(frozen=True)
+class Box:
+    """The ranges of some numbers, shape (numbers,) each; a number of a ring comes back to `low`
+    beyond `high`.
+    """
+
+    low: Array
+    high: Array
+    ring: Array
+
+    @property
+    def size(self) -> int:
+        """How many numbers there are."""
+        return len(self.low)
+
+    @property
+    def span(self) -> Array:
+        """Widths of the ranges."""
+        return np.where(self.high > self.low, self.high - self.low, 1.0)
+
+    def bring_inside(self, points: Array) -> Array:
+        """Return points (..., numbers) in the box: the nearest, or modulo the span of a ring."""
+        turned = self.high - np.remainder(self.high - points, self.span)
+        return np.where(self.ring, turned, np.clip(points, self.low, self.high))
+
+    def subtract(self, points: Array, others: Array) -> Array:
+        """Return points - others as shares of the spans, the short way around a ring."""
+        share = (points - others) / self.span
+        return np.where(self.ring, share - np.round(share), share)
+
+    def spread(self, count: int) -> Array:
+        """Return points spread over the box: a grid, or the R sequence of several numbers."""
+        if self.size == 1:
+            grid = np.linspace(self.low, self.high, count + 1 if self.high > self.low else 1)
+            return grid[1:] if self.ring[0] else grid
+        base = 2.0
+        for _ in range(50):  # the root of x**(numbers + 1) = x + 1
+            base = (1 + base) ** (1 / (self.size + 1))
+        steps = base ** -np.arange(1.0, self.size + 1)
+        return self.low + self.span * ((0.5 + np.arange(count)[:, None] * steps) % 1)
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much a search evaluates.
+
+    Attributes:
+        points: spread over the box.
+        starts: of local searches, at most.
+        exact: share of the box to which an optimum is found.
+        as_good: relative difference of costs that a rounder number may make.
+    """
+
+    points: int
+    starts: int
+    exact: float
+    as_good: float = 1e-13  # a smooth minimum is flat to rounding
+
+    def count_evaluations(self, numbers: int) -> int:
+        """Return about how many candidates are evaluated."""
+        rounds = math.log(self.exact) / math.log(_GOLDEN)
+        return round(self.points + self.starts * rounds * (1 if numbers == 1 else 20 * numbers))
+
+
+class Optima(NamedTuple):
+    """Result of a search.
+
+    Attributes:
+        places: local optima that keep all limits, best first, shape (optima, numbers); each is the
+            roundest point that is as good.
+        points, merits: the points that were spread over the box.
+    """
+
+    places: Array
+    points: Array
+    merits: Merit
+
+
+def find_optima(judge: Judge, box: Box, effort: Effort) -> Optima:
+    """Return every local optimum in a box that is found from `effort.starts` starts, once."""
+    points = box.spread(effort.points)
+    merits = judge(points)
+    starts = _find_starts(points, merits, box)[: effort.starts]
+    step = effort.points ** (-1 / box.size)  # between neighbours, as a share of the box
+    if box.size == 1:
+        found = _divide(judge, points[starts], step * box.span, effort.exact * box.span)
+    else:
+        found = _adapt(judge, box, points[starts], 0.5 * step, effort.exact)
+    found = box.bring_inside(found)
+    ends = judge(found)
+    better = ends.is_at_most(merits.take(starts))[:, None]
+    found = np.where(better, found, points[starts])
+    slack = effort.as_good * np.abs(merits.cost[starts])
+    rounded = [_round_off(judge, box, x, each) for x, each in zip(found, slack, strict=True)]
+    found = np.array(rounded).reshape(-1, box.size)
+    best: list[Array] = []
+    ends = judge(found)
+    for k in Merit(ends.excess, ranked(ends.cost)).rank():
+        new = all(np.abs(box.subtract(found[k], other)).max() > _SAME for other in best)
+        if new and ends.excess[k] == 0 and np.isfinite(ends.cost[k]):
+            best.append(found[k])
+    return Optima(np.array(best).reshape(-1, box.size), points, merits)
+
+
+def _find_starts(points: Array, merits: Merit, box: Box) -> Array:
+    """Return the indices of the points that are better than their neighbours, best first; of equal
+    ones the first.
+    """
+    merits = Merit(merits.excess, ranked(merits.cost))
+    place = np.empty(len(points), int)
+    place[merits.rank()] = np.arange(len(points))
+    starts = []
+    for k in np.flatnonzero(np.isfinite(merits.excess)):
+        distance = (box.subtract(points, points[k]) ** 2).sum(axis=1)
+        distance[k] = np.inf
+        near = np.argsort(distance, kind="stable")[: 2 * box.size]
+        if not any(place[near] < place[k]):
+            starts.append(k)
+    return np.array(sorted(starts, key=lambda k: int(place[k])), int)
+
+
+def _divide(judge: Judge, middle: Array, step: Array, exact: Array) -> Array:
+    """Return the minima in middle +- step by golden section, all at once, shape (minima, 1)."""
+    low, high = middle - step, middle + step
+    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    at_left, at_right = judge(left), judge(right)
+    for _ in range(math.ceil(math.log(float(exact[0] / (2 * step[0]))) / math.log(_GOLDEN))):
+        lower = at_left.is_at_most(at_right)[:, None]
+        low, high = np.where(lower, low, left), np.where(lower, right, high)
+        new = np.where(lower, high - _GOLDEN * (high - low), low + _GOLDEN * (high - low))
+        at_new, side = judge(new), lower[:, 0]
+        left, right = np.where(lower, new, right), np.where(lower, left, new)
+        at_left, at_right = _choose(side, at_new, at_right), _choose(side, at_left, at_new)
+    return np.where(at_left.is_at_most(at_right)[:, None], left, right)
+
+
+def _choose(where: NDArray[np.bool_], one: Merit, other: Merit) -> Merit:
+    return Merit(*(np.where(where, a, b) for a, b in zip(one, other, strict=True)))
+
+
+def _adapt(judge: Judge, box: Box, mean: Array, step: float, exact: float) -> Array:
+    """Return an optimum for each start (starts, numbers) by evolution strategies that run side by
+    side: each draws candidates, moves to the mean of the better half, and adapts its step and its
+    covariance. Lengths are shares of the box. Starts that do not converge return their best.
+    """
+    count, k = mean.shape
+    drawn, most = 8 + 4 * k, 200 + 100 * k
+    weights = math.log(drawn / 2 + 0.5) - np.log(np.arange(1, drawn // 2 + 1))
+    weights /= weights.sum()
+    effective = 1 / (weights**2).sum()
+    by_step = (effective + 2) / (k + effective + 5)
+    damping = 1 + by_step + 2 * max(0.0, math.sqrt((effective - 1) / (k + 1)) - 1)
+    by_path = (4 + effective / k) / (k + 4 + 2 * effective / k)
+    rank_one = 2 / ((k + 1.3) ** 2 + effective)
+    rank_mu = min(1 - rank_one, 2 * (effective - 2 + 1 / effective) / ((k + 2) ** 2 + effective))
+    usual = math.sqrt(k) * (1 - 1 / (4 * k) + 1 / (21 * k**2))
+    random = np.random.default_rng(0)
+    size = np.full(count, step)
+    covariance = np.tile(np.eye(k), (count, 1, 1))
+    step_path, path = np.zeros((count, k)), np.zeros((count, k))
+    best, reached = mean.copy(), judge(mean)
+    for _ in range(most):
+        squares, axes = np.linalg.eigh(covariance)
+        widths = np.sqrt(np.maximum(squares, 1e-28))
+        live = np.flatnonzero(size * widths[:, -1] > exact)
+        if not len(live):
+            break
+        axes, widths, here = axes[live], widths[live], size[live, None]
+        z = random.standard_normal((len(live), drawn, k))
+        moves = np.einsum("sij,slj->sli", axes, z * widths[:, None])
+        points = box.bring_inside(mean[live, None] + here[..., None] * moves * box.span)
+        moves = box.subtract(points, mean[live, None]) / here[..., None]
+        judged = judge(points.reshape(-1, k))
+        merits = Merit(*(each.reshape(len(live), drawn) for each in judged))
+        order = merits.rank()[:, : len(weights)]
+        rows = np.arange(len(live))[:, None]
+        first = merits.take((rows[:, 0], order[:, 0]))
+        better = ~reached.take(live).is_at_most(first)
+        best[live[better]] = points[rows[:, 0], order[:, 0]][better]
+        for whole, part in zip(reached, first, strict=True):
+            whole[live[better]] = part[better]
+        chosen = moves[rows, order]
+        move = np.einsum("l,sli->si", weights, chosen)
+        mean[live] = box.bring_inside(mean[live] + here * move * box.span)
+        white = np.einsum("sij,sj->si", axes, np.einsum("sji,sj->si", axes, move) / widths)
+        step_path[live] *= 1 - by_step
+        step_path[live] += math.sqrt(by_step * (2 - by_step) * effective) * white
+        length = np.sqrt((step_path[live] ** 2).sum(axis=1)) / usual
+        steady = (length < 1.4 + 2 / (k + 1))[:, None]
+        path[live] *= 1 - by_path
+        path[live] += steady * math.sqrt(by_path * (2 - by_path) * effective) * move
+        covariance[live] *= 1 - rank_one - rank_mu
+        covariance[live] += rank_one * path[live][:, :, None] * path[live][:, None, :]
+        covariance[live] += rank_mu * np.einsum("l,sli,slj->sij", weights, chosen, chosen)
+        size[live] *= np.exp(by_step / damping * (length - 1))
+    return best
+
+
+def _round_off(judge: Judge, box: Box, point: Array, slack: float) -> Array:
+    """Return a point with each number as round as it can be and still as good but for the slack."""
+    for n, span in enumerate(box.span):
+        coarsest = -math.floor(math.log10(span))
+        x = float(point[n])
+        rounded = [round(x, coarsest + more) + 0.0 for more in range(_DIGITS)]
+        turns = 360.0 * float(Fraction(x / 360.0).limit_denominator(1000))  # 360/7 is round, too
+        near = [y for y in [*rounded[:7], turns, *rounded[7:]] if box.low[n] <= y <= box.high[n]]
+        tried = np.tile(point, (len(near) + 1, 1))
+        tried[1:, n] = near
+        merits = judge(tried)
+        enough = Merit(merits.excess[:1], merits.cost[:1] + slack)
+        good = np.flatnonzero(merits.is_at_most(enough)[1:])
+        if len(good):
+            point = tried[1 + good[0]]
+    return point
