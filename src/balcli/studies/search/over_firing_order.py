@@ -9,7 +9,7 @@ import numpy as np
 from ...core.phasors import Array
 from ...engine.build import assemble
 from ...engine.layout import cycle_deg, plan_cylinders
-from ...engine.split_pins import find_fitting_splay
+from ...engine.numbering import find_fitting_splay
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from .designs import Found, rank_candidates
