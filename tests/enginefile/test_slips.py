@@ -27,78 +27,23 @@ def told(*changes, args=()):
 @pytest.mark.parametrize(
     ("old", "new", "answer"),
     [
-        ("stroke = 90", "stroke = 3.00 in", ': stroke = 3.00 in: a value with a unit stands in quotes: stroke = "3.00 in"'),
-        ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma; a list stands in brackets, such as [68,6]"),
-        ("length = 160", "ratio = 2/7", ": ratio = 2/7: TOML knows no fractions; write ratio = 0.285714"),
-        ("throws = [0, 180, 180, 0]", "throws = 0, 90", ": throws = 0, 90: a list stands in brackets: throws = [0, 90]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0 180 180 0]", ": throws = [0 180 180 0]: commas stand between the values of a list: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0; 180; 180;0] # deg", ": throws = [0; 180; 180;0]: commas stand between the values of a list: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0, 180 180, 0]", ": throws = [0, 180 180, 0]: commas stand between the values of a list: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = [.5, 180., -7, 0.]", ": throws = [.5, 180., -7, 0.]: TOML writes these numbers throws = [0.5, 180, -7, 0]"),
-        ("stroke = 90", "stroke = 90.", ": stroke = 90.: TOML writes this number stroke = 90"),
-        ("mass = 0.5", "mass = .5  # kg", ": mass = .5: TOML writes this number mass = 0.5"),
-        ("speed = 3000", "speed = 3 000", ": speed = 3 000: TOML writes this number speed = 3000"),
-        ("speed = 3000", "speed = 03000", ": speed = 03000: TOML writes this number speed = 3000"),
-        ("throws = [0, 180, 180, 0]", "throws = [0, 180", ": a list above has no ] at its end"),
-        ("stroke = 90", "stroke = “90 mm”", ': stroke = “90 mm”: quotes are straight: stroke = "90 mm"'),
-        ("stroke = 90", "stroke = ‘3.5 in’  # inch", ': stroke = ‘3.5 in’: quotes are straight: stroke = "3.5 in"'),
-        ("stroke = 90", "stroke: 90", ": a key and its value have = between them: stroke = 90"),
-        ("stroke = 90", "stroke == 90  # mm", ": a key and its value have = between them: stroke = 90"),
-        ("stroke = 90", "stroke := 90", ": a key and its value have = between them: stroke = 90"),
-        ("[rod]", "rod:", ": the head of a table stands in brackets: [rod]"),
-        ("throws = [0, 180, 180, 0]", "throws = 0,180,180,0", ": throws = 0,180,180,0: a list stands in brackets: throws = [0,180,180,0]"),
-        ("stroke = 90", 'stroke = 3.400"', ': stroke = 3.400": inches are written stroke = "3.400 in"'),
-        ("stroke = 90", "stroke = 3 1/2''  # inch", ": stroke = 3 1/2'': inches are written stroke = \"3 1/2 in\""),
-        ("stroke = 90", "stroke = -3 1/2", ": stroke = -3 1/2: TOML knows no fractions; write stroke = -3.5"),
-        ("stroke = 90", "stroke = 90  // mm", ": stroke = 90  // mm: a comment begins with #: stroke = 90  # mm"),
-        ("stroke = 90", "stroke = 90 (bore 88)", ": stroke = 90 (bore 88): a comment begins with #: stroke = 90  # bore 88"),
-        ("stroke = 90", "stroke = −90", ": stroke = −90: a minus sign is a hyphen: stroke = -90"),
+        ("stroke = 90", "stroke = 3.00 in", 'stroke = 3.00 in: a value with a unit stands in quotes: stroke = "3.00 in"'),
+        ("stroke = 90", 'stroke = 3.400"', 'a value with a unit stands in quotes: stroke = "3.400 in"'),
+        ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma"),
+        ("throws = [0, 180, 180, 0]", "throws = 0, 90", "a list stands in brackets, with commas: throws = [0, 90]"),
+        ("throws = [0, 180, 180, 0]", "throws = [0; -180] # deg", ": throws = [0, -180]"),
+        ("throws = [0, 180, 180, 0]", "throws = 0 240 120", ": throws = [0, 240, 120]"),
+        ("firing_order = [1, 3, 4, 2]", "firing_order = 1-3-4-2", ": firing_order = [1, 3, 4, 2]"),
         ("stroke = 90", "stroke 90", " (at line 3, column 8): stroke 90"),
-        ("throws = [0, 180, 180, 0]", "throws = (0, 180, 180, 0)", ": throws = (0, 180, 180, 0): a list stands in square brackets: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = 0 180 180 0", ": throws = 0 180 180 0: a list stands in brackets, with commas: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0°, 90 °]", ": throws = [0°, 90 °]: degrees are bare numbers: throws = [0, 90 ]"),
-        ("firing_order = [1, 3, 4, 2]", "firing_order = 1-3-4-2", ": firing_order = 1-3-4-2: a list stands in brackets: firing_order = [1, 3, 4, 2]"),
-        ("throws = [0, 180, 180, 0]", "throws = 0 240 120", ": throws = 0 240 120: a list stands in brackets, with commas: throws = [0, 240, 120]"),
-        ("throws = [0, 180, 180, 0]", "throws = 90 240 120", ": throws = 90 240 120: TOML writes this number throws = 90240120, a list throws = [90, 240, 120]"),
-        ("stroke = 90", "stroke = 1 250 000", ": stroke = 1 250 000: TOML writes this number stroke = 1250000"),
-        ("[rod]", "[rod", ": the head of a table stands in brackets: [rod]"),
-        ("[rod]", "[crank]", ": [crank] stands twice; put all its keys below the first one"),
-        ("stroke = 90", "stroke = ", ": stroke ="),
-        ("[rod]", "[crank]\n[rod]", ": [crank] stands twice; put all its keys below the first one"),
-        ("[rod]", "[[mount]]\n[mount]\n[rod]", ": mount stands above in double brackets; what there may be several of has double ones each time, all else single ones, once"),
-        ("[rod]", "[mount] # left\n[[mount]]\n[rod]", ": mount stands above in single brackets; what there may be several of has double ones each time, all else single ones, once"),
-        ("mass = 0.5", "länge = 3", ": keys have plain letters, not U+00E4 (LATIN SMALL LETTER A WITH DIAERESIS)"),
-        ("stroke = 90", "stroke\u00a0= 90", ": keys have plain letters, not U+00A0 (NO-BREAK SPACE)"),
-        ("[rod]", "\u200b[rod]", ": keys have plain letters, not U+200B (ZERO WIDTH SPACE)"),
-        ("stroke = 90", "x = { stroke = 90, }", ": a table in braces stands on one line, without a comma at its end"),
-        ("stroke = 90", "x = { stroke = 90,, a = 1 }", ": x = { stroke = 90,, a = 1 }"),
-        ("throws = [0, 180, 180, 0]", "throws = [0, 180,\n180°, 0]", "(at line 5, column 4): 180°, 0]"),
-        ("stroke = 90", "stroke = 90;", ": stroke = 90;: nothing stands behind a value: stroke = 90"),
-        ("stroke = 90", "stroke = 90 ,  # mm", ": stroke = 90 ,: nothing stands behind a value: stroke = 90"),
-        ("stroke = 90", "stroke = NaN", ": stroke = NaN: leave stroke out where it is not known"),
-        ("stroke = 90", "stroke = null", ": stroke = null: leave stroke out where it is not known"),
-        ("stroke = 90", "stroke = True", ": stroke = True: write stroke = true, or stroke = false"),
-        ("stroke = 90", "stroke = 2 * 45", ": stroke = 2 * 45: TOML does not calculate; write stroke as one number"),
-        ("throws = [0, 180, 180, 0]", "throws = 0-180-180-0", ": throws = 0-180-180-0: a list stands in brackets: throws = [0, 180, 180, 0]"),
+        ("stroke = 90", "stroke = 90;", ": stroke = 90;"),
+        ("[rod]", "[rod", ": [rod"),
+        ("[rod]", "[crank]", ": [crank]"),
     ],
 )  # fmt: skip
 def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(old, new, answer):
     err = told((old, new)).err
     assert NOT_TOML in err
     assert err.endswith(f"{answer}\n")
-
-
-def test_a_list_that_the_file_ends_in():
-    assert run_here("analyze", "-", stdin="[crank]\nthrows = [0, 180").err.endswith(
-        "(at end of document): this list has no ] at its end\n"
-    )
-
-
-@pytest.mark.parametrize("given", ["[0-180]", "[012]", "[0..180]"])
-def test_a_list_whose_values_nothing_parts_is_not_told_to_lack_commas(given):
-    err = told(("throws = [0, 180, 180, 0]", f"throws = {given}")).err
-    assert NOT_TOML in err
-    assert "commas" not in err
 
 
 @pytest.mark.parametrize(
