@@ -87,8 +87,6 @@ def test_other_words_for_a_key_lead_to_it(old, new, meant):
 
 COUNT = "the number of cylinders follows from throws and banks; give every throw its angle, such as"
 WIEBE = {"cycle": "wiebe", "compression_ratio": 10, "imep": 9}
-PART = "what turns with the crankshaft is a [[torsion.rear]], behind the throws, or a [[torsion.front]]"
-KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes a vee"
 
 
 @pytest.mark.parametrize(
@@ -102,8 +100,8 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"engine": {"bore": 80}}, "engine.bore: there is no table [engine]; bore belongs to [piston]"),
         ({"engine": {"rpm": 80}}, "engine.rpm: there is no table [engine]; did you mean speed of [operation]?"),
         ({"foo": {"bar": 1}}, "foo.bar: there is no table [foo]"),
-        ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, which is twice the crank"),
-        ({"cylinder": {"2": {"bore": 65}}}, "cylinder.2.bore: unknown key in [cylinder]; all cylinders have piston.bore; of"),
+        ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, twice the crank radius"),
+        ({"cylinder": {"2": {"bore": 65}}}, "cylinder.2.bore: unknown key in [cylinder]; bore belongs to [piston]"),
         ({"crank": {"strokes": 4}}, "crank.strokes: unknown key in [crank]; strokes belongs to [layout]"),
         ({"gas": {"file": "p.csv"}}, "gas.file: unknown key in [gas]; did you mean indicator?"),
         ({"crank": {"phase": [0, 180]}}, "crank.phase: unknown key in [crank]; did you mean throws?"),
@@ -113,28 +111,18 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"rpm": 3000}, "rpm: unknown key in an engine file; did you mean speed of [operation]?"),
         ({"lambda": 0.3}, "lambda: unknown key in an engine file; did you mean ratio of [rod]?"),
         ({"rod": {"lambda": 0.3}}, "rod.lambda: unknown key in [rod]; did you mean ratio?"),
-        ({"rod": {"l": 130}}, "rod.l: unknown key in [rod]; did you mean length?"),
         ({"rod": {"name": "x"}}, "rod.name: unknown key in [rod]; name stands at the head of the file, above all tables"),
         ({"piston": {"weight": 1}}, "piston.weight: unknown key in [piston]; did you mean mass?"),
         ({"layout": {"angle": 60}}, "layout.angle: unknown key in [layout]; did you mean bank_angle?"),
-        ({"layout": {"type": "V"}}, f"layout.type: unknown key in [layout]; {KIND}"),
         ({"layout": {"stroke": 90}}, "layout.stroke: unknown key in [layout]; stroke belongs to [crank]"),
         ({"operation": {"power": 80}}, "operation.power: unknown key in [operation]; power and torque follow from gas.imep"),
-        ({"gas": WIEBE | {"Power": "80 kW"}}, "gas.Power: unknown key in [gas]; power and torque follow from gas.imep, or"),
         ({"gas": WIEBE | {"powder": 3}}, "gas.powder: unknown key in [gas]; it has indicator, zero,"),
-        ({"units": "in"}, "units: unknown key in an engine file; bare numbers are mm, kg, degrees and rpm;"),
-        ({"displacement": 2}, "displacement: unknown key in an engine file; the displacement follows from"),
-        ({"generator": {"inertia": 3}}, f"generator: unknown key in an engine file; {PART}"),
-        ({"torsion": {"coupling": {"loss": 1}}}, f"torsion.coupling: unknown key in [torsion]; {PART}"),
+        ({"units": "in"}, "units: unknown key in an engine file; a unit stands with its figure"),
         ({"torsion": {"flywheel": {"inertia": 3}}}, "torsion.flywheel: unknown key in [torsion]; what turns with the crankshaft is a [[torsion.rear]]"),
         ({"crank": {"flywheel": {"inertia": 3}}}, "crank.flywheel: flywheel is a table of its own, not one within [crank]; write [flywheel]"),
         ({"crank": {"flywheel": 3}}, "crank.flywheel: unknown key in [crank]; it has stroke,"),
-        ({"torsion": {"damper": {"inertia": 3}}}, "torsion.damper: unknown key in [torsion]; a damper is written where it sits"),
         ({"torsion": {"J": 1}}, "torsion.J: unknown key in [torsion]; did you mean throw_inertia?"),
         ({"torsion": {"rear": [{"name": "disc", "stiffness": 1, "J": 1}]}}, "torsion.rear.1.J: unknown key in [torsion.rear]; did you mean inertia?"),
-        ({"torsion": {"psi": 0.9}}, "torsion.psi: unknown key in [torsion]; give loss, the loss factor: psi / (2 pi) of a relative damping psi, 1 / M of a magnifier M"),
-        ({"torsion": {"rear": [{"name": "disc", "inertia": 2, "stiffness": 1, "GD2": 8}]}}, "torsion.rear.1.GD2: unknown key in [torsion.rear]; give inertia, a quarter of GD^2"),
-        ({"torsion": {"excitation": [{"order": 4}]}}, "torsion.excitation: unknown key in [torsion]; an engine is excited by"),
         ({"crank": {"rod": {"length": 3}}}, "crank.rod: rod is a table of its own, not one within [crank]; write [rod] and its keys below it"),
         ({"engine": {"rod": {"length": 3}}}, "engine.rod: rod is a table of its own, not one within [engine]; write [rod] and its keys below it"),
         ({"operation": {"mount": {"loss": 3}}}, "operation.mount: mount is a table of its own, not one within [operation]; write [[mount]] and"),
@@ -145,7 +133,6 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"operation": {"speed_ripple": 0.02}}, "operation.speed_ripple: 0.02 is no table; write [[operation.speed_ripple]] in double brackets"),
         ({"layout": {"firing_order": ["B2", "A1", "B1", "A2"]}}, "layout.firing_order: names cylinders by bank and place; here they have numbers: without layout.numbering, bank by bank from the free end, they are [4, 1, 3, 2]"),
         ({"layout": {"firing_order": "A1-B1"}}, "layout.firing_order: names cylinders by bank and place;"),
-        ({"excitation": [{"order": 4}]}, "excitation: unknown key in an engine file; an engine is excited by"),
     ],
 )  # fmt: skip
 def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer):
