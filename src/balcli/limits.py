@@ -31,7 +31,6 @@ NEAREST_TO_LOCK = 1e-6
 # Samples of a revolution, of all mechanisms that differ: seconds. Far from their lock mechanisms
 # take 64 to 256 each.
 MOST_SAMPLES = 1 << 19
-MOST_TURNED = 12  # cylinders whose revolutions are tried, each in both: 2048 ways
 
 # Orders --------------------------------------------------------------------------------------
 HIGHEST_ORDER = 4096  # that may be asked for: closed forms are good to here

@@ -157,8 +157,7 @@ def test_what_is_no_length(stroke, message):
         (changed(("length = 160", "lenght = 160")), "rod.lenght: unknown key in [rod]; did you mean length?"),
         (
             GOOD + "[bobweight]\noverbalance = 0.51\n",
-            "bobweight.overbalance: unknown key in [bobweight]; did you mean --factor? The balance "
-            "factor is no figure of the engine: balcli balance FILE --factor 51%",
+            "bobweight.overbalance: unknown key in [bobweight]; did you mean balcli balance FILE --factor 51%?",
         ),
         (
             changed(("mass = 0.5\n", "pin = 0.1\nlocks = 0.004\n")),
@@ -302,21 +301,20 @@ def test_missing_tables_come_with_an_example():
     [
         (
             "name = 'x'\n[crank]\nstroke = 90\nthrows = [0, 180\n[rod]\n",
-            "is not valid TOML: Unclosed array (at line 5, column 1): a list above has no ] at its end",
+            "is not valid TOML: Unclosed array (at line 5, column 1): [rod]",
         ),
         (
             "[crank]\nstroke = 90\nstroke = 91\n",
-            "is not valid TOML: Cannot overwrite a value (at line 3, column 12): stroke is given twice; write it once",
+            "is not valid TOML: Cannot overwrite a value (at line 3, column 12): stroke = 91",
         ),
         (
             "[crank]\nstroke = 90\nstroke = 91",
-            "is not valid TOML: Cannot overwrite a value (at end of document): stroke is given twice; write it once",
+            "is not valid TOML: Cannot overwrite a value (at end of document): stroke = 91",
         ),
         (GOOD.encode() + b"# \xff\n", f"is not UTF-8 text (line {GOOD.count(chr(10)) + 1}); save it as UTF-8"),
         (
             b"\0" * 9,
-            "is not valid TOML: Invalid statement (at line 1, column 1): there are zero bytes, as "
-            "in UTF-16; save it as UTF-8",
+            "is not valid TOML: Invalid statement (at line 1, column 1)",
         ),
         (
             "x = " + "[" * 100_000 + "]" * 100_000,

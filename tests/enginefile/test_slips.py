@@ -27,78 +27,23 @@ def told(*changes, args=()):
 @pytest.mark.parametrize(
     ("old", "new", "answer"),
     [
-        ("stroke = 90", "stroke = 3.00 in", ': stroke = 3.00 in: a value with a unit stands in quotes: stroke = "3.00 in"'),
-        ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma; a list stands in brackets, such as [68,6]"),
-        ("length = 160", "ratio = 2/7", ": ratio = 2/7: TOML knows no fractions; write ratio = 0.285714"),
-        ("throws = [0, 180, 180, 0]", "throws = 0, 90", ": throws = 0, 90: a list stands in brackets: throws = [0, 90]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0 180 180 0]", ": throws = [0 180 180 0]: commas stand between the values of a list: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0; 180; 180;0] # deg", ": throws = [0; 180; 180;0]: commas stand between the values of a list: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0, 180 180, 0]", ": throws = [0, 180 180, 0]: commas stand between the values of a list: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = [.5, 180., -7, 0.]", ": throws = [.5, 180., -7, 0.]: TOML writes these numbers throws = [0.5, 180, -7, 0]"),
-        ("stroke = 90", "stroke = 90.", ": stroke = 90.: TOML writes this number stroke = 90"),
-        ("mass = 0.5", "mass = .5  # kg", ": mass = .5: TOML writes this number mass = 0.5"),
-        ("speed = 3000", "speed = 3 000", ": speed = 3 000: TOML writes this number speed = 3000"),
-        ("speed = 3000", "speed = 03000", ": speed = 03000: TOML writes this number speed = 3000"),
-        ("throws = [0, 180, 180, 0]", "throws = [0, 180", ": a list above has no ] at its end"),
-        ("stroke = 90", "stroke = “90 mm”", ': stroke = “90 mm”: quotes are straight: stroke = "90 mm"'),
-        ("stroke = 90", "stroke = ‘3.5 in’  # inch", ': stroke = ‘3.5 in’: quotes are straight: stroke = "3.5 in"'),
-        ("stroke = 90", "stroke: 90", ": a key and its value have = between them: stroke = 90"),
-        ("stroke = 90", "stroke == 90  # mm", ": a key and its value have = between them: stroke = 90"),
-        ("stroke = 90", "stroke := 90", ": a key and its value have = between them: stroke = 90"),
-        ("[rod]", "rod:", ": the head of a table stands in brackets: [rod]"),
-        ("throws = [0, 180, 180, 0]", "throws = 0,180,180,0", ": throws = 0,180,180,0: a list stands in brackets: throws = [0,180,180,0]"),
-        ("stroke = 90", 'stroke = 3.400"', ': stroke = 3.400": inches are written stroke = "3.400 in"'),
-        ("stroke = 90", "stroke = 3 1/2''  # inch", ": stroke = 3 1/2'': inches are written stroke = \"3 1/2 in\""),
-        ("stroke = 90", "stroke = -3 1/2", ": stroke = -3 1/2: TOML knows no fractions; write stroke = -3.5"),
-        ("stroke = 90", "stroke = 90  // mm", ": stroke = 90  // mm: a comment begins with #: stroke = 90  # mm"),
-        ("stroke = 90", "stroke = 90 (bore 88)", ": stroke = 90 (bore 88): a comment begins with #: stroke = 90  # bore 88"),
-        ("stroke = 90", "stroke = −90", ": stroke = −90: a minus sign is a hyphen: stroke = -90"),
+        ("stroke = 90", "stroke = 3.00 in", 'stroke = 3.00 in: a value with a unit stands in quotes: stroke = "3.00 in"'),
+        ("stroke = 90", 'stroke = 3.400"', 'a value with a unit stands in quotes: stroke = "3.400 in"'),
+        ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma"),
+        ("throws = [0, 180, 180, 0]", "throws = 0, 90", "a list stands in brackets, with commas: throws = [0, 90]"),
+        ("throws = [0, 180, 180, 0]", "throws = [0; -180] # deg", ": throws = [0, -180]"),
+        ("throws = [0, 180, 180, 0]", "throws = 0 240 120", ": throws = [0, 240, 120]"),
+        ("firing_order = [1, 3, 4, 2]", "firing_order = 1-3-4-2", ": firing_order = [1, 3, 4, 2]"),
         ("stroke = 90", "stroke 90", " (at line 3, column 8): stroke 90"),
-        ("throws = [0, 180, 180, 0]", "throws = (0, 180, 180, 0)", ": throws = (0, 180, 180, 0): a list stands in square brackets: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = 0 180 180 0", ": throws = 0 180 180 0: a list stands in brackets, with commas: throws = [0, 180, 180, 0]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0°, 90 °]", ": throws = [0°, 90 °]: degrees are bare numbers: throws = [0, 90 ]"),
-        ("firing_order = [1, 3, 4, 2]", "firing_order = 1-3-4-2", ": firing_order = 1-3-4-2: a list stands in brackets: firing_order = [1, 3, 4, 2]"),
-        ("throws = [0, 180, 180, 0]", "throws = 0 240 120", ": throws = 0 240 120: a list stands in brackets, with commas: throws = [0, 240, 120]"),
-        ("throws = [0, 180, 180, 0]", "throws = 90 240 120", ": throws = 90 240 120: TOML writes this number throws = 90240120, a list throws = [90, 240, 120]"),
-        ("stroke = 90", "stroke = 1 250 000", ": stroke = 1 250 000: TOML writes this number stroke = 1250000"),
-        ("[rod]", "[rod", ": the head of a table stands in brackets: [rod]"),
-        ("[rod]", "[crank]", ": [crank] stands twice; put all its keys below the first one"),
-        ("stroke = 90", "stroke = ", ": stroke ="),
-        ("[rod]", "[crank]\n[rod]", ": [crank] stands twice; put all its keys below the first one"),
-        ("[rod]", "[[mount]]\n[mount]\n[rod]", ": mount stands above in double brackets; what there may be several of has double ones each time, all else single ones, once"),
-        ("[rod]", "[mount] # left\n[[mount]]\n[rod]", ": mount stands above in single brackets; what there may be several of has double ones each time, all else single ones, once"),
-        ("mass = 0.5", "länge = 3", ": keys have plain letters, not U+00E4 (LATIN SMALL LETTER A WITH DIAERESIS)"),
-        ("stroke = 90", "stroke\u00a0= 90", ": keys have plain letters, not U+00A0 (NO-BREAK SPACE)"),
-        ("[rod]", "\u200b[rod]", ": keys have plain letters, not U+200B (ZERO WIDTH SPACE)"),
-        ("stroke = 90", "x = { stroke = 90, }", ": a table in braces stands on one line, without a comma at its end"),
-        ("stroke = 90", "x = { stroke = 90,, a = 1 }", ": x = { stroke = 90,, a = 1 }"),
-        ("throws = [0, 180, 180, 0]", "throws = [0, 180,\n180°, 0]", "(at line 5, column 4): 180°, 0]"),
-        ("stroke = 90", "stroke = 90;", ": stroke = 90;: nothing stands behind a value: stroke = 90"),
-        ("stroke = 90", "stroke = 90 ,  # mm", ": stroke = 90 ,: nothing stands behind a value: stroke = 90"),
-        ("stroke = 90", "stroke = NaN", ": stroke = NaN: leave stroke out where it is not known"),
-        ("stroke = 90", "stroke = null", ": stroke = null: leave stroke out where it is not known"),
-        ("stroke = 90", "stroke = True", ": stroke = True: write stroke = true, or stroke = false"),
-        ("stroke = 90", "stroke = 2 * 45", ": stroke = 2 * 45: TOML does not calculate; write stroke as one number"),
-        ("throws = [0, 180, 180, 0]", "throws = 0-180-180-0", ": throws = 0-180-180-0: a list stands in brackets: throws = [0, 180, 180, 0]"),
+        ("stroke = 90", "stroke = 90;", ": stroke = 90;"),
+        ("[rod]", "[rod", ": [rod"),
+        ("[rod]", "[crank]", ": [crank]"),
     ],
 )  # fmt: skip
 def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(old, new, answer):
     err = told((old, new)).err
     assert NOT_TOML in err
     assert err.endswith(f"{answer}\n")
-
-
-def test_a_list_that_the_file_ends_in():
-    assert run_here("analyze", "-", stdin="[crank]\nthrows = [0, 180").err.endswith(
-        "(at end of document): this list has no ] at its end\n"
-    )
-
-
-@pytest.mark.parametrize("given", ["[0-180]", "[012]", "[0..180]"])
-def test_a_list_whose_values_nothing_parts_is_not_told_to_lack_commas(given):
-    err = told(("throws = [0, 180, 180, 0]", f"throws = {given}")).err
-    assert NOT_TOML in err
-    assert "commas" not in err
 
 
 @pytest.mark.parametrize(
@@ -142,8 +87,6 @@ def test_other_words_for_a_key_lead_to_it(old, new, meant):
 
 COUNT = "the number of cylinders follows from throws and banks; give every throw its angle, such as"
 WIEBE = {"cycle": "wiebe", "compression_ratio": 10, "imep": 9}
-PART = "what turns with the crankshaft is a [[torsion.rear]], behind the throws, or a [[torsion.front]]"
-KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes a vee"
 
 
 @pytest.mark.parametrize(
@@ -157,8 +100,8 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"engine": {"bore": 80}}, "engine.bore: there is no table [engine]; bore belongs to [piston]"),
         ({"engine": {"rpm": 80}}, "engine.rpm: there is no table [engine]; did you mean speed of [operation]?"),
         ({"foo": {"bar": 1}}, "foo.bar: there is no table [foo]"),
-        ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, which is twice the crank"),
-        ({"cylinder": {"2": {"bore": 65}}}, "cylinder.2.bore: unknown key in [cylinder]; all cylinders have piston.bore; of"),
+        ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, twice the crank radius"),
+        ({"cylinder": {"2": {"bore": 65}}}, "cylinder.2.bore: unknown key in [cylinder]; bore belongs to [piston]"),
         ({"crank": {"strokes": 4}}, "crank.strokes: unknown key in [crank]; strokes belongs to [layout]"),
         ({"gas": {"file": "p.csv"}}, "gas.file: unknown key in [gas]; did you mean indicator?"),
         ({"crank": {"phase": [0, 180]}}, "crank.phase: unknown key in [crank]; did you mean throws?"),
@@ -168,28 +111,18 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"rpm": 3000}, "rpm: unknown key in an engine file; did you mean speed of [operation]?"),
         ({"lambda": 0.3}, "lambda: unknown key in an engine file; did you mean ratio of [rod]?"),
         ({"rod": {"lambda": 0.3}}, "rod.lambda: unknown key in [rod]; did you mean ratio?"),
-        ({"rod": {"l": 130}}, "rod.l: unknown key in [rod]; did you mean length?"),
         ({"rod": {"name": "x"}}, "rod.name: unknown key in [rod]; name stands at the head of the file, above all tables"),
         ({"piston": {"weight": 1}}, "piston.weight: unknown key in [piston]; did you mean mass?"),
         ({"layout": {"angle": 60}}, "layout.angle: unknown key in [layout]; did you mean bank_angle?"),
-        ({"layout": {"type": "V"}}, f"layout.type: unknown key in [layout]; {KIND}"),
         ({"layout": {"stroke": 90}}, "layout.stroke: unknown key in [layout]; stroke belongs to [crank]"),
         ({"operation": {"power": 80}}, "operation.power: unknown key in [operation]; power and torque follow from gas.imep"),
-        ({"gas": WIEBE | {"Power": "80 kW"}}, "gas.Power: unknown key in [gas]; power and torque follow from gas.imep, or"),
         ({"gas": WIEBE | {"powder": 3}}, "gas.powder: unknown key in [gas]; it has indicator, zero,"),
-        ({"units": "in"}, "units: unknown key in an engine file; bare numbers are mm, kg, degrees and rpm;"),
-        ({"displacement": 2}, "displacement: unknown key in an engine file; the displacement follows from"),
-        ({"generator": {"inertia": 3}}, f"generator: unknown key in an engine file; {PART}"),
-        ({"torsion": {"coupling": {"loss": 1}}}, f"torsion.coupling: unknown key in [torsion]; {PART}"),
+        ({"units": "in"}, "units: unknown key in an engine file; a unit stands with its figure"),
         ({"torsion": {"flywheel": {"inertia": 3}}}, "torsion.flywheel: unknown key in [torsion]; what turns with the crankshaft is a [[torsion.rear]]"),
         ({"crank": {"flywheel": {"inertia": 3}}}, "crank.flywheel: flywheel is a table of its own, not one within [crank]; write [flywheel]"),
         ({"crank": {"flywheel": 3}}, "crank.flywheel: unknown key in [crank]; it has stroke,"),
-        ({"torsion": {"damper": {"inertia": 3}}}, "torsion.damper: unknown key in [torsion]; a damper is written where it sits"),
         ({"torsion": {"J": 1}}, "torsion.J: unknown key in [torsion]; did you mean throw_inertia?"),
         ({"torsion": {"rear": [{"name": "disc", "stiffness": 1, "J": 1}]}}, "torsion.rear.1.J: unknown key in [torsion.rear]; did you mean inertia?"),
-        ({"torsion": {"psi": 0.9}}, "torsion.psi: unknown key in [torsion]; give loss, the loss factor: psi / (2 pi) of a relative damping psi, 1 / M of a magnifier M"),
-        ({"torsion": {"rear": [{"name": "disc", "inertia": 2, "stiffness": 1, "GD2": 8}]}}, "torsion.rear.1.GD2: unknown key in [torsion.rear]; give inertia, a quarter of GD^2"),
-        ({"torsion": {"excitation": [{"order": 4}]}}, "torsion.excitation: unknown key in [torsion]; an engine is excited by"),
         ({"crank": {"rod": {"length": 3}}}, "crank.rod: rod is a table of its own, not one within [crank]; write [rod] and its keys below it"),
         ({"engine": {"rod": {"length": 3}}}, "engine.rod: rod is a table of its own, not one within [engine]; write [rod] and its keys below it"),
         ({"operation": {"mount": {"loss": 3}}}, "operation.mount: mount is a table of its own, not one within [operation]; write [[mount]] and"),
@@ -200,7 +133,6 @@ KIND = "the kind of engine follows from its banks: layout.bank_angle = 90 makes 
         ({"operation": {"speed_ripple": 0.02}}, "operation.speed_ripple: 0.02 is no table; write [[operation.speed_ripple]] in double brackets"),
         ({"layout": {"firing_order": ["B2", "A1", "B1", "A2"]}}, "layout.firing_order: names cylinders by bank and place; here they have numbers: without layout.numbering, bank by bank from the free end, they are [4, 1, 3, 2]"),
         ({"layout": {"firing_order": "A1-B1"}}, "layout.firing_order: names cylinders by bank and place;"),
-        ({"excitation": [{"order": 4}]}, "excitation: unknown key in an engine file; an engine is excited by"),
     ],
 )  # fmt: skip
 def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer):

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 import typer
 
-from ..engine.build import NO_GAS, Engine
+from ..engine.build import NO_GAS, Engine, take_model
 from ..engine.load import build_named, parse
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.file_kinds import OtherKindError
@@ -59,7 +59,7 @@ def read_engine(
     model = parse(text, name_file(path))
     engine = build_named(model, path)
     if is_verbose():
-        _tell_what_was_read(name_file(path), text, model)
+        _tell_what_was_read(name_file(path), text, engine)
     if not engine.places_known:
         _tell_unknown(name_file(path), asked)
     if "gas" in (asked or ()):
@@ -70,12 +70,15 @@ def read_engine(
     return LoadedEngine(text, model, engine)
 
 
-def _tell_what_was_read(name: str, text: bytes, model: EngineFile) -> None:
+def _tell_what_was_read(name: str, text: bytes, engine: Engine) -> None:
     """Notes for those who want to know how a file was understood."""
     from ..enginefile.assumed import list_assumed  # for them alone
 
     note(f"{name}: read, {len(text)} bytes")
-    for each in list_assumed(model):
+    inferred = {line.partition(" =")[0]: line for line in engine.inferred}
+    rest = list_assumed(take_model(engine))
+    others = [line for line in rest if line.partition(" =")[0].partition(":")[0] not in inferred]
+    for each in (*inferred.values(), *others):
         note(f"{name}: not in the file: {each}")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, NotRequired
+from typing import NotRequired
 
 from typing_extensions import TypedDict
 
@@ -138,4 +138,4 @@ class Document(TypedDict):
     version: str
 
 
-Assumed = list[Literal["crank.spacing = 0"]]
+Assumed = list[str]

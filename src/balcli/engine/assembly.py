@@ -15,6 +15,7 @@ from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine
+from ..core.strokes import find_travel
 from ..enginefile.model import ONE_BY_ONE, EngineFile
 from . import firing
 from .arrays import column, shared_column
@@ -59,6 +60,7 @@ class Assembly:
     ) -> None:
         self.model, self._known_gas = model, known_gas
         self.figures = FileFigures(varied or {}, model)
+        self.varies = bool(varied)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
         self.legible = frozenset(legible)
         self._gears: dict[tuple[int, bool], RunningGear] = {}
@@ -194,15 +196,35 @@ class Assembly:
         }
 
     @cached_property
+    def true_tops_deg(self) -> Mapping[int, Figure]:
+        """Where each crank pin stands at top dead centre, found on the motion of the piston where
+        rods are articulated.
+        """
+        if self.model.articulation is None or self.rank:
+            return self.tops_deg
+        tops = find_travel(self.cylinders).top_deg
+        return {
+            n: self.axes_deg[n] + self.sense * float(top)
+            for n, top in zip(self.numbers, tops, strict=True)
+        }
+
+    @cached_property
     def splay_deg(self) -> Figure:
         """By which each further bank's pin leads the one before it."""
         return self.figures.take("crank.splay", self.model.crank.splay)
 
     @cached_property
+    def throws_given(self) -> bool:
+        """Whether the crank is known without the firing order: the file gives its throws, or it has
+        one, at 0.
+        """
+        return self.model.crank.throws is not None or (self.plan.throws == 1 and not self.rank)
+
+    @cached_property
     def _given_fires_deg(self) -> dict[int, Figure]:
         """Firing angles as far as they do not follow from the throws."""
         intervals = self.model.layout.firing_intervals
-        if self.order is None or (intervals is None and self.model.crank.throws is not None):
+        if self.order is None or (intervals is None and self.throws_given):
             return {}
         return firing.find_instants(self.order, intervals, cycle_deg(self.model.layout))
 
@@ -210,7 +232,7 @@ class Assembly:
     def throws_deg(self) -> Mapping[int, Figure]:
         """Angle of each throw (from 0): as given, or as the firing order needs it."""
         throws = self.model.crank.throws
-        if throws is None and self.order is not None:
+        if not self.throws_given and self.order is not None:
             wanted = firing.find_pins(self._given_fires_deg, self.tops_deg, self.sense)
             cells = reversed(self.plan.cells)
             return {c.throw: wanted[c.number] - c.bank * self.splay_deg for c in cells}
@@ -231,9 +253,11 @@ class Assembly:
 
     @cached_property
     def dead_centres_deg(self) -> dict[int, float]:
-        """Where the crank stands at each top dead centre, in [0, 360) after cylinder 1's."""
+        """Where the crank stands at each top dead centre, in [0, 360) after cylinder 1's; at the
+        true ones where rods are articulated.
+        """
         pins = {number: float(lead) for number, lead in self.leads_deg.items()}
-        tops = {number: float(top) for number, top in self.tops_deg.items()}
+        tops = {number: float(top) for number, top in self.true_tops_deg.items()}
         return firing.find_dead_centres(pins, tops, self.sense)
 
     @cached_property

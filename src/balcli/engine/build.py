@@ -17,10 +17,9 @@ from ..enginefile.plain_tables import list_tables
 from ..errors import BalcliError, InputError, check_type, wrong_type
 from .assembly import Assembly
 from .devices import build_devices
-from .even_order import doubt_firing_order
+from .numbering import doubt_firing, find_fitting_splay, list_inferred
 from .positions import MOMENTS_UNKNOWN, are_places_known
 from .rules import find_contradictions
-from .split_pins import find_fitting_splay
 
 if TYPE_CHECKING:
     from ..enginefile.gas_tables import Bearing, Flywheel
@@ -120,6 +119,8 @@ class Engine:
             m2; None where the file gives none.
         flywheel_inertia: that of the flywheel, kg m2, likewise.
         bearings: of the crankshaft; None where the file gives none.
+        inferred: keys that the file leaves out, with the values that are taken, where results
+            depend on them (`layout.strokes = 4`).
         model: the file that says all this; None where no file says it.
     """
 
@@ -142,6 +143,7 @@ class Engine:
     crank_inertia: Figure | None = None
     flywheel_inertia: Figure | None = None
     bearings: Bearings | None = None
+    inferred: tuple[str, ...] = ()
     model: EngineFile | None = None
 
     def vary(self, changes: Mapping[str, Any] = MappingProxyType({}), /, **named: Any) -> Engine:
@@ -191,7 +193,7 @@ class Engine:
         of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
             return of_gas
-        return (*find_suspicious(self.model), *doubt_firing_order(self.model), *of_gas)
+        return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
 
     @property
     def summary(self) -> str:
@@ -350,6 +352,7 @@ def build(
         crank_inertia=_in_si(parts.figures.take_optional("crank.inertia", model.crank.inertia)),
         flywheel_inertia=None if model.flywheel is None else _find_flywheel(parts, model.flywheel),
         bearings=None if model.bearing is None else _find_bearings(model.bearing),
+        inferred=() if varied else tuple(list_inferred(parts)),
         model=None if varied else model,
     )
 

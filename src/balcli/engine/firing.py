@@ -11,7 +11,7 @@ tau_i`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import accumulate, pairwise, product
+from itertools import accumulate, pairwise
 
 import numpy as np
 
@@ -89,70 +89,15 @@ def find_dead_centres(
     }
 
 
-def find_even_order(first: int, ready: Mapping[int, float], cycle: float) -> list[int] | None:
-    """Cylinders in the turn in which they fire evenly, one at a time; None where their dead centres
-    allow none.
-
-    Args:
-        first: the cylinder to begin with.
-        ready: dead centres of all, as `find_dead_centres` gives them.
-        cycle: 360 or 720 deg.
-    """
-
-    def place(angle: float) -> float:
-        return round((angle + TOLERANCE_DEG) % 360, 6)
-
-    begin, interval = ready[first], cycle / len(ready)
-    others = sorted(set(ready) - {first}, key=lambda i: (place(ready[i] - begin), i))
-    slots = sorted(range(1, len(ready)), key=lambda k: (place(k * interval), k))
-    turn = {0: first}
-    for k, i in zip(slots, others, strict=True):
-        if abs(float(_centred(ready[i] - begin - k * interval))) > TOLERANCE_DEG:
-            return None
-        turn[k] = i
-    return [turn[k] for k in range(len(turn))]
-
-
-def find_steadiest_order(first: int, ready: Mapping[int, float]) -> list[int]:
-    """Cylinders in the turn in which a four-stroke engine fires least unevenly with its dead
-    centres, each of which comes in both revolutions: with the least longest interval, by the fewest
-    different ones, and so that the sum of their squares is least.
-
-    Args:
-        first: the cylinder to begin with.
-        ready: dead centres of all, as `find_dead_centres` gives them; at most `MOST_TURNED`.
-    """
-    begin, others = ready[first], sorted(set(ready) - {first})
-
-    def rate(turns: Sequence[float]) -> tuple[float, int, float, list[int]]:
-        late = zip(others, turns, strict=True)
-        fires = {first: 0.0} | {i: (ready[i] - begin) % 360 + turn for i, turn in late}
-        turn = sorted(fires, key=lambda i: (fires[i], i))
-        gaps = [round(b - a, 3) for a, b in pairwise([*(fires[i] for i in turn), 720.0])]
-        return max(gaps), len(set(gaps)), sum(gap * gap for gap in gaps), turn
-
-    return min(map(rate, product((0.0, 360.0), repeat=len(others))))[-1]
-
-
 def check_firing(
     fires: Mapping[int, Figure],
     pins: Mapping[int, Figure],
     tops: Mapping[int, Figure],
     sense: int = 1,
-    *,
-    throws_given: bool = True,
 ) -> Iterator[Problem]:
-    """The first cylinder that is not at top dead centre when it fires; pins are counted from
+    """Find the first cylinder that is not at top dead centre when it fires; pins are counted from
     cylinder 1's.
-
-    Without `throws_given` the pins follow from the firing order, and two rods on one throw ask for
-    different ones.
     """
-    remedy = "change crank.splay, firing_order or firing_intervals, or give crank.throws and no "
-    remedy += "firing_order"
-    if throws_given:
-        remedy = "change crank.throws, crank.splay, firing_order or firing_intervals, or leave "
-        remedy += "crank.throws out"
     for i, wanted in find_pins(fires, tops, sense).items():
         off = float(np.max(np.abs(_centred(pins[i] - wanted))))
         if off > TOLERANCE_DEG:
@@ -161,7 +106,8 @@ def check_firing(
                 f"cylinder {i} is not at top dead centre when it fires: its crank pin stands "
                 f"{float(np.ravel(pins[i])[0]) % 360:.6g} deg ahead of cylinder 1's, and would "
                 f"have to stand at {float(np.ravel(wanted)[0]):.6g} deg (allowed difference "
-                f"{TOLERANCE_DEG:g} deg); {remedy}",
+                f"{TOLERANCE_DEG:g} deg); change crank.throws, crank.splay, firing_order or "
+                "firing_intervals",
             )
             return
 

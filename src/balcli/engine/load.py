@@ -15,6 +15,7 @@ from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import naming_file
 from .assembly import Assembly
 from .build import Engine, build
+from .numbering import infer_numbering
 from .rules import find_contradictions
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
@@ -97,5 +98,5 @@ def parse_dict(tables: Mapping[str, Any], folder: Path | None = None) -> EngineF
 
 def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
     if not draft.has_mistakes:
-        return draft.model
+        return infer_numbering(draft.model)
     raise draft.refusal(find_contradictions(Assembly(draft.model, legible=draft.legible)), name)

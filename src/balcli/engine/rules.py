@@ -14,15 +14,11 @@ import numpy as np
 
 from ..core.mechanisms import harmonics
 from ..core.speed_ripple import RippleLine, find_slowest
-from ..enginefile.model import EngineFile
 from ..errors import InputError, Problem
 from ..limits import MOST_SAMPLES
 from .assembly import Assembly
-from .even_order import doubt_firing_order
-from .firing import TOLERANCE_DEG, check_firing, find_even_order, find_intervals
-from .layout import cycle_deg
+from .numbering import check_numbering
 from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
-from .split_pins import find_fitting_splay
 
 STANDSTILL = 1e-12  # of the mean speed: rounding
 _BANKS = ("bank_angle", "banks", "radial", "rods", "numbering", "firing_order")
@@ -176,176 +172,6 @@ def _describe_standstill(least: float, theta: float) -> str:
     )
 
 
-def check_dead_centres(parts: Assembly) -> Iterator[Problem]:
-    """Cylinders fire when they are at top dead centre; where they would with the banks or throws
-    the other way round, with their intervals or numbers in another turn, or with pins that are
-    split, the mistake says so.
-    """
-    for problem in _find_dead_centres_missed(parts):
-        hint = (
-            _suggest_turned_round(parts)
-            or _suggest_turned_numbers(parts)
-            or _suggest_turn(parts)
-            or _suggest_one_pin(parts)
-            or _suggest_splay(parts)
-        )
-        yield problem._replace(message=problem.message + hint)
-
-
-def _find_dead_centres_missed(parts: Assembly) -> list[Problem]:
-    if parts.order is None:
-        return []
-    throws_given = parts.model.crank.throws is not None
-    pins, tops, sense = parts.leads_deg, parts.tops_deg, parts.sense
-    try:
-        fires = parts.fires_deg
-    except InputError as error:
-        return list(error.problems)
-    return list(check_firing(fires, pins, tops, sense, throws_given=throws_given))
-
-
-def _suggest_turned_round(parts: Assembly) -> str:
-    """The banks exchanged, or the throws counted against the sense of rotation, or both, if by that
-    all would fire at top dead centre, in an order that nobody doubts; else empty.
-    """
-    if parts.model.crank.throws is None:
-        return ""
-    ways = [_mirror_throws(parts.model)]
-    swapped = _exchange_banks(parts)
-    if swapped is not None:
-        exchange = _describe_exchange(swapped)
-        both, mirrored = _mirror_throws(swapped)
-        ways = [(swapped, exchange), *ways, (both, f"{exchange}; and with {mirrored}")]
-    fitting = (told for turned, told in ways if _fits(turned))
-    return next((f". They fit with {told}" for told in fitting), "")
-
-
-def _fits(model: EngineFile) -> bool:
-    return not _find_dead_centres_missed(Assembly(model)) and not any(doubt_firing_order(model))
-
-
-def _exchange_banks(parts: Assembly) -> EngineFile | None:
-    """The engine with the numbers of its two banks exchanged; None where there are not two alike,
-    or the file is one of many variants.
-    """
-    cells = parts.plan.cells
-    if parts.plan.banks != 2 or parts.rank:
-        return None
-    first, second = (tuple(c.number for c in cells if c.bank == bank) for bank in (0, 1))
-    if len(first) != len(second):
-        return None
-    return parts.model.with_table("layout", numbering=(second, first))
-
-
-def _describe_exchange(swapped: EngineFile) -> str:
-    """Banks that are exchanged, and which one is the first, in words."""
-    numbering = [list(bank) for bank in swapped.layout.numbering or ()]
-    told = f"the banks exchanged: layout.numbering = {numbering}"
-    if swapped.layout.bank_angle is None:
-        return told
-    return (
-        f"{told}, where the first bank is the left one seen from the free end (front), the "
-        "driver's right"
-    )
-
-
-def _suggest_turned_numbers(parts: Assembly) -> str:
-    """The numbering of a radial or rotary engine against the sense in which it is numbered, if all
-    would fire at top dead centre by it; else empty.
-    """
-    layout, cells = parts.model.layout, parts.plan.cells
-    if layout.radial is None or layout.numbering is not None or parts.rank:
-        return ""
-    rows = [tuple(c.number for c in cells if c.bank == bank) for bank in range(layout.radial)]
-    turned = (rows[0], *reversed(rows[1:]))
-    if _find_dead_centres_missed(Assembly(parts.model.with_table("layout", numbering=turned))):
-        return ""
-    shown = [list(row) for row in turned]
-    return f". They fit with cylinders numbered the other way round: layout.numbering = {shown}"
-
-
-def _mirror_throws(model: EngineFile) -> tuple[EngineFile, str]:
-    """The engine with its throws counted the other way round, and that in words."""
-    mirrored = tuple(-throw % 360 for throw in model.crank.throws or ())
-    throws = ", ".join(f"{throw:g}" for throw in mirrored)
-    told = f"throws that count in the sense of rotation: crank.throws = [{throws}]"
-    return model.with_table("crank", throws=mirrored), told
-
-
-def _suggest_turn(parts: Assembly) -> str:
-    """The given intervals in another turn, if the dead centres allow it; else empty."""
-    given = parts.model.layout.firing_intervals
-    if given is None or max(given) - min(given) < TOLERANCE_DEG or not _has_throws(parts):
-        return ""
-    fitting = _find_intervals(parts)
-    pairs = zip(sorted(fitting), sorted(given), strict=True) if fitting else ()
-    if not fitting or any(abs(a - b) > TOLERANCE_DEG for a, b in pairs):
-        return ""
-    return f". They fit with {_describe_intervals(fitting)}"
-
-
-def _suggest_one_pin(parts: Assembly) -> str:
-    """Of rods on one throw that should fire evenly: the order in which they do, or the intervals at
-    which they fire in the order given; else empty.
-    """
-    given = parts.model.layout.firing_intervals
-    uneven = given is not None and max(given) - min(given) >= TOLERANCE_DEG
-    if uneven or parts.plan.throws != 1 or parts.rank or parts.order is None:
-        return ""
-    cycle = cycle_deg(parts.model.layout)
-    even = find_even_order(parts.order[0], parts.dead_centres_deg, cycle)
-    if even is not None:
-        return f". They would fire evenly as {'-'.join(map(str, even))}"
-    fitting = _find_intervals(parts)
-    if given is not None or not fitting:
-        return ""
-    told = f". They fit with {_describe_intervals(fitting)}"
-    splay = find_fitting_splay(parts.model)
-    return told if splay is None else f"{told}; or evenly with {_describe_pins(splay)}"
-
-
-def _has_throws(parts: Assembly) -> bool:
-    """Whether it is known where the pins stand, whatever the firing order."""
-    return not parts.rank and (parts.plan.throws == 1 or parts.model.crank.throws is not None)
-
-
-def _find_intervals(parts: Assembly) -> list[float]:
-    """The intervals at which the cylinders fire in their order; empty if it takes too long."""
-    if parts.order is None:
-        return []
-    try:
-        return find_intervals(parts.order, parts.dead_centres_deg, cycle_deg(parts.model.layout))
-    except InputError:
-        return []
-
-
-def _describe_intervals(intervals: list[float]) -> str:
-    return f"layout.firing_intervals = [{', '.join(f'{x:.6g}' for x in intervals)}]"
-
-
-def _suggest_splay(parts: Assembly) -> str:
-    """The splay with which all would fire at top dead centre, in a vee with its banks exchanged
-    where that splits the pins less; empty if there is none.
-
-    Pins whose rods fire f after each other in banks that stand g apart are split by g - f, in
-    exchanged banks by g + f. Both are right; a crank that is forged has the smaller one.
-    """
-    if parts.rank or parts.model.layout.radial is not None:
-        return ""
-    splay = find_fitting_splay(parts.model)
-    swapped = _exchange_banks(parts)
-    other = None if swapped is None else find_fitting_splay(swapped)
-    if swapped is None or other is None or (splay is not None and abs(splay) <= abs(other)):
-        return "" if splay is None else f". They fit with {_describe_pins(splay)}"
-    exchange = f". They fit with {_describe_exchange(swapped)}"
-    has_it = abs(other - swapped.crank.splay) <= TOLERANCE_DEG
-    return exchange if has_it else f"{exchange}; and with {_describe_pins(other)}"
-
-
-def _describe_pins(splay: float) -> str:
-    return f"{'split' if splay else 'common'} pins: crank.splay = {splay:g}"
-
-
 def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:
     """Articulated rods can follow their knuckle pins all the way round."""
     if parts.model.articulation is not None:
@@ -392,8 +218,8 @@ RULES = (
         Rule(check_half_orders, frozenset({"operation", "layout.strokes", "gas"})),
         Rule(check_speed, frozenset({"operation"})),
     ),
-    (Rule(check_dead_centres, _WHOLE),),
     (Rule(check_knuckle_pins, _WHOLE),),
+    (Rule(check_numbering, _WHOLE),),
     (Rule(check_samples, _WHOLE),),
     (Rule(check_gas, _WHOLE | {"gas"}),),
 )

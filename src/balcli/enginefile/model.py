@@ -8,7 +8,7 @@ a file has.
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence, Set
-from itertools import chain
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple
 
@@ -372,6 +372,12 @@ class Layout(FileTable):
         if not (intervals and order and len(intervals) == len(order)):
             return
         if abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
+            if gaps := _find_gaps(intervals, 180 * self.strokes):
+                yield (
+                    "firing_intervals rise from one to the next, as angles at which cylinders fire "
+                    f"do; intervals are the angles between: [{', '.join(f'{x:g}' for x in gaps)}]"
+                )
+                return
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
                 f"{self.strokes}-stroke has {180 * self.strokes} (within "
@@ -384,6 +390,15 @@ class Layout(FileTable):
         TableRule(_check_intervals, {"firing_intervals", "firing_order"}),
         TableRule(_check_cycle, {"firing_intervals", "firing_order", "strokes"}),
     )
+
+
+def _find_gaps(angles: Sequence[float], cycle: float) -> list[float]:
+    """Return the intervals between spark angles that begin at 0 or end with the cycle; empty if
+    these are none.
+    """
+    ends = [*angles, cycle] if angles[0] == 0 else [0.0, *angles]
+    gaps = [b - a for a, b in pairwise(ends)]
+    return gaps if ends[-1] == cycle and min(gaps) > 0 else []
 
 
 def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:

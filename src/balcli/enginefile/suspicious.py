@@ -35,6 +35,9 @@ SMALL_END_HEAVY = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # little.
 INERTIA_LOW, INERTIA_HIGH = 0.02, 0.4
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
+# Engines with a stroke over 1 m, or so slow with a stroke over two bores, are two-strokes.
+CROSSHEAD_STROKE = 1000.0  # mm
+SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
 SPEED_LOW = 9.0  # rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
 NEAR_THE_CRANK = 0.02  # strokes; a shaft this near would stand within the crank
 NO_DISTANCE = 1e-6  # mm: on the axis, but for rounding
@@ -173,6 +176,13 @@ def _motion(model: EngineFile) -> Iterator[str]:
         yield (
             f"operation.speed is {speed:g} rpm; a point parts decimals, not thousands: were "
             f"{1000 * speed:g} rpm meant?"
+        )
+    bore = model.piston.bore
+    slow = speed < SLOW_SPEED and bore is not None and stroke > SLOW_BORES * bore
+    if "strokes" not in model.layout.model_fields_set and (stroke > CROSSHEAD_STROKE or slow):
+        yield (
+            f"layout.strokes is not given, and 4 is taken; engines with a stroke of {stroke:g} mm "
+            f"at {speed:g} rpm are two-strokes: say layout.strokes = 2, or 4 if it is so"
         )
     if abs(model.piston.offset) > OFFSET_SHARE * stroke:
         yield (

@@ -109,7 +109,7 @@ def _explain(text: str | bytes, error: str) -> str:
     place = re.search(r"\(at line (\d+), ", error)
     lines = decoded.split("\n")
     number = int(place[1]) if place else len(decoded.rstrip("\n").split("\n"))
-    return explain(lines[number - 1].rstrip("\r"), error, lines[: number - 1])
+    return explain(lines[number - 1])
 
 
 def _load_toml(text: str) -> dict[str, Any]:

@@ -24,98 +24,45 @@ from .messages import (
 # What people call a key, and keys that mean it; the first that a table has
 SYNONYMS = {
     "conrod": ("rod",),
-    "con_rod": ("rod",),
     "connecting_rod": ("rod",),
     "rpm": ("speed",),
-    "n": ("speed",),
     "pin_offset": ("splay", "offset"),
-    "offset": ("splay",),
-    "pins": ("throws",),
     "pin_angles": ("throws",),
     "crank_angles": ("throws",),
     "angles": ("throws", "banks"),
     "phase": ("throws", "angle"),
-    "phases": ("throws",),
     "bore_spacing": ("spacing",),
     "bank": ("bank_angle",),
     "vee_angle": ("bank_angle",),
-    "v_angle": ("bank_angle",),
     "angle": ("bank_angle", "throws"),
     "diameter": ("bore",),
     "weight": ("mass", "piston_mass"),
-    "m": ("mass",),
-    "l": ("length",),
-    "mass": ("piston_mass",),
     "piston": ("piston_mass",),
     "order": ("firing_order",),
-    "cycle": ("strokes",),
     "lambda": ("ratio",),
     "j": ("inertia", "throw_inertia"),
     "k": ("stiffness", "throw_stiffness"),
-    "wrist_pin": ("pin",),
-    "clips": ("locks",),
-    **dict.fromkeys(("file", "csv", "diagram"), ("indicator",)),
+    "file": ("indicator",),
 }
 _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "
     "crank.throws = [0, 180, 180, 0]"
 )
-_KIND = (
-    "the kind of engine follows from its banks: layout.bank_angle = 90 makes a vee, layout.banks = "
-    "[-90, 90] a flat engine, layout.radial = 7 a radial; without them it is in line"
-)
-_RADIUS = "give crank.stroke, which is twice the crank radius"
-_VOLUME = "the displacement follows from piston.bore, crank.stroke and the number of cylinders"
-_POWER = (
-    "power and torque follow from gas.imep, or gas.bmep with gas.mechanical_efficiency, and "
-    "operation.speed: balcli torque tells them"
-)
-_UNITS = (
-    "bare numbers are mm, kg, degrees and rpm; another unit stands with its figure, such as "
-    '"3.5 in" or "650 g"'
-)
-_FACTOR = (
-    "did you mean --factor? The balance factor is no figure of the engine: "
-    "balcli balance FILE --factor 51%"
-)
-_PART = (
-    "what turns with the crankshaft is a [[torsion.rear]], behind the throws, or a "
-    "[[torsion.front]], with its name, inertia and stiffness"
-)
 _WHEEL_OF_TORSION = ("torsion", "flywheel")  # one of its parts: `torsion` reads no [flywheel]
-_DAMPER = (
-    "a damper is written where it sits, in [[torsion.front]] or [[torsion.rear]]: damper = "
-    '{ kind = "viscous", inertia = 30000, damping = 12 }'
-)
-_LOSS = "give loss, the loss factor: psi / (2 pi) of a relative damping psi, 1 / M of a magnifier M"
-_GD2 = "give inertia, a quarter of GD^2"
-_TORQUES = (
-    "an engine is excited by its masses and its gas; torques on other parts, such as a "
-    "propeller's, stand in a chain of shafts: balcli new torsion"
-)
-_BORE = (
-    "all cylinders have piston.bore; of one with another, gas is the share of its gas force, "
-    "(its bore / piston.bore)^2"
-)
-# What is no figure of an engine file by any name, and what says it instead
+_PART = "what turns with the crankshaft is a [[torsion.rear]] or a [[torsion.front]]"
+# What is no key of an engine file by any name, and what to write instead
 INSTEAD = {
-    **dict.fromkeys(("cylinders", "cylinder_count", "number_of_cylinders", "count"), _COUNT),
-    **dict.fromkeys(("type", "kind", "configuration", "v", "vee"), _KIND),
-    **dict.fromkeys(("radius", "crank_radius", "r"), _RADIUS),
-    **dict.fromkeys(("displacement", "capacity", "volume"), _VOLUME),
-    **dict.fromkeys(("power", "torque", "kw", "hp", "ps"), _POWER),
-    **dict.fromkeys(("unit", "units"), _UNITS),
-    **dict.fromkeys(("overbalance", "balance_factor", "factor"), _FACTOR),
-    **dict.fromkeys(("coupling", "gearbox", "generator", "propeller", "pulley"), _PART),
-    **dict.fromkeys(("damper", "dampers"), _DAMPER),
-    **dict.fromkeys(("psi", "relative_damping", "magnifier", "dynamic_magnifier"), _LOSS),
-    "gd2": _GD2,
-    **dict.fromkeys(("excitation", "excitations"), _TORQUES),
+    **dict.fromkeys(("cylinders", "count", "number_of_cylinders"), _COUNT),
+    **dict.fromkeys(("radius", "crank_radius"), "give crank.stroke, twice the crank radius"),
+    **dict.fromkeys(
+        ("power", "torque"), "power and torque follow from gas.imep and operation.speed"
+    ),
+    **dict.fromkeys(
+        ("overbalance", "balance_factor", "factor"),
+        "did you mean balcli balance FILE --factor 51%?",
+    ),
+    **dict.fromkeys(("unit", "units"), 'a unit stands with its figure, such as "3.5 in"'),
 }
-_IN_CHAPTERS = {
-    "gas": {_POWER},
-    "torsion": {_PART, _DAMPER, _TORQUES, _LOSS, _GD2},
-}  # of these, what fits there
 
 
 class UnknownKey(NamedTuple):
@@ -211,17 +158,14 @@ def suggest_place(key: str) -> str:
 
 
 def _suggest(first: str, key: str, own: list[str]) -> tuple[str, str]:
-    """What to write instead of a key in a table (its name, its keys), in words; and the key of the
-    same table that was probably meant, or "".
+    """Return what to write instead of a key in a table (its name, its keys), in words; and the key
+    of the same table that was probably meant, or "".
     """
-    if (first, key) == ("cylinder", "bore"):
-        return _BORE, ""
     if (first, key) == _WHEEL_OF_TORSION:
         return _PART, ""
-    instead = INSTEAD.get(key.lower(), "")
     of_engine = first not in {*DEVICES, *CHAPTERS, *CHAPTER_LISTS}
-    if instead and (of_engine or instead in _IN_CHAPTERS.get(first, ())):
-        return instead, ""
+    if of_engine and key.lower() in INSTEAD:
+        return INSTEAD[key.lower()], ""
     if meant := _find_own(key, own):
         return f"did you mean {meant}?", meant
     listed = f"it has {', '.join(own)}" if own else ""
@@ -229,8 +173,8 @@ def _suggest(first: str, key: str, own: list[str]) -> tuple[str, str]:
 
 
 def _find_own(key: str, own: Iterable[str]) -> str:
-    """The key of this table that was probably meant; empty if there is none, or if it is spelt as a
-    key of another table.
+    """Return the key of this table that was probably meant; empty if there is none, or if it is
+    spelt as a key of another table.
     """
     if synonym := _find_synonym(key, own):
         return synonym
@@ -239,17 +183,15 @@ def _find_own(key: str, own: Iterable[str]) -> str:
 
 
 def _find_synonym(key: str, own: Iterable[str]) -> str:
-    """The key of this table that means what others call so; empty if there is none."""
+    """Return the key of this table that means what others call so; empty if there is none."""
     meant = SYNONYMS.get(key.lower().replace("-", "_"), ())
     return next(filter(set(own).__contains__, meant), "")
 
 
 def _suggest_elsewhere(key: str) -> str:
-    """A key of any table that is called so by others, or is spelt nearly so; in words."""
-    tables = {f"[{name}]": table for name, table in import_tables().items()}
-    tables |= {f"[[{name}]]": table for name, table in import_lists().items()}
+    """Return a table whose key others call so or is spelt nearly so, in words; else empty."""
     for find in (_find_synonym, partial(nearest, cutoff=0.75)):
-        for name, table in tables.items():
-            if near := find(key, table.model_fields):
-                return f"did you mean {near} of {name}?"
+        for name, table in import_tables().items():
+            if meant := find(key, table.model_fields):
+                return f"did you mean {meant} of [{name}]?"
     return ""

@@ -40,7 +40,7 @@ def document(result: Analysis) -> dict[str, Any]:
         **silent_entries(engine.silent),
         "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
         "orders": order_entries(result.spectra),
-        **assumptions(result),
+        **assumptions(result, engine.inferred),
     }
     if largest := peak_entries(result):
         found["peak"] = largest

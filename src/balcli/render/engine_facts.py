@@ -63,9 +63,19 @@ def engine_facts(
         ("devices", devices),
         ("orders", orders if whole else ""),
         ("reference", reference if whole or any(engine.reference_m) else ""),
+        ("assumed", _tell_inferred(engine)),
         ("source", engine.source if whole else ""),
     )
     return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _tell_inferred(engine: Engine) -> str:
+    """Keys that the file leaves out; throws and intervals without their values, which stand in
+    lines of their own.
+    """
+    shown = {"crank.throws", "layout.firing_intervals"}
+    pairs = (line.split(" = ") for line in engine.inferred)
+    return ", ".join(key if key in shown else f"{key} = {value}" for key, value in pairs)
 
 
 def tell_speed(engine: Engine, *, steady: bool = False) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -48,9 +48,10 @@ class FigureRow(NamedTuple):
     unit: str
 
 
-def assumptions(result: Located) -> dict[str, list[str]]:
-    """What JSON says of figures that rest on what the engine file does not say."""
-    return {} if result.moments_known else {"assumed": ["crank.spacing = 0"]}
+def assumptions(result: Located, inferred: Sequence[str] = ()) -> dict[str, list[str]]:
+    """Return the entry `assumed` of JSON: what is taken because the engine file leaves it out."""
+    listed = [*inferred, *([] if result.moments_known else ["crank.spacing = 0"])]
+    return {"assumed": listed} if listed else {}
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, list[int]]:

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
-from ..engine.even_order import doubt_firing_order
 from ..engine.load import parse_dict
+from ..engine.numbering import doubt_firing
 from ..engine.vary import NO_FIRING_ORDER
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import change_tables
@@ -24,7 +24,7 @@ def doubt_but_for_gas(model: EngineFile) -> list[str]:
     Raises:
         InputError: a firing order that does not fit the crank.
     """
-    return [*find_suspicious(model), *doubt_firing_order(model)]
+    return [*find_suspicious(model), *doubt_firing(model)]
 
 
 def doubt_unvaried(

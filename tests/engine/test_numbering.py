@@ -1,0 +1,298 @@
+"""Which engine a file means: usual numberings, tier by tier, on engines whose makers are known."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from support.engines import refused
+
+from balcli.engine.build import Engine
+from balcli.engine.load import load
+from balcli.errors import InputError
+
+# Pistons alone: F = 1 kg x 40 mm x (3000 rpm)^2, throws a = 0.1 m apart.
+FORCE = 0.04 * (100 * np.pi) ** 2
+UNIT = FORCE * 0.1
+BASE = {
+    "crank": {"stroke": 80, "spacing": 100},
+    "rod": {"ratio": 0.3},
+    "piston": {"mass": 1},
+    "operation": {"speed": 3000},
+}
+
+
+def tables(order: str, bank_angle: float | None = 90, **more: Any) -> dict[str, Any]:
+    """The tables of a maker's engine; `more` are keys of [crank] and [layout]."""
+    crank = {key: more.pop(key) for key in ("splay", "throws") if key in more}
+    layout = {"firing_order": [int(n) for n in order.split("-")], **more}
+    if bank_angle is not None:
+        layout["bank_angle"] = bank_angle
+    return BASE | {"crank": BASE["crank"] | crank, "layout": layout}
+
+
+def find_throws(engine: Engine) -> list[float]:
+    """Angles of the throws after the first one, deg."""
+    rows = zip(engine.weighed, engine.pins_deg.values(), strict=True)
+    pins = {w.throw: float(pin) for w, pin in reversed(list(rows))}
+    return [round(pins[t] - pins[0], 3) % 360 for t in sorted(pins)]
+
+
+def read_lines(**parts: Any) -> list[str]:
+    """The lines of the list in the message that refuses an engine, and its last line."""
+    with pytest.raises(InputError) as caught:
+        load(tables(**parts))
+    return str(caught.value).split("\n    ")[1:]
+
+
+def find_moment(engine: Engine) -> float:
+    """Largest moment of order 1, in F a."""
+    from balcli.forces.spectrum import compute_spectra
+
+    return float(compute_spectra(engine, [1.0], ["moment"])["moment"].major[0]) / UNIT
+
+
+ALTERNATING = {"rods": "alternating"}
+O8, O6 = [[2, 4, 6, 8], [1, 3, 5, 7]], [[2, 4, 6], [1, 3, 5]]
+
+
+@pytest.mark.parametrize(
+    ("order", "angle", "keys", "numbering", "throws", "moment"),
+    [
+        ("1-2-3-4-5-6", 60, {"splay": -60}, [[1, 3, 5], [2, 4, 6]], [0, 120, 240], 1.5),  # GM 60
+        ("1-4-2-5-3-6", 60, {"splay": -60}, [[1, 2, 3], [4, 5, 6]], [0, 120, 240], 1.5),  # Cologne
+        ("1-6-5-4-3-2", 90, {"splay": -30}, O6, [0, 240, 120], 2.121),  # Buick 3800
+        ("1-4-3-6-2-5", 90, {"splay": -30}, [[1, 2, 3], [4, 5, 6]], [0, 240, 120], 2.121),  # M112
+        ("1-6-3-5-2-4", 90, [150, 90], [[4, 5, 6], [1, 2, 3]], [0, 240, 120], 1.732),  # PRV
+        ("1-8-4-3-6-5-7-2", 90, {}, O8, [0, 90, 270, 180], 3.162),  # GM small block
+        ("1-5-4-2-6-3-7-8", 90, {}, [[1, 2, 3, 4], [5, 6, 7, 8]], [0, 90, 270, 180], 3.162),  # Ford 302 HO
+        ("1-5-3-7-4-8-2-6", 90, {}, [[1, 2, 3, 4], [5, 6, 7, 8]], [0, 180, 180, 0], 0),  # Ferrari F136
+        ("1-10-9-4-3-6-5-8-7-2", 90, [54, 90], [[2, 4, 6, 8, 10], [1, 3, 5, 7, 9]], [0, 72, 288, 144, 216], 4.98),
+        ("1-6-5-10-2-7-3-8-4-9", 90, [90, 54], [[1, 2, 3, 4, 5], [6, 7, 8, 9, 10]], [0, 72, 288, 144, 216], 4.98),
+        ("1-6-5-10-2-7-3-8-4-9", 90, {"splay": 18}, [[1, 2, 3, 4, 5], [6, 7, 8, 9, 10]], [0, 72, 288, 144, 216], 5.697),
+        (
+            "1-7-5-11-3-9-6-12-2-8-4-10", 60, {},
+            [[1, 2, 3, 4, 5, 6], [7, 8, 9, 10, 11, 12]], [0, 240, 120, 120, 240, 0], 0,
+        ),  # Ferrari V12
+    ],
+)  # fmt: skip
+def test_the_only_engine_of_the_first_tier_is_used(order, angle, keys, numbering, throws, moment):
+    if isinstance(keys, list):
+        keys = {"firing_intervals": keys * (len(order.split("-")) // 2)}
+    engine = load(tables(order, angle, **keys))
+    assert engine.model is not None
+    assert [list(row) for row in engine.model.layout.numbering or ()] == numbering
+    assert find_throws(engine) == throws
+    assert find_moment(engine) == pytest.approx(moment, abs=5e-4)
+    noted = any("layout.numbering" in doubt for doubt in engine.doubts)
+    assert noted == (numbering != [sorted(row) for row in sorted(numbering)] or numbering[0][1] == 3)
+    assert f"layout.numbering = {numbering}" in engine.inferred
+    assert "numbering" not in engine.to_dict()["layout"]
+
+
+@pytest.mark.parametrize(
+    ("order", "angle", "numbering", "throws", "moment"),
+    [
+        ("1-3-2-4", 180, "[[1, 3], [2, 4]]", "0, 180, 180, 0", 0),  # Subaru EJ
+        ("1-4-3-2", 180, "[[1, 2], [3, 4]]", "0, 180, 180, 0", 0),  # VW
+        ("1-6-2-4-3-5", 180, "[[1, 2, 3], [4, 5, 6]]", "0, 180, 120, 300, 240, 60", 0),  # Porsche 911
+        ("1-6-3-2-5-4", 180, "[[1, 3, 5], [2, 4, 6]]", "0, 180, 120, 300, 240, 60", 0),  # Subaru EZ
+        ("1-4-5-2-3-6", 180, "[[1, 3, 5], [2, 4, 6]]", "0, 180, 240, 60, 120, 300", 0),  # Corvair
+        ("1-5-3-6-2-4", 15, "[[1, 3, 5], [2, 4, 6]]", "0, 255, 120, 135, 240, 15", 0.904),  # VR6
+        ("1-2-4-5-3", 15, "[[1, 3, 5], [2, 4]]", "0, 231, 144, 87, 288", 0.712),  # VR5
+    ],
+)
+def test_several_engines_are_listed_the_better_balanced_first(order, angle, numbering, throws, moment):
+    first, second, last = read_lines(order=order, bank_angle=angle, **ALTERNATING)
+    assert first.startswith(f"layout.numbering = {numbering}: throws {throws};")
+    assert second.startswith("layout.numbering = ")
+    told = re.search(r"moment (\S+) and", first)
+    assert told is not None
+    assert float(told[1]) == pytest.approx(moment * UNIT, rel=2e-3)
+    assert "flywheel end" in last
+
+
+def test_what_a_line_of_the_list_says():
+    """A boxer whose throws have no known distance."""
+    parts = tables("1-3-2-4", 180, **ALTERNATING)
+    del parts["crank"]["spacing"]
+    with pytest.raises(InputError) as caught:
+        load(parts)
+    assert str(caught.value).split("\n    ")[1] == (
+        "layout.numbering = [[1, 3], [2, 4]]: throws 0, 180, 180, 0; cylinder 1 on the left bank seen "
+        "from the free end, throw 1; orders 1 and 2: force 0 and 0 N, moment not known"
+    )
+
+
+def test_a_numbering_in_the_file_is_not_doubted():
+    named = tables("1-3-2-4", 180, numbering=[[1, 2], [3, 4]], **ALTERNATING)
+    engine = load(named)
+    assert find_throws(engine) == [0, 0, 0, 0]
+    assert engine.to_dict()["layout"]["numbering"] == [[1, 2], [3, 4]]
+    assert any("nobody builds" in doubt for doubt in engine.doubts)
+    assert not any("numbering" in key for key in engine.inferred)
+
+
+@pytest.mark.parametrize(
+    ("order", "angle", "first"),
+    [
+        ("1-2-3-4-5-6", 60, ["[[1, 3, 5], [2, 4, 6]], layout.firing_intervals = [60, 180, 60, 180, 60, 180]",
+                             "[[1, 3, 5], [2, 4, 6]], crank.splay = -60"]),
+        ("1-6-5-10-2-7-3-8-4-9", 68, ["[[1, 2, 3, 4, 5], [6, 7, 8, 9, 10]], layout.firing_intervals = [68, 76, 68",
+                                      "[[1, 2, 3, 4, 5], [6, 7, 8, 9, 10]], crank.splay = -4"]),
+    ],
+)  # fmt: skip
+def test_where_nothing_fits_intervals_of_shared_pins_come_before_split_pins(order, angle, first):
+    lines = read_lines(order=order, bank_angle=angle)
+    assert len(lines) <= 4
+    for line, beginning in zip(lines, first, strict=False):
+        assert line.startswith(f"layout.numbering = {beginning}")
+
+
+def test_a_splay_in_the_file_is_not_contradicted():
+    """20 deg of splay fits no numbering of a 60-degree six."""
+    with pytest.raises(InputError) as caught:
+        load(tables("1-2-3-4-5-6", 60, splay=20))
+    told = str(caught.value)
+    assert "layout.numbering" in told
+    assert "crank.splay = " not in told
+
+
+def test_given_throws_decide_between_the_numberings():
+    """A small block with its throws: bank by bank does not fit, and is not guessed."""
+    with pytest.raises(InputError) as caught:
+        load(tables("1-8-4-3-6-5-7-2", 90, throws=[0, 90, 270, 180]))
+    lines = str(caught.value).split("\n    ")[1:]
+    assert [line.partition(":")[0] for line in lines[:-1]] == [f"layout.numbering = {O8}"]
+
+
+def test_a_second_and_a_third_tier_is_never_taken_unasked():
+    """A V6 with its second bank counted from the flywheel end."""
+    order = "1-4-3-6-2-5".translate(str.maketrans({"4": "6", "6": "4"}))
+    lines = read_lines(order=order, bank_angle=90, splay=-30)
+    assert any("[[1, 2, 3], [6, 5, 4]]" in line for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("crank", "layout", "hint"),
+    [
+        (
+            {"throws": [0, 120, 240, 240, 120, 0]},
+            {"firing_order": [1, 5, 3, 6, 2, 4]},
+            "crank.throws = [0, 240, 120, 120, 240, 0], which count in the sense of rotation",
+        ),
+        (
+            {"throws": [0, 180, 180, 0]},
+            {"firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4},
+            "crank.throws = [0, 180, 0, 180]",
+        ),
+        (
+            {},
+            {
+                "bank_angle": 90,
+                "numbering": [[1, 2, 3], [6, 5, 4]],
+                "firing_order": [1, 6, 2, 5, 3, 4],
+                "firing_intervals": [150, 90] * 3,
+            },
+            "layout.firing_intervals = [90, 150, 90, 150, 90, 150]",
+        ),
+        (
+            {},
+            {"bank_angle": 90, "numbering": [[1, 2, 3], [4, 5, 6]], "firing_order": [1, 4, 3, 6, 2, 5]},
+            "crank.splay = -30",
+        ),
+    ],
+)
+def test_what_would_make_a_given_numbering_fit(crank, layout, hint):
+    assert refused(crank=crank, layout=layout).endswith(f"It fits with {hint}")
+
+
+def test_a_radial_is_counted_with_or_against_the_rotation():
+    """One throw is at 0. A rotary's cylinders come to the top against the sense of their numbers."""
+    radial = {"crank": {}, "layout": {"radial": 5, "firing_order": [1, 3, 5, 2, 4]}}
+    assert load(BASE | {"layout": radial["layout"]}).doubts == ()
+    told = refused(crank={"throws": [0]}, layout=radial["layout"] | {"rotary": True})
+    assert "layout.numbering = [[1], [5], [4], [3], [2]]" in told
+
+
+@pytest.mark.parametrize(
+    ("order", "doubted"),
+    [
+        ("1-3-2", False),
+        ("1-3-4-2", False),
+        ("1-2-4-3", False),
+        ("1-4-2-3", True),
+        ("3-4-2-1", False),
+        ("1-2-4-5-3", False),
+        ("1-2-3-4-5", True),
+        ("1-5-3-6-2-4", False),
+        ("1-4-2-6-3-5", False),
+        ("1-4-2-5-3-6", True),
+        ("1-6-2-5-8-3-7-4", False),
+    ],
+)
+def test_a_crank_that_nobody_builds_is_doubted_in_one_line(order, doubted):
+    doubts = load(tables(order, None)).doubts
+    assert len(doubts) == doubted
+    assert not doubted or "usual is 1-" in doubts[0]
+
+
+def test_a_long_wait_is_doubted():
+    doubts = load(tables("1-2-3", None, throws=[0, 240, 120])).doubts
+    assert len(doubts) == 1
+    assert "after 120, 120, 480 deg" in doubts[0]
+    said = tables("1-2-3", None, throws=[0, 240, 120], firing_intervals=[120, 120, 480])
+    assert load(said).doubts == ()
+
+
+def test_angles_of_sparks_are_no_intervals():
+    told = refused(layout={"firing_order": [1, 3, 4, 2], "firing_intervals": [0, 180, 360, 540]})
+    assert "[180, 180, 180, 180]" in told
+
+
+@pytest.mark.parametrize(("intervals", "good"), [([125.4068, 109.1864, 125.4068], True), ([130, 100, 130], False)])
+def test_articulated_rods_fire_at_their_true_dead_centres(intervals, good):
+    parts = {
+        "crank": {"stroke": 120},
+        "rod": {"length": 240},
+        "piston": {"mass": 1.3},
+        "layout": {"radial": 3, "strokes": 2, "firing_order": [1, 2, 3]},
+        "articulation": {"knuckle_radius": 70, "rod": {"length": 170}},
+    }
+    fires = [float(a) for a in load(parts).fires_deg.values()]
+    assert fires == pytest.approx([0, 125.4068, 234.5932], abs=1e-4)
+    parts["layout"] = parts["layout"] | {"firing_intervals": intervals}
+    if good:
+        load(parts)
+    else:
+        with pytest.raises(InputError):
+            load(parts)
+
+
+@pytest.mark.parametrize(
+    ("stroke", "bore", "speed", "keys", "doubted"),
+    [
+        (1001, 500, 900, {}, True),
+        (999, 500, 900, {}, False),
+        (700, 340, 249, {}, True),
+        (700, 340, 251, {}, False),
+        (700, 360, 249, {}, False),
+        (3260, 900, 78, {"strokes": 2}, False),
+    ],
+)
+def test_strokes_left_out_of_a_crosshead_engine_are_doubted(stroke, bore, speed, keys, doubted):
+    from balcli.engine.load import parse_dict
+    from balcli.enginefile.suspicious import find_suspicious
+
+    model = parse_dict(
+        {
+            "crank": {"stroke": stroke},
+            "rod": {"ratio": 0.3},
+            "piston": {"mass": 2e-6 * bore**3, "bore": bore},
+            "layout": {"firing_order": [1, 2, 3], **keys},
+            "operation": {"speed": speed},
+        }
+    )
+    assert any("layout.strokes" in doubt for doubt in find_suspicious(model)) == doubted
