@@ -236,7 +236,22 @@ report engines/i4_wiebe.toml -o x.html
 """.strip().splitlines()
 COMMANDS += [
     f"tables {name} {form}".strip()
-    for name in ["tsinghua-1-1", "tsinghua-1-2", "tsinghua-1-3", "tsinghua-1-4", "tsinghua-1-5", "tsinghua-1-6", "liu-1", "liu-2", "liu-3", "wang-1", "kvasnikov-1", "kvasnikov-2", "liang-examples", "series"]
+    for name in [
+        "tsinghua-1-1",
+        "tsinghua-1-2",
+        "tsinghua-1-3",
+        "tsinghua-1-4",
+        "tsinghua-1-5",
+        "tsinghua-1-6",
+        "liu-1",
+        "liu-2",
+        "liu-3",
+        "wang-1",
+        "kvasnikov-1",
+        "kvasnikov-2",
+        "liang-examples",
+        "series",
+    ]
     for form in ("", "-f json", "-f csv")
 ]
 COMMANDS += [
