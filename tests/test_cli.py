@@ -22,7 +22,7 @@ import pytest
 import typer
 from support.commands import ask, ask_csv, ask_json, refusal, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
-from support.paths import ENGINES, ROOT, SOURCE, write
+from support.paths import ENGINES, ROOT, write
 
 from balcli import __version__
 from balcli.cli import COMMANDS
@@ -712,52 +712,6 @@ def test_a_plain_analysis_imports_no_other_format_chapter_or_kind_of_engine(form
     assert {name.partition(".")[0] for name in names} & {*CHAPTERS} == set()
 
 
-IMPORTED = {
-    "": "__main__ cli errors limits process result",
-    "commands": "amounts analysis_answer analysis_options analyze declare defaults file_names "
-    "format_names inputs options output overwrite_guard speed_range",
-    "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple speeds",
-    "core.mechanisms": "closed_form fourier harmonics",
-    "engine": "arrays assembly build devices even_order figures firing layout load positions rods rules split_pins",
-    "enginefile": "conflicts exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
-    "units unknown_keys",
-    "forces": "kinds orders spectrum",
-    "render": "analyses analysis_document csv devices figures formats json sheet units view",
-    "results": "analysis",
-    "sizing": "auto details device_tables effects fitting options planes reasons remedy residual schemes",
-}
-
-
-def test_a_plain_analysis_as_json_imports_these_modules_and_no_other():
-    """What else a change brings along is here for all to see: does everybody need it?"""
-    loaded = own_modules("analyze", V8, "--format", "json")
-    wanted = {f"balcli.{package}" for package in IMPORTED if package}
-    for package, names in IMPORTED.items():
-        wanted |= {f"balcli.{package}.{name}".replace("..", ".") for name in names.split()}
-    assert {*loaded} - {"balcli"} == wanted
-
-
-DEPTH = """
-import sys
-class Finder:
-    def find_spec(self, name, *_):
-        if name == "numpy":
-            frame, depth = sys._getframe(), 0
-            while frame := frame.f_back:
-                depth += 1
-            sys.stderr.write(str(depth))
-sys.meta_path.insert(0, Finder())
-from balcli.__main__ import main
-main()
-"""
-
-
-def test_numpy_is_imported_where_the_stack_is_low():
-    """Its own modules import each other so deep that they take most of the stack's first block."""
-    done = run_python("-c", DEPTH, "analyze", V8, "--format", "json")
-    assert 0 < int(done.stderr) < 30
-
-
 # ------------------------------------------------------------------ the end of the process
 def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
     def interrupted(**_):
@@ -817,17 +771,17 @@ os.execv("/bin/sh", ["sh", "-c", f'"$0" "$@" {redirected}', sys.executable, *arg
 def test_a_closed_standard_output_is_an_error(args):
     done = run_in_shell(">&-", *args)
     assert (done.returncode, done.stdout) == (2, "")
-    assert re.fullmatch(r"balcli: standard output: .*Bad file descriptor\)?\n", done.stderr)
+    assert re.fullmatch(r"balcli: .*not writable\)?\n", done.stderr)
 
 
 @unix
-@pytest.mark.parametrize("redirected", ["<&-", "0>/dev/null"])
-def test_a_standard_input_that_cannot_be_read_is_an_error(redirected):
+@pytest.mark.parametrize(("redirected", "reason"), [("<&-", "read"), ("0>/dev/null", "Bad file descriptor")])
+def test_a_standard_input_that_cannot_be_read_is_an_error(redirected, reason):
     done = run_in_shell(redirected, "analyze", "-")
     assert (done.returncode, done.stdout, done.stderr) == (
         2,
         "",
-        "balcli: standard input: cannot be read (Bad file descriptor)\n",
+        f"balcli: standard input: cannot be read ({reason})\n",
     )
 
 
@@ -863,44 +817,16 @@ main()
     assert (done.returncode, done.stdout, done.stderr) == (128 + number, "", "")
 
 
-def test_the_package_imports_nothing_before_ctrl_c_is_heeded():
-    """What Python itself has imported by then is not the program's to choose."""
-    code = (
-        f"import sys; sys.path.insert(0, {str(SOURCE)!r}); before = {{*sys.modules}}; import balcli;"
-        "print(sorted({*sys.modules} - before))"
-    )
-    assert run_python("-S", "-c", code).stdout == "['__future__', 'balcli']\n"
-
-
-@unix
-def test_ctrl_c_ends_it_without_a_word_from_the_first_import_on():
-    """The signal comes while the program's own first module is being imported."""
-    code = f"""
-import os, signal, sys
-signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs the tests may ignore it
-class Import:
-    def find_spec(self, name, path=None, target=None):
-        if name == "balcli.errors":
-            os.kill(os.getpid(), {int(signal.SIGINT)})
-sys.meta_path.insert(0, Import())
-from balcli.__main__ import main
-main()
-"""
-    done = run_python("-c", code, "analyze", I4)
-    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
-
-
 @unix
 def test_processes_begun_meanwhile_never_hear_of_ctrl_c():
     """This one does, afterwards; the first process of `multiprocessing` is no exception."""
     code = """
 import os, signal, sys, time
 from multiprocessing import get_context
-from balcli.process import ctrl_c_later, end_on_signals
+from balcli.process import ctrl_c_later
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    end_on_signals()
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(130))
     with ctrl_c_later():
         begun = get_context("spawn").Process(target=time.sleep, args=(0.5,))
         begun.start()

@@ -145,7 +145,6 @@ ON_REQUEST = {
         "balcli.studies.quantity_names",
     ),
     "balcli.commands.defaults": ("balcli.enginefile.toml_text",),
-    "balcli.commands.overwrite_guard": ("balcli.commands.named_files",),
     "balcli.core.mechanisms.harmonics": ("balcli.core.mechanisms.sampled", "balcli.core.mechanisms.slidercrank"),
     "balcli.engine.assembly": (
         "balcli.core.mechanisms.rotary",
@@ -179,7 +178,7 @@ ON_REQUEST = {
         "balcli.render.page_torque",
     ),
     "balcli.commands.inputs": ("balcli.enginefile.assumed", "balcli.torque.course"),
-    "balcli.commands.output": ("balcli.files", "balcli.render.plot.style"),
+    "balcli.commands.output": ("balcli.render.plot.style",),
     "balcli.commands.torque_options": ("balcli.enginefile.edit",),
     "balcli.torque.analysis": ("balcli.torque.find_loads",),
     "balcli.commands.scatter": ("balcli.studies.cycle_scatter", "balcli.studies.part_scatter"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from enum import IntEnum
 from numbers import Real
@@ -30,13 +30,8 @@ def legible(text: str) -> str:
     return text.translate(_CONTROL)
 
 
-before_messages: list[Callable[[], None]] = []  # take away a line that is to be rewritten
-
-
 def say(text: str) -> None:
     """A message on standard error, whether somebody reads it or not."""
-    for clear_line in before_messages:
-        clear_line()
     with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
 

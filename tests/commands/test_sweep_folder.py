@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import nullcontext, suppress
+from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from support.engines import GOOD, changed
 
 from balcli.commands.progress import Progress
 from balcli.commands.sweep_folder import write_parts
-from balcli.process import discard
+from balcli.files import discard
 from balcli.studies.sweep import read_sweep
 from balcli.studies.threads import share_work
 
@@ -210,54 +210,8 @@ def test_what_is_unfinished_is_discarded_with_its_files():
     Path("folder/part").write_text("half")
     Path("file").write_text("half")
     for name in ("folder", "file", "never made"):
-        discard(name)
+        discard(Path(name))
     assert os.listdir() == ["good.toml"]
-
-
-def test_a_folder_that_is_discarded_loses_those_who_write_into_it(monkeypatch):
-    """A new file is made each time the folder is read; and one cannot be deleted at first."""
-    os.mkdir("folder")
-    for name in ("a", "b", "c"):
-        Path("folder", name).write_text("half")
-    listdir, unlink, failed = os.listdir, os.unlink, []
-
-    def list_and_write(path):
-        names = listdir(path)
-        with suppress(OSError):
-            Path("folder", f"late{len(names)}").write_text("half")
-        return names
-
-    def fail_once(path):
-        if not failed:
-            failed.append(path)
-            raise OSError(13, "Permission denied")
-        unlink(path)
-
-    with monkeypatch.context() as patched:
-        patched.setattr(os, "listdir", list_and_write)
-        patched.setattr(os, "unlink", fail_once)
-        discard("folder")
-    assert failed
-    assert os.listdir() == ["good.toml"]
-
-
-@pytest.mark.parametrize("forbidden", [1, 3])
-def test_files_that_stay_do_not_hold_up_the_end(forbidden, monkeypatch):
-    os.mkdir("folder")
-    for name in ("a", "b", "c"):
-        Path("folder", name).write_text("half")
-    unlink, kept = os.unlink, os.listdir("folder")[:forbidden]
-
-    def refuse(path):
-        if os.path.basename(path) in kept:
-            raise OSError(13, "Permission denied")
-        unlink(path)
-
-    with monkeypatch.context() as patched:
-        patched.setattr(os, "unlink", refuse)
-        discard("folder")
-    (left,) = (name for name in os.listdir() if name != "good.toml")
-    assert sorted(os.listdir(left)) == sorted(kept)
 
 
 def test_force_without_a_folder_is_told_to_count_for_nothing():

@@ -6,8 +6,6 @@ import subprocess
 import sys
 from collections.abc import Sequence
 
-from ..process import started_with
-
 LIBRARIES = "import numpy, typer; from pydantic import BaseModel"
 # To read an option, typer loads a good deal more of pydantic.
 SMALLEST = """
@@ -37,8 +35,4 @@ def start_smallest() -> None:
 
 
 def _start(argv: Sequence[str], text: str = "") -> None:
-    # As from a shell, without what balcli has set for itself, nor defaults of the folder.
-    usual = {**started_with, "BALCLI_CONFIG": ""}
-    subprocess.run(
-        [sys.executable, *argv], input=text.encode(), capture_output=True, check=True, env=usual
-    )
+    subprocess.run([sys.executable, *argv], input=text.encode(), capture_output=True, check=True)

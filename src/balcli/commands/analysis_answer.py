@@ -9,10 +9,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-# Before a module of a module does so: beyond the first 16 kB of Python's stack (3.11) calls map and
-# unmap memory, 3000 times while numpy is imported, which is a twentieth of a start.
-import numpy  # noqa: F401
-
 from ..engine.build import Engine
 from ..forces.kinds import GAS, ROLL
 from ..render import analyses

@@ -13,8 +13,7 @@ from ..errors import BalcliError, warn
 from ..limits import MOST_ANALYSED_SPEEDS
 from ..render.formats import Format, Units
 from .declare import optional
-from .file_names import text_format
-from .format_names import format_option
+from .file_names import format_option, text_format
 from .options import PARTS, parse_guide_height, parse_orders, parse_parts, parse_speed
 from .speed_range import parse_speeds
 

@@ -14,7 +14,7 @@ from .options import (
     UnitsOption,
     Whole,
 )
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting
 
 
 def analyze(

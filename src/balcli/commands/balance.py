@@ -7,7 +7,7 @@ from ..sizing.schemes import KNUCKLES
 from . import balance_options, scheme_options
 from .file_names import require_ending
 from .options import EnginePath, Orders, Output, Speed, UnitsOption, parse_orders, parse_speed
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting
 from .scheme_options import choose_scheme, parse_scheme_options
 
 

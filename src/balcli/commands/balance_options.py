@@ -16,8 +16,7 @@ from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
 from .amounts import read_length, read_mass, read_number
 from .completion import complete_schemes
 from .declare import optional
-from .file_names import format_of, text_format
-from .format_names import format_option
+from .file_names import format_of, format_option, text_format
 from .output import emit, show
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ..process import keep_freed_memory
 from ..render import bench as renderer
 from ..render.formats import Format
 from .file_names import TEXTS, format_of
@@ -21,7 +20,6 @@ def bench(form: FormatOption = None, output: Output = None) -> None:
     from ..bench.bench import bench as measure
 
     chosen = format_of(output, form, {**TEXTS, ".svg": "svg"}, "table")
-    keep_freed_memory()  # as `sweep` does
     found = measure()
     if output is not None and chosen == "svg":
         write_file(renderer.draw_bench(found), output)

@@ -22,8 +22,7 @@ from .options import (
     parse_orders,
     parse_speed,
 )
-from .output import show
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting, show
 
 
 def compare(

@@ -10,11 +10,9 @@ from ..render.csv import csv_text
 from ..render.json import json_text
 from .amounts import read_angle
 from .declare import optional
-from .file_names import SERIES, SeriesFormat, format_of
-from .format_names import format_option
+from .file_names import SERIES, SeriesFormat, format_of, format_option
 from .options import EnginePath, Output, Speed, parse_speed
-from .output import emit
-from .overwrite_guard import refuse_overwriting
+from .output import emit, refuse_overwriting
 
 Cylinder = Annotated[
     int | None,

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 from ..errors import BalcliError, InputError, Problem
 from ..limits import LARGEST_FILE_BYTES, LONGEST_SHOWN, MOST_DIGITS
 from ..render.formats import Format, Units
-from .format_names import SHORT
 
+SHORT = {"md": "markdown", "txt": "table", "text": "table"}
 _VARIABLES = {"units": "BALCLI_UNITS", "format": "BALCLI_FORMAT", "digits": "BALCLI_DIGITS"}
 _FILE = "BALCLI_CONFIG"  # to be read instead of one that is looked for; empty: none
 _MARK = b"balcli"  # without it, a pyproject.toml is not worth reading

@@ -14,8 +14,7 @@ from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, text_format
 from .options import FormatOption, Output
-from .output import show, write_figure
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting, show, write_figure
 
 
 class Minimised(StrEnum):

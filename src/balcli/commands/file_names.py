@@ -1,6 +1,4 @@
-"""What the name of a file says: `-` is standard output, and its ending is the format of what is
-written into it. Nowhere else is an ending read.
-"""
+"""Names of files and formats: `-` is standard output, and an ending says the format of a file."""
 
 from __future__ import annotations
 
@@ -8,12 +6,15 @@ import os
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+import typer
 
 from ..errors import BalcliError
 from ..render.formats import Format
 from . import defaults
-from .format_names import LATEX
+from .declare import optional
+from .defaults import SHORT
 
 if TYPE_CHECKING:
     from ..render.plot.style import Form
@@ -27,9 +28,9 @@ TEXTS = {
     ".md": Format.MARKDOWN,
 }
 PICTURES: dict[str, Form] = {".svg": "svg", ".png": "png", ".pdf": "pdf"}
-# Who writes what a table cannot be.
-INSTEAD = {
-    ".tex": LATEX,
+_LATEX = "for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex)"
+_INSTEAD = {
+    ".tex": _LATEX,
     **dict.fromkeys(
         PICTURES,
         "pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and "
@@ -37,19 +38,19 @@ INSTEAD = {
     ),
     **dict.fromkeys((".html", ".htm"), "pages are written by balcli report FILE X.html"),
 }
-# What nobody takes for anything else, so that no --format can make it so.
-KNOWN = {*TEXTS, *PICTURES, ".html", ".htm", ".toml", ".parquet", ".xlsx", ".jpg", ".jpeg"}
+# Endings of other formats, which --format cannot override.
+_KNOWN = {*TEXTS, *PICTURES, ".html", ".htm", ".toml", ".parquet", ".xlsx", ".jpg", ".jpeg"}
 
 
 class SeriesFormat(StrEnum):
-    """How long series of numbers are written."""
+    """Formats of long series of numbers."""
 
     CSV = "csv"
     JSON = "json"
 
 
 class VariantsFormat(StrEnum):
-    """How the variants of a sweep are written."""
+    """Formats of the variants of a sweep."""
 
     TABLE = "table"
     MARKDOWN = "markdown"
@@ -69,28 +70,28 @@ VARIANTS = {
 
 
 class Place(NamedTuple):
-    """Where results of a sweep go: one file, or a folder of several."""
+    """Target of a sweep: a file, or a folder of several."""
 
     path: Path
     is_folder: bool
 
 
 def read_place(text: str) -> Place | None:
-    """A folder ends with a slash; None is standard output."""
+    """Parse the target of a sweep: a folder ends with a slash; None is standard output."""
     path = parse_output(Path(text))
     return None if path is None else Place(path, text.endswith(("/", os.sep)))
 
 
 def parse_output(path: Path | None) -> Path | None:
-    """Where to write, None for standard output."""
+    """Return the file to write, None for standard output."""
     return None if str(path) in ("-", "/dev/stdout", "/dev/fd/1") else path
 
 
 def choose_target(second: Path | None, output: Path | None, example: str) -> Path:
-    """Where a page or picture goes: the second name, or that of `--output`.
+    """Return the file of a page or picture: the second argument, or the value of `--output`.
 
     Raises:
-        BalcliError: there is neither, with an example, or both.
+        BalcliError: both are given, or neither.
     """
     if second is not None and output is not None:
         raise BalcliError(f"{second} and --output {output}: one file is written; leave one out")
@@ -99,10 +100,32 @@ def choose_target(second: Path | None, output: Path | None, example: str) -> Pat
     return target
 
 
-def text_format(output: Path | None, asked: Format | None) -> Format:
-    """How to write what people read; a table by default, or what a user has set as default. Errors
-    as `format_of`.
+def format_option(formats: type[StrEnum], text: str) -> Any:
+    """Declare an option `--format`, `-f` for these formats, by name or by ending, in any case.
+
+    Args:
+        formats: the formats, by the names that users type.
+        text: the help of the option.
     """
+
+    def parse(name: str) -> StrEnum:
+        small = name.lower()
+        try:
+            return formats(SHORT.get(small, small))
+        except ValueError:
+            known = ", ".join(f"'{one}'" for one in formats)
+            latex = f"; {_LATEX}" if small in ("latex", "tex") and "markdown" in [*formats] else ""
+            raise typer.BadParameter(f"'{name}' is not one of {known}{latex}.") from None
+
+    def complete(incomplete: str) -> list[str]:
+        return [name for name in formats if name.startswith(incomplete.lower())]
+
+    names = "|".join(formats)
+    return optional(names, text, "--format", "-f", parser=parse, autocompletion=complete)
+
+
+def text_format(output: Path | None, asked: Format | None) -> Format:
+    """Return the format of a result; a table by default. Raises as `format_of`."""
     return format_of(output, asked, TEXTS, defaults.usual.format or Format.TABLE)
 
 
@@ -113,15 +136,14 @@ def format_of(
     default: F | None = None,
     option: str = "--output",
 ) -> F:
-    """The format in which to write into a file: the ending says it, and `--format` where there is
-    no ending that is known.
+    """Return the format of a file: by its ending, or `--format` if the ending says nothing.
 
     Args:
         output: the file; None: standard output.
-        asked: the format of `--format`, if it was given.
-        endings: small letters, with the point, and the format of each that can be written.
-        default: of standard output, and of a file without an ending; None: there is none.
-        option: by which the file was given, for messages.
+        asked: the value of `--format`, if it was given.
+        endings: the formats that can be written, by ending (`.csv`).
+        default: the format of standard output, and of a file without an ending.
+        option: the option that names the file, for messages.
 
     Raises:
         BalcliError: format and ending contradict each other, or the ending is none of these.
@@ -136,32 +158,24 @@ def format_of(
             )
         return written
     usual = asked or default
-    if usual is not None and (not ending or (asked is not None and ending not in KNOWN)):
+    if usual is not None and (not ending or (asked is not None and ending not in _KNOWN)):
         return usual
-    can = _listed(list(endings))
-    said = f"{ending} cannot be written here" if ending else "has no ending that says its format"
-    told = ending in INSTEAD and (".md" if ending == ".tex" else ".csv") in endings
-    instead = f"; {INSTEAD[ending]}" if told else ""
-    raise BalcliError(f"{option} {output}: {said}; give a name that ends in {can}{instead}")
+    reason = f"{ending} cannot be written here" if ending else "has no ending that says its format"
+    raise BalcliError(
+        f"{option} {output}: {reason}; give a name that ends in {_list_or([*endings])}"
+        + (f"; {_INSTEAD[ending]}" if ending in _INSTEAD and ".csv" in endings else "")
+    )
 
 
 def picture_form(output: Path, option: str = "--output") -> Form:
-    """svg, png or pdf.
-
-    Raises:
-        BalcliError: another ending.
-    """
+    """Return the format of a picture: svg, png or pdf. Raises as `format_of`."""
     return format_of(output, None, PICTURES, option=option)
 
 
 def require_ending(output: Path | None, ending: str, option: str = "--output") -> None:
-    """Refuse a file whose ending promises anything but this one format.
-
-    Raises:
-        BalcliError: with what it must be.
-    """
+    """Raise BalcliError for a file with another ending than this one."""
     format_of(output, None, {ending: ending}, ending, option)
 
 
-def _listed(words: Sequence[str]) -> str:
+def _list_or(words: Sequence[str]) -> str:
     return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))

@@ -8,8 +8,7 @@ from ..enginefile.edit import set_keys
 from ..enginefile.toml_text import name_file
 from ..sizing.remedy import Remedy
 from ..sizing.write import insert_remedy
-from .named_files import refuse_leaving_files
-from .output import write_file
+from .output import refuse_leaving_files, write_file
 
 
 def write_fitted(

@@ -14,8 +14,7 @@ from . import scheme_options
 from .declare import optional
 from .file_names import picture_form, text_format
 from .options import EnginePaths, FormatOption, Misfire, Output, UnitsOption, parse_orders
-from .output import show, write_figure
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting, show, write_figure
 from .progress import reporting
 from .scheme_options import choose_beside, parse_scheme_options
 from .speed_range import Speeds, parse_speeds

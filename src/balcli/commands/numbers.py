@@ -5,8 +5,7 @@ from __future__ import annotations
 from ..render import numbers as renderer
 from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
-from .output import show
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting, show
 
 
 def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) -> None:

@@ -14,8 +14,7 @@ from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER, LONGEST_SHOWN, SMALLEST_POS
 from ..render.formats import Format, Units
 from .amounts import doubt_thousands, read_length, read_speed
 from .declare import optional
-from .file_names import parse_output
-from .format_names import format_option
+from .file_names import format_option, parse_output
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")

@@ -12,7 +12,7 @@ from . import scheme_options
 from .declare import optional
 from .file_names import choose_target, picture_form
 from .options import EnginePath, Orders, Speed, Target, UnitsOption
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting
 from .plot_pages import What, complete_pages, name_files, parse_pages, write_pages
 from .scheme_options import parse_scheme_options
 

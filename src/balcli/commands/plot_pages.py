@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
 from ..render.plot.style import save_figure, save_pages
-from .output import write_file
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting, write_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -1,4 +1,4 @@
-"""How far a long computation is: a line rewritten on a terminal, and the word after Ctrl-C."""
+"""Progress of long computations: a bar on a terminal, and how far it was after Ctrl-C."""
 
 from __future__ import annotations
 
@@ -6,152 +6,129 @@ import signal
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
-from typing import TypeVar
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, TypeVar
 
 import typer
 
-from .. import errors, process
-from ..errors import Exit, say
+from ..errors import Exit, is_quiet, say
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
 
 T = TypeVar("T")
 
-_SILENT_S, _EVERY_S = 2.0, 0.5  # before the first line, and between two of them
+_SILENT_S, _EVERY_S = 2.0, 0.5  # before the bar appears, and between two updates
 
 
 class Progress:
-    """Is told how much is done, time and again, and tells it on: on a terminal, when two seconds
-    have passed, with the time that is left; and when Ctrl-C ends the command.
+    """Callback that counts the work done and shows it on a terminal.
 
     Attributes:
-        done: so far, of `total`.
-        stopped: whether Ctrl-C asks whoever computes to end with what there is.
+        done: the work done so far.
+        stopped: whether Ctrl-C asks the computation to end with what there is.
     """
 
     def __init__(self, what: str, total: float | None, at_once: bool, shown: bool) -> None:
         self.done, self.stopped = 0.0, False
         self._what, self._total = what, total
-        self._start = time.monotonic()
-        self._next = self._start + (0.0 if at_once else _SILENT_S)
-        self._width = 0  # of the line that stands there
-        self._shown = shown and not errors.is_quiet() and sys.stderr.isatty()
+        self._next = time.monotonic() + (0.0 if at_once else _SILENT_S)
+        wanted = shown and not is_quiet() and sys.stderr.isatty()
+        self._bar = _make_bar(what, total) if wanted else None
 
     def __call__(self, done: float) -> bool:
-        """So much is done; whether to end with it."""
+        """Report the work done; returns whether to stop."""
         self.done = done
-        now = time.monotonic()
-        if self._shown and now >= self._next:
-            self._next = now + _EVERY_S
-            self._write(self._describe_pace(now - self._start))
+        if self._bar is not None and time.monotonic() >= self._next:
+            self._next = time.monotonic() + _EVERY_S
+            self._bar.start()
+            self._bar.update(self._bar.task_ids[0], completed=done, refresh=True)
         return self.stopped
 
     @property
     def cut_short(self) -> bool:
-        """Whether Ctrl-C has ended it before all was done."""
-        return self.stopped and self._share < 1
+        """Whether Ctrl-C ended the computation before all was done."""
+        return self.stopped and self.done < (self._total or 1.0)
 
     def describe(self) -> str:
-        """Such as "20000 of 4000000 variants", or "0.50% of the arrangements"."""
+        """Return the work done, such as "20000 of 4000000 variants" or "0.50% of the work"."""
         if self._total is None:
             return f"{self.done:.2%} of the {self._what}"
         return f"{self.done:.0f} of {self._total:.0f} {self._what}"
 
-    def last_word(self) -> str:
-        """What is said when the process ends here, on a line of its own."""
-        if not self.done:
-            return ""
-        return "\n" * (self._width > 0) + f"balcli: stopped after {self.describe()}\n"
-
-    def clear(self) -> None:
-        """Take the line away."""
-        self._write("")
-
-    @property
-    def _share(self) -> float:
-        return self.done / (self._total or 1.0)
-
-    def _describe_pace(self, seconds: float) -> str:
-        """Such as "balcli: 20000 of 4000000 variants (0.5%) in 8 s, about 27 min left"."""
-        percent = "" if self._total is None else f" ({self._share:.0%})"
-        left = seconds * (1 / self._share - 1) if 0 < self._share < 1 else None
-        tail = "" if left is None else f", about {_duration(left)} left"
-        return f"balcli: {self.describe()}{percent} in {_duration(seconds)}{tail}"
-
-    def _write(self, line: str) -> None:
-        """Over what stands there; a terminal that cannot be written to is none."""
-        if line or self._width:
-            with suppress(OSError):
-                sys.stderr.write(f"\r{line:{self._width}}" + "\r" * (not line))
-                sys.stderr.flush()
-        self._width = len(line)
+    def close(self) -> None:
+        """Remove the bar."""
+        if self._bar is not None:
+            self._bar.stop()
 
 
-def _duration(seconds: float) -> str:
-    """Such as 8 s, 3 min, 2.5 h."""
-    if seconds < 100:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+def _make_bar(what: str, total: float | None) -> Bar:
+    """Return a bar on standard error that has not been started; messages are printed above it."""
+    from rich import progress
+    from rich.console import Console
+
+    bar = progress.Progress(
+        progress.TextColumn("balcli: {task.description}"),
+        progress.BarColumn(),
+        progress.TaskProgressColumn(),
+        *([] if total is None else [progress.MofNCompleteColumn()]),
+        progress.TimeRemainingColumn(),
+        console=Console(file=sys.stderr),
+        auto_refresh=False,
+        transient=True,
+        redirect_stdout=False,
+    )
+    bar.add_task(what, total=total or 1.0)
+    return bar
 
 
 @contextmanager
 def reporting(
     what: str, total: float | None = None, at_once: bool = False, shown: bool = True
 ) -> Iterator[Progress]:
-    """Somebody to tell how much is done. Ctrl-C ends the command, which says how far it was.
+    """Yield a callback for the work done. Ctrl-C ends the command and prints how far it was.
 
     Args:
-        what: there is to do, as "samples".
-        total: of them; None: the share of all is told, from 0 to 1.
-        at_once: not only after two seconds.
-        shown: False: results are written to the terminal meanwhile.
+        what: the noun for the work, such as "samples".
+        total: the number of them; None: the callback gets the share of all, from 0 to 1.
+        at_once: show the bar from the start, not after two seconds.
+        shown: False where results are written to the terminal meanwhile.
     """
     progress = Progress(what, total, at_once, shown)
-    process.last_words.append(progress.last_word)
     try:
-        with _long_computation(progress):
-            yield progress
+        yield progress
+    except KeyboardInterrupt:
+        progress.close()
+        if progress.done:
+            say(f"balcli: stopped after {progress.describe()}")
+        raise typer.Exit(Exit.INTERRUPTED) from None
     finally:
-        process.last_words.pop()
+        progress.close()
 
 
 @contextmanager
 def reporting_until_stopped(
     what: str, total: float | None = None, at_once: bool = False, shown: bool = True
 ) -> Iterator[Progress]:
-    """As `reporting`, for what can end early with a whole result of less: the first Ctrl-C is only
-    noted, the second one ends the process. Where it is ignored (`nohup`), it still is.
+    """As `reporting`, for a computation that can end early with a smaller result: the first Ctrl-C
+    only sets `stopped`, the second one ends the command. An ignored Ctrl-C (`nohup`) stays ignored.
     """
-    progress = Progress(what, total, at_once, shown)
-
-    def note(*_: object) -> None:
-        progress.stopped = True
-        signal.signal(signal.SIGINT, before)
-
     before = signal.getsignal(signal.SIGINT)
-    signal.signal(signal.SIGINT, before if before is signal.SIG_IGN else note)
-    try:
-        with _long_computation(progress):
+    with reporting(what, total, at_once, shown) as progress:
+
+        def stop(*_: object) -> None:
+            progress.stopped = True
+            signal.signal(signal.SIGINT, before)
+
+        signal.signal(signal.SIGINT, before if before is signal.SIG_IGN else stop)
+        try:
             yield progress
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-@contextmanager
-def _long_computation(progress: Progress) -> Iterator[None]:
-    """It keeps what memory it frees. Messages take the line away before they are written; so does
-    the end.
-    """
-    process.keep_freed_memory()
-    errors.before_messages.append(progress.clear)
-    try:
-        yield
-    finally:
-        errors.before_messages.remove(progress.clear)
-        progress.clear()
+        finally:
+            signal.signal(signal.SIGINT, before)
 
 
 def exit_if_cut_short(progress: Progress, what_there_is: str = "") -> None:
-    """End with the status of an interruption, and say how far it has come, if there was one."""
+    """End with the status of an interruption and print how far the work was, if there was one."""
     if progress.cut_short:
         tail = f"; {what_there_is}" if what_there_is else ""
         say(f"balcli: stopped after {progress.describe()}{tail}")
@@ -159,7 +136,7 @@ def exit_if_cut_short(progress: Progress, what_there_is: str = "") -> None:
 
 
 def each_until_stopped(items: Sequence[T], progress: Progress) -> Iterator[T]:
-    """The items, until Ctrl-C is noted; each is done when the next one is wanted."""
+    """Yield the items until Ctrl-C; each one is counted when the next is requested."""
     for count, item in enumerate(items):
         if progress(count):
             return

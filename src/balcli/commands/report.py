@@ -13,8 +13,7 @@ from . import scheme_options
 from .declare import optional
 from .file_names import choose_target, format_of, parse_output
 from .options import EnginePath, Orders, Speed, Target, UnitsOption, parse_orders, parse_speed
-from .output import emit
-from .overwrite_guard import refuse_overwriting
+from .output import emit, refuse_overwriting
 from .progress import reporting
 from .scheme_options import choose_scheme, parse_scheme_options
 

@@ -16,8 +16,7 @@ from ..render import tolerances as renderer
 from .completion import complete_quantities
 from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
-from .output import show
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_overwriting, show
 from .progress import exit_if_cut_short, reporting_until_stopped
 
 if TYPE_CHECKING:

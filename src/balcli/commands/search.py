@@ -14,10 +14,8 @@ from ..render import search as renderer
 from .completion import complete_quantities, complete_searches
 from .declare import optional
 from .file_names import require_ending, text_format
-from .named_files import refuse_leaving_files
 from .options import EnginePath, FormatOption, Output
-from .output import show, write_file
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_leaving_files, refuse_overwriting, show, write_file
 from .progress import exit_if_cut_short, reporting, reporting_until_stopped
 
 if TYPE_CHECKING:

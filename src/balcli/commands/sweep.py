@@ -19,11 +19,17 @@ from ..studies.quantity_names import describe_names
 from ..studies.threads import share_work
 from .completion import complete_numbers, complete_quantities
 from .declare import optional
-from .file_names import VARIANTS, Place, VariantsFormat, format_of, picture_form, read_place
-from .format_names import format_option
+from .file_names import (
+    VARIANTS,
+    Place,
+    VariantsFormat,
+    format_of,
+    format_option,
+    picture_form,
+    read_place,
+)
 from .options import EnginePath, ProgressAtOnce
-from .output import is_seen, write_figure
-from .overwrite_guard import refuse_overwriting
+from .output import is_seen, refuse_overwriting, write_figure
 from .progress import exit_if_cut_short, reporting_until_stopped
 
 if TYPE_CHECKING:

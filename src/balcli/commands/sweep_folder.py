@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ..errors import BalcliError
-from ..files import follow_link, make_folder, making_beside, name_hidden, name_part
-from ..process import discard, keep_freed_memory
+from ..files import discard, follow_link, make_folder, making_beside, name_hidden, name_part
 from ..render.sweep_parquet import write_sweep_parquet
 from ..studies.boxes import BoxSize, group_boxes
 from ..studies.sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes, split_columns
@@ -82,7 +81,6 @@ def _write_part(folder: Path, size: BoxSize, task: Task) -> int:
     """Compute and write one part; returns its number of variants. Its file takes its name when it
     is whole: a worker that is taken for lost may still write while another does the same.
     """
-    keep_freed_memory()
     number, boxes = task
     name = _name_part(number)
     place = name_hidden(folder / name)
@@ -152,4 +150,4 @@ def _move(folder: Path, target: Path) -> None:
     except OSError:
         old.rename(target)
         raise
-    discard(str(old))
+    discard(old)

@@ -6,8 +6,7 @@ from ..render.formats import Units
 from . import torque_options as own
 from .file_names import require_ending, text_format
 from .options import FormatOption, Misfire, Output, Speed, UnitsOption
-from .output import draws_sketch, show
-from .overwrite_guard import refuse_overwriting
+from .output import draws_sketch, refuse_overwriting, show
 
 
 def torque(

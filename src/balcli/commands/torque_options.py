@@ -17,9 +17,8 @@ from ..limits import SMALLEST_FLUCTUATION
 from ..render.formats import Units
 from .amounts import read_inertia
 from .declare import optional
-from .named_files import refuse_leaving_files
 from .options import parse_orders, parse_speed
-from .output import write_file
+from .output import refuse_leaving_files, write_file
 
 if TYPE_CHECKING:
     from ..torque.analysis import TorqueAnalysis

@@ -11,10 +11,8 @@ import typer
 from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, require_ending, text_format
-from .named_files import refuse_leaving_files
 from .options import FormatOption, Misfire, Output, ProgressAtOnce, UnitsOption
-from .output import show, write_figure, write_file
-from .overwrite_guard import refuse_overwriting
+from .output import refuse_leaving_files, refuse_overwriting, show, write_figure, write_file
 
 
 class DamperKind(StrEnum):

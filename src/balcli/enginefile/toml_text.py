@@ -43,7 +43,7 @@ def read_bytes(source: str | Path) -> bytes:
     except FileNotFoundError:
         raise BalcliError(f"{source}: no such file{find_near_file(source)}") from None
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
-        reason = error.strerror if isinstance(error, OSError) else error
+        reason = (isinstance(error, OSError) and error.strerror) or error
         name = "standard input" if str(source) == "-" else repr(str(source)[:200])
         raise BalcliError(f"{name}: cannot be read ({reason})") from None
 

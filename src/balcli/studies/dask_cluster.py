@@ -14,7 +14,7 @@ from itertools import islice
 from typing import Any, TypeVar
 
 from ..errors import BalcliError
-from ..process import ctrl_c_later, keep_freed_memory
+from ..process import ctrl_c_later
 from .boxes import Box, BoxSize, group_boxes
 from .sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
 
@@ -70,7 +70,6 @@ def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
 
 
 def _evaluate_parts(size: BoxSize, parts: list[tuple[Box, Sweep]]) -> list[Chunk]:
-    keep_freed_memory()
     return [Chunk(box, evaluate_box(part, part.whole, size)) for box, part in parts]
 
 
