@@ -20,7 +20,7 @@ from pathlib import Path
 
 import pytest
 import typer
-from support.commands import ask, ask_csv, ask_json, refusal, run_command, run_in_terminal, run_python
+from support.commands import ask, ask_csv, ask_json, refusal, run_command, run_here, run_in_terminal, run_python
 from support.engines import GOOD, changed
 from support.paths import ENGINES, ROOT, write
 
@@ -915,3 +915,28 @@ def test_quantities_with_blanks_between_them(balcli):
     assert balcli("analyze", V8, "--only", "force  peak") == balcli("analyze", V8, "--only", "force, peak")
     assert "Verdict" not in balcli("analyze", V8, "--orders", "0").out
     assert "Verdict" in balcli("analyze", V8, "--orders", "1").out
+
+
+def test_what_replaces_a_private_file_is_private_from_the_beginning(tmp_path, monkeypatch):
+    """No file is created that others may read, not even for a moment."""
+    target, modes, create = tmp_path / "x.json", [], os.open
+    target.touch(mode=0o600)
+
+    def record(path, flags, mode=0o777, **options):
+        if flags & os.O_CREAT and str(tmp_path) in str(path):
+            modes.append(mode)
+        return create(path, flags, mode, **options)
+
+    monkeypatch.setattr(os, "open", record)
+    assert run_here("analyze", ENGINES / "i4.toml", "-o", target).status == 0
+    assert modes
+    assert not any(mode & 0o077 for mode in modes)
+    assert target.stat().st_mode & 0o777 == 0o600
+
+
+def test_a_link_to_a_file_that_is_not_there_yet_is_followed(tmp_path):
+    link, target = tmp_path / "link.json", tmp_path / "target.json"
+    link.symlink_to(target)
+    run_here("analyze", ENGINES / "i4.toml", "-o", link)
+    assert link.is_symlink()
+    assert target.read_text().startswith("{")

@@ -8,7 +8,8 @@ import pytest
 from support.commands import refusal, run_here
 from support.paths import ENGINES, write
 
-from balcli.commands.plot_pages import What, complete_pages, parse_pages
+from balcli.commands.plot import complete_pages, parse_pages
+from balcli.render.plot import PAGES
 
 FOUR = ENGINES / "i4_wiebe.toml"
 DIESEL = ENGINES / "i6_diesel.toml"
@@ -74,9 +75,9 @@ def test_no_page_goes_onto_the_engine_file(tmp_path):
 
 
 def test_names_of_pages():
-    assert parse_pages(" pin, Torque,pin,") == (What.PIN, What.TORQUE)
+    assert parse_pages(" pin, Torque,pin,") == ("pin", "torque")
     assert "torque,pin" in complete_pages("torque,p")
-    there = ", ".join(What)
+    there = ", ".join(PAGES)
     told = refusal("plot", FOUR, "--what", "torque,torqe", "-o", "x.svg")
     assert told == f'--what "torqe": choose from {there}; did you mean torque?'
     assert refusal("plot", FOUR, "--what", ",", "-o", "x.svg") == f'--what "": choose from {there}'
@@ -94,7 +95,7 @@ def test_names_of_pages():
 def test_a_speed_that_no_page_heeds_is_told(tmp_path, monkeypatch, options, told):
     monkeypatch.setattr("balcli.commands.plot_figures.make_figures_of_torsion", lambda *_: [None])
     monkeypatch.setattr("balcli.commands.plot_figures._make_pages", lambda *_: [None])
-    monkeypatch.setattr("balcli.commands.plot.write_pages", lambda *_: None)
+    monkeypatch.setattr("balcli.commands.plot_figures.write_pages", lambda *_: None)
     status, _, err = run_here("plot", DIESEL, *options, "-o", tmp_path / "x.pdf")
     assert status == 0
     assert err.startswith(f"warning: {told}") if told else err == ""

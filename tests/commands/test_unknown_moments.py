@@ -243,7 +243,7 @@ def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
     assert balcli("plot", twin, "--what", what, "-o", picture)[::2] == (0, warning(twin))
     text = picture.read_text(encoding="utf-8")
     drawn = len(re.findall("not known:", text))
-    assert drawn == {"all": 3, "factor": 0}.get(what, 1)
+    assert drawn == {"factor": 0}.get(what, 1)
     if what == "factor":
         assert "moment (dashed grey)" not in text
 

@@ -39,7 +39,8 @@ piston =""",
 )
 ROTARY = UNEVEN.replace("piston =", "layout = { banks = [0, 100, -80], rotary = true }\npiston =")
 HUNG = ARTICULATED.replace("80] }", "80], rotary = true }")
-TEXTS = {"uneven": UNEVEN, "articulated": ARTICULATED, "rotary": ROTARY, "rotary with a master rod": HUNG}
+SKEW = UNEVEN.replace("[0, 180, 180, 0]", "[0, 100, 220, 30]")  # whose pins do not balance one another
+TEXTS = {"uneven": UNEVEN, "skew": SKEW, "articulated": ARTICULATED, "rotary": ROTARY, "rotary with a master rod": HUNG}
 
 
 def engine(name):
@@ -190,3 +191,15 @@ def test_other_mechanisms_by_differences(name):
         bend = (np.roll(travel, -1) - 2 * travel + np.roll(travel, 1)) / step**2 * omega**2
         assert np.abs(slope - curve["velocity_m_per_s"]).max() < 1e-6 * np.abs(slope).max()
         assert np.abs(bend - curve["acceleration_m_per_s2"]).max() < 1e-5 * np.abs(bend).max()
+
+
+def test_a_piston_at_uneven_speed_accelerates_as_its_velocity_changes_in_time():
+    """dv/dt is dv/dtheta times the crank speed there."""
+    text = TEXTS["uneven"]
+    subject, h = build_text(text), 1e-3
+    angles = divide_revolution(15)
+    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h))
+    omega = subject.omega * (1 + 0.02 * np.cos(np.radians(2 * angles - 40)))
+    for name, slope_of in (("velocity_m_per_s", "travel_m"), ("acceleration_m_per_s2", "velocity_m_per_s")):
+        slope = (after[slope_of] - before[slope_of]) / (2 * np.radians(h)) * omega
+        assert mid[name] == pytest.approx(slope, abs=1e-7 * np.abs(slope).max())

@@ -10,6 +10,7 @@ import pytest
 from support.commands import ask, ask_json
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
+from support.in_time import run_in_time
 from support.paths import ENGINES, write
 
 from balcli.core.phasors import Phasors
@@ -238,3 +239,17 @@ def test_so_many_cylinders_that_they_would_fill_the_memory_are_refused(monkeypat
     monkeypatch.setattr(in_bearings, "MOST_FORCES_OVER_CYCLE", 1000)
     with pytest.raises(BalcliError, match="loads with gas of 4 cylinders are"):
         compute_loads_with_gas(replace(build_text(FOUR + WIEBE)))
+
+
+def test_throw_masses_load_bearings_at_uneven_speed_as_their_acceleration_in_time():
+    """What throw masses add to the load of the first bearing, half of the first throw's, against
+    the second derivative in time of where they are.
+    """
+    ripple = "speed_ripple = [{order = 2, amplitude = 0.05, angle = 40}]\n"
+    engines = [build_text(FOUR.replace("[rod]", f"throw_mass = {m}\n[rod]") + ripple + WIEBE) for m in (0, 0.8)]
+    angles, period = run_in_time(lambda a: 100 * np.pi * (1 + 0.05 * np.cos(2 * a - np.radians(40))), 1)
+    place = 0.045 * np.exp(1j * angles)
+    waves = 2j * np.pi * np.fft.fftfreq(len(place), period / len(place))
+    expected = -0.5 * 0.8 * np.fft.ifft(waves**2 * np.fft.fft(place))
+    without, loads = (in_bearings.compute_bearing_loads(each, np.degrees(angles[::64]))[0] for each in engines)
+    assert loads - without == pytest.approx(expected[::64], abs=1e-6 * np.abs(expected).max())

@@ -505,3 +505,23 @@ def test_at_uneven_speed_an_order_is_so_often_in_a_turn_of_equal_steps_of_time(r
             point = move(motion, body.point - body.centre)
             largest = np.sqrt((np.sum(np.abs(point) ** 2) + abs(np.sum(point**2))) / 2)
             assert result.response.motion[n, s, 0] == pytest.approx(largest, rel=1e-6)
+
+
+def test_a_dashpot_alone_holds_a_mount(report):
+    """The force that it transmits is that of its damping, so that its travel is ordinary; on its
+    soft spring alone the same force would be half a metre.
+    """
+    soft = block("damping = [5, 5, 5]").replace("stiffness = [200, 150, 400]", "stiffness = [2, 2, 2]")
+    found = report(ENGINE + soft)
+    assert max(worst.value for worst in found.response.worst_force) / 2e3 > 0.05
+    assert found.doubts == ()
+
+
+def test_the_leading_mode_is_that_of_the_whole_force_not_of_one_direction(report):
+    """An engine that lies on its side shakes along y: the mode that makes most of the largest force
+    moves that way.
+    """
+    found = report(ENGINE + "[layout]\nbanks = [90]\n" + block(), orders=[2])
+    for worst in found.response.worst_force:
+        shape = np.abs(found.modes.six[worst.mode].shape[:3])
+        assert shape.argmax() == 1

@@ -14,7 +14,6 @@ from support.pictures import draw_page
 
 from balcli.core.mechanisms import harmonics
 from balcli.errors import BalcliError
-from balcli.render.plot.bank_angle import place_labels
 from balcli.render.plot.pages import PageSubject
 from balcli.sizing.options import SchemeOptions
 from balcli.studies.pictures import compute_study, swing_banks
@@ -144,20 +143,6 @@ def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
     assert best.force == pytest.approx(mass * r * omega**2 * min(peaks), rel=2e-4)
     assert round(50 * best.factor, 3) % 1
     assert [row.factor for row in rows] == sorted(row.factor for row in rows)
-
-
-def test_labels_of_bank_angles_cover_nothing():
-    """Lines that lie on one another, and ellipses within one another."""
-    turn = np.radians(np.arange(361))
-    sizes = ((1, 0), (0.8, 0), (0.7, 0.2), (0.5, 0.5), (0.3, 0.8), (0, 0.9), (0, 0))
-    ways = [a * np.cos(turn) + 1j * b * np.sin(turn) for a, b in sizes]
-    spots = np.array(place_labels(ways, 1.25))
-    apart = np.abs(spots[:, None] - spots) + 9 * np.eye(len(spots))
-    assert apart.min() > 0.15
-    assert np.abs(spots[:, None] - np.concatenate(ways)).min() > 0.06
-    assert np.minimum(np.abs(spots.real), np.abs(spots.imag)).min() > 0.06
-    own = [np.abs(spot - way).min() for spot, way in zip(spots, ways, strict=True)]
-    assert max(own) < 0.15
 
 
 def test_a_force_that_is_negligible_at_every_bank_angle_is_said():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.engines import GOOD, RADIAL, changed
 
+import balcli
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError
@@ -220,3 +221,12 @@ def test_rotary_engines_have_no_scatter() -> None:
     rotary = ARTICULATED[: ARTICULATED.index("[articulation]")] + "rotary = true\n"
     with pytest.raises(BalcliError, match="there is no scatter of rotary engines, whose masses move on curves"):
         scatter_engine(load(rotary), Tolerances(mass=0.005), parse_quantities("force.1.major"), Drawing(10, 1))
+
+
+def test_normal_deviations_have_a_third_of_the_tolerance_as_standard_deviation() -> None:
+    """The free force of the twin is |d1 - d2| m r w^2; of two normal d its mean is 2 s / sqrt(pi)."""
+    t, samples = 0.01, 100_000
+    twin = build(load(TWIN))
+    found = balcli.scatter(twin, "force.1.major", mass=t, samples=samples, seed=1, distribution="normal")
+    whole = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2
+    assert found.spreads[0].mean == pytest.approx(2 * t / 3 / math.sqrt(math.pi) * whole, rel=0.01)

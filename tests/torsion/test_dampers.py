@@ -444,7 +444,7 @@ def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_
 def test_pictures_of_large_torques_are_in_kilonewton_metres():
     """Of a crankshaft without diameters, too; a limit stands in the unit of the stress."""
     result = analyze_torsion(write_diesel(), [4000, 4300, 4332])
-    waterfall, response = (make_torsion(result, what, "svg").axes[0] for what in ("waterfall", "response"))
+    waterfall, response = (make_torsion(result, what).axes[0] for what in ("waterfall", "response"))
     largest = result.response.torque.max() / 1e3
     assert largest > 10
     assert waterfall.get_title("left").endswith(" kN·m")
@@ -458,13 +458,13 @@ def test_pictures_show_a_resonance_between_the_speeds():
     response, worst = result.response, result.response.worst
     fine = analyze_torsion(write_diesel("limit = 60"), np.arange(4200, 4500, 0.5)).response
     assert np.nanmax(fine.stress) > 1.1 * np.nanmax(response.stress)
-    stress, swing = make_torsion(result, "response", "svg").axes
+    stress, swing = make_torsion(result, "response").axes
     highest = max(max(line.get_ydata()) for line in stress.lines)
     assert highest == pytest.approx(np.nanmax(fine.stress) / 1e6, rel=1e-3)
     total, *orders = (max(line.get_ydata()) for line in swing.lines)
     assert total == pytest.approx(np.degrees(fine.free_end.max()), rel=1e-3)
     assert max(orders) == pytest.approx(np.degrees(fine.swings.max()), rel=1e-3)
-    (waterfall,) = make_torsion(result, "waterfall", "svg").axes
+    (waterfall,) = make_torsion(result, "waterfall").axes
     told = float(waterfall.get_title("left").split()[-2])
     shaft = np.argmax(worst.torque)
     assert told == pytest.approx(fine.amplitudes[:, :, shaft].max() / 1e3, rel=5e-3)
@@ -474,7 +474,7 @@ def test_orders_of_a_waterfall_do_not_cover_one_another():
     """Nor where nothing resonates, so that all are about as large."""
     speeds = [1000, 1500, 2000]
     result = analyze_torsion(ENGINES / "i6_diesel.toml", speeds, orders=[0.5, 1, 1.5, 2, 2.5, 3])
-    (axes,) = make_torsion(result, "waterfall", "svg").axes
+    (axes,) = make_torsion(result, "waterfall").axes
     streams = [stream.get_paths()[0].vertices[:, 0] for stream in axes.collections]
     assert len(streams) == 6
     for left, right in itertools.pairwise(streams):

@@ -89,7 +89,7 @@ def field(
     if plot is not None and drawn is not None:
         from ..render.plot.field_balancing import make_field  # brings matplotlib
 
-        write_figure(make_field(result, drawn), drawn, plot)
+        write_figure(make_field(result), drawn, plot)
     show([result], renderer, form, output, units)
     if check and not result.reached:
         raise typer.Exit(Exit.DIFFERENCE)

@@ -84,7 +84,7 @@ def mounts(
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import make_mounts  # brings matplotlib
 
-        write_figure(make_mounts(result, drawn, SYSTEMS[units]), drawn, plot)
+        write_figure(make_mounts(result, SYSTEMS[units]), drawn, plot)
     show([result], renderer, form, output, units)
 
 

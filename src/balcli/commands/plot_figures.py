@@ -1,19 +1,22 @@
-"""What `balcli plot` draws, as figures."""
+"""Draw the pages of `balcli plot`, and write them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import warn
 from ..render.formats import Units
+from ..render.plot import OF_GAS, OF_TORSION
 from ..render.plot.pages import PageSubject, make_page
+from ..render.plot.style import save_figure, save_pages
 from ..render.units import SYSTEMS
 from ..sizing.options import SchemeOptions
 from ..studies.pictures import compute_study, refuse_scheme
 from .inputs import read_engine, require_gas
 from .options import parse_orders, parse_speed
-from .plot_pages import OF_GAS, OF_TORSION, What, choose_shown
+from .output import write_file
 from .scheme_options import choose_beside
 from .torsion_answer import make_figures_of_torsion
 
@@ -22,9 +25,11 @@ if TYPE_CHECKING:
 
     from ..render.plot.style import Form
 
+_SHOWN = {"inner": "inner", "bank": "force"}  # the only results that these pages need
+
 
 class Asked(NamedTuple):
-    """Options as typed; those of a balance scheme as they were read."""
+    """Options as typed; options of a balance scheme as they were read."""
 
     speed: str | None
     orders: str | None
@@ -34,14 +39,14 @@ class Asked(NamedTuple):
     units: Units
 
 
-def make_figures(path: str, pages: Sequence[What], asked: Asked, form: Form) -> list[Figure]:
-    """A figure for each page, of the file at a path, which is read once for pages of its torsion
-    and once for all others.
+def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
+    """Return a figure for each page of an engine file, which is read once for pages of torsion and
+    once for all others.
 
     Raises:
-        BalcliError: what a page refuses, or does not find in the file.
+        BalcliError: an option does not suit a page, or the file lacks what a page shows.
     """
-    found: dict[What, Figure] = {}
+    found: dict[str, Figure] = {}
     of_torsion = [page for page in pages if page in OF_TORSION]
     others = [page for page in pages if page not in OF_TORSION]
     if asked.speeds is not None and not of_torsion:
@@ -49,33 +54,38 @@ def make_figures(path: str, pages: Sequence[What], asked: Asked, form: Form) -> 
     if asked.speed is not None and not others:
         warn("--speed counts for nothing here; pages of torsion take a range, --speeds A:B")
     if of_torsion:
-        for page in of_torsion:
-            refuse_scheme(_choose_scheme(page, asked), page)
-        drawn = make_figures_of_torsion(
-            path, of_torsion, asked.speeds, asked.orders, form, asked.units
-        )
+        refuse_scheme(choose_beside(asked.scheme, asked.options), of_torsion[0])
+        drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, asked.units)
         found |= zip(of_torsion, drawn, strict=True)
     if others:
-        found |= zip(others, _make_pages(path, others, asked, form), strict=True)
+        found |= zip(others, _make_pages(path, others, asked), strict=True)
     return [found[page] for page in pages]
 
 
-def _make_pages(path: str, pages: Sequence[What], asked: Asked, form: Form) -> list[Figure]:
-    schemes = [_choose_scheme(page, asked) for page in pages]
+def _make_pages(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
+    compared = choose_beside(asked.scheme, asked.options) if {*pages} != {"factor"} else None
     orders = parse_orders(asked.orders)
-    engine = read_engine(path, parse_speed(asked.speed), choose_shown(pages)).engine
+    shown = tuple(_SHOWN[page] for page in pages) if all(p in _SHOWN for p in pages) else None
+    engine = read_engine(path, parse_speed(asked.speed), shown).engine
     if any(page in OF_GAS for page in pages):
         require_gas(engine, path)
     figures = []
-    for page, scheme in zip(pages, schemes, strict=True):
+    for page in pages:
+        scheme = asked.scheme if page == "factor" else compared
         study = compute_study(engine, page, orders, scheme, asked.options)
-        subject = PageSubject(study, SYSTEMS[asked.units])
-        figures.append(make_page(subject, page, form))
+        figures.append(make_page(PageSubject(study, SYSTEMS[asked.units]), page))
     return figures
 
 
-def _choose_scheme(page: What, asked: Asked) -> str | None:
-    """The balance scheme that a page compares with."""
-    if page is What.FACTOR:
-        return asked.scheme
-    return choose_beside(asked.scheme, asked.options)
+def write_pages(figures: Sequence[Figure], files: Sequence[Path], form: Form) -> None:
+    """Write all pages into one PDF, or each page into its own file.
+
+    Raises:
+        BalcliError: a file cannot be written.
+    """
+    if len(files) < len(figures):
+        write_file(save_pages(figures), files[0])
+        return
+    contents = [save_figure(figure, form) for figure in figures]
+    for content, file in zip(contents, files, strict=True):
+        write_file(content, file)

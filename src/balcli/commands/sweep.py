@@ -140,7 +140,7 @@ def sweep(
                 place = out.write_sweep(job, counted, kind, file, watch)
     exit_if_cut_short(watch, place)
     if plot is not None and drawn is not None:
-        write_figure(make_sweep(job, join_chunks(job, kept or ()), drawn), drawn, plot)
+        write_figure(make_sweep(job, join_chunks(job, kept or ())), drawn, plot)
 
 
 def _doubt(job: Sweep, quantity: str | None) -> None:

@@ -120,5 +120,5 @@ def torsion(
         refuse_leaving_files(source.text, path, write)
         write_file(answers.write_damper(source, result), write)
     if plot is not None and drawn is not None:
-        write_figure(answers.draw(result, what, drawn, units), drawn, plot)
+        write_figure(answers.draw(result, what, units), drawn, plot)
     show([result], renderer, form, output, units)

@@ -23,8 +23,6 @@ from .torsion_options import parse_half_orders
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ..render.plot.style import Form
-
 
 def require_options(
     asked: TorsionQuestion, write: Path | None, plot: Path | None, what: str
@@ -83,7 +81,6 @@ def make_figures_of_torsion(
     pages: Sequence[str],
     speeds: str | None,
     orders: str | None,
-    form: Form,
     units: Units,
 ) -> list[Figure]:
     """Figures of the chain or engine at a path, one a page.
@@ -99,10 +96,10 @@ def make_figures_of_torsion(
             raise _range_missing(without[0])
         asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
     found = answer_question(source, asked)
-    return [draw(found, page, form, units) for page in pages]
+    return [draw(found, page, units) for page in pages]
 
 
-def draw(result: TorsionAnalysis, what: str, form: Form, units: Units) -> Figure:
+def draw(result: TorsionAnalysis, what: str, units: Units) -> Figure:
     """A page of pictures.
 
     Raises:
@@ -110,4 +107,4 @@ def draw(result: TorsionAnalysis, what: str, form: Form, units: Units) -> Figure
     """
     if what == "waterfall" and not result.system.shafts:
         raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
-    return make_torsion(result, what, form, SYSTEMS[units])
+    return make_torsion(result, what, SYSTEMS[units])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from types import NoneType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,10 +15,10 @@ from ..errors import BalcliError, check_type, wrong_type
 from ..field_balancing.balance import FieldBalance
 from ..forces.orders import check_orders
 from ..mounting.report import MountReport
-from ..render.plot import torsion as torsion_pages
+from ..render.plot import OF_GAS, OF_TORSION, PAGES
 from ..render.plot.field_balancing import make_field
 from ..render.plot.mounts import make_mounts
-from ..render.plot.pages import PAGES, PageSubject, make_page
+from ..render.plot.pages import PageSubject, make_page
 from ..render.plot.torsion import make_torsion
 from ..render.sweep_plot import check_drawable, make_sweep
 from ..render.units import SI
@@ -35,7 +35,9 @@ from .arguments import check_speeds, check_torsion_orders, tell_arguments
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_TORSION = tuple(name for name in torsion_pages.PAGES if name != "all")
+Shown: TypeAlias = (
+    Engine | Analysis | Balance | Swept | TorqueAnalysis | TorsionAnalysis | MountReport
+) | FieldBalance
 _DRAWN = (
     "give an Engine, or an answer of analyze, balance, sweep, analyze_torque, analyze_torsion, "
     "analyze_mounts or balance_rotor"
@@ -44,14 +46,7 @@ _DRAWN = (
 
 @tell_arguments(speeds="speeds_rpm")
 def plot(
-    shown: Engine
-    | Analysis
-    | Balance
-    | Swept
-    | TorqueAnalysis
-    | TorsionAnalysis
-    | MountReport
-    | FieldBalance,
+    shown: Shown,
     what: str | None = None,
     *,
     orders: Iterable[float] | None = None,
@@ -65,11 +60,12 @@ def plot(
 
     Args:
         shown: an engine, or the answer of a function that has a picture.
-        what: of an engine, its analysis or balance: "all" (default), "polar" (loci of force and
-            moment), "orders" (the two vectors of each), "spectrum", "curves", "inner" (along the
-            crankshaft), "bank" (a vee over its bank angle), "factor" (over the balance factor);
-            with gas "pressure", "p-v", "torque", "pin", "main"; of torsion "all", "modes",
-            "campbell", "response", "waterfall". Other answers have one picture.
+        what: page of an engine, its analysis or balance: "overview" (default: one locus, and the
+            spectrum), "polar" (loci of force and moment), "orders" (the two vectors of each),
+            "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
+            "bank" (a vee over its bank angle), "factor" (over the balance factor); with gas
+            "pressure", "p-v", "torque", "pin", "main"; of torsion "all", "modes", "campbell",
+            "response", "waterfall". Other answers have one picture.
         orders: of an engine, which are drawn; default: all that are not negligible.
         scheme: of an engine, a balance scheme to compare with.
         speeds_rpm: of an engine and its torsion; default: half to one and a half times its speed.
@@ -84,16 +80,16 @@ def plot(
     check_type("what", what, (str, NoneType), 'give the name of a page, such as "polar"')
     match shown:
         case Engine():
-            return _plot_engine(shown, what or "all", orders, scheme, speeds_rpm)
+            return _plot_engine(shown, what or "overview", orders, scheme, speeds_rpm)
         case Analysis():
             asked = shown.orders if orders is None else orders
-            return _plot_engine(shown.engine, what or "all", asked, scheme, speeds_rpm)
+            return _plot_engine(shown.engine, what or "overview", asked, scheme, speeds_rpm)
         case Balance():
-            page = _choose(what or "all", ("all", "polar", "orders", "spectrum", "curves"))
+            page = _choose(what or "overview", PAGES[:6])
             study = Study(shown.after, shown.before, shown.remedy)
-            return make_page(PageSubject(study), page, "png")
+            return make_page(PageSubject(study), page)
         case TorqueAnalysis():
-            page = _choose(what or "torque", ("torque", "pressure", "p-v", "pin", "main"))
+            page = _choose(what or "torque", OF_GAS)
             return _plot_engine(shown.engine, page, None, None, None)
         case TorsionAnalysis():
             return _plot_torsion(shown, what or "all")
@@ -101,20 +97,16 @@ def plot(
     match shown:
         case Swept():
             check_drawable(shown.sweep)
-            return make_sweep(shown.sweep, shown.values, "png")
+            return make_sweep(shown.sweep, shown.values)
         case MountReport():
-            return make_mounts(shown, "png", SI)
+            return make_mounts(shown, SI)
         case FieldBalance():
-            return make_field(shown, "png")
+            return make_field(shown)
     raise wrong_type("plot", shown, _DRAWN)
 
 
 def _choose(what: str, known: Sequence[str]) -> str:
-    """The page of this name.
-
-    Raises:
-        BalcliError: there is none, with those that there are.
-    """
+    """Return the name of a page; raise BalcliError if there is no such page."""
     if what not in known:
         near = nearest(str(what), known)
         hint = f"; did you mean {near}?" if near else ""
@@ -129,11 +121,11 @@ def _plot_engine(
     scheme: str | None,
     speeds_rpm: ArrayLike | None,
 ) -> Figure:
-    _choose(what, (*PAGES, *_TORSION))
-    if what not in _TORSION:
+    _choose(what, PAGES)
+    if what not in OF_TORSION:
         asked = None if orders is None else check_orders(orders).tolist()
         study = compute_study(engine, what, asked, scheme)
-        return make_page(PageSubject(study), what, "png")
+        return make_page(PageSubject(study), what)
     exciting = check_torsion_orders(orders)
     source = make_source(take_model(engine), engine, engine.name, exciting)
     speeds = check_speeds("plot", speeds_rpm)
@@ -143,5 +135,5 @@ def _plot_engine(
 
 
 def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
-    known = torsion_pages.PAGES if result.response is not None else ("all", "modes", "campbell")
-    return make_torsion(result, _choose(what, known), "png")
+    known = ("all", *(OF_TORSION if result.response is not None else OF_TORSION[:2]))
+    return make_torsion(result, _choose(what, known))

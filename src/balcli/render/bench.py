@@ -68,7 +68,7 @@ def _error(row: Row) -> str:
 def draw_bench(result: Bench) -> bytes:
     """SVG: run time and error of every method, a panel a task, both axes logarithmic."""
     tasks = list(dict.fromkeys(r.task for r in result.rows))
-    with style.open_figure(5.2 * len(tasks), 4.6, "svg") as page:
+    with style.open_figure(5.2 * len(tasks), 4.6) as page:
         for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
             points = [r for r in result.rows if r.task == task and r.error is not None]
             for r in points:

@@ -15,7 +15,8 @@ from ..results.balance import Balance
 from ..studies.pictures import Study
 from . import analysis, balance
 from .page_scene import scene
-from .plot.pages import PageSubject, draw_panel, has_picture
+from .plot import OF_TORSION
+from .plot.pages import PageSubject, draw_panel
 from .plot.style import inline_svg, save_figure
 from .sheet import Facts, Grid, Text
 from .units import System
@@ -39,7 +40,6 @@ _PICTURES = (
     ("spectrum", "about"),
     ("curves", "about"),
 )
-_OF_TORSION = ("modes", "campbell", "response", "waterfall")
 _COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"))
 
 
@@ -117,8 +117,8 @@ def _gather_chapters(
         from .plot.torsion import make_torsion
 
         chapters |= {"torsion": torsion.sheet(twisted, system), "twists": []}
-        for what in _OF_TORSION:
-            figure = make_torsion(twisted, what, "svg", system, titled=False)
+        for what in OF_TORSION:
+            figure = make_torsion(twisted, what, system, titled=False)
             svg = inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
             chapters["twists"].append(Markup(svg))
     return chapters
@@ -138,7 +138,7 @@ def _choose_panels(
     chosen: list[tuple[PageSubject, str, str]] = []
     for what, quantity in panels:
         is_first = all(quantity != other for _, _, other in chosen)
-        if quantity in told and (is_first or has_picture(subject, quantity)):
+        if quantity in told and (is_first or not subject.find_words(quantity)):
             chosen.append((subject, what, quantity))
     return chosen
 

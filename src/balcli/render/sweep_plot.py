@@ -43,8 +43,8 @@ def _varied_parameters(sweep: Sweep) -> list[Parameter]:
     return [p for p in sweep.parameters if len(p) > 1]
 
 
-def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figure:
-    """A picture of a sweep that can be drawn, to be saved in this form.
+def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
+    """Return the picture of a sweep that `check_drawable` accepts.
 
     Args:
         values: each quantity on the whole grid.
@@ -52,14 +52,14 @@ def make_sweep(sweep: Sweep, values: Sequence[Array], form: style.Form) -> Figur
     several = _varied_parameters(sweep)
     if len(several) == 1:
         names = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))
-        with style.open_figure(7, 1.2 + 3 * len(names), form) as page:
+        with style.open_figure(7, 1.2 + 3 * len(names)) as page:
             places = page.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
             for axes, name in zip(places, names, strict=True):
                 _draw_curves(axes, sweep, values, name)
                 axes.label_outer()
             places[0].set_title(style.fit_name(sweep.file.name))
         return page
-    with style.open_figure(6 * len(values), 5.1, form) as page:
+    with style.open_figure(6 * len(values), 5.1) as page:
         style.put_title(page, style.fit_name(sweep.file.name))
         places = page.subplots(1, len(values), squeeze=False)[0]
         for axes, quantity, value in zip(places, sweep.quantities, values, strict=True):

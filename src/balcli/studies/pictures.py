@@ -71,17 +71,17 @@ def compute_study(
     scheme: str | None = None,
     options: SchemeOptions | None = None,
 ) -> Study:
-    """What the page `what` shows.
+    """Return what the page `what` shows.
 
     Args:
         engine: without trailing axes.
-        orders: which to show; of "bank" the first one counts.
+        orders: orders to show; "bank" shows the first one.
         scheme: the balance scheme to compare with, if any.
         options: of the scheme; "factor" takes planes alone.
 
     Raises:
-        BalcliError: an unknown scheme, one that cannot be fitted, or one beside a study that takes
-            none; a bank angle is asked of an engine that is no vee.
+        BalcliError: the scheme is unknown, cannot be fitted, or does not suit the page; the engine
+            is no vee and "bank" is asked for.
     """
     if what == "factor":
         return Study(analyze(engine, orders), factors=_sweep_factors(engine, scheme, options))
@@ -90,26 +90,22 @@ def compute_study(
     if scheme is not None:
         found = balance(engine, scheme, options, orders)
         engines = (found.after.engine, engine) if what == "inner" else ()
-        return Study(
-            found.after, found.before, found.remedy, bent=tuple(map(find_inner_loads, engines))
-        )
+        bent = tuple(map(find_inner_loads, engines))
+        return Study(found.after, found.before, found.remedy, bent=bent)
     now = analyze(engine, orders)
     if what in PAGES:
         return Study(now, gas=compute_picture(engine, what))
     if what == "inner":
         return Study(now, bent=(find_inner_loads(engine),))
     if what == "bank":
-        order = _find_lowest(now) if orders is None else orders[0]
-        return Study(now, banks=swing_banks(engine, order))
+        force = now.spectra["force"]
+        free = force.orders[(force.orders >= 1) & ~force.balanced].tolist()
+        return Study(now, banks=swing_banks(engine, orders[0] if orders else [*free, 2][0]))
     return Study(now)
 
 
 def refuse_scheme(scheme: str | None, what: str) -> None:
-    """Refuse devices in a picture of the engine without any.
-
-    Raises:
-        BalcliError: there is a scheme.
-    """
+    """Raise BalcliError if there is a scheme: the page shows the engine as it is."""
     if scheme is not None:
         raise BalcliError(
             f"--what {what} shows the engine as it is: leave --scheme and its options out"
@@ -119,11 +115,7 @@ def refuse_scheme(scheme: str | None, what: str) -> None:
 def _sweep_factors(
     engine: Engine, scheme: str | None, options: SchemeOptions | None
 ) -> tuple[FactorPeaks, ...]:
-    """Peaks over the balance factor, ascending, the best of all among them.
-
-    Raises:
-        BalcliError: another scheme is named, or a factor, or whatever else the scheme refuses.
-    """
+    """Return the peaks over the balance factor, ascending, with the best factor among them."""
     asked = options or SchemeOptions()
     if scheme not in (None, "factor"):
         raise BalcliError(f"--what factor is of the scheme factor: leave --scheme {scheme} out")
@@ -135,8 +127,11 @@ def _sweep_factors(
 
 
 def swing_banks(engine: Engine, order: float) -> Banks:
-    """The free force of an order while the two banks of a vee are swung apart from 0 to 180
+    """Return the free force of an order while the two banks of a vee are swung apart from 0 to 180
     degrees, the crankshaft unchanged.
+
+    Raises:
+        BalcliError: the engine is no vee.
     """
     c = engine.cylinders
     axes = np.ravel(c.axis_deg)
@@ -148,28 +143,10 @@ def swing_banks(engine: Engine, order: float) -> Banks:
         )
     middle, side = axes.mean(), np.sign(axes - axes.mean())
     angles = np.arange(0.0, 180.5, 1.0)
-    columns = [
-        _force(
-            replace(engine, cylinders=replace(c, axis_deg=middle + side * angle / 2), devices=()),
-            order,
-        )
-        for angle in angles
-    ]
-    vectors = np.stack([force.vectors for force in columns], axis=2)
-    force = Phasors(np.array([float(order)]), vectors, np.zeros(1))
+    forces = []
+    for angle in angles:
+        swung = replace(c, axis_deg=middle + side * angle / 2)
+        alone = replace(engine, cylinders=swung, devices=(), ripple=())
+        forces.append(compute_spectra(alone, [order], ["force"])["force"].vectors)
+    force = Phasors(np.array([float(order)]), np.stack(forces, axis=2), np.zeros(1))
     return Banks(order, angles, float(np.ptp(axes)), force)
-
-
-def _force(engine: Engine, order: float) -> Phasors:
-    return compute_spectra(replace(engine, ripple=()), [order], ["force"])["force"]
-
-
-def _find_lowest(now: Analysis) -> int:
-    """The lowest order with a free force, or the second."""
-    force = now.spectra["force"]
-    free = [
-        int(n)
-        for n, balanced in zip(force.orders, force.balanced, strict=True)
-        if n >= 1 and not balanced
-    ]
-    return free[0] if free else 2

@@ -23,13 +23,13 @@ _BESIDE = 1e-7  # deg, on both sides of a jump
 
 
 class Pressures(NamedTuple):
-    """Pressure in cylinder 1 over its cycle: what of its gas counts, all of it or a share.
+    """Pressure that counts in cylinder 1 over its cycle, each of shape (angles,).
 
     Attributes:
-        cycle_deg: from the gas-exchange dead centre to the next, 0 at firing, shape (angles,).
-        pressure: Pa, shape (angles,).
-        volume: m3, shape (angles,); above the smallest, where the compression ratio is not known.
-        clearance_known: whether it is.
+        cycle_deg: from one gas-exchange dead centre to the next, 0 at firing.
+        pressure: Pa.
+        volume: m3; above the smallest volume if the clearance is not known.
+        clearance_known: whether the compression ratio is given.
     """
 
     cycle_deg: Array
@@ -39,14 +39,7 @@ class Pressures(NamedTuple):
 
 
 class Torques(NamedTuple):
-    """Torque over a cycle, N m, each of shape (angles,).
-
-    Attributes:
-        crank_deg: angles.
-        gas, inertia, total: torques.
-        mean: of the total.
-        surplus: energy above it.
-    """
+    """Torque over a cycle, N m, each of shape (angles,), its mean and the surplus above that."""
 
     crank_deg: Array
     gas: Array
@@ -60,10 +53,10 @@ class PinLoads(NamedTuple):
     """Force of the rod on cylinder 1's crank pin, N, shape (angles,).
 
     Attributes:
-        crank_deg: angles.
-        in_crank: seen from the crank, real outward along the throw.
-        in_rod: seen from the rod, real towards the piston.
-        cylinder: number of the cylinder whose rod it is: 1, or that of its master rod.
+        crank_deg: crank angles.
+        in_crank: force seen from the crank, real outward along the throw.
+        in_rod: force seen from the rod, real towards the piston.
+        cylinder: number of the cylinder whose rod it is: 1, or its master rod's.
     """
 
     crank_deg: Array
@@ -73,12 +66,8 @@ class PinLoads(NamedTuple):
 
 
 class MainLoads(NamedTuple):
-    """Force of the shaft on each main bearing, N, shape (bearings, angles).
-
-    Attributes:
-        crank_deg: angles.
-        in_block: x + iy.
-        in_shaft: the same seen from the shaft.
+    """Force of the shaft on each main bearing as block and shaft feel it, N, shape (bearings,
+    angles).
     """
 
     crank_deg: Array
@@ -104,7 +93,7 @@ class Running(NamedTuple):
 
 
 def compute_running(engine: Engine) -> Running:
-    """Torque and pressure over a cycle, at the mean speed.
+    """Return torque and pressure over a cycle, at the mean speed.
 
     Raises:
         BalcliError: the engine has no gas.
@@ -117,21 +106,17 @@ def compute_running(engine: Engine) -> Running:
 
 
 def compute_picture(engine: Engine, what: str) -> GasPicture:
-    """What one of PAGES shows, at the mean speed.
+    """Return what a page of `PAGES` shows, at the mean speed.
 
     Raises:
-        BalcliError: the engine has no gas, or not what this page needs.
+        BalcliError: the engine has no gas, or lacks what the page shows.
     """
     steady = replace(engine, ripple=())
-    match what:
-        case "pressure" | "p-v":
-            return _find_pressures(steady)
-        case "torque":
-            return _find_torques(steady)
-        case "pin":
-            return _find_pin(steady)
-        case _:
-            return _find_main(steady)
+    if what == "torque":
+        return _find_torques(steady)
+    if what == "pin":
+        return _find_pin(steady)
+    return _find_main(steady) if what == "main" else _find_pressures(steady)
 
 
 def _find_pressures(engine: Engine) -> Pressures:
@@ -176,7 +161,7 @@ def _find_main(engine: Engine) -> MainLoads:
 
 
 def _divide(low: float, high: float, breaks: Array, cycle: float) -> Array:
-    """Close angles from one to another, also on both sides of each break."""
+    """Return angles every half degree, and on both sides of each break."""
     inside = low + np.remainder(breaks - low, cycle)
     every = [np.arange(low, high + _STEP / 2, _STEP), inside - _BESIDE, inside + _BESIDE]
     found = np.sort(np.concatenate(every))

@@ -7,19 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.phasors import Array, Complex
-from ...core.speed_variation import Surplus
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
 from ..units import ShownUnit, System
-from .axes import overlap
-from .legends import put_legend_above
-from .style import BLUE, FAINT, GREEN, INK, RED, SOFT
+from .charts import set_crank_axis
+from .plane import draw_path, set_up_plane
+from .style import BLUE, GREEN, INK, RED, SOFT, put_legend_above
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_MARKS = 8  # crank angles that are told along a locus, in a revolution
-_COLUMNS = 7  # of polar diagrams side by side
+_COLUMNS = 7  # polar diagrams side by side
 
 
 def draw_pressure(ax: Axes, found: Pressures, unit: ShownUnit) -> None:
@@ -27,14 +25,8 @@ def draw_pressure(ax: Axes, found: Pressures, unit: ShownUnit) -> None:
     s = unit.fit(float(found.pressure.max()))
     ax.plot(found.cycle_deg, found.pressure / s.size, color=BLUE)
     ax.axvline(0, color=SOFT, linewidth=0.7)
-    first, last = (round(float(v)) for v in found.cycle_deg[[0, -1]])
-    ax.set(
-        xlim=(first, last),
-        xticks=np.arange(first, last + 1, (last - first) // 8),
-        ylim=(0, None),
-        xlabel="cycle angle from the firing dead centre, deg",
-        ylabel=f"pressure, {s.name}",
-    )
+    set_crank_axis(ax, found.cycle_deg, "cycle angle from the firing dead centre, deg")
+    ax.set(ylim=(0, None), ylabel=f"pressure, {s.name}")
     ax.set_title("Pressure in cylinder 1")
 
 
@@ -43,9 +35,9 @@ def draw_p_v(ax: Axes, found: Pressures, system: System) -> None:
     s = system.pressure.fit(float(found.pressure.max()))
     v = system.volume.fit(float(found.volume.max()))
     ax.plot(found.volume / v.size, found.pressure / s.size, color=BLUE)
-    beside = "" if found.clearance_known else " above the smallest"
+    base = "" if found.clearance_known else " above the smallest"
     ax.set(xlim=(0, None), ylim=(0, None), ylabel=f"pressure, {s.name}")
-    ax.set_xlabel(f"volume{beside}, {v.name}")
+    ax.set_xlabel(f"volume{base}, {v.name}")
     ax.set_title("Indicator diagram of cylinder 1")
 
 
@@ -61,42 +53,29 @@ def draw_torque(ax: Axes, found: Torques, unit: ShownUnit) -> None:
     ax.plot(crank, found.inertia / s.size, color=RED, linewidth=1, linestyle=":", label="inertia")
     ax.plot(crank, total, color=INK, label="total")
     ax.axhline(mean, color=SOFT, linewidth=0.9, label="mean")
-    cycle = round(float(crank[-1]))
-    ax.set(
-        xlim=(0, cycle),
-        xticks=np.arange(0, cycle + 1, cycle // 8),
-        xlabel="crank angle, deg",
-        ylabel=f"torque, {s.name}",
-    )
-    _mark_speeds(ax, found.surplus, cycle, mean)
-    ax.set_title("Torque on the crank", pad=18)
+    set_crank_axis(ax, crank)
+    ax.set_ylabel(f"torque, {s.name}")
+    for angle, word, marker in (
+        (found.surplus.start, "slowest", "v"),
+        (found.surplus.end, "fastest", "^"),
+    ):
+        at = float(np.degrees(angle)) % crank[-1]
+        side = "right" if at > 0.8 * crank[-1] else "left"
+        ax.plot([at], [mean], marker, color=INK, markersize=5)
+        ax.text(at, mean, f" {word} ", ha=side, va="bottom", fontsize=7)
+    ax.set_title("Torque on the crank")
     put_legend_above(ax)
-
-
-def _mark_speeds(ax: Axes, surplus: Surplus, cycle: int, mean: float) -> None:
-    marks = ((surplus.start, "slowest", "v"), (surplus.end, "fastest", "^"))
-    for angle, word, marker in marks:
-        at = float(np.degrees(angle)) % cycle
-        ax.plot([at], [mean], marker=marker, color=INK, markersize=5, linestyle="none")
-        beside = "right" if at > 0.8 * cycle else "left"
-        ax.annotate(
-            word,
-            (at, mean),
-            xytext=(4 if beside == "left" else -4, 5),
-            textcoords="offset points",
-            ha=beside,
-            fontsize=7,
-        )
 
 
 def draw_pin(fig: Figure, found: PinLoads, unit: ShownUnit) -> None:
     """Draw the load of crank pin 1 as the crank feels it, and as the rod does."""
     left, right = fig.subplots(1, 2)
-    _draw_polar(left, found.in_crank, found.crank_deg, unit)
-    left.set_title(f"Crank pin of cylinder {found.cylinder}, on the crank")
+    limit = float(np.abs(found.in_crank).max())
+    _draw_polar(left, found.in_crank, found.crank_deg, unit, limit)
+    left.set_title(f"Crank pin of cylinder {found.cylinder}, on the crank", pad=6)
     left.set(xlabel="ahead of the throw", ylabel="along the throw, outward")
-    _draw_polar(right, found.in_rod, found.crank_deg, unit)
-    right.set_title("The same, seen from the rod")
+    _draw_polar(right, found.in_rod, found.crank_deg, unit, limit)
+    right.set_title("The same, seen from the rod", pad=6)
     right.set(xlabel="across the rod", ylabel="along the rod, to the piston")
 
 
@@ -106,44 +85,20 @@ def draw_main(fig: Figure, found: MainLoads, unit: ShownUnit) -> None:
     columns = min(count, _COLUMNS)
     rows = -(-count // columns)
     fig.set_size_inches(0.4 + 2.6 * columns, 0.6 + 5.6 * rows)
-    axes = fig.subplots(2 * rows, columns, squeeze=False)
-    for ax in axes.flat:
-        ax.set_axis_off()
-    limit = 1.1 * float(np.abs(found.in_block).max())
-    for k in range(count):
-        for side, loads, where in ((0, found.in_block, "block"), (1, found.in_shaft, "shaft")):
-            ax = axes[2 * (k // columns) + side, k % columns]
-            ax.set_axis_on()
+    limit = float(np.abs(found.in_block).max())
+    for side, (loads, body) in enumerate(((found.in_block, "block"), (found.in_shaft, "shaft"))):
+        for k in range(count):
+            place = (2 * (k // columns) + side) * columns + k % columns + 1
+            ax = fig.add_subplot(2 * rows, columns, place)
             _draw_polar(ax, loads[k], found.crank_deg, unit, limit)
-            ax.set_title(f"Main bearing {k + 1}, {where}")
+            ax.set_title(f"Main bearing {k + 1}, {body}", pad=6)
 
 
 def _draw_polar(
-    ax: Axes, force: Complex, crank_deg: Array, unit: ShownUnit, limit: float | None = None
+    ax: Axes, force: Complex, crank_deg: Array, unit: ShownUnit, largest: float
 ) -> None:
-    """Draw the way of a force's tip, x up and y to the right, with crank angles along it."""
-    half = 1.1 * float(np.abs(force).max()) if limit is None else limit
-    s = unit.fit(half)
-    values = force / s.size
-    ax.axhline(0, color=FAINT, linewidth=0.8)
-    ax.axvline(0, color=FAINT, linewidth=0.8)
-    ax.plot(values.imag, values.real, color=BLUE, linewidth=1.1)
-    side = half / s.size
-    ax.set(xlim=(-side, side), ylim=(-side, side), aspect="equal")
-    ax.locator_params(nbins=5)
-    step, written = 360 // _MARKS, list[complex]()
-    for mark in range(0, round(float(crank_deg[-1])), step):
-        at = int(np.argmin(np.abs(crank_deg - mark)))
-        ax.plot(values.imag[at], values.real[at], "o", color=BLUE, markersize=2.2)
-        near = any(overlap(complex(values[at]) - other, side) for other in written)
-        if mark % (2 * step) == 0 and not near:
-            written.append(complex(values[at]))
-            ax.annotate(
-                f"{mark}°",
-                (values.imag[at], values.real[at]),
-                xytext=(3, 3),
-                textcoords="offset points",
-                fontsize=6,
-                color=SOFT,
-            )
+    """Draw the path of a force's tip, x up and y to the right; `largest` of all its pictures, N."""
+    s = unit.fit(largest)
+    limit = set_up_plane(ax, largest / s.size, "", "")
+    draw_path(ax, force / s.size, crank_deg, 45, limit)
     ax.text(0.98, 0.02, s.name, transform=ax.transAxes, ha="right", va="bottom", fontsize=7)

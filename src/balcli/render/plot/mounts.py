@@ -4,7 +4,7 @@ and the body moving in each mode.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
@@ -27,7 +27,6 @@ from .style import (
     PAPER,
     RED,
     SOFT,
-    Form,
     fit_name,
     open_figure,
     put_title,
@@ -37,65 +36,59 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_MOST_CURVES = len(MANY_LOOKS)
 _WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
-_LABEL_HEIGHT = 0.035  # of an axis
 _SWING = 0.22  # of the body's size, by which its farthest corner moves in a picture of a mode
-_SIZE, _SHAPES_ALONE = (11.0, 8.6), (11.0, 3.2)
 
 
-def make_mounts(result: MountReport, form: Form, system: System) -> Figure:
-    """The picture, to be saved in this form."""
-    title = f"{fit_name(result.name or NAMELESS)}: on its mounts"
-    with open_figure(*(_SHAPES_ALONE if result.response is None else _SIZE), form) as fig:
-        put_title(fig, title)
-        if result.response is None:
-            shapes = fig.subplots(1, 6)
-        else:
+def make_mounts(result: MountReport, system: System) -> Figure:
+    """Return the picture of an engine on its mounts."""
+    response, mounted = result.response, result.mounted
+    with open_figure(*((11.0, 3.2) if response is None else (11.0, 8.6))) as fig:
+        put_title(fig, f"{fit_name(result.name or NAMELESS)}: on its mounts")
+        lower: Any = fig
+        if response is not None:
             halves: Any = fig.subfigures(2, 1, height_ratios=(2.1, 1))
             upper, lower = halves
-            several = upper.subplots(1, 3 if result.mounted.point_names else 2)
-            rpm, beside = result.response.speeds_rpm, list(_name_responses(result, result.response))
-            forces = [(each.force_peak, more) for each, more in beside]
-            _draw_curves(several[0], rpm, result.mounted.names, forces, system.force)
-            several[0].set_title("Force of each mount")
-            _draw_meetings(several[1], result, result.response)
-            if result.mounted.point_names:
-                motions = [(each.motion_peak, more) for each, more in beside]
-                _draw_curves(several[2], rpm, result.mounted.point_names, motions, system.length)
-                several[2].set_title("Motion of points")
-            shapes = lower.subplots(1, 6)
+            axes = upper.subplots(1, 3 if mounted.point_names else 2)
+            forces, motions = [("", response.force_peak)], [("", response.motion_peak)]
+            for other in result.beside:
+                name = f", {fit_name(other.name, 20)}"
+                forces.append((name, other.response.force_peak))
+                motions.append((name, other.response.motion_peak))
+            _draw_curves(axes[0], response.speeds_rpm, mounted.names, forces, system.force)
+            axes[0].set_title("Force of each mount")
+            _draw_meetings(axes[1], result, response)
+            if mounted.point_names:
+                rpm, points = response.speeds_rpm, mounted.point_names
+                _draw_curves(axes[2], rpm, points, motions, system.length)
+                axes[2].set_title("Motion of points")
+        shapes = lower.subplots(1, 6)
         for k, (ax, mode) in enumerate(zip(shapes, result.modes.six, strict=True), 1):
             _draw_mode(ax, k, mode, result)
         return fig
-
-
-def _name_responses(
-    result: MountReport, own: MountingResponse
-) -> Iterator[tuple[MountingResponse, str]]:
-    """The engine's own and what is shown beside, with what to add to a name."""
-    yield own, ""
-    yield from ((other.response, f", {fit_name(other.name, 20)}") for other in result.beside)
 
 
 def _draw_curves(
     ax: Axes,
     speeds_rpm: Real,
     names: Sequence[str],
-    curves: Sequence[tuple[Real, str]],
+    curves: Sequence[tuple[str, Real]],
     unit: ShownUnit,
 ) -> None:
-    """Over speed, a curve for each name; those with a scheme are thin and of the same look."""
-    for k, name in enumerate(names[:_MOST_CURVES]):
-        line, colour = MANY_LOOKS[k]
-        for values, more in curves:
+    """Draw a curve over speed for each name; the curves of schemes are thin, in the same colour.
+
+    Args:
+        curves: what is added to each name, and values of shape (speeds, names).
+    """
+    for k, (name, (line, colour)) in enumerate(zip(names, MANY_LOOKS, strict=False)):
+        for scheme, values in curves:
             ax.plot(
                 speeds_rpm,
-                [unit.of(value) for value in values[:, k]],
+                values[:, k] / unit.size,
                 color=colour,
-                linestyle="-." if more else line,
-                linewidth=1.0 if more else 1.8,
-                label=f"{fit_name(name, 20)}{more}",
+                linestyle="-." if scheme else line,
+                linewidth=1.0 if scheme else 1.8,
+                label=f"{fit_name(name, 20)}{scheme}",
             )
     ax.set_ylim(bottom=0)
     ax.set(xlabel="rpm", ylabel=f"{unit.name}, all orders")
@@ -103,7 +96,7 @@ def _draw_curves(
 
 
 def _draw_meetings(ax: Axes, result: MountReport, response: MountingResponse) -> None:
-    """Orders over speed, as wide as the force of the mount that feels most; modes lie across."""
+    """Draw orders over speed, as wide as the force of the mount with the largest, and modes."""
     hardest = int(find_first_largest([worst.value for worst in response.worst_force]))
     force = response.force[:, :, hardest]
     largest = force.max() or 1.0
@@ -112,18 +105,14 @@ def _draw_meetings(ax: Axes, result: MountReport, response: MountingResponse) ->
     for n, order in enumerate(response.loads.orders):
         hertz = order * rpm / 60
         width = np.maximum(_WIDEST * force[n] / largest, _THINNEST)
-        if width.max() > _THINNEST:
-            ax.scatter(rpm, hertz, s=width**2, color=BLUE, linewidths=0, zorder=3)
+        ax.scatter(rpm, hertz, s=width**2, color=BLUE, linewidths=0, zorder=3)
         ax.plot(rpm, hertz, color=BLUE, linewidth=_THINNEST)
-        inside = hertz < 0.97 * highest
-        if inside.any():
-            last = int(np.flatnonzero(inside)[-1])
+        inside = np.flatnonzero(hertz < 0.97 * highest)
+        if len(inside):
+            last = inside[-1]
             ax.text(rpm[last], hertz[last], f" {order_name(order)}", color=INK, va="bottom")
-    six = [mode.hertz for mode in result.modes.six]
-    for frequency in six:
-        ax.axhline(frequency, color=RED, linewidth=0.8)
-    for label, frequency in _name_modes(six, _LABEL_HEIGHT * highest):
-        ax.text(rpm[-1], frequency, label, color=RED, ha="right", va="bottom")
+    for mode in result.modes.six:
+        ax.axhline(mode.hertz, color=RED, linewidth=0.8)
     ax.set_ylim(0, highest)
     ax.set_xlim(rpm[0], rpm[-1] if len(rpm) > 1 else rpm[0] + 1)
     ax.set_title("Orders (blue) meet modes (red)")
@@ -131,21 +120,8 @@ def _draw_meetings(ax: Axes, result: MountReport, response: MountingResponse) ->
     ax.set_ylabel("Hz")
 
 
-def _name_modes(frequencies: Sequence[float], least: float) -> list[tuple[str, float]]:
-    """Numbers of modes, ascending, and where to write them: those nearer than `least` together, at
-    the highest of them.
-    """
-    named: list[tuple[str, float]] = []
-    for k, frequency in enumerate(frequencies, 1):
-        if named and frequency - named[-1][1] < least:
-            named[-1] = f"{named[-1][0]}, {k}", frequency
-        else:
-            named.append((f"{k}", frequency))
-    return named
-
-
 def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
-    """A block of the body's mass and inertia, at rest and at its swing's end, with its mounts."""
+    """Draw a block of the body's mass and inertia with its mounts, at rest and displaced."""
     body = result.mounted.body
     corners = find_corners(body)
     turned = mode.shape[:3] + np.cross(mode.shape[3:], corners)

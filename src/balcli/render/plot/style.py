@@ -1,5 +1,6 @@
-"""One style for all pictures, and the one place that owns figures: nothing global is left changed,
-no display is needed.
+"""The style of all pictures, and the figures that are drawn in it.
+
+Nothing global is left changed, and no display is needed.
 """
 
 from __future__ import annotations
@@ -16,21 +17,19 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, Literal
 from unicodedata import east_asian_width
 
-from .legends import fold_wide_legends
-
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from .picture import Picture
 
 Form = Literal["svg", "png", "pdf"]
 
-# Wong, Nature Methods 8 (2011) 441: told apart by colour-blind readers; line styles and hatches do
-# it in black and white.
+# Wong, Nature Methods 8 (2011) 441: colour-blind readers distinguish these colours; line styles and
+# hatches distinguish the curves in black and white.
 INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
-_LETTER, _EASTERN_LETTER = 0.1, 0.19  # width in a title, inches
 BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
-# Of up to twelve curves: neighbours are told apart in grey, too.
+# Looks of up to twelve curves.
 MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
 NAMES = {
     INK: "ink",
@@ -41,6 +40,7 @@ NAMES = {
     RED: "red",
     GREEN: "green",
 }
+_LETTER, _WIDE_LETTER = 0.1, 0.19  # width in a title, inches
 
 STYLE: Any = {
     "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
@@ -54,8 +54,6 @@ STYLE: Any = {
     "figure.titlesize": 12,
     "figure.titleweight": "bold",
     "text.parse_math": False,
-    "axes.unicode_minus": True,
-    "axes.formatter.use_mathtext": False,
     "text.color": INK,
     "axes.labelcolor": INK,
     "axes.titlecolor": INK,
@@ -85,148 +83,117 @@ STYLE: Any = {
     "svg.hashsalt": "balcli",
     "pdf.fonttype": 42,
 }
-# Families with Chinese, Japanese and Korean glyphs, for names that need them; SVG leaves that to
-# the reader's fonts.
-_EAST = (
+# Font families with Chinese, Japanese and Korean glyphs.
+_EASTERN = (
     "Noto Sans CJK SC",
     "Noto Sans CJK JP",
     "Source Han Sans SC",
     "WenQuanYi Micro Hei",
-    "Droid Sans Fallback",
     "Microsoft YaHei",
     "PingFang SC",
-    "Hiragino Sans",
-    "Malgun Gothic",
     "Arial Unicode MS",
 )
+_UNDATED: Any = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 _one_at_a_time = RLock()
-_UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 
 
 @contextmanager
-def open_figure(width: float, height: float, form: Form) -> Iterator[Picture]:
-    """A figure of that size in inches, for which everything is drawn in our style."""
-    with in_our_style(form):
+def open_figure(width: float, height: float) -> Iterator[Picture]:
+    """Open a figure of this size in inches; what is drawn within the context has our style."""
+    with in_our_style():
         from .picture import Picture
 
         yield Picture(figsize=(width, height), layout="constrained")
 
 
 @contextmanager
-def in_our_style(form: Form) -> Iterator[None]:
-    """What is drawn in this context is drawn in our style, whatever the user's own is. Threads draw
-    one after the other, for matplotlib has one style for all.
+def in_our_style() -> Iterator[None]:
+    """Set our style, whatever the user's own is, for one thread at a time: matplotlib has one style
+    for all threads.
     """
-    with _one_at_a_time, _set_log_level(), _set_style(form):
-        yield
-
-
-@contextmanager
-def _set_log_level() -> Iterator[None]:
-    logger = logging.getLogger("matplotlib")
-    usual = logger.level
-    logger.setLevel(logging.ERROR)  # "building the font cache" is no news for our users
-    try:
-        yield
-    finally:
-        logger.setLevel(usual)
-
-
-@contextmanager
-def _set_style(form: Form) -> Iterator[None]:
-    import matplotlib
-
-    with warnings.catch_warnings(), matplotlib.rc_context():
+    with _one_at_a_time, warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
-        matplotlib.rcdefaults()  # whatever the user's own matplotlibrc says
-        matplotlib.rcParams.update(
-            STYLE | {"font.family": ["sans-serif", *(_eastern_families() if form != "svg" else ())]}
-        )
-        yield
+        logger = logging.getLogger("matplotlib")
+        level = logger.level
+        logger.setLevel(logging.ERROR)  # "building the font cache" does not concern the user
+        try:
+            import matplotlib
+
+            with matplotlib.rc_context():
+                matplotlib.rcdefaults()
+                families = ["sans-serif", *_find_eastern_family()]
+                matplotlib.rcParams.update(STYLE | {"font.family": families})
+                yield
+        finally:
+            logger.setLevel(level)
 
 
-def lay_out_figure(figure: Figure) -> None:
-    """Find places for everything in a figure."""
-    lay_out = figure.get_layout_engine()
-    if lay_out is not None:
-        lay_out.execute(figure)
-        if fold_wide_legends(figure):
-            lay_out.execute(figure)
+@lru_cache(1)
+def _find_eastern_family() -> list[str]:
+    """Return the first installed font family with Eastern glyphs, or an empty list."""
+    from matplotlib.font_manager import get_font_names
+
+    installed = get_font_names()
+    return [family for family in _EASTERN if family in installed][:1]
 
 
 def save_figure(figure: Figure, form: Form) -> bytes:
-    """The picture as a file's content; the same figure gives the same bytes. Nothing can be changed
-    in the figure afterwards.
-    """
-    with in_our_style(form):
-        return _save(figure, form)
+    """Return a figure as the content of a file; the same figure gives the same bytes."""
+    with in_our_style():
+        buffer = BytesIO()
+        figure.savefig(buffer, format=form, metadata=_UNDATED[form])
+        return buffer.getvalue()
 
 
 def save_pages(figures: Iterable[Figure]) -> bytes:
-    """Pictures as the pages of one PDF; else as of `save_figure`."""
-    with in_our_style("pdf"):
+    """Return figures as the pages of one PDF."""
+    with in_our_style():
         from matplotlib.backends.backend_pdf import PdfPages
 
         buffer = BytesIO()
         with PdfPages(buffer, metadata=_UNDATED["pdf"]) as pages:
             for figure in figures:
-                _place(figure)
                 figure.savefig(pages, format="pdf")
         return buffer.getvalue()
 
 
-def _save(figure: Figure, form: Form) -> bytes:
-    _place(figure)
-    buffer = BytesIO()
-    figure.savefig(buffer, format=form, metadata=_UNDATED[form])
-    return buffer.getvalue()
-
-
-def _place(figure: Figure) -> None:
-    """Find the same places for everything on every machine."""
-    lay_out_figure(figure)
-    figure.set_layout_engine(None)  # matplotlib would lay it out again, and draw it twice
-    for ax in figure.axes:  # the solver of the layout is exact to the last bits only
-        left, bottom, width, height = (round(edge, 5) for edge in ax.get_position().bounds)
-        ax.set_position((left, bottom, width, height))
-
-
 def inline_svg(svg: bytes, name: str) -> str:
-    """An SVG to stand in a page: colours follow the page's (`--ink` ...), ids are its own, and it
-    grows with its column.
+    """Return an SVG that stands in an HTML page: its colours are those of the page (`--ink` ...),
+    its ids begin with `name`, and it grows with its column.
     """
     text = svg.decode()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.S)
     text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text)
-    text = re.sub(
-        r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"',
-        r'\1 style="max-width: \2pt"',
-        text,
-        count=1,
-    )
+    size = r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"'
+    text = re.sub(size, r'\1 style="max-width: \2pt"', text, count=1)
     return re.sub("|".join(NAMES), lambda colour: f"var(--{NAMES[colour[0]]})", text)
 
 
 def fit_name(name: str, most: int = 90) -> str:
-    """A name on one line that any format can hold, not longer than a title may be."""
-    text = "".join(c if c.isprintable() else " " for c in name)
-    text = " ".join(text.split())
+    """Return a name on one line that any format can hold, with at most this many letters."""
+    text = " ".join("".join(c if c.isprintable() else " " for c in name).split())
     return text if len(text) <= most else text[: most - 1].rstrip() + "…"
 
 
 def put_title(fig: Figure, text: str) -> None:
-    """A title over a figure, on as many lines as its width asks for."""
-    eastern = any(east_asian_width(letter) in "WF" for letter in text)
-    letters = int(fig.get_figwidth() / (_EASTERN_LETTER if eastern else _LETTER))
+    """Put a title over a figure, on as many lines as it needs."""
+    wide = any(east_asian_width(letter) in "WF" for letter in text)
+    letters = int(fig.get_figwidth() / (_WIDE_LETTER if wide else _LETTER))
     lines = [part for line in text.splitlines() for part in wrap(line, letters)]
     fig.suptitle("\n".join(lines), x=0.01, ha="left")
 
 
-@lru_cache(1)
-def _eastern_families() -> tuple[str, ...]:
-    """The first of the families with Eastern glyphs that is installed, if any."""
-    from matplotlib import font_manager
-
-    there = {font.name for font in font_manager.fontManager.ttflist}
-    return tuple(family for family in _EAST if family in there)[:1]
+def put_legend_above(ax: Axes, columns: int = 4) -> None:
+    """Put the legend between the axes and their title."""
+    legend = ax.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1),
+        ncols=columns,
+        handlelength=1.6,
+        columnspacing=1,
+        borderpad=0,
+        borderaxespad=0.3,
+        handletextpad=0.5,
+    )
+    legend.set_in_layout(False)  # a long legend must not narrow the axes

@@ -15,13 +15,23 @@ from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
 from ..units import SI, System
-from .style import BLUE, FAINT, INK, MANY_LOOKS, RED, SOFT, Form, fit_name, open_figure, put_title
+from .style import (
+    BLUE,
+    FAINT,
+    INK,
+    MANY_LOOKS,
+    RED,
+    SOFT,
+    fit_name,
+    open_figure,
+    put_legend_above,
+    put_title,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-PAGES = ("all", "modes", "campbell", "response", "waterfall")
 _MOST_MODES = 4  # whose shapes are drawn: more lie on one another
 _MOST_SHAFTS = 8  # whose torque is drawn: the largest
 _WIDEST = 0.9  # of an order in a waterfall, over the gap between orders: none covers another
@@ -30,18 +40,15 @@ _WORTH = 1e-3  # share of work from which a critical is drawn
 
 
 def make_torsion(
-    result: TorsionAnalysis, what: str, form: Form, system: System = SI, *, titled: bool = True
+    result: TorsionAnalysis, what: str, system: System = SI, *, titled: bool = True
 ) -> Figure:
-    """A page of pictures, as far as they were asked for; `what` is one of PAGES. With the system's
-    name above them, unless they are not to be titled.
-    """
+    """Return a page of pictures; `what` is "all" or one of `OF_TORSION`."""
     parts = list(_choose_parts(result, what, system))
-    rows, columns = (2, 2) if len(parts) > 2 else (1, 2)
-    if what != "all":
-        rows, columns = len(parts), 1
-    with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3, form) as fig:
-        for ax, draw in zip(_lay_out(fig, rows, columns), parts, strict=False):
-            draw(ax)
+    columns = 2 if what == "all" else 1
+    rows = -(-len(parts) // columns)
+    with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3) as fig:
+        for place, draw in enumerate(parts, 1):
+            draw(fig.add_subplot(rows, columns, place))
         name = fit_name(result.system.name) or "shafts without a name"
         if titled:
             put_title(fig, f"{name}: torsion")
@@ -51,29 +58,22 @@ def make_torsion(
 def _choose_parts(
     result: TorsionAnalysis, what: str, system: System
 ) -> Iterator[Callable[[Axes], None]]:
-    """What draws each of the pictures that a page of PAGES has, as far as they were computed."""
+    """Yield a function for each picture of a page, as far as its figures were computed."""
+    response, shafts = result.response, result.system.shafts
     if what in ("all", "modes"):
         yield lambda ax: _draw_modes(ax, result)
     if what in ("all", "campbell"):
         yield lambda ax: _draw_campbell(ax, result)
-    response, shafts = result.response, result.system.shafts
-    if response is None:
-        return
-    if what in ("all", "response") and shafts:
+    if response is not None and what in ("all", "response") and shafts:
         yield lambda ax: _draw_torque(ax, result, response, system)
-    if what == "response":
+    if response is not None and what == "response":
         yield lambda ax: _draw_swing(ax, result, response)
-    if what in ("all", "waterfall") and shafts:
+    if response is not None and what in ("all", "waterfall") and shafts:
         yield lambda ax: _draw_waterfall(ax, result, response, system)
 
 
-def _lay_out(fig: Figure, rows: int, columns: int) -> list[Axes]:
-    grid: Any = fig.subplots(rows, columns, squeeze=False)
-    return list(grid.flat)
-
-
 def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
-    """Angle of each node, joined along the shafts; a mesh of gears is dotted."""
+    """Draw the angle of each node, joined along the shafts; a mesh of gears is dotted."""
     chain, names = result.system.chain, result.system.nodes
     for mode, (line, colour) in zip(result.modes[:_MOST_MODES], MANY_LOOKS, strict=False):
         for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
@@ -88,14 +88,12 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     ax.tick_params(axis="x", labelrotation=90 if len(names) > 5 else 0)
     ax.set_ylim(-1.1, 1.1)
     if result.modes:
-        ax.legend(
-            loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1.9
-        )
-    ax.set_title("Shapes of modes: angle of each node", pad=22)
+        put_legend_above(ax)
+    ax.set_title("Shapes of modes: angle of each node")
 
 
 def _find_span(result: TorsionAnalysis) -> float:
-    """Highest speed of a Campbell diagram, rpm: of the range, or of the criticals that matter."""
+    """Return the highest speed of a Campbell diagram, rpm."""
     if result.response is not None:
         return float(result.response.speeds_rpm[-1])
     worth = [each.speed_rpm for each in result.criticals if each.work_share > 0.02]
@@ -104,7 +102,7 @@ def _find_span(result: TorsionAnalysis) -> float:
 
 
 def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
-    """Natural frequencies over speed, a ray for each order, a dot for each critical by its work."""
+    """Draw natural frequencies over speed, a ray for each order, a dot for each critical."""
     top = _find_span(result)
     drawn = [c for c in result.criticals if c.work_share > _WORTH and c.speed_rpm <= top]
     modes = {mode.number: mode for mode in result.modes}
@@ -130,7 +128,7 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
         height = modes[critical.mode].frequency_hz
         ax.scatter([critical.speed_rpm], [height], s=size, color=RED, alpha=0.7, zorder=3)
     ax.set(xlim=(0, 1.03 * top), ylim=(0, ceiling), xlabel="rpm", ylabel="Hz")
-    ax.set_title("Campbell diagram: orders, and criticals by work", pad=22)
+    ax.set_title("Campbell diagram: orders, and criticals by work")
     _shade_barred(ax, result)
 
 
@@ -142,8 +140,8 @@ def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
 def _draw_torque(
     ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> None:
-    """Half of peak to peak of the shafts with the largest; as stress, of those with a diameter,
-    where the file limits it. Each curve has its largest, too, where that lies between the speeds.
+    """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
+    with a diameter where the file limits it. Each curve includes its peak between the speeds.
     """
     worst = response.worst
     largest = np.argsort(-worst.torque, kind="stable").tolist()
@@ -161,13 +159,13 @@ def _draw_torque(
     if by_stress and limit is not None:
         ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
     _finish(ax, response, unit.name)
-    ax.set_title("Vibratory stress" if by_stress else "Vibratory torque", pad=34)
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, borderaxespad=0, handlelength=1.9)
+    ax.set_title("Vibratory stress" if by_stress else "Vibratory torque", pad=30)
+    put_legend_above(ax)
     _shade_barred(ax, result)
 
 
 def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
-    """Half swing of the first node, and its largest orders."""
+    """Draw the half swing of the first node, and its largest orders."""
     worst = response.worst
     rpm, swing = _put_in(response.speeds_rpm, response.free_end, worst.swing_rpm, worst.free_end)
     _, swings = _put_in(response.speeds_rpm, response.swings, worst.swing_rpm, worst.swings)
@@ -177,13 +175,13 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) ->
         label = f"order {order_name(float(response.orders[k]))}"
         ax.plot(rpm, np.degrees(swings[k]), line, color=colour, linewidth=1, label=label)
     _finish(ax, response, "deg")
-    ax.set_title(f"Half swing of {fit_name(result.system.nodes[0], 30)}", pad=34)
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3, borderaxespad=0, handlelength=1.9)
+    ax.set_title(f"Half swing of {fit_name(result.system.nodes[0], 30)}", pad=30)
+    put_legend_above(ax, 3)
     _shade_barred(ax, result)
 
 
 def _put_in(rpm: Real, values: Real, peak_rpm: float, peak: Real | float) -> tuple[Real, Real]:
-    """Speeds and the values (..., speeds) there, with a peak that lies at or between them."""
+    """Return speeds and values (..., speeds) with a peak inserted."""
     k = int(np.searchsorted(rpm, peak_rpm))
     return np.insert(rpm, k, peak_rpm), np.insert(values, k, peak, axis=-1)
 
@@ -197,7 +195,7 @@ def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
 def _draw_waterfall(
     ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> None:
-    """Torque of the shaft with the largest: each order a stream up the speeds, as wide as large."""
+    """Draw each order of the largest torque of a shaft as a stream up the speeds."""
     worst = response.worst
     shaft = int(np.argmax(worst.torque))
     rpm, amplitudes = _put_in(
@@ -218,4 +216,4 @@ def _draw_waterfall(
     name = fit_name(result.system.shafts[shaft], 22)
     unit = system.moment.fit(float(amplitudes.max()))
     largest = f"{number(unit.of(float(amplitudes.max())), 3)} {unit.name}"
-    ax.set_title(f"Torque of {name} by order: width, at most {largest}", pad=22)
+    ax.set_title(f"Torque of {name} by order: width, at most {largest}")

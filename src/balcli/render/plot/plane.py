@@ -1,0 +1,190 @@
+"""Pictures in the plane of forces and moments: loci, rotating vectors, and a vee by bank angle.
+
+The plane is seen from the free end: x up, y to the right, so that the crank turns clockwise.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...core.phasors import Array, Complex, Phasors
+from ...studies.pictures import Banks
+from ..sheet import NOTHING, number, order_name, size_text
+from ..units import ShownUnit
+from ..view import VISIBLE
+from .style import BLUE, INK, PAPER, RED, SOFT, put_legend_above
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
+_ORDER_ANGLE = 36  # degrees of the order's own angle, at which both of its vectors are seen apart
+_BOX: Any = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
+_BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
+
+
+def set_up_plane(ax: Axes, largest: float, up: str, right: str) -> float:
+    """Make the axes a square with the origin in its middle; returns half its side.
+
+    Args:
+        largest: size of the largest vector, in the unit of the axes.
+        up, right: labels of the axes.
+    """
+    limit = 1.25 * (largest or 1.0)
+    ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel=right, ylabel=up)
+    ax.locator_params(nbins=5)
+    ax.axhline(0, color=SOFT, linewidth=0.7, zorder=1)
+    ax.axvline(0, color=SOFT, linewidth=0.7, zorder=1)
+    return limit
+
+
+def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: float) -> None:
+    """Draw the path of a vector's tip, with dots every `step` degrees and the crank angle at every
+    second dot, on the outer side of the path.
+
+    Args:
+        path: in the unit of the axes, real upwards, shape (angles,).
+        crank_deg: shape (angles,).
+        step: crank angle between dots, degrees.
+        limit: half the side of the axes.
+    """
+    ax.plot(path.imag, path.real, color=BLUE)
+    marks = np.arange(0, crank_deg[-1], step)
+    rows = np.abs(crank_deg[:, None] - marks).argmin(axis=0)
+    at, along = path[rows], np.gradient(path)[rows]
+    ax.plot(at.imag, at.real, "o", color=BLUE, markersize=2.6)
+    normal = 1j * along * np.where((1j * along * at.conj()).real < 0, -1, 1)
+    normal = np.where(np.abs(along) > 0.05 * np.abs(along).max(initial=0), normal, at)
+    written: list[complex] = []
+    for mark, place, out in zip(marks[::2], at[::2], normal[::2], strict=True):
+        spot = place + 0.085 * limit * out / (abs(out) or 1)
+        if all(
+            abs(spot.real - other.real) > 0.07 * limit or abs(spot.imag - other.imag) > 0.16 * limit
+            for other in written
+        ):
+            where: Any = {"ha": "center", "va": "center", "bbox": _BOX, "zorder": 1.5}
+            ax.text(spot.imag, spot.real, f"{mark:g}°", fontsize=7, **where)
+            written.append(spot)
+
+
+def draw_locus(
+    ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
+) -> None:
+    """Draw where the tip of a vector goes in a revolution, dashed where it went `before`."""
+    angles = np.arange(find_period_deg(curve) + 1.0)
+    path = curve.values(np.radians(angles))
+    old = np.zeros(0, complex)
+    if before is not None:
+        old = before.values(np.radians(np.arange(find_period_deg(before) + 1)))
+    largest, most = np.abs(path).max(), np.abs([*path, *old]).max()
+    s = unit.fit(float(most))
+    limit = set_up_plane(
+        ax, float(most) / s.size, f"{what} along x, {s.name}", f"{what} along y, {s.name}"
+    )
+    path, old = path / s.size, old / s.size
+    if before is not None:
+        ax.plot(old.imag, old.real, color=SOFT, linewidth=1, linestyle=(0, (4, 2)), label="before")
+        ax.plot([], [], color=BLUE, label="after")
+        put_legend_above(ax)
+    if largest > 0.15 * most:
+        draw_path(ax, path, angles, angles[-1] / 12, limit)
+        _draw_arrow(ax, path, limit)
+        return
+    ax.plot(path.imag, path.real, color=BLUE)  # crank angles would overlap
+    size = f"at most {size_text(float(largest), unit, 3)}" if largest else NOTHING
+    ax.text(0, float(largest) / s.size + 0.06 * limit, size, ha="center", va="bottom", bbox=_BOX)
+
+
+def _draw_arrow(ax: Axes, path: Complex, limit: float) -> None:
+    """Draw the direction in which the tip goes along its path."""
+    start = len(path) // 25
+    way = path[start + 1] - path[start]
+    tip = path[start] + 0.02 * limit * way / (abs(way) or 1)
+    look: Any = {"arrowstyle": "-|>", "color": BLUE, "linewidth": 1.2, "mutation_scale": 13}
+    ax.annotate("", (tip.imag, tip.real), (path[start].imag, path[start].real), arrowprops=look)
+
+
+def find_period_deg(curve: Phasors) -> int:
+    """Return the crank angle after which the visible orders of a curve repeat, degrees."""
+    seen = curve.orders[curve.major > VISIBLE * curve.major.max(initial=0)]
+    repeats = int(np.gcd.reduce((2 * seen).astype(int), initial=0))  # in two revolutions
+    return 720 // min(repeats, 24) if repeats else 360
+
+
+def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> None:
+    """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
+    order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_ORDER_ANGLE))
+    s = unit.fit(float(curve.major[k]))
+    forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size
+    path = forward * np.exp(1j * _FINE) + backward * np.exp(-1j * _FINE)
+    set_up_plane(
+        ax, float(np.abs(path).max()), f"{what} along x, {s.name}", f"{what} along y, {s.name}"
+    )
+    ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
+    ax.plot(path.imag, path.real, color=INK)
+    start = 0j
+    for vector, colour, style, way in (
+        (complex(forward * phase), BLUE, "-", "with the crank"),
+        (complex(backward / phase), RED, (0, (3, 1)), "against it"),
+    ):
+        if not vector:
+            continue
+        ring, tip = start + vector * np.exp(1j * _FINE), start + vector
+        ax.plot(ring.imag, ring.real, color=colour, linewidth=0.7, linestyle=":")
+        look: Any = {"arrowstyle": "-|>", "color": colour, "linestyle": style, "shrinkA": 0}
+        look |= {"linewidth": 1.5, "shrinkB": 0, "mutation_scale": 11}
+        ax.annotate("", (tip.imag, tip.real), (start.imag, start.real), arrowprops=look)
+        label = f"{number(abs(vector), 3)} {s.name} {way}"
+        ax.plot([], [], color=colour, linestyle=style, label=label)
+        start = tip
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, columnspacing=1)
+
+
+def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
+    """Draw the path of the force's tip for several bank angles."""
+    from matplotlib import colormaps
+
+    shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in _BANKS_DEG]
+    s = unit.fit(float(banks.force.major.max(initial=0)))
+    ahead, against = banks.force.forward[0, shown], banks.force.backward[0, shown]
+    turn = np.exp(1j * _FINE)
+    paths = (ahead[:, None] * turn + against[:, None] / turn) / s.size
+    set_up_plane(
+        ax, float(np.abs(paths).max()), f"force along x, {s.name}", f"force along y, {s.name}"
+    )
+    for path, angle, shade in zip(paths, _BANKS_DEG, np.linspace(0, 0.9, 7), strict=True):
+        colour = colormaps["viridis"](shade)
+        ax.plot(
+            path.imag, path.real, "o-", color=colour, markevery=360, markersize=3, label=f"{angle}°"
+        )
+    ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle")
+    put_legend_above(ax, len(_BANKS_DEG))
+
+
+def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
+    """Draw the sizes of both rotating vectors as radii in the directions of the two banks, whose
+    angle is varied.
+    """
+    ahead, against = np.abs(banks.force.forward[0]), np.abs(banks.force.backward[0])
+    largest = float(max(ahead.max(), against.max()))
+    s = unit.fit(largest)
+    ax.set_theta_zero_location("N")
+    ax.set_theta_direction(-1)
+    half = np.radians(banks.angles_deg) / 2
+    for size, colour, style, label in (
+        (ahead, BLUE, "-", "with the crank"),
+        (against, RED, (0, (5, 1.5)), "against it"),
+    ):
+        both = np.concatenate([size[::-1], size]) / s.size
+        angles = np.concatenate([-half[::-1], half])
+        ax.plot(angles, both, color=colour, linestyle=style, label=label)
+    if banks.own_deg <= 180:
+        for side in (-0.5, 0.5):
+            ax.axvline(np.radians(side * banks.own_deg), color=INK, linewidth=0.9, linestyle=":")
+    marks = np.arange(-90, 91, 30)
+    ax.set_thetagrids(marks, [f"{abs(2 * mark):g}°" for mark in marks])
+    ax.set(thetamin=-90, thetamax=90, rmax=1.08 * largest / s.size or 1)
+    ax.set_title(f"Its two vectors by bank angle, {s.name} (dotted: this engine)", pad=6)
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.02), ncols=2)
