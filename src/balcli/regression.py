@@ -1,4 +1,10 @@
-"""Recorded results of engines against what is computed now."""
+"""Compare recorded results of engines with what balcli computes now.
+
+A record is the JSON document of `analyze` (orders, peaks, displacement, dead centers) with the
+main figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`.
+Two records agree if every leaf agrees: texts, whole numbers and flags exactly, figures within a
+share of the largest figure of their group, and angles within what such a share turns them by.
+"""
 
 from __future__ import annotations
 
@@ -7,22 +13,27 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import NoneType
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .engine.build import Engine
+from .enginefile.model import EngineFile
 from .errors import BalcliError
-from .forces.kinds import GAS, GAS_KINDS, KINDS, VECTORS
+from .forces.curves import compute_engine_curves
+from .forces.kinds import GAS, GAS_KINDS, KINDS
 from .forces.spectrum import Spectra
+from .limits import LARGEST_FILE_BYTES
 from .render import analysis_document as renderer
 from .results.analysis import analyze
 
-TOLERANCE = 1e-9  # of a quantity's largest order, beyond what rounding may do
+TOLERANCE = 1e-9  # share of the largest figure of a group, beyond what rounding may do
+PEAK_ANGLE_DEG = 1e-3  # a peak is flat: rounding moves its angle more than its value
 RECORDED = (*KINDS, "peak")
-_PARTS = ("forward", "backward", "cos", "sin")
-# whatever a record that somebody has edited may cause
-_UNREADABLE = (
+_LABELS = ("order", "mode", "name", "cylinder", "speed_rpm", "motion")
+_ANGLES = ("axis_deg", "phase_deg", "peak_deg")
+_BROKEN = (
     OSError,
     ValueError,
     OverflowError,
@@ -36,54 +47,84 @@ _UNREADABLE = (
 
 @dataclass(frozen=True)
 class Difference:
-    """A figure that moved, or a reason why it could not be compared.
+    """A figure that moved, or the reason why a record could not be compared.
 
     Attributes:
-        engine: its file, in messages.
-        figure: what moved, or why nothing could be compared.
-        recorded, now: its values; None where it has none.
-        share: by how much it moved, of the largest of its kind.
+        engine: Path of the engine file.
+        cause: What the figure belongs to, such as `force`; empty for a missing or broken record.
+        figure: The figure that moved, or the reason.
+        recorded: Recorded value; None without one.
+        now: Present value; None without one.
+        share: Size of the move over the largest figure of its group; None if it has no size.
     """
 
     engine: str
+    cause: str
     figure: str
-    recorded: float | None = None
-    now: float | None = None
+    recorded: Any = None
+    now: Any = None
     share: float | None = None
 
     def __str__(self) -> str:
-        if self.recorded is None or self.now is None:
-            return f"{self.engine}: {self.figure}"
-        return (
-            f"{self.engine}: {self.figure}: {self.recorded:.10g} -> {self.now:.10g} "
-            f"({self.share:.1e} of the largest)"
+        if not self.cause:
+            return self.figure
+        values = " -> ".join(
+            f"{v:.10g}" if isinstance(v, float) else str(v) for v in (self.recorded, self.now)
         )
+        share = "" if self.share is None else f" ({self.share:.1e} of the largest)"
+        return f"{self.figure}: {values}{share}"
 
 
-class _Place(NamedTuple):
-    """Where a figure stands in a result: name of its kind, `order 2` or `peak,`, part and unit."""
+class _Leaf(NamedTuple):
+    """A value of a record.
 
-    kind: str
-    order: str
-    part: str
+    Attributes:
+        path: Keys from the top of the document, and labels of list items such as `order 2`.
+        value: The value.
+        parent: The object in which the value stands.
+    """
+
+    path: tuple[str, ...]
+    value: Any
+    parent: Mapping[str, Any]
+
+    @property
+    def group(self) -> str:
+        """The first key with a unit: figures of one group are compared with the largest of them."""
+        units = ("_N", "_Nm", "_Hz", "_mm", "_Pa", "_J", "_W", "_m", "_m3")
+        return next((key for key in self.path if key.endswith(units)), self.path[-1])
+
+    @property
+    def cause(self) -> str:
+        """The quantity or chapter, as messages name it."""
+        names = {kind.key: kind.name for kind in (*KINDS.values(), *GAS_KINDS.values())}
+        found = [names[key] for key in self.path if key in names]
+        return found[0] if found else next((k for k in self.path if k != "orders"), "")
+
+    @property
+    def figure(self) -> str:
+        """The path in words."""
+        return " ".join(part for part in self.path if part != "orders")
 
 
+# ------------------------------------------------------------------ files
 def find_record(engine_file: Path) -> Path:
-    """Where the result of an engine file is recorded."""
+    """Return the path at which the result of an engine file is recorded."""
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
 def find_engine_file(record: Path) -> Path:
-    """The engine file whose result stands in this record (of `find_record`), there or not."""
+    """Return the path of the engine file whose result is recorded here, existing or not."""
     return record.parent.with_name(f"{record.stem}.toml")
 
 
 def find_abandoned(files: Iterable[Path]) -> list[Difference]:
-    """Recorded results (of `find_record`) among files, whose engine file is not there."""
+    """Return a difference for each record among `files` whose engine file is missing."""
     gone = {record: find_engine_file(record) for record in files}
     return [
         Difference(
             str(engine_file),
+            "",
             f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
             f"{engine_file.name}; bring it back, or delete the record",
         )
@@ -93,132 +134,262 @@ def find_abandoned(files: Iterable[Path]) -> list[Difference]:
 
 
 def _is_record(path: Path) -> bool:
-    """Whether a JSON file is such a result, and not what others expect."""
     try:
-        return bool(json.loads(path.read_text(encoding="utf-8"))["format"] == renderer.FORMAT)
-    except _UNREADABLE:
+        return bool(_read(path)["format"] == renderer.FORMAT)
+    except _BROKEN:
         return False
 
 
+def _read(record: Path) -> Any:
+    """Return the content of a record.
+
+    Raises:
+        BalcliError: The file is larger than an engine file may be, or no regular file.
+        OSError, ValueError: The file cannot be read.
+    """
+    if not record.is_file():
+        raise BalcliError("it is no regular file")
+    with record.open("rb") as file:
+        content = file.read(LARGEST_FILE_BYTES + 1)
+    if len(content) > LARGEST_FILE_BYTES:
+        raise BalcliError(f"it has more than {LARGEST_FILE_BYTES} bytes")
+    return json.loads(content.decode())
+
+
+def check_target(engine_file: Path) -> Path:
+    """Return the path at which to record the result of an engine file.
+
+    Raises:
+        BalcliError: A link leads out of the engine's folder, to a file of somebody else.
+    """
+    record, folder = find_record(engine_file), engine_file.parent.resolve()
+    if not record.resolve().is_relative_to(folder):
+        raise BalcliError(
+            f"{record}: is a link out of the folder of the engine; nothing is recorded there"
+        )
+    return record
+
+
+# ------------------------------------------------------------------ what is recorded
 def record_result(engine: Engine) -> str:
-    """The text to record of an engine."""
-    document = renderer.document(analyze(engine, only=_list_recorded(engine)))
-    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
+    """Return the text of the record of an engine."""
+    return json.dumps(_describe(engine)[0], indent=1, ensure_ascii=False) + "\n"
 
 
-def find_differences(name: str, engine: Engine, record: Path) -> list[Difference]:
-    """All figures of an engine that are not those of its recorded result; `name`: in messages."""
+def _describe(
+    engine: Engine, orders: Iterable[float] | None = None
+) -> tuple[dict[str, Any], Spectra]:
+    """Return the record of an engine, and the phasors of the orders in it."""
+    only = RECORDED if engine.gas is None else (*RECORDED, GAS.name)
+    found = analyze(engine, orders, only)
+    document = renderer.document(found) | _describe_chapters(engine)
+    return document, found.spectra
+
+
+def _describe_chapters(engine: Engine) -> dict[str, Any]:
+    """Return the main figures of the chapters that the engine file has."""
+    from .library.mounts import analyze_mounts
+    from .library.torque import analyze_torque
+    from .library.torsion import analyze_torsion
+
+    model: EngineFile | None = engine.model
+    found: dict[str, Any] = {}
+    if engine.gas is not None:
+        torque = analyze_torque(engine).to_dict()
+        found["torque"] = {
+            k: v for k, v in torque.items() if k not in ("orders", "format", "version", "speed_rpm")
+        }
+    if model is not None and model.body is not None and model.mount:
+        mounts = analyze_mounts(engine).to_dict()
+        found["mounts"] = {
+            "modes": [
+                {"mode": n, "frequency_Hz": m["frequency_Hz"]}
+                for n, m in enumerate(mounts["modes"], 1)
+            ],
+            "largest": [{"name": m["name"], **m["worst"]} for m in mounts["response"]["mounts"]],
+        }
+    if model is not None and model.torsion is not None:
+        torsion = analyze_torsion(engine).to_dict()
+        found["torsion"] = {
+            "modes": [
+                {"mode": n, "frequency_Hz": m["frequency_Hz"]}
+                for n, m in enumerate(torsion["modes"], 1)
+            ],
+            "criticals": torsion.get("criticals", []),
+        }
+    return found
+
+
+# ------------------------------------------------------------------ comparison
+def find_differences(
+    name: str, engine: Engine, record: Path, tolerance: float = TOLERANCE
+) -> list[Difference]:
+    """Return every figure of an engine that differs from its record.
+
+    Args:
+        name: Path of the engine file, for messages.
+        engine: The engine.
+        record: Path of the record.
+        tolerance: Allowed move, as a share of the largest figure of the group.
+    """
     where = f"{record.parent.name}/{record.name}"
     if not record.exists():
-        missing = f"no result is recorded in {where}; check --update records it"
-        return [Difference(name, missing)]
-    wanted = _list_recorded(engine)
-    found = analyze(engine, only=wanted)
-    document = renderer.document(found)
+        return [
+            Difference(name, "", f"no result is recorded in {where}; check --update records it")
+        ]
+    document, spectra = _describe(engine)
     try:
-        recorded = json.loads(record.read_text(encoding="utf-8"))
-        if document == recorded:  # to the last digit, as where the same processor recorded it
+        recorded = _read(record)
+        if document == recorded:
             return []
-        old = dict(_list_figures(recorded))
-        if not all(map(math.isfinite, old.values())):  # beside infinity nothing would differ
-            raise BalcliError("a figure is not finite")
-        exactly_old = _list_exact_figures(recorded)
         orders = {entry["order"] for entry in recorded["orders"]}
-        if not orders <= set(found.orders):
-            found = analyze(engine, {*orders, *found.orders}, wanted)
-            document = renderer.document(found)
-    except _UNREADABLE as error:
-        broken = f"the result recorded in {where} cannot be read ({_describe_broken(error)})"
-        return [Difference(name, f"{broken}; check --update records it anew")]
-    exactly_new = _list_exact_figures(document).items()
-    moved = [
-        (what, exactly_old[what], now) for what, now in exactly_new if exactly_old[what] != now
-    ]
-    return [
-        *(Difference(name, f"{what}: {old} -> {now}") for what, old, now in moved),
-        *_compare_figures(name, old, dict(_list_figures(document)), _find_roundings(found.spectra)),
-    ]
+        if not orders <= set(spectra.orders):
+            document, spectra = _describe(engine, {*orders, *spectra.orders})
+        old = {leaf.path: leaf for leaf in _list_leaves(recorded)}
+        numbers = [leaf.value for leaf in old.values() if isinstance(leaf.value, (int, float))]
+        if not all(map(math.isfinite, numbers)):
+            raise BalcliError("a figure is not finite")
+        new = {leaf.path: leaf for leaf in _list_leaves(document)}
+        return list(_compare(name, engine, old, new, spectra, tolerance))
+    except _BROKEN as error:
+        broken = f"the result recorded in {where} cannot be read ({_describe_error(error)})"
+        return [Difference(name, "", f"{broken}; check --update records it anew")]
 
 
-def _describe_broken(error: Exception) -> str:
-    """Why a recorded result cannot be read, for people who know no Python."""
+def _describe_error(error: Exception) -> str:
     if isinstance(error, OSError):
         return error.strerror or str(error)
     if isinstance(error, json.JSONDecodeError):
         return f"it is not JSON: line {error.lineno}"
     if isinstance(error, KeyError):
         return f"{error.args[0]} is missing"
-    if isinstance(error, BalcliError):
-        return str(error)
-    return "it is no result of balcli analyze"
+    return str(error) if isinstance(error, BalcliError) else "it is no result of balcli analyze"
 
 
-def _list_recorded(engine: Engine) -> tuple[str, ...]:
-    """What is recorded of an engine: with gas, also what that does."""
-    return RECORDED if engine.gas is None else (*RECORDED, GAS.name)
+def _list_leaves(
+    value: Any, path: tuple[str, ...] = (), parent: Mapping[str, Any] | None = None
+) -> Iterator[_Leaf]:
+    if isinstance(value, dict):
+        for key, part in value.items():
+            yield from _list_leaves(part, (*path, key), value)
+    elif isinstance(value, list):
+        for number, part in enumerate(value, 1):
+            labels = (
+                [f"{key} {part[key]}" for key in _LABELS if key in part]
+                if isinstance(part, dict)
+                else []
+            )
+            pair = path[-1] in ("forward", "backward")
+            yield from _list_leaves(
+                part,
+                (*path, " ".join(labels) or ("xy"[number - 1] if pair else str(number))),
+                parent,
+            )
+    else:
+        yield _Leaf(path, value, parent or {})
 
 
-def _list_exact_figures(document: dict[str, Any]) -> dict[str, Any]:
-    """What must be the same to the last digit."""
-    return {
-        "format": document["format"],
-        "number of cylinders": document["engine"]["cylinders"],
-        "speed, rpm": document["speed_rpm"],
-    }
-
-
-def _compare_figures(
+def _compare(
     name: str,
-    old: Mapping[_Place, float],
-    new: Mapping[_Place, float],
-    roundings: Mapping[tuple[str, str], float],
+    engine: Engine,
+    old: Mapping[tuple[str, ...], _Leaf],
+    new: Mapping[tuple[str, ...], _Leaf],
+    spectra: Spectra,
+    tolerance: float,
 ) -> Iterator[Difference]:
     largest: dict[str, float] = {}
-    for figures in (old, new):
-        for place, value in figures.items():
-            largest[place.kind] = max(largest.get(place.kind, 0.0), abs(value))
-    for place in dict.fromkeys((*new, *old)):
-        before, after = old.get(place, 0.0), new.get(place, 0.0)
-        scale, move = largest[place.kind], abs(after - before)
-        allowed = TOLERANCE * scale + roundings.get((place.kind, place.order), 0.0)
-        if not move <= allowed:  # nan is a difference
-            yield Difference(name, " ".join(filter(None, place)), before, after, move / scale)
+    for leaf in (*old.values(), *new.values()):
+        if isinstance(leaf.value, float) and not leaf.path[-1].endswith("_deg"):
+            largest[leaf.group] = max(largest.get(leaf.group, 0.0), abs(leaf.value))
+    roundings = _find_roundings(spectra)
+    for path in dict.fromkeys((*new, *old)):
+        leaf = new.get(path) or old[path]
+        before, after = (table[path].value if path in table else None for table in (old, new))
+        scale = largest.get(leaf.group, 0.0)
+        order = next((part for part in path if part.startswith("order ")), "")
+        allowed = tolerance * scale + roundings.get((leaf.group, order), 0.0)
+        figures = [
+            value or 0.0 for value in (before, after) if isinstance(value, (float, NoneType))
+        ]
+        shared = path in old and path in new
+        if path[-1] in _ANGLES:
+            same = _are_same_angles(path[-1], old.get(path), new.get(path), order, allowed)
+        elif path[-1] == "balanced":  # another processor may round an order to exactly balanced
+            same = before == after or _differ_by_rounding(old.get(path), new.get(path), allowed)
+        elif path[-1].endswith("_deg") and isinstance(before, float) and isinstance(after, float):
+            flat = 1e-6 if path[0] == "travel" else PEAK_ANGLE_DEG
+            same = abs(after - before) <= flat or _reach_same_peak(engine, path, figures, allowed)
+        elif len(figures) == 2 and (None not in (before, after) or not shared):
+            same = abs(figures[1] - figures[0]) <= allowed
+        else:  # an order that only one of them has is judged by its figures
+            same = before == after or (
+                path[-1] == "order" and not shared and leaf.value > 2
+            )  # 1 and 2 are always recorded
+        if not same:
+            sized = len(figures) == 2 and scale and not path[-1].endswith("_deg")
+            yield Difference(
+                name,
+                leaf.cause,
+                leaf.figure,
+                before,
+                after,
+                abs(figures[1] - figures[0]) / scale if sized else None,
+            )
+
+
+def _differ_by_rounding(old: _Leaf | None, new: _Leaf | None, allowed: float) -> bool:
+    """Return whether what two leaves belong to is not the same, and rounding in both."""
+    sizes = [() if leaf is None else _find_sizes(leaf) for leaf in (old, new)]
+    return sizes[0] != sizes[1] and all(abs(size) <= allowed for each in sizes for size in each)
+
+
+def _find_sizes(leaf: _Leaf) -> tuple[float, ...]:
+    return tuple(
+        leaf.parent.get(key) or 0.0 for key in ("major", "amplitude") if key in leaf.parent
+    )
+
+
+def _are_same_angles(
+    key: str, old: _Leaf | None, new: _Leaf | None, order: str, allowed: float
+) -> bool:
+    """Return whether two angles agree as far as the sizes of what they belong to decide it."""
+    if old is None or new is None:
+        return _differ_by_rounding(old, new, allowed)
+    weights = [
+        _ellipticity(leaf) if key == "axis_deg" else sum(_find_sizes(leaf)) for leaf in (old, new)
+    ]
+    if old.value is None or new.value is None:
+        return old.value == new.value or (weights[0] != weights[1] and max(weights) <= 4 * allowed)
+    number = float(order.removeprefix("order ") or 1)
+    turn = {"axis_deg": 180.0, "phase_deg": 360.0, "peak_deg": 360.0 / (number or 1)}[key]
+    move = abs(math.remainder(new.value - old.value, turn))
+    return move <= 1e-9 or math.radians(move) * min(weights) <= 4 * allowed
+
+
+def _ellipticity(leaf: _Leaf) -> float:
+    return float((leaf.parent.get("major") or 0.0) - abs(leaf.parent.get("minor") or 0.0))
+
+
+def _reach_same_peak(
+    engine: Engine, path: tuple[str, ...], degrees: list[float], allowed: float
+) -> bool:
+    """Return whether the curve is as large at one angle as at the other."""
+    if path[0] != "peak":
+        return False
+    kind, unit = ("force", "N") if path[-1] == "force_deg" else ("moment", "Nm")
+    values = compute_engine_curves(engine, np.array(degrees)).values
+    sizes = np.hypot(values[f"{kind}_x_{unit}"], values[f"{kind}_y_{unit}"])
+    return bool(abs(sizes[0] - sizes[1]) <= 4 * allowed)
 
 
 def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
-    """How far rounding may move a figure, by the kind and order of its place: what decides whether
-    an order is balanced. Where all large orders cancel, that is more than TOLERANCE of what is
-    left, and the next processor may round otherwise.
+    """Return how far rounding may move a figure, by group and order: what decides whether an order
+    is balanced. Where all large orders cancel, this is more than a share of what remains.
     """
     errors: dict[tuple[str, str], float] = {}
     for kind, phasors in found.items():
         each = 2 * np.broadcast_to(phasors.noise, phasors.forward.shape)
         for order, error in zip(phasors.orders, each, strict=True):
-            errors[kind.name, f"order {order:g}"] = float(error)
-        errors[kind.name, "peak,"] = float(each.sum())
+            errors[kind.key, f"order {order:g}"] = float(error)
+        errors[kind.key, ""] = float(each.sum())
     return errors
-
-
-def _list_figures(document: dict[str, Any]) -> Iterator[tuple[_Place, float]]:
-    """Everything that is compared within a tolerance."""
-    for entry in document["orders"]:
-        gas = [kind for kind in GAS_KINDS.values() if kind.key in entry]
-        there = [*KINDS.values(), *gas]
-        for kind in there:
-            for part, value in _list_parts(entry[kind.key]):
-                place = _Place(kind.name, f"order {entry['order']}", f"{part}, {kind.si_unit}")
-                yield place, value
-    for kind in VECTORS:
-        place = _Place(kind.name, "peak,", kind.si_unit)
-        yield place, float(document["peak"][kind.key])
-
-
-def _list_parts(figures: dict[str, Any]) -> Iterator[tuple[str, float]]:
-    """The figures of one kind and order that are compared, vectors component by component."""
-    for part in _PARTS:
-        value = figures.get(part)
-        if isinstance(value, list):
-            for axis, component in zip("xy", value, strict=True):
-                yield f"{part} {axis}", float(component)
-        elif value is not None:
-            yield part, float(value)
