@@ -20,6 +20,7 @@ from pathlib import Path
 
 import pytest
 import typer
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
 from support.paths import ENGINES, ROOT, SOURCE, write
@@ -92,36 +93,7 @@ def usage(command: str, message: str) -> str:
     return f"Usage: {name} {form}\nTry '{name} -h' for help.\n\nError: {message}\n"
 
 
-@pytest.mark.parametrize(
-    ("args", "command", "message"),
-    [
-        (["frobnicate"], "", "No such command 'frobnicate'."),
-        (["anlyze"], "", "No such command 'anlyze'. Did you mean analyze?"),
-        (["mine.toml"], "", "No such command 'mine.toml'. Did you mean balcli analyze mine.toml?"),
-        (["version"], "", "No such command 'version'. That is balcli --version."),
-        (["Flywheel"], "", "No such command 'Flywheel'. That is balcli torque FILE."),
-        (["bobweights"], "", "No such command 'bobweights'. That is balcli balance FILE --factor 51% --format card."),
-        (["--frob"], "", "No such option: --frob"),
-        (["check", I4, "--json"], "check", "No such option: --json"),
-        (
-            ["analyze", V8, "--json"],
-            "analyze",
-            "No such option: --json (Possible options: --only). That is --format json.",
-        ),
-        (
-            ["balance", V8, "--overbalance", "2%"],
-            "balance",
-            "No such option: --overbalance (Possible options: --verbose). That is --factor 51%.",
-        ),
-        (
-            ["analyze", V8, "-f", "latex"],
-            "analyze",
-            "Invalid value for '--format' / '-f': 'latex' is not one of 'table', 'json', 'csv', "
-            "'markdown', 'marine'; for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex).",
-        ),
-        (["analyze", V8, "--by", "bank"], "analyze", 'Invalid value for --by: "bank": only "cylinder" can be chosen'),
-    ],
-)
+@cases("cli", "wrong_usage_shows_how_a_command_is_used", I4=I4, V8=V8)
 def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message):
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
@@ -165,24 +137,7 @@ def test_an_option_of_other_commands_is_told_with_them(balcli):
     )
 
 
-@pytest.mark.parametrize(
-    ("args", "told"),
-    [
-        (["analyze"], "FILE"),
-        (["analyze", V8, "--format", "xml"], "'xml' is not one of"),
-        (["analyze", V8, "--only"], "--only"),
-        (["new"], "KIND"),
-        (
-            ["search", V8, "--over", "throws", "--minimise", "force.1.major", "--require", "x"],
-            '"x": only even-firing can be required',
-        ),
-        (["balance", V8, "--factor", "52", "%"], '(%): a value or a name with a blank goes in quotes, such as "52 %"'),
-        (
-            ["balance", V8, "other.toml"],
-            "(other.toml): no more files are read; balcli analyze and balcli compare read several.",
-        ),
-    ],
-)
+@cases("cli", "bad_usage_that_the_parser_words", V8=V8)
 def test_bad_usage_that_the_parser_words(balcli, args, told):
     """Its text changes with its version; what is needed to mend it stands in the last line."""
     status, out, err = balcli(*args)
@@ -223,30 +178,7 @@ def test_bad_input_is_told_in_one_line(balcli, args, message):
     assert balcli(*args) == (2, "", f"balcli: {message}\n")
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--orders", "0x"], '--orders "0x": give orders such as 1-8, 1,2,4 or 0.5-8'),
-        (["--orders", ""], '--orders "": give orders such as 1-8, 1,2,4 or 0.5-8'),
-        (["--orders", "-1"], '--orders "-1": give orders such as 1-8, 1,2,4 or 0.5-8'),
-        (["--orders", "8-1"], '--orders "8-1": 8-1 must rise and end at 4096 at most'),
-        (["--orders", "1,5000"], '--orders "1,5000": 5000 must rise and end at 4096 at most'),
-        (["--speed", "0"], "--speed 0: the crank speed must be a positive number of rpm, below 1e9"),
-        (["--speed", "nan"], "--speed nan: the crank speed must be a positive number of rpm, below 1e9"),
-        (
-            ["--only", "force,noise"],
-            "--only noise: choose from force, moment, couple, torque, roll, peak, sizing, gas, "
-            "torque_total, roll_total, inner, guide, xy, textbook, verdict",
-        ),
-        (
-            ["--only", "guide", "--guide-height", "0"],
-            "--guide-height 0: the distance from the crankshaft to the middle of the guides must be "
-            "positive, below 1000 m",
-        ),
-        (["-o", "/nowhere/x.txt"], "/nowhere/x.txt: cannot be written (there is no folder /nowhere)"),
-        (["-o", str(ROOT)], f"{ROOT}: is a folder, so no file can be written there"),
-    ],
-)
+@cases("cli", "bad_options_are_told_in_one_line", ROOT=ROOT)
 def test_bad_options_are_told_in_one_line(balcli, options, message):
     assert balcli("analyze", V8, *options) == (2, "", f"balcli: {message}\n")
 
@@ -402,16 +334,7 @@ def test_nor_does_the_name_of_a_file(balcli, tmp_path):
 LOCKED = changed(("length = 160", "length = 40"), ("cg = 45", "cg = 15"))
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        ("analyze",),
-        ("balance",),
-        ("scatter",),
-        ("sweep", "--vary", "rod.cg=0,1"),
-        ("search", "--over", "throws", "--minimise", "force.1.major"),
-    ],
-)
+@cases("cli", "what_cannot_be_an_engine_goes_by_its_file")
 def test_what_cannot_be_an_engine_goes_by_its_file(balcli, tmp_path, command):
     file = write(tmp_path / "locked.toml", LOCKED)
     for name, called in ((str(file), str(file)), ("-", "standard input")):

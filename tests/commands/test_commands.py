@@ -14,6 +14,7 @@ from contextlib import nullcontext
 from types import ModuleType
 
 import pytest
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, tables
 from support.paths import ENGINES, write
@@ -66,17 +67,7 @@ def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what,
 
 
 @pytest.mark.stress
-@pytest.mark.parametrize(
-    ("command", "options", "same"),
-    [
-        ("report", ["--factor", "51%"], ["--scheme", "factor", "--factor", "0.51"]),
-        (
-            "plot",
-            ["--scheme", "single-shaft", "--order=1", "--at=-60,80"],
-            ["--scheme", "single-shaft", "--at=-6cm,8cm"],
-        ),
-    ],
-)
+@cases("commands/commands", "pictures_take_the_options_of_schemes")
 def test_pictures_take_the_options_of_schemes(balcli, tmp_path, command, options, same):
     """And show what they change."""
     twin, file = ENGINES / "twin270.toml", tmp_path / "x.html"
@@ -370,50 +361,7 @@ def test_a_search_and_a_scatter_in_csv(four):
 
 
 # ------------------------------------------------------------------ refusals, word for word
-@pytest.mark.parametrize(
-    ("command", "engine", "options", "message"),
-    [
-        (
-            "balance",
-            "single",
-            "--scheme minimax --planes nonsense",
-            '--planes "nonsense": give ends, throws, or places along z in mm',
-        ),
-        (
-            "balance",
-            "i5",
-            "--scheme minimax --planes 3,3",
-            "--planes: one plane, or planes at the same z, cannot take a moment",
-        ),
-        (
-            "balance",
-            "vtwin90",
-            "--scheme two-shaft --order 1 --roll zero",
-            "order 1: its force turns with the crank alone, so that one shaft takes it and none "
-            "is left to be placed for the roll",
-        ),
-        (
-            "balance",
-            "single",
-            "--scheme single-shaft --at 1,2 --at 3,4",
-            "--at: this scheme has one place; give it once",
-        ),
-        ("balance", "i4", "--scheme two-shaft --at 1,2 --at 3,4 --at 5,6", "--at: a pair of shafts has two places"),
-        (
-            "sweep",
-            "single",
-            "--vary rod.length=100,200 --vary rod.length=3,4 --quantity force.1.major",
-            "rod.length is varied twice; give all its values at once",
-        ),
-        (
-            "search",
-            "single",
-            "--over throws --minimise force.1.major",
-            "there is nothing to permute: the crank has one throw; give crank.throws, or a "
-            "layout.firing_order they follow from",
-        ),
-    ],
-)
+@cases("commands/commands", "refusals_say_what_would_be_right")
 def test_refusals_say_what_would_be_right(command, engine, options, message):
     assert message in refusal(command, ENGINES / f"{engine}.toml", *options.split())
 

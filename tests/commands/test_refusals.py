@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from support.cases import cases
 from support.commands import refusal, run_here
 from support.gas_engines import FOUR
 from support.paths import ENGINES
@@ -36,41 +37,7 @@ def files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("command", "message"),
-    [
-        ("analyze diagram.toml", "diagram.toml: gas.indicator: latin.csv: is not UTF-8 text; save it as UTF-8"),
-        (
-            "analyze workbook.toml",
-            "workbook.toml: gas.indicator: p.xlsx: is a workbook or another packed file; save the sheet as CSV",
-        ),
-        ("analyze p.xlsx", "p.xlsx: is a workbook or another packed file, no text; write TOML, as `balcli new` does"),
-        (
-            "analyze blank.toml",
-            'blank.toml: gas.indicator: "  " is no name of a file; give the name of a file, such as "p_2000rpm.csv"',
-        ),
-        (
-            "analyze exchange.toml",
-            'exchange.toml: gas.zero: a two-stroke cycle has no gas-exchange dead centre; give "firing"',
-        ),
-        ("analyze harmonics.toml", "harmonics.toml: gas.harmonics: heads.csv: has no rows; give order,cos,sin in each"),
-        (
-            "analyze bmep.toml",
-            "bmep.toml: gas.bmep: over mechanical_efficiency, the imep, is -3.75 bar: with the "
-            "least heat the cycle has 0.09318 bar",
-        ),
-        ("torque --curve still.csv", "still.csv: has no two angles; the last row has to close the period"),
-        (
-            "torsion four.toml",
-            "four.toml: has no [torsion]; write it with throw_stiffness, throw_inertia and "
-            "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]",
-        ),
-        (
-            "sweep four.toml --vary rod.length=140:150:5 --quantity force.1.major --format parquet",
-            "parquet is written into a file: name one with -o",
-        ),
-    ],
-)
+@cases("commands/refusals", "files")
 def test_files(command, message):
     assert refusal(*command.split()) == message
 

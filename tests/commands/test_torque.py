@@ -10,6 +10,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES, write
@@ -242,17 +243,7 @@ def test_the_load_takes_its_share(curve, tmp_path):
     assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in told
 
 
-@pytest.mark.parametrize(
-    ("load", "told"),  # 1000 N m over a sixth of a turn: 166.67 N m in the mean
-    [
-        ("0,1000\n60,1000\n60,0\n360,0", "166.67 N·m in the mean, and 33.333 N·m evenly"),
-        ("0,2000\n60,2000\n60,0\n360,0", "333.33 N·m in the mean, and -133.33 N·m evenly"),
-        ("0,400\n180,400\n180,0\n360,0", "200 N·m in the mean"),
-        ("0,0.1\n70,0.8\n140,0.1\n290,-0.6\n360,0.1", "0.022222 N·m in the mean, and 199.98 N·m evenly"),
-        ("0,0\n70,0.7\n140,0\n250,-0.7\n320,0\n360,0", "-0.038889 N·m in the mean, and 200.04 N·m evenly"),
-        ("0,0\n70,0.7\n140,0\n210,-0.7\n280,0\n360,0", "0 N·m in the mean, and 200 N·m evenly"),
-    ],
-)
+@cases("commands/torque", "what_the_mean_of_a_load_leaves_is_told")
 def test_what_the_mean_of_a_load_leaves_is_told(tmp_path, load, told):
     motor, press = tmp_path / "motor.csv", tmp_path / "press.csv"
     motor.write_text("angle_deg,torque_Nm\n0,200\n360,200\n")
@@ -321,34 +312,7 @@ def test_with_imperial_units_a_bare_inertia_asks_for_its_unit(curve):
     assert "inertia      800 lb·in²" in run_here(*asked, "800 lb in^2").out
 
 
-@pytest.mark.parametrize(
-    ("arguments", "told"),
-    [
-        ([], "give an engine file, or --curve with a torque"),
-        (["{four}", "--curve", "{curve}"], "give an engine file, or --curve with a torque"),
-        (["--curve", "{curve}", "--misfire", "1"], "--misfire needs an engine file"),
-        (
-            ["{four}", "--inertia", "3"],
-            "--inertia needs --curve; that of an engine stands in its file: [crank] inertia, [flywheel]",
-        ),
-        (["{four}", "--fluctuation", "1e-10"], '--fluctuation "1e-10": give (highest - lowest)/m'),
-        (["{four}", "--fluctuation", "x"], '--fluctuation "x": give (highest - lowest)/mean sp'),
-        (["{four}", "--fluctuation", "1/0"], '--fluctuation "1/0": give (highest - lowest)/mea'),
-        (["{four}", "--cylinder", "7"], "--cylinder 7: four has the cylinders 1, 2, 3, 4"),
-        (
-            ["--curve", "{curve}", "--inertia", "0"],
-            '--inertia "0": a moment of inertia is wanted: a bare number in kg mm^2, or '
-            '"4200 kg mm^2" or "8.1 lb in^2", above 0',
-        ),
-        (["--curve", "{curve}", "--inertia", "3 s"], '--inertia "3 s": is a time, but a moment of'),
-        (
-            ["--curve", "{curve}", "--fluctuation", "1/100"],
-            "--fluctuation needs the mean speed; give it, such as --speed 300",
-        ),
-        (["--curve", "{four}"], "the heading"),
-        (["--curve", "{curve}", "--orders", "0.5"], "order 0.5: a period of 360 deg has multiples of 1"),
-    ],
-)
+@cases("commands/torque", "what_is_refused")
 def test_what_is_refused(four, curve, arguments, told):
     assert told in refusal("torque", *(a.format(four=four, curve=curve) for a in arguments))
 
@@ -358,17 +322,7 @@ def test_writing_needs_inertia(tmp_path):
     assert "--write: the speed is not known; give inertia in [crank] or [flywheel]" in told
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        "torque bare.toml",
-        "torque bare.toml --misfire 1",
-        "analyze bare.toml --only gas",
-        "analyze bare.toml --misfire 1 --speed 1000",
-        "compare gas.toml bare.toml --only gas",
-        "plot bare.toml x.svg --what polar,torque",
-    ],
-)
+@cases("commands/torque", "an_engine_without_gas_is_refused_by_its_file")
 def test_an_engine_without_gas_is_refused_by_its_file(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bare.toml").write_text(f'name = "four"\n{FOUR}')
@@ -620,23 +574,7 @@ def test_guide_moments_include_the_gas(four, tmp_path):
     assert by_order[0.5]["x_Nm"]["amplitude"] > 1
 
 
-@pytest.mark.parametrize(
-    ("content", "told"),
-    [
-        ("angle_deg,torque_Nm\n0,1\n", "has no two angles; the last row has to close the period"),
-        ("angle_deg,torque_Nm\n0,1\n90,2\n80,2\n360,1\n", "line 4: the angle 80 deg is below the 90"),
-        ("angle_deg,torque_Nm\n0,1\n90\n", "line 3: has 1 of 2 columns"),
-        ("angle_deg,torque\n0,1\n", 'the heading "angle_deg,torque" has no torque_Nm; head the'),
-        ("angle_deg,torque_Nm\n0,inf\n", 'line 2: "inf" is not a number'),
-        ("angle_deg;torque_Nm\n0;1.000,5\n", 'line 2: "1.000.5" is not a number'),
-        ("angle_deg,torque_Nm\n0,1,000.5 Nm\n", "line 2: has 3 columns, the heading 2; name"),
-        (
-            "angle_deg,torque_Nm\n0,5,1,3\n",
-            "line 2: has 4 columns, the heading 2; name every column in the heading, or, where "
-            "decimals have commas, part columns by semicolons there and below",
-        ),
-    ],
-)
+@cases("commands/torque", "curves_that_cannot_be")
 def test_curves_that_cannot_be(tmp_path, content, told):
     path = write(tmp_path / "t.csv", content)
     assert told in refusal("torque", "--curve", path)
@@ -682,15 +620,7 @@ def test_a_curve_as_csv_and_markdown(curve):
     assert ask("torque", "--curve", curve, "-f", "markdown").startswith("# press: torque")
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("gas.x.amplitude", "after gas comes an order up to 4096, as in gas.2.amplitude"),
-        ("torque.2.axis", "after the order comes one of amplitude, major, cos, sin"),
-        ("fluctuation.2", "give torque.mean, torque.max, torque.min, fluctuation"),
-        ("gas.2", "after the order comes one of amplitude, major, cos, sin"),
-    ],
-)
+@cases("commands/torque", "quantities_that_are_none")
 def test_quantities_that_are_none(four, text, message):
     err = run_here("sweep", four, "--vary", "gas.imep=6,9", "--quantity", text).err
     assert err == f"balcli: {text} is no quantity: {message}\n"

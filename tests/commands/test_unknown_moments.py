@@ -8,6 +8,7 @@ import json
 import re
 
 import pytest
+from support.cases import cases
 from support.commands import ask
 from support.engines import GOOD, changed
 from support.paths import write
@@ -131,23 +132,7 @@ def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_pa
     assert balcli("analyze", single, "--only", "moment")[::2] == (0, "")
 
 
-@pytest.mark.parametrize(
-    ("command", "args", "message"),
-    [
-        ("analyze", ["--only", "force,moment"], "{file}: moment: "),
-        ("analyze", ["--only", "inner"], "{file}: inner: "),
-        ("compare", ["{file}", "--only", "moment"], "{file}: moment: "),
-        ("search", ["--over", "throws", "--minimise", "force.1.major,moment.1.major"], "moment.1.major: "),
-        (
-            "search",
-            ["--over", "throws", "--minimise", "force.1.major", "--limit", "moment.2.major<9"],
-            "moment.2.major: ",
-        ),
-        ("sweep", ["--vary", "rod.length=150,160", "-q", "peak.moment"], "peak.moment: "),
-        ("scatter", ["-q", "moment.1.major"], "moment.1.major: "),
-        ("plot", ["--what", "inner", "-o", "{file}.svg"], "{file}: inner: "),
-    ],
-)
+@cases("commands/unknown_moments", "a_moment_by_name_is_an_error")
 def test_a_moment_by_name_is_an_error(balcli, twin, command, args, message):
     asked = [arg.format(file=twin) for arg in args]
     expected = f"balcli: {message.format(file=twin)}{UNKNOWN}\n"
@@ -202,15 +187,7 @@ def test_the_usual_quantities_are_those_that_are_known(balcli, twin, command):
     assert "moment" not in out
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["analyze", "--only", "force,roll,couple,torque"],
-        ["compare", "{file}", "--only", "force,roll"],
-        ["scatter", "-q", "force.2.major"],
-        ["curves", "--cylinder", "1"],
-    ],
-)
+@cases("commands/unknown_moments", "nobody_is_warned_of_what_was_not_asked")
 def test_nobody_is_warned_of_what_was_not_asked(balcli, twin, command):
     name, *options = [word.format(file=twin) for word in command]
     assert balcli(name, twin, *options)[::2] == (0, "")

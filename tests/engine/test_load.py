@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.cases import cases
 from support.engines import GOOD, changed, mistakes_in
 
 from balcli.engine.load import parse, read
@@ -264,19 +265,7 @@ layout = { strokes = 3, stagger = "2 kg", firing_order = [1, 3] }"""
     ]
 
 
-@pytest.mark.parametrize(
-    ("layout", "told"),
-    [
-        (
-            "layout = { bank_angel = 180, firing_order = [1, 3, 2, 4] }",
-            "layout.bank_angel: unknown key in [layout]; did you mean bank_angle?",
-        ),
-        (
-            "layuot = { bank_angle = 180, firing_order = [1, 3, 2, 4] }\ncylinder.4.gas = 0",
-            "layuot: unknown key in an engine file; did you mean layout?",
-        ),
-    ],
-)
+@cases("engine/load", "what_depends_on_a_misspelt_key_is_not_told")
 def test_what_depends_on_a_misspelt_key_is_not_told(layout, told):
     """Without it two cylinders were left of four."""
     text = f"""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import GOOD
 from support.paths import ENGINES
 
@@ -182,32 +183,7 @@ def test_a_firing_order_that_no_longer_fits_the_throws_is_left_out():
     assert engine.vary({"rod.length": 150}).fires_deg == pytest.approx(engine.fires_deg)
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"rod.lenght": 3}, "in-line four with rod.lenght: rod.lenght: unknown key in [rod]; did you mean length?"),
-        (
-            {"rod.length": 150, "rod.ratio": 0.3},
-            "in-line four with rod.length, rod.ratio: rod: has length and ratio; give either length or ratio",
-        ),
-        (
-            {"crank.throws.7": 3},
-            "in-line four with crank.throws.7: crank.throws.7: there is no 7; the file has 1, 2, 3, 4",
-        ),
-        (
-            {"rod.length.2": 3},
-            "in-line four with rod.length.2: rod.length.2: length is one value, with nothing below it",
-        ),
-        (
-            {"layout.firing_order": [1, 2, 3, 4]},
-            "in-line four with layout.firing_order: layout.firing_order: 1-2-3-4 would take 1080 deg",
-        ),
-        (
-            {"crank.throws.2": 100, "rod.mass": -1},
-            "in-line four with crank.throws.2, rod.mass: rod.mass: -1 is less than 0",
-        ),
-    ],
-)
+@cases("engine/vary", "mistakes_are_told_as_those_of_a_file")
 def test_mistakes_are_told_as_those_of_a_file(changes, message):
     with pytest.raises(balcli.InputError) as caught:
         balcli.load(GOOD).vary(changes)

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import run_here
 from support.engines import RADIAL, build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
@@ -118,17 +119,7 @@ def test_the_mean_torque_does_the_work_of_the_cylinders(seed):
     assert mean * found.gas.cycle == pytest.approx(work, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("throws", "firing", "strokes"),
-    [
-        ([0, 180, 180, 0], [1, 3, 4, 2], 4),
-        ([0, 240, 120], [1, 3, 2], 4),
-        (None, [1, 2, 4, 5, 3], 4),
-        ([0, 240, 120], [1, 2, 3], 2),
-        (None, [1, 2, 3, 4, 5, 6, 7], 4),
-        (None, [1, 6, 4, 2, 7, 5, 3], 2),
-    ],
-)
+@cases("forces/gas", "equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone")
 def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(throws, firing, strokes):
     text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}" if throws else "")
     text = text.replace("[1, 3, 4, 2]", f"{firing}\nstrokes = {strokes}")

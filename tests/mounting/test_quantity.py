@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_csv, ask_json, refusal, run_here
 from support.mounts import ENGINE, block
 from support.paths import ENGINES, write
@@ -148,16 +149,7 @@ LAYOUT = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
 
 
-@pytest.mark.parametrize(
-    ("path", "old", "new"),
-    [
-        ("rod.length", "length = 150", "length = {}"),
-        ("piston.mass", "mass = 0.5\n", "mass = {}\n"),
-        ("gas.imep", "imep = 9", "imep = {}"),
-        ("operation.speed", "speed = 3000", "speed = {}"),
-        ("mount.left.loss", "loss = 0.1", "loss = {}"),
-    ],
-)
+@cases("mounting/quantity", "with_gas_every_figure_varies")
 def test_with_gas_every_figure_varies(path, old, new, tmp_path):
     text = NAMED + LAYOUT + GAS
     assert old in text

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from oracle import momentum
+from support.cases import cases
 from support.engines import build_text
 from support.mounts import ENGINE, RandomBody, block
 from support.paths import write
@@ -451,16 +452,7 @@ def test_where_throws_stand_must_be_known(report):
     assert refused(report, text).startswith("engine.toml: ")
 
 
-@pytest.mark.parametrize(
-    ("up", "names"),
-    [
-        ((1, 0, 0), "up and down, sideways, lengthways, yaw, pitch, roll"),
-        ((0.3, -0.9, 0), "sideways, up and down, lengthways, pitch, yaw, roll"),
-        ((0, 0, -1), "along x, along y, up and down, turn about x, turn about y, roll"),
-        ((0.6, 0.8, 0), "sideways, up and down, lengthways, pitch, yaw, roll"),
-        ((0.71, -0.7, 0), "along x, along y, along z, turn about x, turn about y, roll"),
-    ],
-)
+@cases("mounting/response", "motions_are_called_by_where_up_is")
 def test_motions_are_called_by_where_up_is(up, names):
     assert ", ".join(name_motions(np.array(up))) == names
 

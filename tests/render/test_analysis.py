@@ -12,6 +12,7 @@ from io import StringIO
 from types import SimpleNamespace
 
 import pytest
+from support.cases import cases
 from support.commands import ask, ask_json
 from support.engines import GOOD, RADIAL, STAGGERED_TWIN, build_text, inline_engine, rotary_engine
 from support.paths import ENGINES
@@ -243,15 +244,7 @@ def test_what_is_left_out_is_named_in_one_line():
     assert re.fullmatch(r"Negligible: orders 6, 12 \(at most force [\d.e-]+ N\)\. All: --all\.", grid.note)
 
 
-@pytest.mark.parametrize(
-    ("words", "titles"),
-    [
-        ("xy", ["", "Along x (vertical) and y (horizontal), N, N·m"]),
-        ("textbook", ["Free force in textbook units", "Free moment in textbook units"]),
-        ("verdict", ["Verdict"]),
-        ("force", ["", "Verdict", "Free force by order, N"]),
-    ],
-)
+@cases("render/analysis", "only_picks_parts")
 def test_only_picks_parts(words, titles):
     chosen, named = parse_parts(words)
     found = analysis.sheet(analyze(inline_engine([0, 180]), only=chosen), SYSTEMS["si"], View(parts=named))

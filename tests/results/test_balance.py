@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 import pytest
+from support.cases import cases
 from support.commands import ask_csv, refusal, run_here
 from support.engines import GOOD, SINGLE, build_text, changed
 from support.paths import ENGINES, write
@@ -200,20 +201,7 @@ def test_standard_input_can_be_written(tmp_path):
     assert (tmp_path / "out.toml").read_text().startswith(GOOD)
 
 
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        (("--scheme", "tow-shaft"), "did you mean two-shaft?"),
-        (("--scheme", "two-shaft", "--at", "here"), '--at "here": give x,y of a shaft in mm, such as -40,60'),
-        (("--scheme", "two-shaft", "--at", "1,2", "--at", "3,4", "--at", "5,6"), "a pair of shafts has two places"),
-        (("--scheme", "two-shaft", "--position", "nan"), '--position "nan": give one place along z in mm'),
-        (("--scheme", "factor", "--factor", "0:1"), "a range is first:last:step"),
-        (("--scheme", "factor", "--factor", "0:1:1e-9"), "at most 1000 steps"),
-        (("--scheme", "oldham"), "oldham is for a single cylinder; this engine has 4 cylinders"),
-        (("--drill", "-3"), "--drill: -3 mm; give figures above 0"),
-        (("--thickness", "10", "--disc", "50"), "not both"),
-    ],
-)
+@cases("results/balance", "refusals")
 def test_refusals(file, options, told):
     assert told in refusal("balance", file, *options)
 
@@ -416,28 +404,7 @@ def test_more_holes_than_any_counterweight_has_room_for():
     assert "One hole would be deeper than the radius." in out
 
 
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        (
-            ("--drill", "20", "--slug", "4"),
-            "--slug: 4 g/cm3 is not heavier than the steel in whose place it is put (7.85 g/cm3); "
-            "tungsten alloy has 17 to 18.5",
-        ),
-        (
-            ("--drill", "20", "--slug", "unobtainium"),
-            '--slug "unobtainium": give tungsten, mallory, lead, or a density in g/cm3 such as 18.5',
-        ),
-        (
-            ("--slug", "tungsten"),
-            "--max-depth and --slug are for holes: give the diameter of the drill, too, with --drill",
-        ),
-        (
-            ("--max-depth", "20"),
-            "--max-depth and --slug are for holes: give the diameter of the drill, too, with --drill",
-        ),
-    ],
-)
+@cases("results/balance", "what_holes_cannot_be")
 def test_what_holes_cannot_be(file, options, told):
     assert refusal("balance", file, *options) == told
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal
 from support.paths import ENGINES
 
@@ -71,17 +72,7 @@ def test_one_speed_in_a_list_is_one_speed(balcli):
     assert balcli("analyze", FIVE, "--speed", "3000,3000") == balcli("analyze", FIVE, "--speed", "3000")
 
 
-@pytest.mark.parametrize(
-    ("given", "told"),
-    [
-        (("--speed", "3:1"), '--speed "3:1": must rise; give first:last:step in rpm'),
-        (("--speed", "1:20000:1"), f"has 20000 speeds; at most {MOST_ANALYSED_SPEEDS} are computed"),
-        (("--speed", "0,5"), "or speeds such as 1500,2000"),
-        (("--speed", "5,6", "--by", "cylinder"), "--speed: --by is of one speed"),
-        (("--speed", "5,6", "--only", "xy"), "--only xy: is of one speed"),
-        (("--format", "marine", "--only", "guide"), "--format marine: --only adds nothing to this sheet"),
-    ],
-)
+@cases("results/speeds", "what_does_not_go_together_is_refused", MOST_ANALYSED_SPEEDS=MOST_ANALYSED_SPEEDS)
 def test_what_does_not_go_together_is_refused(given, told):
     assert told in refusal("analyze", FIVE, *given)
 

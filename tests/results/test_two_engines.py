@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from oracle import momentum
+from support.cases import cases
 from support.commands import ask, ask_json, refusal, run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE
@@ -329,21 +330,7 @@ def test_engines_without_a_name_go_by_their_files(file, tmp_path):
     assert [e["name"] for e in ask_json("sum", str(nameless), file)["engines"]] == ["twin", "single"]
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--at", "0,1"], '--at "0,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-        (["--at", "0,nan,1"], '--at "0,nan,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-        (["--at", "0,2e9,1"], "--at: the place of the second engine may be up to 1e+06 m off"),
-        (["--phase", "inf"], "--phase inf: give an angle in degrees, up to 1e+06"),
-        (["--load", "third"], '--load "third": choose from first, second, both'),
-        (
-            ["--load", "both"],
-            "--load both: cranks that turn alike roll the frame alike, whichever drives the load; "
-            "it matters with --reverse",
-        ),
-    ],
-)
+@cases("results/two_engines", "arrangements_that_cannot_be_are_refused")
 def test_arrangements_that_cannot_be_are_refused(file, options, message):
     assert refusal("sum", file, file, *options) == message
 

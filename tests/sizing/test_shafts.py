@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from support.cases import cases
 from support.commands import ask_json, refusal, run_here
 from support.engines import STAGGERED_TWIN, build_text, engine
 from support.paths import ENGINES
@@ -99,28 +100,7 @@ def test_two_planes_take_a_moment_alone_too():
     )
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (
-            ["--scheme=single-shaft", "--planes=-48,48", "--position", "3"],
-            "--planes and --position both say where along the shaft: give one",
-        ),
-        (
-            ["--scheme=single-shaft", "--planes=5,5"],
-            "--planes: one plane, or planes at the same z, cannot take a moment; choose two planes "
-            "with some distance between them",
-        ),
-        (
-            ["--scheme=single-shaft", "--planes=1,2,3"],
-            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z",
-        ),
-        (
-            ["--scheme=couple-shaft", "--at=1,2", "--at=3,4", "--at=5,6"],
-            "--at: this moment takes two shafts; give no more places",
-        ),
-    ],
-)
+@cases("sizing/shafts", "refusals")
 def test_refusals(options, message):
     assert refusal("balance", TWIN, *options) == message
 

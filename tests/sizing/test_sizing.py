@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import build_text, engine_text
 from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
@@ -115,24 +116,7 @@ def test_a_single_device_has_no_condition_number():
     assert not size_auto(balanced).details
 
 
-@pytest.mark.parametrize(
-    ("scheme", "name", "order"),
-    [
-        ("auto", "three", None),
-        ("counterweights", "three", 1),
-        ("counterweights", "one", 1),
-        ("factor", "one", 1),
-        ("minimax", "one", 1),
-        ("single-shaft", "four", 2),
-        ("two-shaft", "four", 2),
-        ("two-shaft", "one", 1),
-        ("four-shaft", "one", None),
-        ("couple-shaft", "three", 1),
-        ("slider", "four", 2),
-        ("minimax", "four", None),
-        ("oldham", "centred", None),
-    ],
-)
+@cases("sizing/sizing", "a_remedy_says_its_scheme_and_its_order")
 def test_a_remedy_says_its_scheme_and_its_order(scheme, name, order):
     remedy = size(build_text((SMALL | {"centred": write_engine(0)})[name]), scheme)
     assert (remedy.scheme, remedy.order) == (scheme, order)

@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 from support import chains
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, ask_torsion, refusal, run_here, run_in_terminal
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
@@ -409,31 +410,7 @@ def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
     assert run_here(*options, stdin=text.replace("MASS", "10")).err == ""
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (("--holzer", "9"), "standard input: has 3 modes, but --holzer asks for 9"),
-        (
-            ("--holzer", "x"),
-            '--holzer "x": give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"',
-        ),
-        (
-            ("--speeds", "3:1"),
-            '--speeds "3:1": must rise; give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000',
-        ),
-        (
-            ("--speeds", "fast"),
-            '--speeds "fast": give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000',
-        ),
-        (("--speeds", "1:1e8:1"), '--speeds "1:1e8:1": has 100000000 speeds; at most 20000 are computed'),
-        (
-            ("--orders", "0.7"),
-            '--orders "0.7": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or 1,2.5,4',
-        ),
-        (("--orders", "8-1"), '--orders "8-1": 8-1 must rise, from above 0 to 256 at most'),
-        (("--speeds", "1000", "--orders", "0.5"), "standard input: nothing excites it at the orders asked for"),
-    ],
-)
+@cases("torsion/command", "options_that_cannot_be")
 def test_options_that_cannot_be(options, message):
     assert refusal("torsion", "-", *options, stdin=CHAIN) == message
 
@@ -614,26 +591,12 @@ PENDULUMS = 'damper = { kind = "pendulum", mass = 2, radius = 160, length = 10 }
 HELD = "The order that pendulums are tuned to meets modes in which their node is at rest."
 
 
-@pytest.mark.parametrize(
-    ("dampers", "told", "shifted"),
-    [
-        (("", ""), "", ""),
-        (
-            (RING, ""),
-            " Rings in oil are left out, as if they were not there.",
-            " Without rings in oil, which shift them.",
-        ),
-        (
-            ("", PENDULUMS),
-            " Pendulums are left out; they follow the order.",
-            f" Without pendulums, which shift them. {HELD}",
-        ),
-        (
-            (RING, PENDULUMS),
-            " Rings in oil are left out, as if they were not there. So are pendulums, which follow the order.",
-            f" Without rings in oil and pendulums, which shift them. {HELD}",
-        ),
-    ],
+@cases(
+    "torsion/command",
+    "what_modes_leave_out_is_said_and_tiny_orders_are_not_named",
+    HELD=HELD,
+    PENDULUMS=PENDULUMS,
+    RING=RING,
 )
 def test_what_modes_leave_out_is_said_and_tiny_orders_are_not_named(dampers, told, shifted):
     first, second = dampers
@@ -685,23 +648,7 @@ def test_a_barred_speed_that_is_the_file_s_own_is_named(speed, told):
     assert re.search(r"\nbarred speeds  2086 to 2268\.4 rpm(.*)\n", out)[1] == told
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "told"),
-    [
-        (
-            "inertia = 950000",
-            "inertia = 0.95",
-            "node.2.inertia of 'flywheel' is 0.95 kg mm^2; is it in kg mm^2? Another unit is said as "
-            'in "0.95 kg m^2"',
-        ),
-        (
-            "diameter = 45 ",
-            "diameter = 0.045 ",
-            'shaft.2.diameter is 0.045 mm; is it in mm? Another unit is said as in "0.045 m"',
-        ),
-        ("inertia = 950000", 'inertia = "0.95 kg m^2"', ""),
-    ],
-)
+@cases("torsion/command", "chains_in_metres_are_asked_back")
 def test_chains_in_metres_are_asked_back(old, new, told):
     text = CHAIN
     assert old in text

@@ -9,6 +9,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_torsion, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
@@ -285,35 +286,7 @@ stiffness = 1e6
 """
 
 
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        ((), ""),
-        (
-            ("--damper-inertia", "20"),
-            "a viscous damper of 2e-05 kg m2 at disc lowers the largest torque by less than 1%; the "
-            "whole system has 1.001 kg m2. Is it of the right size (on the command line bare "
-            "numbers are kg mm2), and in the right place?",
-        ),
-        (
-            ("--damper-inertia", "3e6"),
-            "the damper has 3 kg m2, more than the whole system (1.001 kg m2): on the command "
-            "line bare numbers are kg mm2",
-        ),
-        (
-            ("--damper-at", "nose"),
-            "the damper that is proposed has 0.3003 kg m2, 300 times as much as nose, which carries "
-            "it (0.001 kg m2): say what there is room for, such as --damper-inertia "
-            '"0.001 kg m^2"',
-        ),
-        (("--damper-at", "nose", "--damper-inertia", "0.3 kg m^2"), ""),
-        (
-            ("--speeds", "1400:2000:10"),
-            "the best damping is at the end of what is looked at, 0.033 to 30 times that of mode 1 "
-            "by itself; more may be better still",
-        ),
-    ],
-)
+@cases("torsion/dampers", "dampers_of_unlikely_size")
 def test_dampers_of_unlikely_size(options, told):
     speeds = () if "--speeds" in options else RANGE
     asked = (*speeds, "--damper", "viscous", *options, "--format", "json")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_torsion, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES
@@ -52,16 +53,7 @@ def search_finely(text, shaft):
     return largest
 
 
-@pytest.mark.parametrize(
-    ("loss", "damper"),
-    [
-        (0.035, ""),
-        (0.005, ""),
-        (0.005, 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'),
-        (0.005, 'damper = { kind = "pendulum", mass = 2, radius = 80, length = 2.3 }'),
-    ],
-    ids=["usual", "hardly damped", "a ring that hardly slips", "pendulums"],
-)
+@cases("torsion/largest", "no_resonance_is_too_narrow_to_be_found")
 def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     """A ring in thick oil and pendulums shift resonances, away from the modes without them."""
     text = write_engine(loss, damper)

@@ -7,6 +7,7 @@ import json
 from io import StringIO
 
 import pytest
+from support.cases import cases
 from support.commands import ask, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import write
@@ -63,17 +64,7 @@ def test_figures_of_lists_and_dampers_vary(tmp_path):
     assert one < two
 
 
-@pytest.mark.parametrize(
-    ("figure", "told"),
-    [
-        (
-            "torsion.rear.1.bore = 90",
-            "torsion.rear.1: has a bore of 90 mm and a diameter of 85; the bore is the smaller of both",
-        ),
-        ("torsion.rear.1.length = 100", "torsion.rear.1: has stiffness and length; leave one of them out"),
-        ("torsion.front.2.damper.stiffness = 10000", "torsion.front.2.damper: is viscous, which has no stiffness"),
-    ],
-)
+@cases("torsion/quantity", "a_figure_that_contradicts_its_table_is_refused")
 def test_a_figure_that_contradicts_its_table_is_refused(figure, told, tmp_path):
     """A bore wider than its shaft had a stress below 0."""
     own = 'damper = { kind = "viscous", inertia = 20000, damping = 4 }\n'
@@ -90,15 +81,7 @@ def test_without_gas_figures_of_the_engine_vary_too(tmp_path):
     assert 1.3 < heavy / light < 1.7, "inertia torque grows with the mass"
 
 
-@pytest.mark.parametrize(
-    ("quantity", "message"),
-    [
-        ("torsion.first.Hz", "torsion.first.Hz is no quantity: after torsion comes the number of a mode, from 1"),
-        ("torsion.9.Hz", "FILE: torsion.9.Hz: there are 8 modes"),
-        ("shaft.flywhel.torque", 'FILE: shaft.flywhel.torque: the file has no shaft "flywhel"; did you mean flywheel?'),
-        ("shaft.pulley.stress", "FILE: shaft.pulley.stress: this shaft has no diameter, so its stress is not known"),
-    ],
-)
+@cases("torsion/quantity", "what_is_no_quantity")
 def test_what_is_no_quantity(diesel, quantity, message):
     told = refusal("sweep", diesel, "--vary", "torsion.loss=0.01,0.02", "-q", quantity)
     assert told == message.replace("FILE", str(diesel))
