@@ -14,8 +14,6 @@ import subprocess
 import sys
 from collections.abc import Iterable
 from functools import cache
-from importlib import import_module
-from inspect import cleandoc
 from pathlib import Path
 
 import pytest
@@ -23,11 +21,10 @@ import typer
 from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
-from support.paths import ENGINES, ROOT, SOURCE, write
+from support.paths import ENGINES, ROOT, write
 
 from balcli import __version__
 from balcli.cli import COMMANDS
-from balcli.commands import other_words
 from balcli.render.formats import Format
 
 I4 = str(ENGINES / "i4.toml")
@@ -61,25 +58,9 @@ def test_help_lists_every_command_once_and_in_order(balcli):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_the_list_of_commands_says_what_the_help_of_each_begins_with(command):
-    """It is a table, so that the list need not import them."""
-    function = getattr(import_module(f"balcli.commands.{command}"), command)
-    first, _, _ = cleandoc(function.__doc__).partition("\n\n")
-    assert COMMANDS[command] == " ".join(first.split())
-
-
-@pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_has_help(command):
     out = ask(command, "--help")
     assert f"Usage: balcli {command}" in out
-
-
-def test_other_words_lead_to_commands_and_options_that_there_are():
-    for words in other_words.INSTEAD.values():
-        named = {*re.findall(r"balcli ([a-z]+)", words)}
-        assert named <= {*COMMANDS}
-        assert named or "--" in words
-    assert not {*other_words.INSTEAD} & {*COMMANDS}
 
 
 def usage(command: str, message: str) -> str:
@@ -115,26 +96,6 @@ def test_an_option_given_twice_is_told_so(balcli, good):
     several = ("sweep", good, "--vary", "rod.length=150", "--vary", "crank.stroke=90")
     assert balcli(*several)[::2] == (0, "")
     assert balcli("analyze", good, "-q", "-q")[::2] == (0, "")
-
-
-def test_quantities_of_a_sweep_that_stand_alone_are_told_where_they_go(balcli, good):
-    status, _, err = balcli("sweep", good, "--vary", "rod.length=150", "moment.1.major")
-    assert status == 2
-    assert err.endswith(": names of quantities stand after -q, with commas between them.\n")
-    assert "-q" not in balcli("sweep", good, "--vary", "rod.length", "140:160:5")[2]
-    err = balcli("sweep", good, "--vary", "rod.length=150", "crank.stroke=80,90")[2]
-    assert err.endswith(": each number that varies has a --vary of its own.\n")
-
-
-def test_an_option_of_other_commands_is_told_with_them(balcli):
-    status, out, err = balcli("sum", I4, I4, "--only", "force")
-    assert (status, out) == (2, "")
-    assert err.endswith("Error: No such option: --only. Commands that have it: analyze, compare\n")
-    *_, last = balcli("sweep", I4, "--units=imperial").err.splitlines()
-    assert last.startswith("Error: No such option: --units")
-    assert last.endswith(
-        ". Commands that have it: analyze, compare, sum, torque, plot, report, balance, field, mounts, torsion"
-    )
 
 
 @cases("cli", "bad_usage_that_the_parser_words", V8=V8)
@@ -433,14 +394,6 @@ def test_a_pipe_gets_no_escape_codes_and_no_width(balcli, monkeypatch):
     assert not any(line != line.rstrip() for line in table.splitlines())
 
 
-def test_headings_of_rows_stay_whole_in_a_narrow_terminal(balcli, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "80")
-    out = balcli(
-        "compare", *(ENGINES / f"{name}.toml" for name in ("i3", "i4", "i5", "i6")), "--orders", "1,2", terminal=True
-    )[1]
-    assert re.findall(r"(?m)^order \d", ESCAPE.sub("", out)) == ["order 1", "order 2"] * 5
-
-
 @pytest.mark.parametrize("columns", [80, 140])
 @pytest.mark.parametrize(
     "name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "car/tsinghua_12v135q"]
@@ -458,22 +411,6 @@ def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
     plain = ESCAPE.sub("", out)
     assert max(map(cell_len, plain.splitlines())) <= columns
     assert figures - set(plain.split()) == set()
-
-
-def test_names_in_headings_keep_their_underscores(balcli, monkeypatch, tmp_path):
-    """Where a heading is broken, it is broken after them."""
-    paths = [tmp_path / name for name in ("a_first_try.toml", "a_second_try.toml")]
-    for path in paths:
-        path.write_text((ENGINES / "i3.toml").read_text())
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "44")
-    out = balcli("compare", *(path.name for path in paths), terminal=True).out
-    plain = ESCAPE.sub("", out)
-    heading = re.search(r"(?s)^( +a_.*?)─", plain, re.MULTILINE)
-    assert heading, plain
-    words = [line.split() for line in heading[1].splitlines()]
-    assert ["a_first_", "a_second_"] in words, plain
-    assert "a first" not in plain
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
@@ -523,25 +460,6 @@ def test_any_locale_gets_utf_8():
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert "F1 = m r ω² = " in done.stdout
-
-
-def test_an_engine_file_may_name_a_file_that_this_locale_cannot(good):
-    """Only where names of files are no UTF-8; elsewhere there is just no such file."""
-    good.write_text(GOOD + '[gas]\nindicator = "drück_λ.csv"\n', encoding="utf-8")
-    ascii_names = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    done = run_command("torque", good, env=ascii_names)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert re.match(f"balcli: {re.escape(str(good))}: gas.indicator: .?drück_λ.csv", done.stderr)
-
-
-def test_without_docstrings_all_is_computed_and_help_is_short():
-    bare = run_python("-OO", "-m", "balcli", "analyze", I4)
-    assert (bare.returncode, bare.stderr) == (0, "")
-    assert bare.stdout == run_command("analyze", I4).stdout
-    bare = run_python("-OO", "-m", "balcli", "balance", "-h")
-    assert (bare.returncode, bare.stderr) == (0, "")
-    assert COMMANDS["balance"] in " ".join(bare.stdout.split())
-    assert "--scheme" in bare.stdout
 
 
 # ------------------------------------------------------------------ what is imported
@@ -605,82 +523,6 @@ for command in {list(COMMANDS)}:
     assert all("balcli" in line for line in lines)
 
 
-CHAPTERS = (*("bench", "field_balancing", "mounting", "printed_tables"), *("studies", "torque", "torsion"))
-FOR_WHO_ASKS = (
-    *("core.strokes", "forces.crankshaft", "forces.guide_moments", "forces.symmetry"),
-    "sizing.scheme_figures",
-)
-RARE = (
-    *("core.mechanisms.articulated", "core.mechanisms.rotary"),
-    *("core.mechanisms.sampled", "core.mechanisms.slidercrank"),
-    *("engine.articulation", "enginefile.articulation_tables"),
-)
-FOR_PEOPLE = (
-    *("render.analysis", "render.verdict", "render.markdown", "render.terminal", "render.table"),
-    *("render.crankshaft", "render.guide_moments", "render.strokes", "render.symmetry"),
-)
-FOR_PROGRAMS = ("render.analysis_document", "render.json", "render.markdown", "render.terminal")
-
-
-def own_modules(*args: object) -> set[str]:
-    return {name for name in modules_of(*args) if name.startswith("balcli.")}
-
-
-@pytest.mark.parametrize(("form", "left_out"), [("json", FOR_PEOPLE), ("table", FOR_PROGRAMS)])
-def test_a_plain_analysis_imports_no_other_format_chapter_or_kind_of_engine(form, left_out):
-    loaded = own_modules("analyze", V8, "--format", form)
-    names = {name.removeprefix("balcli.") for name in loaded}
-    assert "results.analysis" in names
-    assert names & {*left_out, *RARE, *FOR_WHO_ASKS, "sizing.sizing", "commands.balance"} == set()
-    assert {name.partition(".")[0] for name in names} & {*CHAPTERS} == set()
-
-
-IMPORTED = {
-    "": "__main__ cli errors limits process result",
-    "commands": "amounts analysis_answer analysis_options analyze declare defaults file_names "
-    "format_names inputs options output overwrite_guard speed_range",
-    "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple speeds",
-    "core.mechanisms": "closed_form distinct fourier harmonics",
-    "engine": "arrays assembly build devices even_order figures firing layout load positions rods rules split_pins",
-    "enginefile": "conflicts exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
-    "units unknown_keys",
-    "forces": "kinds orders spectrum",
-    "render": "analyses analysis_document csv devices figures formats json sheet units view",
-    "results": "analysis",
-    "sizing": "auto details device_tables effects fitting options planes reasons remedy residual schemes",
-}
-
-
-def test_a_plain_analysis_as_json_imports_these_modules_and_no_other():
-    """What else a change brings along is here for all to see: does everybody need it?"""
-    loaded = own_modules("analyze", V8, "--format", "json")
-    wanted = {f"balcli.{package}" for package in IMPORTED if package}
-    for package, names in IMPORTED.items():
-        wanted |= {f"balcli.{package}.{name}".replace("..", ".") for name in names.split()}
-    assert {*loaded} - {"balcli"} == wanted
-
-
-DEPTH = """
-import sys
-class Finder:
-    def find_spec(self, name, *_):
-        if name == "numpy":
-            frame, depth = sys._getframe(), 0
-            while frame := frame.f_back:
-                depth += 1
-            sys.stderr.write(str(depth))
-sys.meta_path.insert(0, Finder())
-from balcli.__main__ import main
-main()
-"""
-
-
-def test_numpy_is_imported_where_the_stack_is_low():
-    """Its own modules import each other so deep that they take most of the stack's first block."""
-    done = run_python("-c", DEPTH, "analyze", V8, "--format", "json")
-    assert 0 < int(done.stderr) < 30
-
-
 # ------------------------------------------------------------------ the end of the process
 def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
     def interrupted(**_):
@@ -690,77 +532,12 @@ def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
     assert balcli("analyze", good) == (130, "", "")
 
 
-def test_what_is_registered_for_the_end_is_done():
-    """As coverage, matplotlib and dask have it: the process ends by itself, but not before."""
-    code = "import atexit; from balcli.__main__ import main; atexit.register(print, 'last'); main()"
-    done = run_python("-c", code, "--version")
-    assert (done.returncode, done.stdout) == (0, f"balcli {__version__}\nlast\n")
-
-
-@pytest.mark.parametrize(("asked", "found"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
-def test_linear_algebra_has_one_thread_unless_a_user_asks_for_more(monkeypatch, asked, found):
-    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
-    code = (
-        "import atexit, os; from balcli.__main__ import main; "
-        "atexit.register(lambda: print(os.environ['OPENBLAS_NUM_THREADS'])); main()"
-    )
-    done = run_python("-c", code, "--version", env=asked)
-    assert done.stdout.splitlines()[-1] == found
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 @pytest.mark.parametrize("args", [["--version"], ["--help"], ["analyze", "--help"]], ids=" ".join)
 def test_help_that_cannot_be_written_is_no_success(args):
     with Path("/dev/full").open("wb") as full:
         done = run_command(*args, stdout=full, stderr=subprocess.PIPE)
     assert (done.returncode, done.stderr) == (2, "balcli: standard output: No space left on device\n")
-
-
-def run_in_shell(redirected: str, *args: object) -> subprocess.CompletedProcess:
-    """Run `balcli` under redirections that only a shell has."""
-    return run_python("-c", SHELL, redirected, "-m", "balcli", *args)
-
-
-SHELL = """
-import os, sys
-redirected, *args = sys.argv[1:]
-os.execv("/bin/sh", ["sh", "-c", f'"$0" "$@" {redirected}', sys.executable, *args])
-"""
-
-
-@unix
-@pytest.mark.parametrize(
-    "args",
-    [
-        *(["check", I4], ["analyze", I4], ["new", "single"], ["schema"]),
-        *(["curves", I4], ["sweep", I4, "--vary", "crank.stroke=80,90"], ["--version"]),
-    ],
-    ids=lambda args: str(args[0]),
-)
-def test_a_closed_standard_output_is_an_error(args):
-    done = run_in_shell(">&-", *args)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert re.fullmatch(r"balcli: standard output: .*Bad file descriptor\)?\n", done.stderr)
-
-
-@unix
-@pytest.mark.parametrize("redirected", ["<&-", "0>/dev/null"])
-def test_a_standard_input_that_cannot_be_read_is_an_error(redirected):
-    done = run_in_shell(redirected, "analyze", "-")
-    assert (done.returncode, done.stdout, done.stderr) == (
-        2,
-        "",
-        "balcli: standard input: cannot be read (Bad file descriptor)\n",
-    )
-
-
-@unix
-def test_a_closed_standard_error_changes_no_status(tmp_path):
-    for redirected in ("2>&-", "<&- >&- 2>&-"):
-        done = run_in_shell(redirected, "analyze", tmp_path / "none.toml")
-        assert (done.returncode, done.stdout, done.stderr) == (2, "", "")
-    assert run_in_shell("<&- >&- 2>&-", "analyze", I4, "-o", tmp_path / "x").returncode == 0
-    assert (tmp_path / "x").read_text() == run_command("analyze", I4).stdout
 
 
 SIGNALS = [getattr(signal, name, 0) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU")]
@@ -786,15 +563,6 @@ main()
     assert (done.returncode, done.stdout, done.stderr) == (128 + number, "", "")
 
 
-def test_the_package_imports_nothing_before_ctrl_c_is_heeded():
-    """What Python itself has imported by then is not the program's to choose."""
-    code = (
-        f"import sys; sys.path.insert(0, {str(SOURCE)!r}); before = {{*sys.modules}}; import balcli;"
-        "print(sorted({*sys.modules} - before))"
-    )
-    assert run_python("-S", "-c", code).stdout == "['__future__', 'balcli']\n"
-
-
 @unix
 def test_ctrl_c_ends_it_without_a_word_from_the_first_import_on():
     """The signal comes while the program's own first module is being imported."""
@@ -813,70 +581,11 @@ main()
     assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
 
 
-@unix
-def test_processes_begun_meanwhile_never_hear_of_ctrl_c():
-    """This one does, afterwards; the first process of `multiprocessing` is no exception."""
-    code = """
-import os, signal, sys, time
-from multiprocessing import get_context
-from balcli.process import ctrl_c_later, end_on_signals
-
-if __name__ == "__main__":
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    end_on_signals()
-    with ctrl_c_later():
-        begun = get_context("spawn").Process(target=time.sleep, args=(0.5,))
-        begun.start()
-        os.kill(begun.pid, signal.SIGINT)
-        os.kill(os.getpid(), signal.SIGINT)
-        begun.join()
-        print(begun.exitcode, flush=True)
-    print("still here")
-"""
-    done = run_python("-c", code)
-    assert (done.returncode, done.stdout, done.stderr) == (130, "0\n", "")
-
-
-@unix
-def test_a_hangup_that_was_ignored_stays_ignored():
-    code = (
-        "import os, signal; signal.signal(signal.SIGHUP, signal.SIG_IGN);"
-        "from balcli.__main__ import main; import balcli.cli;"
-        "balcli.cli.app = lambda **_: os.kill(os.getpid(), signal.SIGHUP); main()"
-    )
-    assert run_python("-c", code).returncode == 0
-
-
 FAULT = (
     "balcli: internal error (ZeroDivisionError: by nought); this is a fault of balcli, no figure "
     "is to be trusted: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "
     "where it is)\n"
 )
-
-
-GONE = """
-import os, sys
-os.mkdir(sys.argv[1]); os.chdir(sys.argv[1]); os.rmdir(sys.argv.pop(1))
-from balcli.__main__ import main; main()
-"""
-
-
-@unix
-def test_a_working_folder_that_is_gone_is_told_as_such(tmp_path):
-    done = run_python("-c", GONE, tmp_path / "gone", "report", I4, "-o", "r.html")
-    said = "balcli: working folder: No such file or directory\n"
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", said)
-
-
-def test_what_a_library_tells_of_the_system_is_told_as_it_is():
-    """Matplotlib without a folder to write to; it has no number of the system's, and no file."""
-    code = (
-        "def refuse(**_): raise OSError('a writable cache directory is needed')\n"
-        "import balcli.cli; balcli.cli.app = refuse; from balcli.__main__ import main; main()"
-    )
-    done = run_python("-c", code)
-    said = "balcli: a writable cache directory is needed\n"
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", said)
 
 
 @unix
@@ -906,9 +615,3 @@ def test_an_internal_error_is_told_as_one(options):
         assert told.endswith(FAULT)
         assert (told == FAULT) is whole
         assert ("Traceback" in told) is not whole
-
-
-def test_quantities_with_blanks_between_them(balcli):
-    assert balcli("analyze", V8, "--only", "force  peak") == balcli("analyze", V8, "--only", "force, peak")
-    assert "Verdict" not in balcli("analyze", V8, "--orders", "0").out
-    assert "Verdict" in balcli("analyze", V8, "--orders", "1").out

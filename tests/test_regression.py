@@ -118,42 +118,6 @@ def test_a_record_whose_engine_is_gone_is_a_difference(check, file, tmp_path):
     assert check("--update", tmp_path) == (1, f"{told}1 engine recorded\n", "")
 
 
-def test_engines_of_one_name_are_told_apart_by_their_folders(check, file, tmp_path):
-    """Two generations of an engine: whose figures moved is what a maintainer asks."""
-    second = tmp_path / "second" / file.name
-    second.parent.mkdir()
-    second.write_bytes(file.read_bytes())
-    told = f"no result is recorded in expected/{file.stem}.json; check --update records it\n"
-    assert check(tmp_path)[1] == f"{second}: {told}2 engines, 1 difference\n"
-    assert check(second)[1] == f"{second}: {told}1 engine, 1 difference\n"
-    check("--update", tmp_path)
-    second.unlink()
-    gone = (
-        f"its result is recorded in expected/{file.stem}.json, but there is no {file.name}; bring "
-        "it back, or delete the record\n"
-    )
-    assert check(tmp_path)[1] == f"{second}: {gone}1 engine, 1 difference\n"
-
-
-def test_the_only_engine_of_a_folder_within_is_gone(check, file, tmp_path):
-    inner = tmp_path / "inner" / "expected"
-    inner.mkdir(parents=True)
-    shutil.copy(find_record(file), inner / "one.json")
-    status, out, _ = check(tmp_path)
-    assert (status, out.splitlines()[-1]) == (1, "1 engine, 1 difference")
-    assert out.startswith(
-        f"{tmp_path / 'inner' / 'one.toml'}: its result is recorded in expected/one.json, but there is no"
-    )
-
-
-@pytest.mark.parametrize("text", ['{"status": 200}', "[1, 2]", "not JSON", '{"format": 3}'])
-def test_what_others_expect_is_no_record(check, file, tmp_path, text):
-    theirs = tmp_path / "tests" / "expected"
-    theirs.mkdir(parents=True)
-    (theirs / "answer.json").write_text(text)
-    assert check(tmp_path) == (0, "1 engine, 0 differences\n", "")
-
-
 def test_every_figure_that_moved_is_named(check, file):
     """A tenth of a per cent more piston moves forces, torque and roll; order, part, old and new
     figure are told.
@@ -254,31 +218,6 @@ def test_format_speed_and_number_of_cylinders(check, file):
         f"{file}: speed, rpm: 2999.0 -> 3000.0\n1 engine, 3 differences\n",
         "",
     )
-
-
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ("{", "it is not JSON: line 1"),
-        ("{}", "orders is missing"),
-        ("[]", "it is no result of balcli analyze"),
-        ('{"orders": [{"order": 1}]}', "force_N is missing"),
-        ('{"orders": [], "peak": {"force_N": Infinity, "moment_Nm": 0}}', "a figure is not finite"),
-        ('{"orders": [], "peak": {"force_N": 1e999, "moment_Nm": 0}}', "a figure is not finite"),
-        (f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}', "it is no result of balcli analyze"),
-    ],
-    ids=["text", "object", "list", "order", "infinity", "too large", "whole, too large"],
-)
-def test_a_broken_record_is_a_difference(check, file, text, reason):
-    find_record(file).write_text(text)
-    assert check(file) == (
-        1,
-        f"{file}: the result recorded in expected/four.json cannot be read ({reason}); "
-        "check --update records it anew\n1 engine, 1 difference\n",
-        "",
-    )
-    assert check(file, "--update") == (0, "1 engine recorded\n", "")
-    assert check(file) == (0, "1 engine, 0 differences\n", "")
 
 
 @cases("regression", "no_record_however_broken_brings_check_down")

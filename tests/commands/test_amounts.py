@@ -60,25 +60,6 @@ def test_with_imperial_units_a_bare_length_or_mass_asks_for_its_unit(command, op
     assert told == f'{option} "{text}": with --units imperial {message}'
 
 
-@pytest.mark.parametrize(
-    ("command", "options", "first"),
-    [
-        (WEIGHTS, ["--planes=-10,12"], '--planes "-10"'),
-        (SHAFT, ["--at=0,3"], '--at "3"'),
-        (SUM, ["--at", "0,20,0"], '--at "20"'),
-    ],
-)
-def test_so_do_bare_places(command, options, first):
-    told = refusal(*command, *options, *IMPERIAL)
-    assert told.startswith(f"{first}: with --units imperial a length needs its unit: ")
-
-
-def test_speeds_angles_and_nothing_need_no_unit_there():
-    options = ("--speed", "6000", "--planes", "0", *IMPERIAL)
-    assert run_here(*WEIGHTS, *options).status == 0
-    assert run_here(*SUM, "--phase", "90", "--at", "0,0,0", *IMPERIAL).status == 0
-
-
 @cases(
     "commands/amounts",
     "what_is_no_amount_is_told_with_its_option",
@@ -115,32 +96,3 @@ def test_a_place_that_is_named_twice_is_asked_back():
         'warning: --planes "-40,5,40,5": names a place twice; decimals take a point, not a comma\n',
     )
     assert run_here("balance", ENGINES / "i4.toml", "--factor", "50%", "--planes=-40,0,40").err == ""
-
-
-@pytest.mark.parametrize(
-    ("asked", "doubted"),
-    [([], True), (["--only", "force"], True), (["--only", "force,guide"], False), (["--all"], False)],
-)
-def test_a_guide_height_where_no_guides_are_asked_for(asked, doubted):
-    status, _, err = run_here("analyze", ENGINES / "i4.toml", "--guide-height", "300", *asked)
-    assert (status, err.startswith("warning: --guide-height changes")) == (0, doubted)
-
-
-@cases("commands/amounts", "bare_metres_are_asked_back")
-def test_bare_metres_are_asked_back(options, told):
-    result = run_here("balance", ENGINES / "i4.toml", "--factor", "50%", *options)
-    assert result.status == 0
-    assert result.err == (f"warning: {told}\n" if told else "")
-
-
-@cases("commands/amounts", "speeds_with_the_thousands_parted_are_asked_back")
-def test_speeds_with_the_thousands_parted_are_asked_back(text, meant):
-    result = run_here("analyze", V8, "--only", "force", "--speed", text)
-    told = f'--speed "{text}": a point parts decimals and a comma speeds, not thousands'
-    assert result.status == 0
-    assert result.err == (f"warning: {told}: was {meant} rpm meant?\n" if meant else "")
-
-
-def test_no_speed_is_too_slow_to_be_told_so():
-    told = refusal("analyze", V8, "--speed", "1e-300")
-    assert told == "--speed 1e-300: the crank speed must be a positive number of rpm, below 1e9"

@@ -168,11 +168,3 @@ ONCE = "each of the cylinders 1 to {} must stand once"
 )
 def test_one_mistake(parts, message):
     assert refused(**parts) == f"engine: {message}"
-
-
-def test_several_mistakes_are_told_at_once():
-    assert refused(crank={"throws": [0, 180]}, layout={"numbering": [[2, 3]], "firing_order": [1, 4]}) == (
-        "engine: 2 mistakes\n"
-        f"  layout.numbering: there is no cylinder 3, cylinder 1 is missing: {ONCE.format(2)}\n"
-        f"  layout.firing_order: there is no cylinder 4, cylinder 2 is missing: {ONCE.format(2)}"
-    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from types import CodeType
 
@@ -106,60 +105,11 @@ def test_contradictions(text, message):
     assert mistakes_in(text) == message
 
 
-def test_a_pendulum_is_never_quicker_than_a_point_mass():
-    """J_g = m (g h T^2 / 4 pi^2 - h^2) is positive just above the period of a point mass at h, here
-    160 - 45 mm.
-    """
-    shortest = 2 * math.pi * math.sqrt(0.115 / 9.80665)
-    text = 'cg = 45\npendulum = {{ pivot = "small_end", period = {!r} }}'
-    parse(changed(("cg = 45", text.format(shortest * 1.000001))))
-    assert mistakes_in(changed(("cg = 45", text.format(0.1)))) == (
-        "rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the "
-        f"pivot a full swing takes more than {shortest:.4g} s"
-    )
-    ends = changed(
-        ("mass = 0.6\ncg = 45", 'small_end = 0.2\nbig_end = 0.6\npendulum = { pivot = "big_end", period = 0.1 }')
-    )
-    assert "with the centre of mass 40 mm from the pivot" in mistakes_in(ends)  # 160 * 0.2 / 0.8
-
-
 def test_models_check_without_a_file_too():
     with pytest.raises(ValidationError, match="has length and ratio; give either length or ratio"):
         model.Rod(length=160, ratio=0.28)
     with pytest.raises(ValidationError, match="frozen"):
         parse(GOOD).crank.stroke = 80.0
-
-
-def test_mistakes_of_a_table_beside_a_misspelt_key_are_told():
-    """That the length is missing is not: it is there, misspelt."""
-    text = changed(("length = 160", "lenght = 160"), ("mass = 0.6\ncg = 45", "small_end = 0.2"))
-    assert mistakes_in(text) == (
-        "2 mistakes\n"
-        "  rod.lenght: unknown key in [rod]; did you mean length?\n"
-        "  rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg"
-    )
-
-
-@cases("enginefile/model", "what_is_misspelt_is_not_missing", GOOD=GOOD)
-def test_what_is_misspelt_is_not_missing(text, told):
-    assert mistakes_in(text) == f"{told}"
-
-
-def test_rules_that_do_not_need_a_broken_key_are_applied():
-    text = changed(("[1, 3, 4, 2]", "[1, 3, 4, 0]\nnumbering = [[1, 2], [2, 1]]"))
-    assert mistakes_in(text) == (
-        "2 mistakes\n"
-        "  layout: numbering has cylinder 1 and 2 more than once; name every cylinder once\n"
-        "  layout.firing_order: the 4th value 0 is out of range; a whole number from 1 to 10000 is "
-        "wanted"
-    )
-
-
-def test_a_rule_that_fails_is_no_mistake_of_the_file(monkeypatch):
-    rule = model.TableRule(lambda crank: [crank.no_such_key], {"throws"})
-    monkeypatch.setattr(model.Crank, "rules", (rule,))
-    with pytest.raises(AttributeError, match="no_such_key"):
-        parse(changed(("spacing = 100", "spacing = -1")))
 
 
 TABLES = (*import_tables().values(), *import_lists().values(), *(ArticulatedRod, Part, ChainShaft, Damper))

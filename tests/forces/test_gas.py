@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import run_here
 from support.engines import RADIAL, build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import write
 
 from balcli.core.mechanisms.closed_form import find_harmonics
 from balcli.engine.load import load
-from balcli.errors import BalcliError
 from balcli.forces.gas import compute_gas_torque, compute_gas_torque_of_each
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.symmetry import explain_symmetry
-from balcli.render.analysis import sheet
-from balcli.render.table import plain_text
-from balcli.render.units import SI
 from balcli.results.analysis import analyze
 
 ORDERS = np.arange(0, 24.5, 0.5)
@@ -172,14 +166,6 @@ def test_totals_are_sums_of_inertia_and_gas():
 
 
 # ------------------------------------------------------------------ what is shown
-def test_an_analysis_shows_gas_where_there_is_some():
-    found = analyze(build_text(FOUR + WIEBE))
-    assert found.spectra.gas is not None
-    assert found.orders.tolist() == [1, 2, 4, 6, 8, 10, 12]
-    plain = analyze(build_text(FOUR))
-    assert plain.spectra.gas is None
-    with pytest.raises(BalcliError, match=r"has no \[gas\]; give a diagram, a cycle or harmonics"):
-        analyze(build_text(FOUR), only=["gas"])
 
 
 def test_only_gas_is_all_that_gas_does():
@@ -197,21 +183,3 @@ def test_shares_that_are_fractions_of_each_other_may_cancel():
     silent = build_text(FOUR + WIEBE + "".join(f"[cylinder.{n}]\ngas = 0\n" for n in (1, 2, 3, 4)))
     reasons = explain_symmetry(silent, [0.5], ["gas"]).reasons
     assert [r.verdict for r in reasons] == ["none"]
-
-
-def test_people_read_which_order_rocks_the_engine():
-    text = plain_text([sheet(analyze(build_text(FOUR + WIEBE)), SI)])
-    assert " rocks the engine most: roll of " in text
-    half = plain_text([sheet(analyze(build_text(FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"), [0.5]), SI)])
-    assert re.search(r"Order ½ rocks the engine most: roll of [0-9.]+ N·m \(gas alone\)\.", half)
-    assert "About the crank axis with gas, N·m" in text
-    assert "balcli torque" in text
-    inner = plain_text([sheet(analyze(build_text(FOUR + WIEBE), only=["inner"]), SI)])
-    assert "Loads of main bearings with gas" in inner
-
-
-@pytest.mark.parametrize("only", ["verdict", "verdict,xy"])
-def test_the_verdict_alone_says_so_too(only):
-    whole = run_here("analyze", "-", stdin=FOUR + WIEBE).out.splitlines()
-    (told,) = [line for line in whole if " rocks the engine most" in line]
-    assert told in run_here("analyze", "-", "--only", only, stdin=FOUR + WIEBE).out.splitlines()

@@ -4,9 +4,6 @@ in matplotlib's settings.
 
 from __future__ import annotations
 
-import logging
-from io import BytesIO
-
 import matplotlib
 import pytest
 from support.commands import run_python
@@ -56,15 +53,6 @@ def test_a_figure_is_written_as_the_command_writes_it(tmp_path):
     assert [len(each) for each in words] == [len(words[0])] * 2
 
 
-@pytest.mark.stress
-def test_what_is_changed_in_a_figure_is_seen():
-    figure = balcli.plot(THREE, "curves")
-    before = figure._repr_png_()
-    assert figure._repr_png_() == before
-    figure.axes[0].set_title("another title")
-    assert figure._repr_png_() != before
-
-
 def test_a_sweep_has_an_axis_and_a_unit_for_each_dimension():
     """All curves of an axis are in the unit it names, large or small."""
     sizes = {"N": 1, "kN": 1e3, "N·m": 1, "kN·m": 1e3}
@@ -80,17 +68,6 @@ def test_a_sweep_has_an_axis_and_a_unit_for_each_dimension():
     assert figure.axes[0].get_ylabel() == "kN·m"
     for (_, drawn), value in zip(found.values(), swept.values, strict=True):
         assert drawn == pytest.approx(value.ravel(), rel=1e-12)
-
-
-def test_what_matplotlib_tells_is_left_to_the_host(tmp_path):
-    logger = logging.getLogger("matplotlib")
-    level = logger.level
-    try:
-        logger.setLevel(logging.INFO)
-        balcli.plot(THREE, "polar").savefig(tmp_path / "a.svg")
-        assert logger.level == logging.INFO
-    finally:
-        logger.setLevel(level)
 
 
 @pytest.mark.stress
@@ -125,57 +102,3 @@ def test_what_has_no_picture_is_told(call, kind, message):
     with pytest.raises(kind) as caught:
         call()
     assert str(caught.value).startswith(message)
-
-
-def test_the_title_says_which_devices_are_fitted():
-    """A page with them was titled as the engine without."""
-
-    def title(figure):
-        return figure.get_suptitle()
-
-    alone = title(balcli.plot(THREE, "polar"))
-    assert alone == "in-line three, 6000 rpm"
-    fitted = balcli.plot(THREE, "orders", scheme="couple-shaft")
-    assert title(fitted) == f"{alone}\nwith scheme couple-shaft, order 1"
-    shares = balcli.SchemeOptions(factor=(0.4,))
-    factor = balcli.balance(balcli.load_example("vtwin45"), "factor", shares)
-    assert title(balcli.plot(factor, "polar")).endswith("\nwith scheme factor 40 %, order 1")
-
-
-def test_figures_on_bars_stay_below_the_legend():
-    """Within their panel, on top of which the legend stands."""
-    figure = balcli.plot(balcli.load_example("vtwin90"), scheme="counterweights")
-    figure.savefig(BytesIO(), format="png")
-    above = [
-        text.get_text()
-        for ax in figure.axes
-        if ax.get_xlim()[0] == -0.6  # bars
-        for text in ax.texts
-        if text.get_window_extent().y1 > ax.bbox.y1 + 1
-    ]
-    assert above == []
-
-
-def test_contours_name_the_engine_too():
-    """As curves over one number do."""
-    ranges = {"layout.bank_angle": "30:90:30", "rod.length": "140:160:10"}
-    assert balcli.plot(balcli.sweep(VEE, ranges)).get_suptitle() == VEE.name
-
-
-def test_modes_that_lie_close_are_named_together():
-    """Their numbers lay over one another: 6.0 and 6.4, 8.5 to 9.6, 14.7 Hz."""
-    figure = SHOWN["mounts"]()
-    (meetings,) = (ax for ax in figure.axes if "meet modes" in ax.get_title(loc="left"))
-    names = [text.get_text() for text in meetings.texts if text.get_ha() == "right"]
-    assert names == ["1, 2", "3, 4, 5", "6"]
-
-
-@pytest.mark.parametrize("name", ["sweep", "torsion", "mounts"])
-def test_curves_of_one_axis_are_told_apart_without_colour(name):
-    """As on paper printed in black and white: the first three of each legend are dashed, dotted or
-    of another width.
-    """
-    legends = [ax.get_legend() for ax in SHOWN[name]().axes if ax.get_legend()]
-    looks = [[(line.get_linestyle(), line.get_linewidth()) for line in each.get_lines()[:3]] for each in legends]
-    assert max(map(len, looks)) > 1
-    assert all(len({*each}) == len(each) for each in looks)

@@ -7,7 +7,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from oracle import momentum
-from support.cases import cases
 from support.engines import build_text
 from support.mounts import ENGINE, RandomBody, block
 from support.paths import write
@@ -15,7 +14,7 @@ from support.paths import write
 from balcli.errors import BalcliError
 from balcli.forces.in_time import compute_spectra_in_time
 from balcli.forces.spectrum import compute_spectra
-from balcli.mounting.motions import describe_free_motion, name_motions
+from balcli.mounting.motions import describe_free_motion
 from balcli.mounting.read import read_mounted
 from balcli.mounting.report import report_mounts
 
@@ -355,15 +354,6 @@ def test_orders_meet_modes_where_their_frequencies_agree(report):
         assert 200 <= one.omega * 30 / np.pi <= 2000
 
 
-def test_motions_have_names(report):
-    """Of the block that stands along -z: up and down is z; two pairs sway and turn together."""
-    names = [mode.motion for mode in report(block()).modes.six]
-    assert "up and down" not in names[:2]
-    assert names.count("up and down") == 1
-    upright = report(block().replace("gravity = [0, 0, -1]", "")).modes.six
-    assert "roll" in [mode.motion for mode in upright]
-
-
 # ------------------------------------------------------------------ published, from a file
 def test_symmetric_block_in_closed_form(report):
     closed = [50.13149728, 58.99302875, 89.4427191, 109.5445115, 146.5838769, 156.5880665]
@@ -443,18 +433,9 @@ def test_components_that_rounding_leaves_are_0():
     assert told == "turning about (0.8, 0, 0.6) through (0, 0, 0) mm"
 
 
-def test_several_free_motions_are_counted(report):
-    assert ", and 2 other motions; give" in refused(report, block(count=1))
-
-
 def test_where_throws_stand_must_be_known(report):
     text = ENGINE.replace("spacing = 100\n", "") + block("loss = 0.1")
     assert refused(report, text).startswith("engine.toml: ")
-
-
-@cases("mounting/response", "motions_are_called_by_where_up_is")
-def test_motions_are_called_by_where_up_is(up, names):
-    assert ", ".join(name_motions(np.array(up))) == names
 
 
 RIPPLE = ENGINE.replace(

@@ -9,23 +9,20 @@ import warnings
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from functools import cache
-from threading import Event, Thread
 from typing import get_args
 
 import numpy as np
 import pytest
-from support.commands import run_python
 from support.engines import GOOD, build_text, changed, inline_engine
 from support.gas_engines import FOUR as GAS_FOUR
 from support.gas_engines import WIEBE
 from support.pictures import draw_page
 
-from balcli.commands.plot_pages import What
 from balcli.core.phasors import Phasors
-from balcli.render.plot import style, torsion
+from balcli.render.plot import style
 from balcli.render.plot.bars import draw_vector_bars, visible_rows
 from balcli.render.plot.locus import draw_locus, find_period_deg
-from balcli.render.plot.pages import PAGES, PageSubject, draw_panel, make_page
+from balcli.render.plot.pages import PAGES, PageSubject, draw_panel
 from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import QUANTITIES, analyze
 from balcli.studies.pictures import Study
@@ -98,65 +95,6 @@ def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
     assert "force along x, N" not in texts
 
 
-def texts_of(svg: bytes) -> list[str]:
-    return [e.text or "" for e in ET.fromstring(svg).iter() if e.tag.endswith("text")]
-
-
-def test_orders_that_are_negligible_have_no_picture():
-    """Orders 10 of the force and 4 of the moment of a five; 1 and 2 of its moment are drawn."""
-    five = analyze(inline_engine([0, 144, 216, 288, 72]))
-    titles = [text for text in texts_of(draw_page(PageSubject(Study(five)), "orders", "svg")) if text]
-    assert [text for text in titles if ", order" in text] == [
-        "moment, order 1, at crank angle 36°",
-        "moment, order 2, at crank angle 18°",
-    ]
-    assert len([text for text in titles if text.startswith("negligible (")]) == 1
-
-
-def test_what_is_nothing_is_said_and_not_drawn():
-    """A six is balanced in force and moment; about the crank it is not."""
-    six = analyze(inline_engine([0, 240, 120, 120, 240, 0]), only=QUANTITIES)
-    for what, panels in (("all", 6), ("polar", 2), ("curves", 2), ("spectrum", 2), ("orders", 2)):
-        found = texts_of(draw_page(PageSubject(Study(six)), what, "svg"))
-        told = [text for text in found if text == "balanced" or text.startswith("negligible (")]
-        assert len(told) == panels
-        assert "force, N" not in found
-
-
-@pytest.mark.parametrize("form", ["svg", "png"])
-def test_legends_end_with_their_axes(form, four, monkeypatch):
-    """Before and after have an entry more, for which a panel of the page of all is too narrow."""
-    beyond = []
-
-    def measure(figure, *_, **__):
-        for ax in figure.axes:
-            if legend := ax.get_legend():
-                beyond.append(legend.get_window_extent().x1 - ax.get_window_extent().x1)
-
-    monkeypatch.setattr("matplotlib.figure.Figure.savefig", measure)
-    draw_page(PageSubject(Study(four.sizing.after, four)), "all", form)
-    assert len(beyond) == 5
-    assert max(beyond) <= 0.5
-
-
-def test_a_picture_is_laid_out_and_drawn_once(four, monkeypatch):
-    """But twice laid out where a legend has to be folded."""
-    from matplotlib.figure import Figure
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    calls = []
-    for owner, name in ((Figure, "draw"), (ConstrainedLayoutEngine, "execute")):
-        own = getattr(owner, name)
-
-        def count(self, *args, own=own, name=name):
-            calls.append(name)
-            return own(self, *args)
-
-        monkeypatch.setattr(owner, name, count)
-    draw_page(PageSubject(Study(four)), "all", "svg")
-    assert calls == ["execute", "draw"]
-
-
 def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
     """Bars of half orders are those of the gas, whose quantities they show; a curve of some of its
     orders would be no torque.
@@ -170,50 +108,6 @@ def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
     assert "720" not in curves
 
 
-def test_orders_that_are_always_shown_are_1_and_2():
-    orders = np.array([0.5, 1, 1.5, 2, 4])
-    vectors = np.array([0, 0, 0, 0, 1.0 + 0j])
-    assert visible_rows(Phasors.of(orders, vectors, vectors, np.zeros(5))) == [1, 3, 4]
-
-
-@pytest.mark.parametrize("name", ["long words " * 8, "长" * 60])
-def test_a_title_is_as_wide_as_its_picture(name, monkeypatch):
-    drawn: list[str] = []
-    from matplotlib.figure import Figure
-
-    monkeypatch.setattr(Figure, "suptitle", lambda self, text, **_: drawn.append(text))
-    with style.open_figure(4.3, 3, "svg") as fig:
-        style.put_title(fig, f"{name}\nwith scheme x")
-    (text,) = drawn
-    letter = 0.19 if "长" in name else 0.09
-    assert max(map(len, text.splitlines())) * letter <= 4.3
-    assert "".join(text.split()) == "".join(f"{name}withschemex".split())
-
-
-def test_one_order_does_not_leave_half_a_page_empty():
-    """Of a twin with a long rod: a moment of one order, and no force."""
-    text = changed(("throws = [0, 180, 180, 0]", "throws = [0, 180]"), ("firing_order", "# "))
-    twin = analyze(engine(text.replace("length = 160", "length = 100000")))
-    page = make_page(PageSubject(Study(twin)), "orders", "svg")
-    assert page.get_figwidth() < 5
-
-
-def test_crank_angles_do_not_lie_on_one_another(ax):
-    """Along a straight line that is run to and fro, two places of the tip are the same."""
-    ones = np.array([1.0 + 0j])
-    draw_locus(ax, Phasors.of(np.array([1.0]), ones, ones, np.zeros(1)), "force", SI.force)
-    places = np.array([text.get_position() for text in ax.texts if "°" in text.get_text()])
-    assert len(places) > 2
-    apart = np.abs(places[:, None] - places[None])
-    near = (apart[..., 0] < 0.1) & (apart[..., 1] < 0.05)
-    assert near.sum() == len(places)
-
-
-def test_names_are_cut_to_a_title():
-    assert style.fit_name("a\nb\x00c  d") == "a b c d"
-    assert style.fit_name("x" * 500) == "x" * 89 + "…"
-
-
 def test_nothing_global_is_left_changed():
     import matplotlib
 
@@ -221,41 +115,6 @@ def test_nothing_global_is_left_changed():
     with style.open_figure(2, 2, "png") as figure:
         figure.subplots()
     assert dict(matplotlib.rcParams) == before
-
-
-def test_threads_that_draw_leave_matplotlib_as_it_was():
-    """The second begins before the first has ended, and ends after it."""
-    import matplotlib
-
-    before = dict(matplotlib.rcParams)
-    second_is_in, first_is_out = Event(), Event()
-
-    def draw_second():
-        with style.open_figure(2, 2, "png"):
-            second_is_in.set()
-            first_is_out.wait()
-
-    second = Thread(target=draw_second)
-    with style.open_figure(2, 2, "png"):
-        second.start()
-        second_is_in.wait(0.2)
-    first_is_out.set()
-    second.join()
-    assert dict(matplotlib.rcParams) == before
-
-
-def test_matplotlib_is_imported_for_pictures_only():
-    code = (
-        "import sys\nimport balcli.render.plot.pages\nfrom balcli.render.plot import "
-        "style\nassert 'matplotlib' not in sys.modules\n"
-        "with style.open_figure(2, 2, 'png') as f: f.subplots(); style.save_figure(f, 'png')\nassert "
-        "'matplotlib.pyplot' not in sys.modules"
-    )
-    assert run_python("-c", code).returncode == 0
-
-
-def test_the_command_offers_every_page():
-    assert list(What) == [*PAGES, *torsion.PAGES[1:]]
 
 
 # ------------------------------------------------------------------ what is drawn
@@ -353,20 +212,3 @@ def test_of_a_share_of_gas_its_pressure_is_drawn(share):
     drawn = compute_picture(weak, "p-v")
     whole = compute_picture(build_text(GAS_FOUR + WIEBE), "p-v")
     assert drawn.pressure == pytest.approx(1e5 + share * (whole.pressure - 1e5))
-
-
-@pytest.mark.parametrize("what", PAGES_OF_GAS)
-def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    fired = build_text(GAS_FOUR + WIEBE)
-    study = Study(analyze(fired), gas=compute_picture(fired, what))
-    page = make_page(PageSubject(study), what, "png")
-    style.save_figure(page, "png")
-    canvas = FigureCanvasAgg(page)
-    canvas.draw()
-    labels = [ax.xaxis.label for ax in page.axes] + [ax.yaxis.label for ax in page.axes]
-    for label in labels:
-        box = label.get_window_extent(canvas.get_renderer())
-        inside = box.x0 >= 0 and box.y0 >= 0 and box.x1 <= page.bbox.x1 and box.y1 <= page.bbox.y1
-        assert inside or not label.get_text(), label.get_text()

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 import re
 import tomllib
 
 import numpy as np
 import pytest
-from support.cases import cases
 from support.commands import ask_torsion, refusal, run_here
 from support.diesel import write_diesel
-from support.paths import ENGINES, write
 
 from balcli import analyze_torsion
 from balcli.enginefile.templates import template
@@ -177,15 +174,6 @@ def test_a_damper_is_tuned_to_the_mode_of_the_largest_stress(kind, share):
     assert damper["after_Pa"] < 0.3 * damper["before_Pa"]
 
 
-@pytest.mark.parametrize(("loss", "speeds"), [(0.02, "2000:2440:10"), (0, "500:3000:10"), (0, "2000:2440:10")])
-def test_so_it_is_beside_the_resonance_and_where_nothing_damps_it(loss, speeds):
-    text = GENSET.replace("loss = 0.02", f"loss = {loss}")
-    options = ("--speeds", speeds, "--damper", "rubber", "-f", "json")
-    damper = json.loads(run_here("torsion", "-", *options, stdin=text).out)["damper"]
-    assert damper["mode"] == 2
-    assert damper["inertia_kg_m2"] == pytest.approx(0.165, rel=0.01)
-
-
 @pytest.mark.parametrize("carrier", [1, 4])
 @pytest.mark.parametrize("inertia", ["1e6", "1000100"])
 def test_a_damper_is_for_a_mode_in_which_its_carrier_moves(inertia, carrier):
@@ -208,26 +196,6 @@ def test_a_damper_is_for_a_mode_in_which_its_carrier_moves(inertia, carrier):
     there = (2 + carrier * (2 / carrier) ** 2) / (2 / carrier) ** 2
     assert damper["inertia_kg_m2"] == pytest.approx(0.3 * there, rel=1e-3)
     assert damper["after_Nm"] < 1.01 * damper["before_Nm"]
-
-
-def test_a_damper_is_for_the_mode_that_the_range_meets_where_its_carrier_moves_a_little():
-    """Shapes (3, 2) and (2, -3), of squared frequencies 1e5 and 7.5e5: order 1 meets the first at
-    3020 rpm and the second at 8270. At b the first has 13/4 kg m2, more than there is.
-    """
-    text = """
-        loss = 0.02
-        fixed = ["wall"]
-        node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 1e6 }, { name = "wall" }]
-        shaft = [
-            { from = "a", to = "b", stiffness = 3e5 }, { from = "b", to = "wall", stiffness = 2.5e5 }
-        ]
-        excitation = [{ node = "a", order = 1, cos = 100 }]
-        """
-    options = ("--speeds", "2000:4000:10", "--damper", "viscous", "--damper-at", "b")
-    damper = ask_torsion(text, *options)["damper"]
-    assert damper["mode"] == 1
-    assert damper["inertia_kg_m2"] == pytest.approx(0.3 * 13 / 4, rel=1e-3)
-    assert damper["after_Nm"] < 0.25 * damper["before_Nm"]
 
 
 def test_a_damper_of_the_file_is_the_one_that_is_sized():
@@ -254,60 +222,6 @@ def test_what_it_costs_is_the_power_lost_in_it():
     middle = worst["speed_rpm"]
     fine = ask_torsion(text, "--speeds", f"{middle - 100}:{middle + 100}:0.5")["response"]["dampers"][0]
     assert damper["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
-
-
-def test_heat_of_a_narrow_resonance_is_the_highest_of_it():
-    """Its top lies beside that of the damped mode, since other orders heat the damper, too."""
-    inertias = {"a": 106e3, "b": 114e3, "c": 33.3e3, "d": 86.6e3}
-    stiffnesses = {"ab": 186.4e3, "bc": 38.6e3, "cd": 44.75e3}
-    cosines = {4.5: 83.8, 5.5: 20.6, 0.5: 117, 4: 60}
-    nodes = (f'[[node]]\nname = "{name}"\ninertia = {own}\n' for name, own in inertias.items())
-    shafts = (f'[[shaft]]\nfrom = "{a}"\nto = "{b}"\nstiffness = {own}\n' for (a, b), own in stiffnesses.items())
-    orders = (f'[[excitation]]\nnode = "c"\norder = {order}\ncos = {cos}\n' for order, cos in cosines.items())
-    ring = 'damper = { kind = "viscous", inertia = 18800, damping = 0.0541 }\n'
-    text = "".join(["loss = 0.0172\n", *nodes, *shafts, *orders])
-    text = text.replace('name = "a"\n', f'name = "a"\n{ring}')
-    (coarse,) = ask_torsion(text, "--speeds", "600:3000:100")["response"]["dampers"]
-    (fine,) = ask_torsion(text, "--speeds", "1180:1190:0.01")["response"]["dampers"]
-    assert coarse["worst"]["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
-
-
-LOSSY = """loss = 0.05
-[[excitation]]"""
-# A nose of 0.001 kg m2 on a stiff shaft before the disc: room for little
-NOSE = f"""{SINGLE.replace("[[excitation]]", LOSSY)}
-[[node]]
-name = "nose"
-inertia = 1000
-[[shaft]]
-from = "nose"
-to = "disc"
-stiffness = 1e6
-"""
-
-
-@cases("torsion/dampers", "dampers_of_unlikely_size")
-def test_dampers_of_unlikely_size(options, told):
-    speeds = () if "--speeds" in options else RANGE
-    asked = (*speeds, "--damper", "viscous", *options, "--format", "json")
-    status, out, err = run_here("torsion", "-", *asked, stdin=NOSE)
-    assert status == 0
-    assert err == (f"warning: --damper: {told}\n" if told else "")
-    assert json.loads(out)["damper"].get("doubts", []) == ([told] if told else [])
-
-
-def test_a_damper_that_cannot_be_is_told_in_words():
-    """A shaft as thin as a few atoms asks for next to no damping."""
-    thin = CHAIN.replace("diameter = 55", "diameter = 5.5e-8")
-    asked = (*RANGE, "--damper", "viscous", "--damper-at", "pump", "-q")  # without doubts
-    told = run_here("torsion", "-", *asked, stdin=thin)
-    assert (told.status, told.out) == (2, "")
-    assert re.sub(r"(6\.1046)\d+", r"\1", told.err) == (
-        "balcli: --damper viscous: the best there cannot be: damper.damping: 6.1046e-17 is "
-        'too small; a torsional damping is wanted: a bare number in N m s/rad, or "2 N m s/rad" or '
-        '"18 lbf in s/rad", at least 1e-12; are inertias and stiffnesses of the system in the right '
-        "units?\n"
-    )
 
 
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
@@ -414,17 +328,6 @@ def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_
         assert (title in text) == (what in ("all", name))
 
 
-def test_pictures_of_large_torques_are_in_kilonewton_metres():
-    """Of a crankshaft without diameters, too; a limit stands in the unit of the stress."""
-    result = analyze_torsion(write_diesel(), [4000, 4300, 4332])
-    waterfall, response = (make_torsion(result, what, "svg").axes[0] for what in ("waterfall", "response"))
-    largest = result.response.torque.max() / 1e3
-    assert largest > 10
-    assert waterfall.get_title("left").endswith(" kN·m")
-    assert response.get_ylabel() == "± kN·m"
-    assert max(line.get_ydata().max() for line in response.lines) == pytest.approx(largest)
-
-
 def test_pictures_show_a_resonance_between_the_speeds():
     """Two hundred rpm apart, the curve would stay below what the table tells."""
     result = analyze_torsion(write_diesel("limit = 60"), [4030, 4230, 4430, 4630])
@@ -441,57 +344,6 @@ def test_pictures_show_a_resonance_between_the_speeds():
     told = float(waterfall.get_title("left").split()[-2])
     shaft = np.argmax(worst.torque)
     assert told == pytest.approx(fine.amplitudes[:, :, shaft].max() / 1e3, rel=5e-3)
-
-
-def test_orders_of_a_waterfall_do_not_cover_one_another():
-    """Nor where nothing resonates, so that all are about as large."""
-    speeds = [1000, 1500, 2000]
-    result = analyze_torsion(ENGINES / "i6_diesel.toml", speeds, orders=[0.5, 1, 1.5, 2, 2.5, 3])
-    (axes,) = make_torsion(result, "waterfall", "svg").axes
-    streams = [stream.get_paths()[0].vertices[:, 0] for stream in axes.collections]
-    assert len(streams) == 6
-    for left, right in itertools.pairwise(streams):
-        assert left.max() < right.min()
-
-
-@pytest.mark.parametrize(("times", "ring", "heat"), [(1, r"100000 kg·mm²", "W"), (1e4, r"1000 kg·m²", "MW")])
-def test_units_of_a_damper_are_those_of_its_size(times, ring, heat):
-    """The same shafts ten thousand times as heavy, as stiff and as hard driven."""
-    stiffness = float((1000 * np.pi / 30) ** 2)
-    chain = SINGLE.replace("1e6", f"{1e6 * times}").replace("cos = 100", f"cos = {100 * times}")
-    chain = chain.replace(f"{stiffness!r}", f"{stiffness * times!r}")
-    asked = (*RANGE, "--damper", "viscous", "--damper-at", "disc")
-    own = ("--damper-inertia", f"{1e5 * times} kg mm^2")
-    told = run_here("torsion", "-", *asked, *own, stdin=chain).out
-    assert re.search(rf"^ring +{ring}$", told, re.MULTILINE)
-    assert re.search(rf"^heat +up to [\d.]+ {heat}, at", told, re.MULTILINE)
-    assert re.search(rf"turns up to [\d.]+ {heat} to heat", told)
-
-
-def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
-    picture = tmp_path / "chain.svg"
-    status, *_ = run_here("torsion", "-", "--plot", picture, stdin=CHAIN)
-    assert status == 0
-    text = picture.read_text()
-    assert "Shapes of modes" in text
-    assert "Campbell" in text
-    assert "Vibratory" not in text
-
-
-@pytest.mark.stress
-def test_plot_draws_torsion_too(tmp_path):
-    """Over half to one and a half times the file's speed; the same picture as of `torsion`."""
-    engine = write(tmp_path / "six.toml", write_diesel())
-    for what in ("modes", "response"):
-        one, other = tmp_path / "one.svg", tmp_path / "other.svg"
-        assert run_here("plot", engine, "--what", what, "-o", one).status == 0
-        speeds = () if what == "modes" else ("--speeds", "1000:3000:20")
-        told = run_here("torsion", engine, *speeds, "--plot", other, "--what", what)
-        assert told.status == 0
-        assert one.read_bytes() == other.read_bytes()
-    assert refusal("plot", "-", "--what", "response", "-o", tmp_path / "x.svg", stdin=SINGLE) == (
-        "--what response: give the range, such as --speeds 1000:2500"
-    )
 
 
 def test_of_several_stiffnesses_that_are_best_nearby_the_best_of_all_is_taken():

@@ -266,45 +266,6 @@ def test_a_rigid_part_adds_to_its_neighbour():
     assert found == pytest.approx(NATURAL_HZ, rel=1e-7)
 
 
-BAD_PARTS = """
-[torsion]
-throw_inertia = [40000, 40000]
-throw_stiffness = [1e6, 2e6]
-[[torsion.front]]
-name = "a"
-stiffness = 1
-of = "thrwo 1"
-[[torsion.front]]
-name = "a"
-stiffness = 1
-[[torsion.rear]]
-name = "throw 1"
-stiffness = 1
-[[torsion.rear]]
-name = "b"
-stiffness = 1
-of = "c"
-[[torsion.rear]]
-name = "c"
-stiffness = 1
-of = "b"
-"""
-
-
-def test_every_misfit_of_torsion_is_told_by_its_path():
-    head = write_diesel().partition("[torsion]")[0]
-    assert refusal("torsion", "-", stdin=head + BAD_PARTS).split("\n") == [
-        "standard input: 7 mistakes",
-        "  torsion.throw_stiffness: has 2 values, but 6 throws need 5; give one for all, or a list of these",
-        "  torsion.throw_inertia: has 2 values, but 6 throws need 6; give one for all, or a list of these",
-        '  torsion.front.1.of: "thrwo 1" is no part; did you mean throw 1?',
-        '  torsion.front.2.name: "a" is there twice; give each its own',
-        '  torsion.rear.1.name: "throw 1" is a name that throws have',
-        '  torsion.rear.2.of: "c" does not lead to the crankshaft; name what the part hangs on',
-        '  torsion.rear.3.of: "b" does not lead to the crankshaft; name what the part hangs on',
-    ]
-
-
 @cases("torsion/engine", "mistakes_of_torsion_say_what_would_be_right")
 def test_mistakes_of_torsion_say_what_would_be_right(torsion, message):
     head = write_diesel().partition("[torsion]")[0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import ask_torsion, run_here
+from support.commands import ask_torsion
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
@@ -239,11 +239,3 @@ def test_what_something_damps_is_found(loss):
         """
     worst = analyze_torsion(text, [800, 1100]).response.worst
     assert worst.torque == pytest.approx(1 / loss, rel=1e-6)
-
-
-def test_a_single_speed_is_headed_as_one():
-    """It said "1790 to 1790 rpm" twice."""
-    text = write_engine(0.005).replace("[torsion]\n", "[torsion]\nlimit = 1\n")
-    lines = run_here("torsion", "-", "--speeds", "1790", stdin=text).out.splitlines()
-    assert "Vibratory torque, 1790 rpm" in lines
-    assert "barred speeds  1790 rpm" in lines

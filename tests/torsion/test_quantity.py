@@ -43,17 +43,6 @@ def test_each_variant_is_what_the_command_says(diesel):
         assert max(flywheel["stress_Pa"]) / highest == pytest.approx(stress / torque, rel=1e-12)
 
 
-def test_search_and_scatter_say_over_which_speeds_a_shaft_is_loaded(diesel):
-    """A shaft so soft that it resonates below this range is no better for it."""
-    told = "Of shafts: the largest from half to 1.5 times the engine's speed; what resonates at"
-    over = ("--over", "torsion.rear.1.stiffness=1e6:2e6", "--minimise", "shaft.flywheel.torque")
-    assert told in run_here("search", diesel, *over).out
-    options = ("--quantity", "torsion.1.Hz,shaft.flywheel.torque", "--samples", "3")
-    assert told in run_here("scatter", diesel, *options).out
-    options = ("--quantity", "torsion.1.Hz", "--samples", "3")
-    assert told not in run_here("scatter", diesel, *options).out
-
-
 def test_figures_of_lists_and_dampers_vary(tmp_path):
     own = 'damper = { kind = "rubber", inertia = 20000, stiffness = 40000, loss = 0.1 }\n'
     path = write(tmp_path / "damped.toml", write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
