@@ -13,6 +13,7 @@ from support.browser import CHROMIUM, Browser
 from support.commands import ask
 from support.engines import GOOD, build_text, changed
 from support.paths import ENGINES, write
+from support.pictures import without_pictures
 
 from balcli.forces.kinds import KINDS
 from balcli.render.html import page
@@ -82,7 +83,8 @@ def test_it_loads_nothing():
 @cache
 def printed_report(name: str) -> str:
     """What the command makes of an engine that comes with balcli."""
-    return ask("report", ENGINES / f"{name}.toml", "-o", "-")
+    with without_pictures():
+        return ask("report", ENGINES / f"{name}.toml", "-o", "-")
 
 
 def test_a_hostile_name_stays_text():
@@ -92,7 +94,8 @@ def test_a_hostile_name_stays_text():
 
 
 def test_imperial_units_reach_everything():
-    text = report(GOOD, system=IMPERIAL)
+    with without_pictures():
+        text = report(GOOD, system=IMPERIAL)
     scene = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])
     unit = scene["units"]["force"]
     assert (unit["name"], unit["thousand"]) == ("lbf", "")
