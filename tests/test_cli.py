@@ -109,32 +109,7 @@ def test_bad_usage_that_the_parser_words(balcli, args, told):
     assert "Traceback" not in err
 
 
-@pytest.mark.parametrize(
-    ("args", "message"),
-    [
-        (["analyze", "no.toml"], "no.toml: no such file"),
-        (["analyze", "no.svg"], "no.svg: no such file; balcli plot FILE no.svg draws into it"),
-        (
-            ["analyze", V8, "--only", "force,all"],
-            "--only all: without --only there is all that is usual, with --all more",
-        ),
-        (["balance", V8, "--write", "-"], "--write -: name a file; standard output is for results alone"),
-        (["analyze", str(ENGINES)], f"{ENGINES}: is a folder; name a file in it"),
-        (["check", "nowhere"], "nowhere: no such file or folder"),
-        (["check", str(ROOT / "docs")], f"{ROOT / 'docs'}: has no engine files (*.toml)"),
-        (
-            ["new", "inlin"],
-            '"inlin" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
-            "w, mounts, field, torsion. Did you mean inline?",
-        ),
-        (
-            ["new", "chain"],
-            '"chain" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
-            "w, mounts, field, torsion. That is torsion: balcli new torsion. A finished one may be "
-            "among the examples: balcli engines.",
-        ),
-    ],
-)
+@cases("cli", "bad_input_is_told_in_one_line", ENGINES=ENGINES, ROOT=ROOT, V8=V8)
 def test_bad_input_is_told_in_one_line(balcli, args, message):
     assert balcli(*args) == (2, "", f"balcli: {message}\n")
 
@@ -423,17 +398,7 @@ def test_a_real_terminal_gets_colours_and_lines_of_its_width(monkeypatch):
     assert max(len(line) for line in ESCAPE.sub("", text).splitlines()) <= 80
 
 
-@pytest.mark.parametrize(
-    "args",
-    [
-        ["analyze", V8],
-        ["new", "single"],
-        ["check", str(ENGINES / "i4.toml")],
-        ["--help"],
-        ["--version"],
-        ["balance", "--help"],
-    ],
-)
+@cases("cli", "a_closed_pipe_ends_quietly", ENGINES=ENGINES, V8=V8)
 def test_a_closed_pipe_ends_quietly(args):
     reading, writing = os.pipe()
     os.close(reading)

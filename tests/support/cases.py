@@ -28,13 +28,21 @@ def cases(file: str, table: str, **names: Any) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(arguments[0] if len(arguments) == 1 else arguments, rows)
 
 
+def _fill_member(value: Any, objects: dict[str, Any]) -> list[Any]:
+    """A member of a list; of "*{NAME}" all members of that list."""
+    if isinstance(value, str) and value[:2] == "*{" and value[2:-1] in objects:
+        return list(objects[value[2:-1]])
+    return [_fill(value, objects)]
+
+
 def _fill(value: Any, objects: dict[str, Any]) -> Any:
     if isinstance(value, list):
-        return [_fill(each, objects) for each in value]
+        return [each for one in value for each in _fill_member(one, objects)]
     if isinstance(value, dict) and value.keys() == {"changed"}:  # GOOD with these texts replaced
         return changed(*_fill(value["changed"], objects))
-    if isinstance(value, dict) and value.keys() == {"of", "changed"}:  # another text with these replaced
-        return reduce(lambda text, pair: text.replace(*pair), *_fill([value["changed"], value["of"]], objects))
+    if isinstance(value, dict) and {"of", "changed"} <= value.keys():  # another text with these replaced, and more
+        pairs, text = _fill([value["changed"], value["of"]], objects)
+        return reduce(lambda text, pair: text.replace(*pair), pairs, text) + _fill(value.get("more", ""), objects)
     if isinstance(value, dict):
         return {key: _fill(each, objects) for key, each in value.items()}
     if not isinstance(value, str):

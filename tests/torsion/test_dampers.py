@@ -8,6 +8,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_torsion, refusal, run_here
 from support.diesel import write_diesel
 
@@ -267,44 +268,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
     assert tomllib.loads(fitted.read_text())["node"][0]["damper"]["kind"] == "viscous"
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (("--damper", "viscous"), "--damper: give the range in which it is to help, such as --speeds 1000:2500"),
-        (
-            ("--write", "x.toml", "--speeds", "1000:2000"),
-            "--write: writes a damper into the file; say which, such as --damper viscous",
-        ),
-        (("--damper-at", "disc"), "--damper-at: say which damper, such as --damper viscous"),
-        (("--damper-inertia", "3"), "--damper-inertia: say which damper, such as --damper viscous"),
-        (
-            ("--damper", "viscous", "--damper-at", "disk", *RANGE),
-            '--damper-at "disk": cannot carry a damper; what can is disc, wall',
-        ),
-        (("--damper", "viscous", "--damper-at", "wall", *RANGE), "--damper: wall does not move in mode 1"),
-        (
-            ("--damper", "viscous", "--damper-inertia", "-3", *RANGE),
-            '--damper-inertia "-3": a moment of inertia is wanted: a bare number in kg mm^2, or '
-            '"4200 kg mm^2" or "8.1 lb in^2", above 0',
-        ),
-        (
-            ("--damper", "viscous", "--damper-inertia", "3 kg", *RANGE),
-            '--damper-inertia "3 kg": is a mass, but a moment of inertia is wanted: a bare number in '
-            'kg mm^2, or "4200 kg mm^2" or "8.1 lb in^2"',
-        ),
-        (
-            ("--damper", "pendulum", *RANGE),
-            "--damper pendulum: a chain has no crank that says how far out pendulums hang: give "
-            'disc one, such as damper = { kind = "pendulum", mass = 2, radius = 60, length = 5 }',
-        ),
-        (
-            ("--damper", "viscous", "--orders", "2", *RANGE),
-            "--damper: nothing excites the system at the orders asked for",
-        ),
-        (("--what", "modes"), "--what modes: give --plot and a file for the picture"),
-        (("--what", "response", "--plot", "x.svg"), "--what response: give the range, such as --speeds 1000:2500"),
-    ],
-)
+@cases("torsion/dampers", "options_that_miss_others", RANGE=RANGE)
 def test_options_that_miss_others(options, message):
     assert refusal("torsion", "-", *options, stdin=SINGLE) == message
 
