@@ -369,6 +369,7 @@ def test_a_pipe_gets_no_escape_codes_and_no_width(balcli, monkeypatch):
     assert not any(line != line.rstrip() for line in table.splitlines())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("columns", [80, 140])
 @pytest.mark.parametrize(
     "name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "car/tsinghua_12v135q"]

@@ -297,6 +297,7 @@ def test_pictures_of_gas(four, tmp_path, what):
 
 
 # ------------------------------------------------------------------ other commands
+@pytest.mark.slow
 def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
     """A diagram would be left behind, unless the other folder has it, too."""
     (tmp_path / "far").mkdir()

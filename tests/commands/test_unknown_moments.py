@@ -144,6 +144,7 @@ def test_curves_have_no_moments(balcli, twin):
     assert "moment_x_Nm" in found["curves"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["all", "polar", "orders", "spectrum", "curves", "factor"])
 def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
     picture = tmp_path / "picture.svg"

@@ -172,6 +172,7 @@ def test_the_worst_speed_lies_between_those_computed(report):
         pytest.fail("no peak inside the range")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loss", [0.1, 0.01, 0.001])
 def test_no_resonance_is_too_narrow_to_be_found(report, loss):
     """Between speeds a hundred rpm apart, a range that is fine about every speed at which an order
@@ -189,6 +190,7 @@ def test_no_resonance_is_too_narrow_to_be_found(report, loss):
     assert found == pytest.approx(highest, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("seed", "loss"), [(7, 0.3), (15, 0.3), (23, 0.1), (42, 0.1)])
 def test_of_several_peaks_the_highest_is_found(report, seed, loss):
     """Among four speeds, where peaks are of nearly one height."""

@@ -81,6 +81,7 @@ def test_csv_has_one_figure_a_line(file):
     assert devices["shaft 2", "speed_rpm"] == "6000.0"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_imperial_units_reach_reasons_and_notes(file, scheme):
     """Grams stand on the bobweight card in either system, as on the scales of a shop."""

@@ -360,6 +360,7 @@ IMPERIAL = {  # SI units of the CSV: what stands instead, and its size
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "kind", ["viscous", *(pytest.param(kind, marks=pytest.mark.stress) for kind in ("rubber", "pendulum"))]
 )

@@ -70,6 +70,7 @@ def test_the_file_s_own_damper_is_off_where_it_is_told_what_there_is_without_one
     assert float(told[1]) == pytest.approx(stress, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["viscous", "rubber"])
 def test_no_other_figure_is_better(kind):
     """Of the Diesel with its inertia torque, over the range in which order 3 is critical."""
@@ -90,6 +91,7 @@ def test_no_other_figure_is_better(kind):
         assert largest(ask_torsion(other, *options), "stress_Pa") > damper["after_Pa"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [pytest.param("viscous", marks=pytest.mark.stress), "rubber"])
 def test_no_resonance_hides_between_the_speeds(kind):
     """The largest stress with and without a damper is that of the range, however far apart the
@@ -114,6 +116,7 @@ def test_a_pendulum_is_tuned_to_the_order_that_does_most():
     assert damper["heat_W"] == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stroke", [137, pytest.param(2000, marks=pytest.mark.stress)])
 def test_pendulums_hang_as_far_out_as_the_crank_pins(stroke):
     """Whatever the size of the engine; the file's own stay where they are."""
@@ -175,6 +178,7 @@ def test_a_damper_is_tuned_to_the_mode_of_the_largest_stress(kind, share):
     assert damper["after_Pa"] < 0.3 * damper["before_Pa"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("carrier", [1, 4])
 @pytest.mark.parametrize("inertia", ["1e6", "1000100"])
 def test_a_damper_is_for_a_mode_in_which_its_carrier_moves(inertia, carrier):
@@ -310,6 +314,7 @@ def test_pictures_show_a_resonance_between_the_speeds():
     assert told == pytest.approx(fine.amplitudes[:, :, shaft].max() / 1e3, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_of_several_stiffnesses_that_are_best_nearby_the_best_of_all_is_taken():
     """The largest stress over the stiffness of this ring has two valleys, the deeper one narrower:
     the other was taken, with 4 % more.

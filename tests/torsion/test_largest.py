@@ -53,6 +53,7 @@ def search_finely(text, shaft):
     return largest
 
 
+@pytest.mark.slow
 @cases("torsion/largest", "no_resonance_is_too_narrow_to_be_found")
 def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     """A ring in thick oil and pendulums shift resonances, away from the modes without them."""
@@ -62,6 +63,7 @@ def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     assert found == pytest.approx(search_finely(text, -1), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_largest_of_an_answer_lies_between_its_speeds():
     """Torque, stress and swing of hardly damped shafts, 50 rpm apart and next to each other."""
     text = write_engine(0.005)
