@@ -27,11 +27,12 @@ def pytest_configure(config):
     else:
         config.byte_code = tempfile.mkdtemp(prefix="balcli-byte-code-")
         config.add_cleanup(lambda: shutil.rmtree(config.byte_code, ignore_errors=True))
-    if not config.getoption("numprocesses"):  # who starts workers does not change what they inherit
+    if not config.getoption("numprocesses", None):  # who starts workers does not change what they inherit
         os.environ["PYTHONPYCACHEPREFIX"] = config.byte_code
         del os.environ["PYTHONDONTWRITEBYTECODE"]
 
 
+@pytest.hookimpl(optionalhook=True)  # of pytest-xdist
 def pytest_configure_node(node):
     """Workers have the folder of who starts them."""
     node.workerinput["byte_code"] = getattr(node.config, "byte_code", None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import pytest
+from support.cases import cases
 from support.commands import run_here
 from support.engines import GOOD, changed
 from support.paths import ENGINES
@@ -11,15 +11,7 @@ TOLD = "The file gives no speed: figures are those at 1000 rpm."
 OF_ORDER_2 = ("--minimise", "force.2.major")
 
 
-@pytest.mark.parametrize(
-    ("command", "options", "others"),
-    [
-        ("balance", [], ["--speed", "3000"]),
-        ("sweep", ["-f", "table", "--vary", "rod.ratio=0.25,0.3"], ["-f", "table", "--vary", "rpm=1000,3000"]),
-        ("search", ["--over", "rod.length=150:170", *OF_ORDER_2], ["--over", "rpm=1000:3000", *OF_ORDER_2]),
-        ("scatter", ["--samples", "10"], []),
-    ],
-)
+@cases("commands/assumed_speed", "an_assumed_speed_is_told", OF_ORDER_2=OF_ORDER_2)
 def test_an_assumed_speed_is_told(command: str, options: list[str], others: list[str]) -> None:
     """And not where the file gives one, or the speed is chosen or varied (`others`)."""
     without = changed(("speed = 3000", ""))

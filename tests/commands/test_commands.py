@@ -14,6 +14,7 @@ from contextlib import nullcontext
 from types import ModuleType
 
 import pytest
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, tables
 from support.paths import ENGINES, write
@@ -22,7 +23,6 @@ from balcli.bench import bench, stopwatch
 from balcli.bench.bench import Bench, Case, Ratio, Row
 from balcli.errors import BalcliError, InputError
 from balcli.process import WINDOWS
-from balcli.sizing.schemes import SCHEMES
 
 MEASURED = Bench(
     (
@@ -65,30 +65,6 @@ def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what,
     assert not picture.exists()
 
 
-@pytest.mark.stress
-@pytest.mark.parametrize(
-    ("command", "options", "same"),
-    [
-        ("report", ["--factor", "51%"], ["--scheme", "factor", "--factor", "0.51"]),
-        (
-            "plot",
-            ["--scheme", "single-shaft", "--order=1", "--at=-60,80"],
-            ["--scheme", "single-shaft", "--at=-6cm,8cm"],
-        ),
-    ],
-)
-def test_pictures_take_the_options_of_schemes(balcli, tmp_path, command, options, same):
-    """And show what they change."""
-    twin, file = ENGINES / "twin270.toml", tmp_path / "x.html"
-    if command == "plot":
-        file = tmp_path / "x.svg"
-    drawn = []
-    for asked in (options, same, ["--scheme", "auto"]):
-        assert balcli(command, twin, file, *asked)[0] == 0
-        drawn.append(file.read_text(encoding="utf-8"))
-    assert drawn[0] == drawn[1] != drawn[2]
-
-
 @pytest.mark.parametrize("command", ["plot", "report", "mounts"])
 def test_options_of_schemes_are_judged_as_in_balance(balcli, tmp_path, command):
     four, file = (ENGINES / "i4_mounts.toml", tmp_path / ("x.html" if command == "report" else "x.svg"))
@@ -99,24 +75,6 @@ def test_options_of_schemes_are_judged_as_in_balance(balcli, tmp_path, command):
         told = balcli(command, four, *where, *options).err
         assert wanted.removeprefix("balcli: ") in told
         assert not file.exists()
-
-
-def test_options_of_schemes_are_heard_in_the_mounts(balcli):
-    four = ENGINES / "i4_mounts.toml"
-    usual, same, other = (
-        balcli("mounts", four, "--speeds=800,3000", "--scheme=two-shaft", *options).out
-        for options in ([], ["--order=2"], ["--order=4"])
-    )
-    assert usual == same != other
-
-
-def test_plot_of_no_free_force_says_so(balcli, tmp_path):
-    assert balcli("plot", ENGINES / "v12_60.toml", "-o", tmp_path / "x.svg", "--what", "orders", "--orders", "1") == (
-        0,
-        "",
-        "",
-    )
-    assert (tmp_path / "x.svg").read_text().count(">balanced<") == 2
 
 
 def test_a_report_is_the_engine_before_and_after(balcli, four, tmp_path):
@@ -132,18 +90,6 @@ def test_curves_as_json_have_an_angle_for_each_value(balcli, four):
     found = json.loads(out)
     assert status == 0
     assert {len(curve) for curve in found["curves"].values()} == {len(found["crank_deg"])}
-
-
-def test_verdict_of_a_force_that_turns_against_the_crank(balcli, tmp_path):
-    """A shaft at -1 alone shakes an engine whose pistons weigh nothing."""
-    file = write(
-        tmp_path / "shaft.toml",
-        "[crank]\nstroke = 100\n[rod]\nratio = 0.25\n[piston]\nmass = 0\n[operation]\nspeed = 600\n"
-        "[[shaft]]\nratio = -1\nunbalance = 1000\nangle = 0\n",
-    )
-    status, out, _ = balcli("analyze", file)
-    assert status == 0
-    assert "turning against the crank" in out
 
 
 # ------------------------------------------------------------------ bench
@@ -370,50 +316,7 @@ def test_a_search_and_a_scatter_in_csv(four):
 
 
 # ------------------------------------------------------------------ refusals, word for word
-@pytest.mark.parametrize(
-    ("command", "engine", "options", "message"),
-    [
-        (
-            "balance",
-            "single",
-            "--scheme minimax --planes nonsense",
-            '--planes "nonsense": give ends, throws, or places along z in mm',
-        ),
-        (
-            "balance",
-            "i5",
-            "--scheme minimax --planes 3,3",
-            "--planes: one plane, or planes at the same z, cannot take a moment",
-        ),
-        (
-            "balance",
-            "vtwin90",
-            "--scheme two-shaft --order 1 --roll zero",
-            "order 1: its force turns with the crank alone, so that one shaft takes it and none "
-            "is left to be placed for the roll",
-        ),
-        (
-            "balance",
-            "single",
-            "--scheme single-shaft --at 1,2 --at 3,4",
-            "--at: this scheme has one place; give it once",
-        ),
-        ("balance", "i4", "--scheme two-shaft --at 1,2 --at 3,4 --at 5,6", "--at: a pair of shafts has two places"),
-        (
-            "sweep",
-            "single",
-            "--vary rod.length=100,200 --vary rod.length=3,4 --quantity force.1.major",
-            "rod.length is varied twice; give all its values at once",
-        ),
-        (
-            "search",
-            "single",
-            "--over throws --minimise force.1.major",
-            "there is nothing to permute: the crank has one throw; give crank.throws, or a "
-            "layout.firing_order they follow from",
-        ),
-    ],
-)
+@cases("commands/commands", "refusals_say_what_would_be_right")
 def test_refusals_say_what_would_be_right(command, engine, options, message):
     assert message in refusal(command, ENGINES / f"{engine}.toml", *options.split())
 
@@ -450,14 +353,6 @@ def test_more_devices_than_any_engine_has():
     assert f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}" in refused(
         counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1)
     )
-
-
-def test_schemes_are_explained_with_their_options_within_80_columns(balcli):
-    out = balcli("balance", "--schemes")[1]
-    assert max(map(len, out.splitlines())) <= 80
-    for name, taken in SCHEMES.items():
-        place = out.index(f"{name} ")
-        assert all(f"--{option}" in out[place : place + 250] for option in taken), name
 
 
 def test_devices_of_a_sizing_that_is_asked_for_in_csv():

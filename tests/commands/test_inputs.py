@@ -1,6 +1,7 @@
 """Engines that commands read: told apart, and doubted where they are unlikely."""
 
 import pytest
+from support.cases import cases
 from support.commands import run_here
 
 from balcli.commands.inputs import name_engines
@@ -25,18 +26,7 @@ mount = [{ name = "all", at = [0, 0, 0], stiffness = [100, 100, 100] }]
 """
 
 
-@pytest.mark.parametrize(
-    "args",
-    [
-        ("analyze", "-"),
-        ("torque", "-", "--misfire", "1"),
-        ("torsion", "-"),
-        ("torsion", "-", "--misfire", "1"),
-        ("scatter", "-", "-q", "force.1.major", "--samples", "2"),
-        ("search", "-", "--over", "rod.length=150:160", "--minimise", "force.2.major"),
-        ("sweep", "-", "--vary", "rod.length=150,160", "-q", "force.2.major"),
-    ],
-)
+@cases("commands/inputs", "every_command_that_reads_an_engine_doubts_what_is_unlikely")
 def test_every_command_that_reads_an_engine_doubts_what_is_unlikely(args):
     err = run_here(*args, stdin=HEAVY).err
     assert err.startswith("warning: standard input: piston.mass is 500 kg in a bore of 80 mm, where ")
@@ -61,16 +51,7 @@ gas = { cycle = "otto", compression_ratio = 9, imep = 8 }
 """
 
 
-@pytest.mark.parametrize(
-    ("args", "doubted"),
-    [
-        (("sweep", "-", "--vary", "rod.length=150,160", "-q", "torque.max"), True),
-        (("sweep", "-", "--vary", "crank.throws.2=230,240", "-q", "force.1.major"), False),
-        (("search", "-", "--over", "rod.length=150:160", "--minimise", "torque.max"), True),
-        (("search", "-", "--over", "throws", "--minimise", "moment.1.major"), False),
-        (("search", "-", "--over", "firing_order", "--minimise", "moment.1.major"), False),
-    ],
-)
+@cases("commands/inputs", "a_firing_order_is_doubted_unless_it_is_searched_for")
 def test_a_firing_order_is_doubted_unless_it_is_searched_for(args, doubted):
     status, _, err = run_here(*args, stdin=ALONG)
     told = "warning: standard input: layout.firing_order: 1-2-3 fires after 120, 120, 480 deg"

@@ -7,9 +7,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import run_here
-from support.paths import ENGINES
 
-from balcli import __version__
 from balcli.cli import COMMANDS
 
 LONG_ROD = "crank.stroke = 90\nrod.length = 1600\npiston.mass = 0.5\n"
@@ -26,19 +24,6 @@ def test_quiet_leaves_out_warnings_wherever_it_stands(option):
     for args in ((option, "analyze", "-"), ("analyze", "-", option)):
         assert run_here(*args, stdin=LONG_ROD) == (0, usual.out, "")
     assert run_here("analyze", "-", stdin=LONG_ROD).err == WARNING  # it was for that command
-
-
-def test_quiet_keeps_errors():
-    status, out, err = run_here("-q", "analyze", "nowhere.toml")
-    assert (status, out, err) == (2, "", "balcli: nowhere.toml: no such file\n")
-
-
-def test_q_is_the_quantity_where_it_always_was():
-    args = ("sweep", "-", "--vary", "crank.stroke=80,90", "-q", "force.2.major")
-    usual = run_here(*args, stdin=LONG_ROD).out
-    quiet = run_here(*args, "--quiet", stdin=LONG_ROD)
-    assert usual.startswith("crank.stroke,force.2.major\n")
-    assert quiet == (0, usual, "")
 
 
 def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
@@ -60,18 +45,6 @@ def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
         f"note: {target}: written, {target.stat().st_size} bytes",
     ]
     assert re.fullmatch(r"note: \d+\.\d\d s of processor time, the start of Python included", took)
-
-
-def test_verbose_says_what_a_scheme_does_it_for():
-    *_, reason, _ = run_here(
-        "balance", ENGINES / "i3.toml", "--scheme", "couple-shaft", "-f", "json", "-v"
-    ).err.splitlines()
-    assert reason.startswith("note: scheme couple-shaft: ")
-
-
-@pytest.mark.parametrize("option", ["-V", "--version"])
-def test_the_version(option):
-    assert run_here(option) == (0, f"balcli {__version__}\n", "")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from support.cases import cases
 from support.paths import ENGINES
 
 from balcli.commands.options import parse_orders
@@ -10,19 +11,7 @@ from balcli.commands.torsion_options import parse_half_orders
 from balcli.render.sheet import order_name
 
 
-@pytest.mark.parametrize(
-    ("text", "orders"),
-    [
-        ("1-4", [1, 2, 3, 4]),
-        ("1,2,4", [1, 2, 4]),
-        ("1-3,8", [1, 2, 3, 8]),
-        ("0.5-2", [0.5, 1, 1.5, 2]),
-        ("1-2.5", [1, 1.5, 2, 2.5]),
-        ("1.5", [1.5]),
-        ("1.0-3.0", [1, 2, 3]),
-        (" 1 - 3, 4.50", [1, 2, 3, 4.5]),
-    ],
-)
+@cases("commands/options", "a_range_that_begins_or_ends_with_a_half_goes_in_halves")
 def test_a_range_that_begins_or_ends_with_a_half_goes_in_halves(text, orders):
     assert parse_orders(text) == parse_half_orders(text).tolist() == orders
 
@@ -42,15 +31,7 @@ def test_a_table_is_a_text(balcli, name):
     assert balcli("balance", ENGINES / "i4.toml", "-f", name) == balcli("balance", ENGINES / "i4.toml")
 
 
-@pytest.mark.parametrize(
-    ("command", "known"),
-    [
-        ("analyze", "'table', 'json', 'csv', 'markdown', 'marine'"),
-        ("compare", "'table', 'json', 'csv', 'markdown'"),
-        ("curves", "'csv', 'json'"),
-        ("sweep", "'table', 'markdown', 'csv', 'json', 'parquet'"),
-    ],
-)
+@cases("commands/options", "what_is_no_format_is_told_with_those_that_are")
 def test_what_is_no_format_is_told_with_those_that_are(balcli, command, known):
     status, out, err = balcli(command, ENGINES / "i4.toml", "-f", "xml")
     assert (status, out) == (2, "")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from support.cases import cases
 from support.commands import refusal, run_here
 from support.gas_engines import FOUR
 from support.paths import ENGINES
@@ -36,106 +37,17 @@ def files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("command", "message"),
-    [
-        ("analyze diagram.toml", "diagram.toml: gas.indicator: latin.csv: is not UTF-8 text; save it as UTF-8"),
-        (
-            "analyze workbook.toml",
-            "workbook.toml: gas.indicator: p.xlsx: is a workbook or another packed file; save the sheet as CSV",
-        ),
-        ("analyze p.xlsx", "p.xlsx: is a workbook or another packed file, no text; write TOML, as `balcli new` does"),
-        (
-            "analyze blank.toml",
-            'blank.toml: gas.indicator: "  " is no name of a file; give the name of a file, such as "p_2000rpm.csv"',
-        ),
-        (
-            "analyze exchange.toml",
-            'exchange.toml: gas.zero: a two-stroke cycle has no gas-exchange dead centre; give "firing"',
-        ),
-        ("analyze harmonics.toml", "harmonics.toml: gas.harmonics: heads.csv: has no rows; give order,cos,sin in each"),
-        (
-            "analyze bmep.toml",
-            "bmep.toml: gas.bmep: over mechanical_efficiency, the imep, is -3.75 bar: with the "
-            "least heat the cycle has 0.09318 bar",
-        ),
-        ("torque --curve still.csv", "still.csv: has no two angles; the last row has to close the period"),
-        (
-            "torsion four.toml",
-            "four.toml: has no [torsion]; write it with throw_stiffness, throw_inertia and "
-            "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]",
-        ),
-        (
-            "sweep four.toml --vary rod.length=140:150:5 --quantity force.1.major --format parquet",
-            "parquet is written into a file: name one with -o",
-        ),
-    ],
-)
+@cases("commands/refusals", "files")
 def test_files(command, message):
     assert refusal(*command.split()) == message
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ("four.toml --radius 0 --max-depth=-2", "--radius: 0 mm, --max-depth: -2 mm; give figures above 0"),
-        (
-            "four.toml --radius 50 --thickness 10 --disc 60",
-            "a semicircular disc has its radius or its thickness given, not both: the other follows",
-        ),
-        (
-            "offset.toml --scheme eccentric-slider",
-            "eccentric-slider: two shafts symmetric to the cylinder axis suit a centred mechanism "
-            "alone; this one has a piston offset of 2 mm",
-        ),
-        (
-            f"{ENGINES / 'rotary9.toml'} --factor 50%",
-            "scheme factor: the cylinders turn and the crank pins stand still, with all that is on "
-            "them: there is no rotating mass to balance opposite a pin; counterweights or auto can "
-            "balance what is left",
-        ),
-        (f"{ENGINES / 'i4.toml'} --scheme two-shaft --roll none", '--roll "none": only "zero" can be asked for'),
-        (
-            f"{ENGINES / 'i4.toml'} --scheme two-shaft --at=-60,50 --at=60,50 --roll zero",
-            "--roll zero fixes the place of the second shaft; give one --at, or two without --roll",
-        ),
-        (
-            f"{ENGINES / 'boxer6.toml'} --scheme two-shaft --order 1 --roll zero",
-            "order 1 has no free force: nothing to balance; shafts without unbalance can do nothing about the roll",
-        ),
-    ],
-)
+@cases("commands/refusals", "balance", ENGINES=ENGINES)
 def test_balance(options, message):
     assert refusal("balance", *options.split()) == message
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (
-            f"{ENGINES / 'i4.toml'} --over throws --minimise peak.force",
-            "a search over throws adds up orders, which peak.force does not allow; name orders, such as force.1.major",
-        ),
-        (
-            "own.toml --over firing_order --minimise force.1.major",
-            "cylinders with throws of their own leave no firing order to look for: give crank.throws and splay alone",
-        ),
-        (
-            "own.toml --over throws --minimise force.1.major",
-            "cylinders with throws of their own take no part in an arrangement of crank.throws: "
-            "give crank.throws and splay alone",
-        ),
-        (
-            "odd.toml --over firing_order --minimise force.1.major",
-            "these throws allow no even firing order, and no others are looked for",
-        ),
-        (
-            f"{ENGINES / 'v6_90_common.toml'} --over firing_order --minimise force.1.major",
-            "these throws allow no even firing order, and no others are looked for; with split "
-            "pins they do: crank.splay = 30",
-        ),
-    ],
-)
+@cases("commands/refusals", "search", ENGINES=ENGINES)
 def test_search(options, message):
     assert refusal("search", *options.split()) == message
 

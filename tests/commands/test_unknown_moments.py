@@ -8,8 +8,9 @@ import json
 import re
 
 import pytest
+from support.cases import cases
 from support.commands import ask
-from support.engines import GOOD, changed
+from support.engines import changed
 from support.paths import write
 
 from balcli import analyze, load
@@ -29,23 +30,8 @@ def twin(tmp_path):
     return write(tmp_path / "twin.toml", changed(FLAT_CRANK, NO_ORDER, NO_SPACING))
 
 
-@pytest.fixture
-def boxer(tmp_path):
-    """Two opposed cylinders, without any force."""
-    file = tmp_path / "boxer.toml"
-    opposed = ("[operation]", '[layout]\nbanks = [-90, 90]\nrods = "alternating"\n\n[operation]')
-    file.write_text(changed(FLAT_CRANK, ("[layout]\nfiring_order = [1, 3, 4, 2]", ""), NO_SPACING, opposed))
-    return file
-
-
 def warning(file):
     return f"warning: {file}: {UNKNOWN}\n"
-
-
-def test_of_orders_of_which_nothing_is_known_none_is_called_negligible(balcli, boxer):
-    out = balcli("analyze", boxer).out
-    assert "Negligible" not in out
-    assert "First order: free of force." in out
 
 
 def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
@@ -81,23 +67,6 @@ def test_what_shafts_leave_of_the_roll_is_known_without_places(balcli, twin):
         assert re.search(rf"^order 2 {label} +{value:.5g} N·m$", told, re.MULTILINE)
 
 
-def test_sizing_that_fits_nothing_promises_nothing_of_moments(balcli, tmp_path):
-    file = tmp_path / "six.toml"
-    six = ("throws = [0, 180, 180, 0]", "throws = [0, 120, 240, 0, 120, 240]")
-    file.write_text(changed(six, NO_ORDER, NO_SPACING))
-    told = " ".join(balcli("analyze", file)[1].split())
-    assert "The forces of orders 1 and 2 need no counterweight and no shaft; moments are" in told
-    told = " ".join(balcli("balance", file)[1].split())
-    assert f"Nothing is fitted Forces alone M{UNKNOWN[1:]}." in told
-    assert "are balanced" not in told
-
-
-def test_by_symmetry_nothing_is_said_of_moments(balcli, twin):
-    why = json.loads(balcli("analyze", twin, "--why", "--format", "json")[1])["why"]
-    assert "force" in str(why)
-    assert "moment" not in str(why)
-
-
 def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path):
     said = write(tmp_path / "said.toml", twin.read_text().replace("[rod]", "spacing = 0\n[rod]"))
     for command in ("analyze", "balance"):
@@ -115,13 +84,6 @@ def test_csv_has_no_moments(balcli, twin):
         assert "moment" not in {row["quantity"] for row in rows}
 
 
-@pytest.mark.parametrize("more", ["spacing = 0", "positions = [0, 0]", "spacing = 100"])
-def test_what_is_said_on_purpose_is_known(twin, more):
-    twin.write_text(twin.read_text().replace("[rod]", f"{more}\n[rod]"))
-    out = ask("analyze", twin, "--only", "moment")
-    assert ("First order: free of moment." in out) == ("100" not in more)
-
-
 def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_path):
     twin.write_text(twin.read_text() + "[cylinder.1]\nposition = -50\n[cylinder.2]\nposition = 50")
     assert balcli("analyze", twin, "--only", "moment")[::2] == (0, "")
@@ -131,42 +93,11 @@ def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_pa
     assert balcli("analyze", single, "--only", "moment")[::2] == (0, "")
 
 
-@pytest.mark.parametrize(
-    ("command", "args", "message"),
-    [
-        ("analyze", ["--only", "force,moment"], "{file}: moment: "),
-        ("analyze", ["--only", "inner"], "{file}: inner: "),
-        ("compare", ["{file}", "--only", "moment"], "{file}: moment: "),
-        ("search", ["--over", "throws", "--minimise", "force.1.major,moment.1.major"], "moment.1.major: "),
-        (
-            "search",
-            ["--over", "throws", "--minimise", "force.1.major", "--limit", "moment.2.major<9"],
-            "moment.2.major: ",
-        ),
-        ("sweep", ["--vary", "rod.length=150,160", "-q", "peak.moment"], "peak.moment: "),
-        ("scatter", ["-q", "moment.1.major"], "moment.1.major: "),
-        ("plot", ["--what", "inner", "-o", "{file}.svg"], "{file}: inner: "),
-    ],
-)
+@cases("commands/unknown_moments", "a_moment_by_name_is_an_error")
 def test_a_moment_by_name_is_an_error(balcli, twin, command, args, message):
     asked = [arg.format(file=twin) for arg in args]
     expected = f"balcli: {message.format(file=twin)}{UNKNOWN}\n"
     assert balcli(command, twin, *asked) == (2, "", expected)
-
-
-@pytest.mark.parametrize(
-    ("command", "args"),
-    [
-        ("balance", ["--scheme", "couple-shaft"]),
-        ("balance", ["--scheme", "couple-shaft", "--order", "1"]),
-        ("balance", ["--scheme", "minimax", "--planes=-100,20"]),
-    ],
-)
-def test_so_is_what_is_sized_by_moments(balcli, twin, command, args):
-    status, out, err = balcli(command, twin, *args)
-    assert (status, out) == (2, "")
-    assert err.startswith(warning(twin))
-    assert err.endswith(f"{UNKNOWN}\n")
 
 
 def test_a_weight_in_one_plane_takes_the_whole_force(balcli, tmp_path):
@@ -178,11 +109,6 @@ def test_a_weight_in_one_plane_takes_the_whole_force(balcli, tmp_path):
     shared = balcli("balance", file, "--scheme", "counterweights", "--planes=-100,20")
     assert shared[:2] == (2, "")
     assert shared[2].endswith(f"--planes: {UNKNOWN}\n")
-
-
-def test_nothing_is_said_of_a_moment_where_no_weight_is_needed(balcli, twin):
-    told = balcli("balance", twin, "--scheme", "counterweights")[1]
-    assert "There is no free force of order 1 turning with the crank: no counter" in told
 
 
 def test_forces_are_swept_and_a_spacing_that_is_varied_is_known(balcli, twin):
@@ -202,25 +128,6 @@ def test_the_usual_quantities_are_those_that_are_known(balcli, twin, command):
     assert "moment" not in out
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["analyze", "--only", "force,roll,couple,torque"],
-        ["compare", "{file}", "--only", "force,roll"],
-        ["scatter", "-q", "force.2.major"],
-        ["curves", "--cylinder", "1"],
-    ],
-)
-def test_nobody_is_warned_of_what_was_not_asked(balcli, twin, command):
-    name, *options = [word.format(file=twin) for word in command]
-    assert balcli(name, twin, *options)[::2] == (0, "")
-
-
-@pytest.mark.parametrize("only", ["verdict", "xy", "textbook", "peak", "sizing", "guide"])
-def test_what_says_something_of_moments_warns(balcli, twin, only):
-    assert balcli("analyze", twin, "--only", only)[::2] == (0, warning(twin))
-
-
 def test_curves_have_no_moments(balcli, twin):
     status, out, err = balcli("curves", twin, "--step", "90")
     assert (status, err) == (0, warning(twin))
@@ -237,6 +144,7 @@ def test_curves_have_no_moments(balcli, twin):
     assert "moment_x_Nm" in found["curves"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["all", "polar", "orders", "spectrum", "curves", "factor"])
 def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
     picture = tmp_path / "picture.svg"
@@ -246,47 +154,6 @@ def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
     assert drawn == {"factor": 0}.get(what, 1)
     if what == "factor":
         assert "moment (dashed grey)" not in text
-
-
-def test_compare_has_dashes_where_no_engine_has_known_moments(balcli, twin):
-    status, out, _ = balcli("compare", twin, twin)
-    assert status == 0
-    moments = out.partition("Free moment, N·m")[2].partition("\n\n")[0]
-    rows = [line.split()[-3:] for line in moments.splitlines() if line.startswith(("order", "peak"))]
-    assert rows == [["–"] * 3] * 3
-
-
-def test_compare_and_sum_have_dashes_beside_what_is_known(balcli, twin, tmp_path):
-    known = write(tmp_path / "known.toml", GOOD)
-    out = balcli("compare", twin, known)[1]
-    moments = out.partition("Free moment, N·m")[2]
-    assert moments.partition("order 1 ")[2].split()[0] == "–"
-    figures = json.loads(balcli("compare", twin, known, "--format", "json")[1])["figures"]
-    assert {figure["values"][0] for figure in figures if "moment" in figure["quantity"]} == {None}
-    out = balcli("sum", known, twin)[1]
-    assert "reference  moments are not known" in out
-    assert "moment  –" in out
-    assert json.loads(balcli("sum", known, twin, "--format", "json")[1])["assumed"] == ["crank.spacing = 0"]
-
-
-def test_a_report_draws_no_moments(balcli, twin, tmp_path):
-    page = tmp_path / "page.html"
-    assert balcli("report", twin, "-o", page)[::2] == (0, warning(twin))
-    text = page.read_text(encoding="utf-8")
-    assert UNKNOWN[1:] in text
-    assert '"moment":[]' in text
-
-
-def test_the_guide_moment_of_the_x_type_is_not_known_either(balcli, twin):
-    found = json.loads(balcli("analyze", twin, "--only", "guide", "--format", "json")[1])
-    assert "x_Nm" not in found["guide"]["orders"][0]
-
-
-def test_the_shops_factor_leaves_a_force_and_says_nothing_of_the_moment(balcli, twin):
-    factors = ["--scheme", "factor", "--factor", "0:1:0.5"]
-    out = balcli("balance", twin, *factors)[1]
-    swept = out.partition("Largest values by factor")[2].splitlines()
-    assert [line.split()[-1] for line in swept if " %  " in line] == ["–"] * 3
 
 
 def test_rows_in_python_have_no_figure_of_a_moment(twin):

@@ -16,6 +16,7 @@ from balcli.commands import output
 I4 = ENGINES / "i4.toml"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ["cp1252", "cp437", "ascii"])
 def test_results_are_utf_8_whatever_the_code_page(encoding):
     """No symbol of ours (− · ° ω²) is missing there, or ends the program."""

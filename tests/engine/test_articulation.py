@@ -11,13 +11,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracle import momentum
+from support.cases import cases
 from support.engines import RADIAL, build_text
 
 from balcli.core.mechanisms.articulated import Articulated
 from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
 from balcli.engine import load as enginefile
-from balcli.errors import BalcliError, InputError
+from balcli.errors import InputError
 from balcli.forces import spectrum
 from balcli.forces.orders import find_relevant_orders
 
@@ -37,54 +38,7 @@ def mistakes(*changes: tuple[str, str], more: str = "") -> list[str]:
 
 
 # ------------------------------------------------------------------ the file
-@pytest.mark.parametrize(
-    ("changes", "more", "message"),
-    [
-        (
-            [("radial = 7", "")],
-            "",
-            "articulation: needs a throw that carries the rods of several banks; this engine has 1 "
-            "bank: give bank_angle, banks or radial",
-        ),
-        (
-            [
-                ("radial = 7", 'bank_angle = 60\nrods = "alternating"'),
-                ("stroke = 120", "stroke = 120\nthrows = [0, 90]"),
-            ],
-            "",
-            "articulation: needs a throw that carries the rods of several banks; this engine has "
-            '2 banks with rods = "alternating", '
-            'one rod a throw: give rods = "shared"',
-        ),
-        (
-            [("[articulation]", "[articulation]\nmaster = 8")],
-            "",
-            "articulation.master: there is no bank 8; this engine has banks 1 to 7",
-        ),
-        (
-            [("[articulation]", "[articulation]\nknuckle_angles = [0, 72]")],
-            "",
-            "articulation.knuckle_angles: has 2 angles for 7 banks: give one for each, the master's own is 0",
-        ),
-        (
-            [("[articulation]", "[articulation]\nknuckle_angles = [3, 50, 100, 150, 200, 250, 300]")],
-            "",
-            "articulation.knuckle_angles: has 3 for bank 1, which carries the master rod: its own is 0",
-        ),
-        (
-            [("stroke = 120", "stroke = 120\nsplay = 10")],
-            "",
-            "crank.splay: articulated rods hang on the master rod and have no crank pins to "
-            "split: leave splay out, or [articulation]",
-        ),
-        (
-            [],
-            "[cylinder.3]\nthrow = 20\n",
-            "cylinder.3.throw: cylinder 3 has an articulated rod, which hangs on the master rod "
-            "and not on a crank pin: leave this out",
-        ),
-    ],
-)
+@cases("engine/articulation", "what_does_not_fit_together")
 def test_what_does_not_fit_together(changes, more, message):
     assert mistakes(*changes, more=more) == [message]
 
@@ -120,11 +74,6 @@ def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
     assert np.interp(float(found[1]), degrees, beside) == pytest.approx(beside.max(), rel=1e-5)
     assert float(found[2]) == pytest.approx(beside.max() / 60, rel=1e-5)
     assert [problem.split("cylinder ")[1][0] for problem in rest] == ["4", "5", "6"]
-
-
-def test_one_cylinder_with_too_short_a_rod_of_its_own():
-    (only,) = mistakes(more="[cylinder.5]\nrod_length = 59\nrod_cg = 30\n")
-    assert only.startswith("cylinder.5.rod_length: the crank cannot turn: at crank angle ")
 
 
 @pytest.mark.parametrize(("length", "looked_at"), [(188, 0), (120, 3), (110, 9)])
@@ -298,43 +247,8 @@ def test_a_pendulum_test_of_an_articulated_rod_is_its_inertia():
     assert found.cylinders.couple == pytest.approx(wanted.cylinders.couple, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("rod", "message"),
-    [
-        (
-            "{ length = 188, small_end = 0.3 }",
-            "articulation.rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg",
-        ),
-        ("{ mass = 0.62, cg = 90 }", "articulation.rod: has neither length nor ratio; give either length or ratio"),
-        (
-            "{ length = 188, mass = 0.6, small_end = 0.3, big_end = 0.3 }",
-            "articulation.rod: has mass, small_end and big_end; give either mass and cg or small_end and big_end",
-        ),
-        (
-            '{ length = 188, mass = 0.6, cg = 90, inertia = 1, pendulum = { pivot = "big_end", period = 0.9 } }',
-            "articulation.rod: has inertia and pendulum; give either inertia or pendulum",
-        ),
-        (
-            '{ length = 188, mass = 0.6, cg = 90, pendulum = { pivot = "big_end", period = 0.5 } }',
-            "articulation.rod: pendulum.period 0.5 s is too quick: with the centre of mass 90 mm "
-            "from the pivot a full swing takes more than 0.6019 s",
-        ),
-    ],
-)
+@cases("engine/articulation", "mistakes_of_articulated_rods")
 def test_mistakes_of_articulated_rods(rod, message):
     with pytest.raises(InputError) as found:
         build_text(_radial(rod))
     assert str(found.value) == f"engine: {message}"
-
-
-def test_figures_that_say_the_same_do_not_vary_together():
-    """`articulation.rod.mass` beside weighed ends would change nothing."""
-    model = enginefile.parse(_radial("{ length = 188, small_end = 0.3, big_end = 0.32 }"))
-    with pytest.raises(BalcliError) as found:
-        engine.build(model, {"articulation.rod.mass": np.array([0.5, 0.7])})
-    assert str(found.value) == (
-        "articulation.rod.mass: the file gives small_end and big_end instead; vary that, or give "
-        "mass and cg in the file"
-    )
-    varied = engine.build(model, {"articulation.rod.small_end": np.array([0.3, 0.4])})
-    assert np.ptp(varied.cylinders.reciprocating, axis=-1).max() == pytest.approx(0.1)

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import engine, refused
 
 from balcli.core.phasors import unit
@@ -62,15 +63,7 @@ def test_two_masses_have_no_couple():
 WEIGHED = {"length": 200, "small_end": 0.15, "big_end": 0.45, "inertia": 4000}
 
 
-@pytest.mark.parametrize(
-    "rod",
-    [
-        {"length": 200, "mass": 0.6, "cg": 50, "inertia": 4000},
-        {"ratio": 0.25, "mass": 0.6, "cg": 50, "inertia": 4000},
-        {"ratio": 0.25, "small_end": 0.15, "big_end": 0.45, "inertia": 4000},
-        {"length": "20 cm", "mass": "600 g", "cg": "0.05 m", "inertia": "0.004 kg*m^2"},
-    ],
-)
+@cases("engine/build", "ways_to_say_the_same_rod")
 def test_ways_to_say_the_same_rod(rod):
     one, other = engine(rod=rod).cylinders, engine(rod=WEIGHED).cylinders
     for name in ("lam", "reciprocating", "rotating", "couple"):
@@ -202,42 +195,7 @@ def test_uneven_speed():
 
 
 # ------------------------------------------------------------------ what cannot be
-@pytest.mark.parametrize(
-    ("parts", "message"),
-    [
-        (
-            {"operation": {"speed_ripple": [{"order": 1.5, "amplitude": 0.01}]}},
-            "operation.speed_ripple.1.order: 1.5 is no whole number; half orders take four strokes and [gas]",
-        ),
-        (
-            {"cylinder": {"3": {"piston_mass": 1}}},
-            "cylinder.3: there is no cylinder 3: crank.throws and layout make 1 cylinder; give "
-            "every throw its angle in crank.throws",
-        ),
-        (
-            {"rod": {"length": 50}},
-            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 50 mm is lambda "
-            "= 1; at most 1 - 1e-06 is allowed: make the rod longer",
-        ),
-        (
-            {"rod": {"length": 65}, "piston": {"mass": 1, "offset": -20}},
-            "rod.length: the crank cannot turn: crank radius 50 mm over rod length 65 mm is lambda "
-            "= 0.769230769, with the piston offset of 20 mm lambda + |offset|/length = 1.07692308; "
-            "at most 1 - 1e-06 is allowed: make the rod longer or the offset smaller",
-        ),
-        (
-            {"crank": {"throws": [0, 0]}, "cylinder": {"2": {"rod_length": 40}}},
-            "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 40 "
-            "mm is lambda = 1.25; at most 1 - 1e-06 is allowed: make the rod longer",
-        ),
-        (
-            {"rod": {"ratio": 0.25}, "piston": {"mass": 1, "offset": 150}},
-            "rod.ratio: the crank cannot turn: crank radius 50 mm over rod length 200 mm is lambda "
-            "= 0.25, with the piston offset of 150 mm lambda + |offset|/length = 1; at most 1 - "
-            "1e-06 is allowed: make the rod longer or the offset smaller",
-        ),
-    ],
-)
+@cases("engine/build", "what_cannot_be_an_engine")
 def test_what_cannot_be_an_engine(parts, message):
     assert refused(**parts) == f"engine: {message}"
 
@@ -256,21 +214,7 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
     )
 
 
-@pytest.mark.parametrize(
-    ("parts", "message"),
-    [
-        ({"rod": {"length": 200, "mass": 1, "cg": 230}}, "rod.cg: 230 mm is outside the rod of 200 mm"),
-        ({"rod": {"length": 200, "mass": 1, "cg": -10}}, "rod.cg: -10 mm is outside the rod of 200 mm"),
-        (
-            {"rod": {"length": 200}, "cylinder": {"1": {"rod_mass": 1, "rod_cg": 230}}},
-            "cylinder.1.rod_cg: 230 mm is outside the rod of 200 mm",
-        ),
-        (
-            {"rod": {"length": 240, "mass": 1, "cg": 230}, "cylinder": {"1": {"rod_length": 200}}},
-            "cylinder.1.rod_length: rod.cg = 230 mm is outside the rod of 200 mm",
-        ),
-    ],
-)
+@cases("engine/build", "a_centre_of_mass_outside_the_rod_needs_an_inertia")
 def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
     """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any
     other.
@@ -280,48 +224,3 @@ def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
         "negative: give a cg from 0 to 200 mm, or the rod's inertia"
     )
     assert engine(**parts | {"rod": parts["rod"] | {"inertia": 1000}}).cylinders.count == 1
-
-
-def test_a_rod_weighed_at_one_end_hides_no_other_mistake():
-    """Its own cylinder and all others are looked at, whatever else is wrong with the lay-out or
-    with one table.
-    """
-    cylinders = {"1": {"rod_small_end": 0.2}, "2": {"rod_length": 30}, "3": {"rod_big_end": 0.4, "rod_length": 35}}
-    found = [
-        "cylinder.1.rod_small_end: needs rod_big_end beside it: weigh the rod at both ends",
-        "cylinder.2.rod_length: the crank cannot turn: crank radius 50 mm over rod length 30 mm is "
-        "lambda = 1.66666667; at most 1 - 1e-06 is allowed: make the rod longer",
-        "cylinder.3.rod_big_end: needs rod_small_end beside it: weigh the rod at both ends",
-        "cylinder.3.rod_length: the crank cannot turn: crank radius 50 mm over rod length 35 mm is "
-        "lambda = 1.42857143; at most 1 - 1e-06 is allowed: make the rod longer",
-    ]
-    crank = {"throws": [0, 0, 0]}
-    assert refused(crank=crank, cylinder=cylinders).splitlines() == [
-        "engine: 4 mistakes",
-        *(f"  {line}" for line in found),
-    ]
-    assert refused(crank=crank, layout={"numbering": [[1, 2]]}, cylinder=cylinders).splitlines() == [
-        "engine: 5 mistakes",
-        "  layout.numbering: has rows of 2, but the banks have 3 cylinders: give one row a bank, "
-        "from the free end to the flywheel end",
-        *(f"  {line}" for line in found),
-    ]
-    worse = refused(crank=crank, cylinder={**cylinders, "1": {"piston_mass": -1}}).splitlines()
-    assert worse[0] == "engine: 4 mistakes"
-    assert worse[2:] == [f"  {line}" for line in found[1:]]
-
-
-def test_every_mechanism_that_cannot_turn_is_told_once():
-    text = refused(crank={"throws": [0, 0, 0]}, rod={"length": 40}, cylinder={"2": {"rod_length": 30}})
-    assert text.splitlines()[0] == "engine: 2 mistakes"
-    assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == ["rod.length", "cylinder.2.rod_length"]
-
-
-def test_layout_and_rods_are_told_together():
-    """What is wrong with the cylinders does not hide what is wrong with the rods."""
-    for parts, paths in (
-        ({"layout": {"firing_order": [1, 2, 3]}}, ["layout.firing_order", "rod.length"]),
-        ({"cylinder": {"3": {"piston_mass": 1}}}, ["cylinder.3", "rod.length"]),
-    ):
-        text = refused(crank={"throws": [0, 0]}, rod={"length": 40}, **parts)
-        assert [line.split(":")[0].strip() for line in text.splitlines()[1:]] == paths

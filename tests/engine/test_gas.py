@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import RADIAL, build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import write
@@ -54,29 +55,6 @@ def test_a_cycle_has_the_stated_mean_effective_pressure(seed):
 def test_bmep_is_imep_times_mechanical_efficiency():
     gas = build_text(FOUR + WIEBE.replace("imep = 9", "bmep = 9\nmechanical_efficiency = 0.9")).gas
     assert gas.cylinders[0].torque.imep == pytest.approx(10e5, rel=1e-12)
-
-
-@pytest.mark.parametrize(("intake", "strokes"), [(1.0, 4), (2.5, 4), (1.0, 2)])
-def test_more_heat_than_the_air_of_the_charge_burns_is_doubted(intake, strokes):
-    """Of 14.6 kg of air for 43 MJ of petrol, at 300 K: 34 times pressure times volume, here that of
-    the whole cylinder; a supercharged engine has more of it.
-    """
-    text = FOUR if strokes == 4 else TWO_STROKE
-    ratio, swept = 11, build_text(text + WIEBE).gas.cylinders[0].piston.swept
-    charge = intake * 1e5 * swept * ratio / (ratio - 1)
-    air = charge / (287 * 300)
-    assert 43e6 / 14.6 * air == pytest.approx(34 * charge, rel=0.02)
-
-    def doubts(heat):
-        gas = f"""[gas]\ncycle = "otto"\ncompression_ratio = {ratio}\nintake = {intake}\n"""
-        return build_text(f"{text}{gas}heat = {heat}\n").gas.doubts
-
-    assert doubts(39 * charge) == ()
-    assert doubts(50 * charge) == (
-        f"gas.heat takes {50 * charge:.4g} J of heat in each cycle, 50 times the pressure times "
-        "the volume of its charge; fuel for all of that air gives some 34 times; is gas.intake = "
-        f"{intake:g} bar right? It is absolute, and more where the engine is supercharged",
-    )
 
 
 def test_a_cylinder_without_heat_compresses_and_expands_alike():
@@ -213,43 +191,7 @@ def test_where_a_diagram_may_lie(beside, tmp_path):
 UNITS = "(or pressure_MPa, pressure_kPa, pressure_Pa, pressure_psi, pressure_barg, pressure_psig)"
 
 
-@pytest.mark.parametrize(
-    ("content", "told"),
-    [
-        (
-            "# measured\n-3e1,1\n10,2\n",
-            "{folder}/p.csv: begins with figures, without a heading; put the line angle_deg,pressure_bar above them",
-        ),
-        (
-            "0;1,5\n10;2\n",
-            "{folder}/p.csv: begins with figures, without a heading; put the line angle_deg;pressure_bar above them",
-        ),
-        (
-            "0\t1,5\n10\t2\n",
-            "{folder}/p.csv: begins with figures, without a heading; put the line angle_deg\tpressure_bar above them",
-        ),
-        (
-            "angle;pressure_bar\n0;1,5\n",
-            '{folder}/p.csv: the heading "angle;pressure_bar" has no angle_deg; '
-            f"head the file angle_deg;pressure_bar {UNITS}",
-        ),
-        (
-            "angle,pressure_bar\n0,1\n",
-            '{folder}/p.csv: the heading "angle,pressure_bar" has no angle_deg; '
-            f"head the file angle_deg,pressure_bar {UNITS}",
-        ),
-        (DIAGRAM.replace("50,0.1", "50,x"), '{folder}/p.csv: line 8: "x" is not a number'),
-        ("angle_deg,pressure_kPa\n0,1e306\n", '{folder}/p.csv: line 2: "1e306" is too large a number'),
-        (DIAGRAM.replace("50,0.1", "50"), "{folder}/p.csv: line 8: has 1 of 2 columns"),
-        (DIAGRAM.replace("\n50,", "\n30,"), "p.csv: line 8: the angle 30° does not exceed the 40° before it"),
-        (
-            DIAGRAM.replace("50,0.1", "50,-0.1"),
-            "p.csv: line 8: the absolute pressure is -1 bar: give 0 or more; is it over the "
-            'atmosphere? Then give pressure = "gauge"',
-        ),
-        (DIAGRAM + "\n730,0.1", "p.csv: covers 730°; a cycle of 4 strokes has 720°"),
-    ],
-)
+@cases("engine/gas", "mistakes_of_a_diagram", DIAGRAM=DIAGRAM, UNITS=UNITS)
 def test_mistakes_of_a_diagram(beside, tmp_path, content, told):
     path = beside('indicator = "p.csv"\n', content=content)
     assert mistake(path) == "gas.indicator: " + told.format(folder=tmp_path)
@@ -260,61 +202,10 @@ def test_a_gauge_pressure_below_vacuum(beside):
     assert mistake(path) == ("gas.indicator: p.csv: line 6: the absolute pressure is -0.98675 bar: give 0 or more")
 
 
-@pytest.mark.parametrize(
-    ("rows", "told"),
-    [
-        ("0,1,0\n0.25,1,0\n", "has order 0.25: a cycle of 4 strokes has multiples of 0.5"),
-        ("1,1,0\n1e30,1,0\n", "line 3: order 1e+30 is above 100, where no table goes"),
-        ("1,1,0\n1,1,0\n", "line 3: orders have to rise"),
-        ("0,2,5\n1,1,0\n", "line 2: order 0 has sin 5; it is the mean, which has no sine: write 0"),
-    ],
-)
+@cases("engine/gas", "mistakes_of_harmonics")
 def test_mistakes_of_harmonics(beside, rows, told):
     path = beside('harmonics = "p.csv"\n', content="order,cos,sin\n" + rows)
     assert mistake(path) == f"gas.harmonics: p.csv: {told}"
-
-
-def test_what_is_suspicious_of_a_diagram(beside):
-    path = beside('indicator = "p.csv"\nimep = 4\n', content=DIAGRAM.replace("720,0.1", "720,0.2"))
-    doubts = load(path).gas.doubts
-    assert [text.partition(":")[0] for text in doubts[:2]] == ["gas.indicator"] * 2
-    assert "closes the cycle with 2 bar, the first has 1 bar; the first is taken" in doubts[0]
-    assert "the highest pressure, 60 bar, stands at -350 deg from the firing dead" in doubts[1]
-    assert doubts[2].startswith("gas.imep is 4 bar, and the diagram has ")
-
-
-def test_a_diagram_in_another_unit_is_suspicious(beside):
-    path = beside('indicator = "p.csv"\nphase = -360\n', content=DIAGRAM.replace(",6", ",60"))
-    (doubt,) = load(path).gas.doubts
-    assert doubt == (
-        "gas.indicator: the highest pressure is 600 bar, where at most 500 is usual; does the "
-        "heading of its column name the right unit?"
-    )
-
-
-def test_a_diagram_that_goes_down_to_nothing_is_suspicious(beside):
-    zeroed = DIAGRAM.replace(",0.1", ",0.0")
-    path = beside('indicator = "p.csv"\nzero = "gas-exchange"\n', content=zeroed)
-    (doubt,) = load(path).gas.doubts
-    assert doubt == (
-        "gas.indicator: the lowest pressure is 0 bar absolute, where at least 0.1 is usual; is it "
-        'over the atmosphere? Then give pressure = "gauge"'
-    )
-    path = beside('indicator = "p.csv"\nzero = "gas-exchange"\n', content=DIAGRAM)
-    assert load(path).gas.doubts == ()
-
-
-def test_keys_that_change_nothing_are_doubted(tmp_path):
-    """The file is read all the same, as the other kind of cycle would be."""
-    path = write(tmp_path / "engine.toml", TWO_STROKE + WIEBE + "exhaust = 1.5\n")
-    (doubt,) = load(path).gas.doubts
-    assert doubt == (
-        "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the pressure is that of intake"
-    )
-    (tmp_path / "h.csv").write_text("order,cos,sin\n1,1,2\n", encoding="utf-8")
-    path.write_text(FOUR + "[gas]\nharmonics = 'h.csv'\ncrankcase = 1.1\n", encoding="utf-8")
-    (doubt,) = load(path).gas.doubts
-    assert doubt == "gas.crankcase changes nothing beside harmonics, which are of the torque"
 
 
 def test_a_diagram_may_have_so_many_rows(beside):
@@ -388,64 +279,7 @@ def test_a_mistake_by_its_path(text, told):
     assert found.startswith(told)
 
 
-@pytest.mark.parametrize(
-    ("gas", "told"),
-    [
-        (
-            WIEBE + "heat = 3\nburn_strat = 3\n",
-            [
-                "gas.burn_strat: unknown key in [gas]; did you mean burn_start?",
-                "gas: has imep and heat; give one of imep, bmep, max_pressure, cut_off and heat",
-            ],
-        ),
-        (
-            "[gas]\ncycle = 'dual'\ncompression_ratio = 1\n",
-            [
-                "gas: needs max_pressure for a dual cycle, at which it burns on",
-                "gas: does not say how much is burnt; give one of imep, bmep, cut_off and heat",
-                "gas.compression_ratio: 1 is not above 1; a plain number is wanted, without quotes",
-            ],
-        ),
-        (  # whether there is a highest pressure beside the goals is not known
-            "[gas]\ncycle = 'dual'\nburn_start = 1\nmax_pressure = '5 kg'\nimep = 5\n",
-            [
-                "gas: has burn_start, which only a wiebe cycle has",
-                "gas: needs compression_ratio for a computed cycle, such as compression_ratio = ",
-                'gas.max_pressure: "5 kg" is a mass, but a pressure is wanted: ',
-            ],
-        ),
-    ],
-)
-def test_several_mistakes_at_once(gas, told):
-    for one, start in zip(problems(FOUR + gas), told, strict=True):
-        assert one.startswith(start)
-
-
-@pytest.mark.parametrize(
-    ("gas", "own", "told"),
-    [
-        ("", "heat = 0", "cylinder.2.heat: needs [gas], which says what the gas does in all"),
-        (WIEBE, "heat = -1", "cylinder.2.heat: -1 is less than 0; an energy is wanted: a bare"),
-        (WIEBE, "heat = 0\nindicator = 'p.csv'", "cylinder.2: has heat and indicator; give either heat or indicator"),
-        (
-            "[gas]\nharmonics = 'h.csv'\n",
-            "heat = 0",
-            "cylinder.2.heat: belongs to a computed cycle, and [gas] has none; give the cylinder a "
-            "diagram of its own (indicator)",
-        ),
-        (
-            WIEBE + "compression_index = 1\n",
-            "heat = 0",
-            "gas.compression_index: is 1: give more than 1; where cylinder 2 burns nothing, it "
-            "expands as it was compressed",
-        ),
-        (
-            WIEBE.replace("wiebe", 'dual"\nmax_pressure = "60 bar'),
-            "heat = 20",
-            "cylinder.2.heat: is 20: this cycle needs 811.3 or more",
-        ),
-    ],
-)
+@cases("engine/gas", "mistakes_of_heat_of_a_cylinder", WIEBE=WIEBE)
 def test_mistakes_of_heat_of_a_cylinder(gas, own, told):
     assert problems(f"{FOUR}{gas}[cylinder.2]\n{own}\n")[0].startswith(told)
 

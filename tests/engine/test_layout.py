@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import engine, refused
 
 from balcli.engine.figures import FileFigures
@@ -109,70 +110,8 @@ def test_alternating_rods_have_a_throw_to_themselves_so_there_is_no_stagger():
 
 
 # ------------------------------------------------------------------ what cannot be
-ONCE = "each of the cylinders 1 to {} must stand once"
 
 
-@pytest.mark.parametrize(
-    ("parts", "message"),
-    [
-        (
-            {"crank": {"throws": [0, 90]}, "layout": {"banks": [0, 30, 60], "rods": "alternating"}},
-            'layout.rods: "alternating" gives every throw one rod, but there are 3 banks and only '
-            "2 throws: "
-            'give more throws, or "shared"',
-        ),
-        (
-            {"layout": {"banks": [0, 30], "rods": "alternating"}},
-            'layout.rods: "alternating" gives every throw one rod, but there are 2 banks and only '
-            "1 throw: "
-            'give more throws, or "shared"',
-        ),
-        (
-            {"crank": {"positions": [0, 10, 20]}, "layout": {"firing_order": [1, 2]}},
-            "crank.positions: has 3 values for 2 throws: give one position a throw",
-        ),
-        (
-            {"layout": {"firing_order": [1, 2, 3], "bank_angle": 90}},
-            "layout.firing_order: has 3 cylinders, which 2 banks cannot share evenly: "
-            "give crank.throws, or a multiple of 2 cylinders",
-        ),
-        (
-            {"crank": {"throws": [0, 180]}, "layout": {"bank_angle": 90, "numbering": [[1, 2, 3], [4]]}},
-            "layout.numbering: has rows of 3 and 1, but the banks have 2 and 2 cylinders: "
-            "give one row a bank, from the free end to the flywheel end",
-        ),
-        (
-            {"crank": {"throws": [0] * 3}, "layout": {"radial": 3, "rods": "alternating", "numbering": [[1], [2, 3]]}},
-            "layout.numbering: has rows of 1 and 2, but the banks have 1, 1, 1 cylinders: "
-            "give one row a bank, from the free end to the flywheel end",
-        ),
-        (
-            {"crank": {"throws": [0, 180]}, "layout": {"bank_angle": 90, "numbering": [[1, 2], [4, 5]]}},
-            f"layout.numbering: there is no cylinder 5, cylinder 3 is missing: {ONCE.format(4)}",
-        ),
-        (
-            {"crank": {"throws": [0, 180]}, "layout": {"bank_angle": 180, "firing_order": [1, 2]}},
-            f"layout.firing_order: cylinders 3 and 4 are missing: {ONCE.format(4)}; every throw "
-            "carries a rod of each of the 2 banks: if they take the throws in turn, as in a boxer, "
-            'say layout.rods = "alternating"',
-        ),
-        (
-            {"crank": {"throws": [0, 180]}, "layout": {"firing_order": [1, 3, 2]}},
-            f"layout.firing_order: there is no cylinder 3: {ONCE.format(2)}",
-        ),
-        (
-            {"crank": {"throws": [0, 180, 180, 0]}, "layout": {"firing_order": [1, 7]}},
-            f"layout.firing_order: there is no cylinder 7, cylinders 2, 3, 4 are missing: {ONCE.format(4)}",
-        ),
-    ],
-)
+@cases("engine/layout", "one_mistake")
 def test_one_mistake(parts, message):
     assert refused(**parts) == f"engine: {message}"
-
-
-def test_several_mistakes_are_told_at_once():
-    assert refused(crank={"throws": [0, 180]}, layout={"numbering": [[2, 3]], "firing_order": [1, 4]}) == (
-        "engine: 2 mistakes\n"
-        f"  layout.numbering: there is no cylinder 3, cylinder 1 is missing: {ONCE.format(2)}\n"
-        f"  layout.firing_order: there is no cylinder 4, cylinder 2 is missing: {ONCE.format(2)}"
-    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import GOOD
 from support.paths import ENGINES
 
@@ -64,28 +65,6 @@ def parse_of(tables):
     return tables | {"crank": crank, "rod": rod, "cylinder": {3: {"piston_mass": np.float64(0.5)}}}
 
 
-def test_mistakes_of_a_dict_are_told_as_those_of_a_file():
-    wrong = {"crank": {"stroke": -1, "throw": [0]}, "piston": {"mass": object}, "cylinder": {3: 4}}
-    with pytest.raises(balcli.InputError) as caught:
-        balcli.load(wrong)
-    assert str(caught.value) == (
-        "engine: 5 mistakes\n"
-        "  crank.throw: unknown key in [crank]; did you mean throws?\n"
-        '  rod: is missing; an engine needs it, such as "[rod]" and "length = 160" below it\n'
-        '  crank.stroke: -1 is not above 0; a length is wanted: a bare number in mm, or "90 mm" or '
-        '"3.5 in", above 0\n'
-        "  piston.mass: <class 'object'> is not a number; a mass is wanted: a bare number in kg, or "
-        '"650 g" or "0.8 lb"\n'
-        "  cylinder.3: 4 stands where a table belongs; write [cylinder.3] and its keys below it"
-    )
-
-
-def test_what_does_not_fit_together_in_a_dict_is_told():
-    with pytest.raises(balcli.InputError) as caught:
-        balcli.load(FOUR | {"layout": {"firing_order": [1, 2, 3, 4]}})
-    assert str(caught.value).startswith("engine: layout.firing_order: 1-2-3-4 would take 1080 deg")
-
-
 @pytest.mark.parametrize(
     ("source", "message"),
     [
@@ -100,13 +79,6 @@ def test_keys_are_text(source, message):
     with pytest.raises(balcli.InputError) as caught:
         balcli.load(source)
     assert str(caught.value) == message
-
-
-def test_tables_that_hold_themselves_end():
-    endless: dict = {}
-    endless["crank"] = endless
-    with pytest.raises(balcli.InputError, match=r"^engine: tables are nested too deeply; an engine"):
-        balcli.load(endless)
 
 
 @pytest.mark.parametrize(
@@ -182,41 +154,11 @@ def test_a_firing_order_that_no_longer_fits_the_throws_is_left_out():
     assert engine.vary({"rod.length": 150}).fires_deg == pytest.approx(engine.fires_deg)
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"rod.lenght": 3}, "in-line four with rod.lenght: rod.lenght: unknown key in [rod]; did you mean length?"),
-        (
-            {"rod.length": 150, "rod.ratio": 0.3},
-            "in-line four with rod.length, rod.ratio: rod: has length and ratio; give either length or ratio",
-        ),
-        (
-            {"crank.throws.7": 3},
-            "in-line four with crank.throws.7: crank.throws.7: there is no 7; the file has 1, 2, 3, 4",
-        ),
-        (
-            {"rod.length.2": 3},
-            "in-line four with rod.length.2: rod.length.2: length is one value, with nothing below it",
-        ),
-        (
-            {"layout.firing_order": [1, 2, 3, 4]},
-            "in-line four with layout.firing_order: layout.firing_order: 1-2-3-4 would take 1080 deg",
-        ),
-        (
-            {"crank.throws.2": 100, "rod.mass": -1},
-            "in-line four with crank.throws.2, rod.mass: rod.mass: -1 is less than 0",
-        ),
-    ],
-)
+@cases("engine/vary", "mistakes_are_told_as_those_of_a_file")
 def test_mistakes_are_told_as_those_of_a_file(changes, message):
     with pytest.raises(balcli.InputError) as caught:
         balcli.load(GOOD).vary(changes)
     assert str(caught.value).startswith(message)
-
-
-def test_a_name_that_is_no_text_is_told():
-    with pytest.raises(TypeError, match=r'^vary: 3 \(int\): name a key of the engine file, such as "rod\.length"$'):
-        balcli.load(GOOD).vary({3: 4})
 
 
 def test_devices_that_are_fitted_are_in_the_tables():
@@ -240,24 +182,3 @@ def test_what_no_file_can_describe_says_so():
 
 
 # ------------------------------------------------------------------ in a line
-def test_an_engine_in_a_line_and_in_a_notebook():
-    engine = balcli.load(ENGINES / "v8_crossplane.toml")
-    assert repr(engine) == '<Engine "90-degree cross-plane V8": 8 cylinders, 5.733 L, 5000 rpm>'
-    assert repr(balcli.load(FOUR)) == "<Engine 4 cylinders, 1000 rpm>"
-    assert repr(build(parse(GOOD), {"operation.speed": np.array([1.0, 2.0])})) == (
-        '<Engine "in-line four": 4 cylinders>'
-    )
-    shown = engine._repr_html_()
-    assert "<h4>90-degree cross-plane V8</h4>" in shown
-    assert '<th style="text-align: left">speed</th>' in shown
-
-
-def test_what_is_doubtful_is_told():
-    engine = balcli.load(GOOD)
-    assert engine.doubts == ()
-    assert "Doubtful" not in engine._repr_html_()
-    light = engine.vary({"piston.mass": 0, "crank.spacing": None})
-    unknown, piston, *_ = light.doubts
-    assert unknown.startswith("moments are not known, because crank.spacing is missing")
-    assert piston.startswith("piston.mass is 0: only the rod moves to and fro")
-    assert "<b>Doubtful</b>" in light._repr_html_()

@@ -9,7 +9,6 @@ import subprocess
 import sys
 import tomllib
 import zipfile
-from itertools import pairwise
 
 import pytest
 from support.commands import run_command
@@ -26,39 +25,6 @@ def test_every_engine_is_listed_with_its_lesson():
     assert len(lessons) == len(ENGINE_FILES), "two engines of one name"
     assert {name: f"# {lesson}" for name, lesson in listed.items()} == lessons
     assert max(map(len, lines)) <= 80
-
-
-@pytest.mark.stress
-def test_classes_are_listed_one_after_the_other_layouts_first():
-    lines = run_command("engines").stdout.splitlines()
-    headings = [line for line, below in pairwise(lines) if below and set(below) == {"─"}]
-    assert headings == examples.groups()
-    folders = {path.parent.name for path in ENGINE_FILES if path.parent != ENGINES}
-    assert headings == ["layout", *sorted(folders)]
-    assert all(group in run_command("engines", "--help").stdout for group in headings)
-
-
-def test_a_class_or_words_pick_engines():
-    marine = run_command("engines", "--class", "marine").stdout.splitlines()
-    assert marine[:2] == ["marine", "──────"]
-    assert {line.split()[0] for line in marine[2:]} == {path.stem for path in (ENGINES / "marine").glob("*.toml")}
-    assert "marine6" in [e.name for e in examples.find(group="marine")]
-    assert [e.name for e in examples.find("WARTSILA six")] == ["wartsila_6rtflex96c"]
-    assert {"v8_crossplane", "hispano_suiza_8"} <= {e.name for e in examples.find("v8")}
-    assert [e.name for e in examples.find("v8", "car")] == [e.name for e in examples.find("v8") if e.group == "car"]
-
-
-@pytest.mark.parametrize(
-    ("asked", "message"),
-    [
-        (["--class", "cars"], 'there is no class "cars" of engines: layout, aero, car, historic, marine, motorcycle'),
-        (["i4", "--find", "v8"], "--find and --class list engines; NAME prints one: give one of the two"),
-        (["--find", "v3"], 'no example mentions "v3": balcli engines lists them all'),
-    ],
-)
-def test_what_is_not_there_is_said(asked, message):
-    done = run_command("engines", *asked)
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"balcli: {message}\n")
 
 
 @pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
@@ -89,27 +55,6 @@ def test_unknown_names(name):
         examples.text(name)
 
 
-def test_a_misspelt_name_gets_a_hint():
-    with pytest.raises(BalcliError, match=r"Did you mean v8_crossplane"):
-        examples.text("v8_crosplane")
-
-
-def test_the_beginning_of_a_name_or_a_class_gets_one_too():
-    with pytest.raises(BalcliError, match=r"Did you mean v6_60 or v6_90_common or v6_90_split\?$"):
-        examples.text("v6")
-    with pytest.raises(BalcliError, match=r"It is a class: balcli engines --class marine\.$"):
-        examples.text("Marine")
-
-
-def test_examples_with_a_chapter_are_found_by_its_table():
-    for chapter in ("torsion", "gas", "mount"):
-        found = {example.name for example in examples.find(chapter)}
-        having = {path.stem for path in ENGINE_FILES if f"\n[{chapter}]" in path.read_text("utf-8")}
-        having |= {p.stem for p in ENGINE_FILES if f"\n[[{chapter}]]" in p.read_text("utf-8")}
-        assert having
-        assert having <= found
-
-
 @pytest.mark.stress
 def test_a_wheel_has_the_examples_and_the_page(tmp_path):
     pytest.importorskip("hatchling", reason="hatchling, which builds the wheel, is not installed")
@@ -124,11 +69,3 @@ def test_a_wheel_has_the_examples_and_the_page(tmp_path):
         content.extractall(tmp_path / "installed")
     listed = run_command("engines", env={"PYTHONPATH": str(tmp_path / "installed")}).stdout
     assert listed == run_command("engines").stdout
-
-
-def test_an_installation_without_them_says_so(monkeypatch, tmp_path):
-    monkeypatch.setattr(examples, "_PLACES", (tmp_path / "engines",))
-    with pytest.raises(
-        BalcliError, match=r"the example engines are missing from this installation .*: install balcli again"
-    ):
-        examples.names()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from support.cases import cases
 from support.engines import GOOD
 from support.mounts import block
 from support.rotors import three_runs
@@ -42,15 +43,7 @@ def test_a_file_of_another_kind(balcli, command, text, message):
     assert outcome == (2, "", f"balcli: standard input: {message}\n")
 
 
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [
-        ("", 'planes = ["front"]\n[[run]]\n'),
-        ("", "[[node]]\n[[excitation]]\n"),
-        ("[crank]", "planes = 2\n[crnk]"),
-        ("[rod]", "[run]"),
-    ],
-)
+@cases("enginefile/file_kinds", "an_engine_file_with_slips_is_an_engine_file")
 def test_an_engine_file_with_slips_is_an_engine_file(old, new):
     with pytest.raises(InputError) as caught:
         parse(GOOD.replace(old, new, 1) if old else new + GOOD)

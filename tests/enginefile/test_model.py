@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from types import CodeType
 
 import pytest
 from pydantic import ValidationError
+from support.cases import cases
 from support.engines import GOOD, changed, mistakes_in
 
 from balcli.engine.load import parse
@@ -95,127 +95,14 @@ rod = { length = 120, mass = 0.4, cg = 60 }
     assert engine.articulation.rod == ArticulatedRod(length=120, mass=0.4, cg=60)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        changed(("stroke = 90", "stroke = 0.005"), ("length = 160", "length = 0.01"), ("mass = 0.5", "mass = 1e-9")),
-        changed(("stroke = 90", "stroke = 1e6"), ("length = 160", "length = 2e6"), ("mass = 0.5", "mass = 1e9")),
-        changed(("speed = 3000", "speed = 1e-3")),
-        changed(("speed = 3000", "speed = 1e6")),
-        changed(("mass = 0.5", "mass = 0")),
-        changed(("cg = 45", "cg = -5")),
-        changed(("cg = 45\n", "")),
-        changed(("mass = 0.6\ncg = 45", "small_end = 0.2\nbig_end = 0.4")),
-    ],
-    ids=[
-        "tiny",
-        "huge",
-        "slow",
-        "fast",
-        "no piston mass",
-        "cg beyond the crank pin",
-        "mass alone",
-        "weighed at its ends",
-    ],
-)
+@cases("enginefile/model", "unusual_but_allowed")
 def test_unusual_but_allowed(text):
     assert parse(text).name == "in-line four"
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (
-            changed(("length = 160", "length = 160\nratio = 0.28")),
-            "rod: has length and ratio; give either length or ratio",
-        ),
-        (changed(("length = 160", "")), "rod: has neither length nor ratio; give either length or ratio"),
-        (
-            changed(("cg = 45", "cg = 45\nsmall_end = 0.2")),
-            "rod: has mass, cg and small_end; give either mass and cg or small_end and big_end",
-        ),
-        (
-            changed(("mass = 0.6\ncg = 45", "small_end = 0.2")),
-            "rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg",
-        ),
-        (
-            changed(("cg = 45", 'cg = 45\ninertia = 9\npendulum = { pivot = "small_end", period = 1 }')),
-            "rod: has inertia and pendulum; give either inertia or pendulum",
-        ),
-        (
-            changed(("cg = 45", 'cg = 45\npendulum = { pivot = "middle", period = 1 }')),
-            'rod.pendulum.pivot: "middle" is not "small_end" or "big_end"',
-        ),
-        (
-            changed(("spacing = 100", "spacing = 100\npositions = [0, 1, 2, 3]")),
-            "crank: has spacing and positions; give either spacing or positions",
-        ),
-        (
-            changed(("spacing = 100", "positions = [0, 1, 2]")),
-            "crank: positions has 3 places for 4 throws; give one for each throw",
-        ),
-        (
-            changed(("[layout]", "[layout]\nbank_angle = 90\nradial = 5")),
-            "layout: has bank_angle and radial; give either bank_angle or banks or radial",
-        ),
-        (
-            changed(("[1, 3, 4, 2]", "[1, 3, 3, 2]")),
-            "layout: firing_order has cylinder 3 more than once; name every cylinder once",
-        ),
-        (
-            changed(("[layout]", "[layout]\nnumbering = [[1, 2], [2, 1]]")),
-            "layout: numbering has cylinder 1 and 2 more than once; name every cylinder once",
-        ),
-        (
-            changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180]")),
-            "layout: firing_intervals has 3 intervals for 4 firings; give one for "
-            "each, the last one back to the first cylinder",
-        ),
-        (
-            changed(("[1, 3, 4, 2]", "[1, 3, 4, 2]\nfiring_intervals = [180, 180, 180, 160]")),
-            "layout: firing_intervals add up to 700 degrees; the cycle of a 4-stroke has 720 (within 0.5)",
-        ),
-        (
-            changed(("firing_order = [1, 3, 4, 2]", "firing_intervals = [180, 180, 180, 180]")),
-            "layout: firing_intervals is given without firing_order; give both, or neither",
-        ),
-        (
-            GOOD + "[[counterweight]]\nangle = 180\n",
-            "counterweight.1: has neither unbalance nor mass and radius; give either unbalance or mass and radius",
-        ),
-        (
-            GOOD + "[[counterweight]]\nunbalance = 1\n[[counterweight]]\nmass = 1\n",
-            "counterweight.2: has mass without radius; give either unbalance or mass and radius",
-        ),
-        (
-            GOOD + "[[shaft]]\nunbalance = 1\nratio = 0\n",
-            "shaft.1.ratio: 0 is out of range; a whole number from -1000 to 1000, not 0, is wanted",
-        ),
-        (
-            GOOD + "[[shaft]]\nunbalance = 1\nratio = 1.5\n",
-            "shaft.1.ratio: 1.5 is not a whole number; a whole number from -1000 to 1000, not 0, is wanted",
-        ),
-    ],
-)
+@cases("enginefile/model", "contradictions", GOOD=GOOD)
 def test_contradictions(text, message):
     assert mistakes_in(text) == message
-
-
-def test_a_pendulum_is_never_quicker_than_a_point_mass():
-    """J_g = m (g h T^2 / 4 pi^2 - h^2) is positive just above the period of a point mass at h, here
-    160 - 45 mm.
-    """
-    shortest = 2 * math.pi * math.sqrt(0.115 / 9.80665)
-    text = 'cg = 45\npendulum = {{ pivot = "small_end", period = {!r} }}'
-    parse(changed(("cg = 45", text.format(shortest * 1.000001))))
-    assert mistakes_in(changed(("cg = 45", text.format(0.1)))) == (
-        "rod: pendulum.period 0.1 s is too quick: with the centre of mass 115 mm from the "
-        f"pivot a full swing takes more than {shortest:.4g} s"
-    )
-    ends = changed(
-        ("mass = 0.6\ncg = 45", 'small_end = 0.2\nbig_end = 0.6\npendulum = { pivot = "big_end", period = 0.1 }')
-    )
-    assert "with the centre of mass 40 mm from the pivot" in mistakes_in(ends)  # 160 * 0.2 / 0.8
 
 
 def test_models_check_without_a_file_too():
@@ -223,58 +110,6 @@ def test_models_check_without_a_file_too():
         model.Rod(length=160, ratio=0.28)
     with pytest.raises(ValidationError, match="frozen"):
         parse(GOOD).crank.stroke = 80.0
-
-
-def test_mistakes_of_a_table_beside_a_misspelt_key_are_told():
-    """That the length is missing is not: it is there, misspelt."""
-    text = changed(("length = 160", "lenght = 160"), ("mass = 0.6\ncg = 45", "small_end = 0.2"))
-    assert mistakes_in(text) == (
-        "2 mistakes\n"
-        "  rod.lenght: unknown key in [rod]; did you mean length?\n"
-        "  rod: has small_end without big_end; weigh the rod at both ends, or give mass and cg"
-    )
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        (
-            changed(("mass = 0.6\ncg = 45", "smallend = 0.2\nbig_end = 0.4")),
-            "rod.smallend: unknown key in [rod]; did you mean small_end?",
-        ),
-        (
-            GOOD + "[[counterweight]]\nmass = 1\nradus = 30\n",
-            "counterweight.1.radus: unknown key in [counterweight]; did you mean radius?",
-        ),
-        (
-            GOOD + "[gas]\ncycle = 'otto'\nimep = 5\ncompresion_ratio = 9\n",
-            "gas.compresion_ratio: unknown key in [gas]; did you mean compression_ratio?",
-        ),
-        (
-            GOOD + "[gas]\ncycle = 'otto'\nimeep = 5\ncompression_ratio = 9\n",
-            "gas.imeep: unknown key in [gas]; did you mean imep?",
-        ),
-    ],
-)
-def test_what_is_misspelt_is_not_missing(text, told):
-    assert mistakes_in(text) == f"{told}"
-
-
-def test_rules_that_do_not_need_a_broken_key_are_applied():
-    text = changed(("[1, 3, 4, 2]", "[1, 3, 4, 0]\nnumbering = [[1, 2], [2, 1]]"))
-    assert mistakes_in(text) == (
-        "2 mistakes\n"
-        "  layout: numbering has cylinder 1 and 2 more than once; name every cylinder once\n"
-        "  layout.firing_order: the 4th value 0 is out of range; a whole number from 1 to 10000 is "
-        "wanted"
-    )
-
-
-def test_a_rule_that_fails_is_no_mistake_of_the_file(monkeypatch):
-    rule = model.TableRule(lambda crank: [crank.no_such_key], {"throws"})
-    monkeypatch.setattr(model.Crank, "rules", (rule,))
-    with pytest.raises(AttributeError, match="no_such_key"):
-        parse(changed(("spacing = 100", "spacing = -1")))
 
 
 TABLES = (*import_tables().values(), *import_lists().values(), *(ArticulatedRod, Part, ChainShaft, Damper))

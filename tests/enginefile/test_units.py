@@ -9,6 +9,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.cases import cases
 
 from balcli.enginefile import unit_table
 from balcli.enginefile.fields import STRING_PATTERN
@@ -96,63 +97,23 @@ def test_the_bare_unit_changes_nothing(value):
     assert convert(f"{value!r} mm", LENGTH) == value
 
 
-@pytest.mark.parametrize(
-    ("text", "dimension", "expected"),
-    [
-        ("1 yard", LENGTH, 914.4),
-        ("1 slug", MASS, 14.5939029372064),  # 1 lbf s^2/ft; NIST SP 811, appendix B
-        ("10 inches", LENGTH, 254.0),
-        ("1 blob", MASS, 175.126835246476),  # 12 slugs, as Norton calls it
-        ("100 gon", ANGLE, 90.0),
-        ("1 lbf s^2 in", INERTIA, 4.4482216152605 * 0.0254 * 1e6),  # lbf from NIST SP 811
-        ("1 ounce inch", UNBALANCE, 28.349523125 * 25.4),
-    ],
-)
+@cases("enginefile/units", "rarer_units", ANGLE=ANGLE, INERTIA=INERTIA, LENGTH=LENGTH, MASS=MASS, UNBALANCE=UNBALANCE)
 def test_rarer_units(text, dimension, expected):
     assert convert(text, dimension) == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("text", "dimension", "message"),
-    [
-        ("90 zorks", LENGTH, f'has the unknown unit "zorks"; {A_LENGTH}'),
-        ("775 gr", MASS, f'has the unit "gr": g, or grain (65 mg)? {A_MASS}'),
-        ("90 kg", LENGTH, f"is a mass, but {A_LENGTH}"),
-        ("30 rpm", ANGLE, f"is a speed of rotation, but {AN_ANGLE}"),
-        (
-            "300 1/s",  # turns, or radians
-            SPEED,
-            "is not a number followed by a unit; a speed of rotation is wanted: a bare number in "
-            'rpm, or "6000 rpm" or "300 rad/s"',
-        ),
-        ("50 Hz", ANGLE, f"is a frequency, but {AN_ANGLE}"),
-        ("72 grad", ANGLE, f'has the unit "grad": deg, or gon (0.9 deg)? {AN_ANGLE}'),
-        (
-            "3 ampere",
-            TIME,
-            'is of another dimension, but a time is wanted: a bare number in s, or "0.82 s" or "820 ms"',
-        ),
-        ("20 degC", MASS, f"is of another dimension, but {A_MASS}"),
-        ("5 deg", PLAIN, "is an angle, but a plain number is wanted, without quotes"),
-        ("0.25", PLAIN, "has no unit; a plain number is wanted, without quotes: 0.25"),
-        ("2/7", PLAIN, "has no unit; a plain number is wanted, without quotes: 0.285714"),
-        ("1e999", PLAIN, "is too large a number"),
-        ("1 lb 16 oz", MASS, 'has "16 oz" after "1 lb", which is not less than "1 lb"'),
-        ("1 lb 4 in", MASS, f'has "4 in", which is a length, but {A_MASS}'),
-        ("1 in 4 oz", MASS, f'has "1 in", which is a length, but {A_MASS}'),
-        ("6000 rpm 20 Hz", SPEED, 'has "20 Hz" after "6000 rpm", which is not less than "1 rpm"'),
-        (
-            "3,5 in",
-            LENGTH,
-            f"is not a number followed by a unit; decimals take a point, thousands no comma; {A_LENGTH}",
-        ),
-        ("−30 mm", LENGTH, f"is not a number followed by a unit; a minus sign is a hyphen; {A_LENGTH}"),
-        ("1 lb 4", MASS, f"is not a number followed by a unit; {A_MASS}"),
-        ("1.5 lb 4 oz", MASS, f"is not a number followed by a unit; {A_MASS}"),
-        ("90", LENGTH, f"has no unit; {A_LENGTH}"),
-        ("1e999 mm", LENGTH, "is too large a number"),
-        ("1/0 turn", ANGLE, "divides by zero"),
-    ],
+@cases(
+    "enginefile/units",
+    "refusals",
+    ANGLE=ANGLE,
+    AN_ANGLE=AN_ANGLE,
+    A_LENGTH=A_LENGTH,
+    A_MASS=A_MASS,
+    LENGTH=LENGTH,
+    MASS=MASS,
+    PLAIN=PLAIN,
+    SPEED=SPEED,
+    TIME=TIME,
 )
 def test_refusals(text, dimension, message):
     with pytest.raises(ValueError) as caught:  # noqa: PT011 - the whole text is compared
@@ -160,29 +121,7 @@ def test_refusals(text, dimension, message):
     assert str(caught.value) == message
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "mm",
-        "",
-        "long",
-        "9**9**9 mm",
-        "90 mm**999999999",
-        "90 mm^22",
-        "(40+50) mm",
-        "40+50 mm",
-        "nan mm",
-        "inf mm",
-        "__import__('os') mm",
-        "1e99999 mm",
-        "9" * 200 + " mm",
-        "90 mm/",
-        "90 /mm",
-        "90 mm 3",
-        "９0 mm",
-        "90 mm\n90 mm",
-    ],
-)
+@cases("enginefile/units", "what_is_no_figure_is_never_evaluated")
 def test_what_is_no_figure_is_never_evaluated(text):
     with pytest.raises(ValueError, match=r"^is not a number followed by a unit; a length is wanted"):
         convert(text, LENGTH)
@@ -359,20 +298,15 @@ def test_no_name_has_two_meanings():
     assert set(unit_table.DEFINITIONS).isdisjoint(unit_table.AMBIGUOUS)
 
 
-@pytest.mark.parametrize(
-    ("pounds", "force", "dimension"),
-    [
-        ("lb in s2", "lbf in s^2", INERTIA),
-        ("lb-ft-s^2", "lbf ft s^2", INERTIA),
-        ("in-lb/rad", "lbf in/rad", TORSIONAL_STIFFNESS),
-        ("ft lbs/deg", "lbf ft/deg", TORSIONAL_STIFFNESS),
-        ("lb in s/rad", "lbf in s/rad", TORSIONAL_DAMPING),
-        ("ft lb", "lbf ft", TORQUE),
-        ("lb/in", "lbf/in", STIFFNESS),
-        ("LB/IN", "lbf/in", STIFFNESS),
-        ("FT-LBS", "ft lbf", TORQUE),
-        ("lb/in^2", "psi", PRESSURE),
-    ],
+@cases(
+    "enginefile/units",
+    "pounds_are_a_force_where_only_that_fits",
+    INERTIA=INERTIA,
+    PRESSURE=PRESSURE,
+    STIFFNESS=STIFFNESS,
+    TORQUE=TORQUE,
+    TORSIONAL_DAMPING=TORSIONAL_DAMPING,
+    TORSIONAL_STIFFNESS=TORSIONAL_STIFFNESS,
 )
 def test_pounds_are_a_force_where_only_that_fits(pounds, force, dimension):
     """American drawings have lb for both."""
@@ -383,36 +317,17 @@ def test_pounds_stay_a_mass_where_that_fits():
     assert convert("3 lb ft2", INERTIA) == pytest.approx(3 * 0.45359237 * 304.8**2, rel=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("text", "dimension", "begin"),
-    [
-        ("90 mmm", LENGTH, 'has the unknown unit "mmm"; did you mean mm? a length is wanted: '),
-        ("2 Kg", MASS, 'has the unknown unit "Kg"; did you mean kg? a mass is wanted: '),
-        ("9 mpa", PRESSURE, 'has the unknown unit "mpa"; did you mean MPa? a pressure is '),
-        ("2 KN m", TORQUE, 'has the unknown unit "KN"; did you mean kN? a torque is wanted: '),
-        ("2 inchs", LENGTH, None),
-        ("2 tons", MASS, 'has the unit "tons": t (1000 kg), or 2000 lb, or 2240 lb? a mass is '),
-        ("150 NM", TORQUE, 'has the unit "NM": N m, or nanometre? a torque is wanted: '),
-        ("1 MG", MASS, 'has the unit "MG": mg, or Mg (1000 kg)? a mass is wanted: '),
-        ("130 barg", PRESSURE, 'has the unit "barg": bar over the atmosphere? Absolute it is 1.01325 bar more; a pre'),
-        ("3 kgm", TORQUE, 'has the unknown unit "kgm"; a torque is wanted: '),
-        ("2 Mm", LENGTH, 'has the unit "Mm": mm, or megametre? a length is wanted: '),
-        ("50 kW", ENERGY, "is a power, but an energy is wanted: "),
-        ("50 hp", TORQUE, "is a power, but a torque is wanted: "),
-        ("500 cc", LENGTH, "is a volume, but a length is wanted: "),
-        ("90 mm2", LENGTH, "is an area, but a length is wanted: "),
-        ("90 m/s", SPEED, "is a velocity, but a speed of rotation is wanted: "),
-        ("5 J", MASS, "is a torque or an energy, but a mass is wanted: "),
-        ("5 psi", MASS, "is a pressure, but a mass is wanted: "),
-        ("350 K", TIME, "is of another dimension, but a time is wanted: "),
-        ("3 5/2 in", LENGTH, "is not a number followed by a unit; a length is wanted: "),
-        ("3-5/2 in", LENGTH, "is not a number followed by a unit; a length is wanted: "),
-        ("3 - 1/2 in", LENGTH, "is not a number followed by a unit; a length is wanted: "),
-        ("1 000/3 in", LENGTH, "is not a number followed by a unit; a length is wanted: "),
-        ("1 1/0 in", LENGTH, "divides by zero"),
-        ("pi/0", ANGLE, "divides by zero"),
-        ("pi/2", LENGTH, "is not a number followed by a unit; a length is wanted: "),
-    ],
+@cases(
+    "enginefile/units",
+    "refusals_say_what_is_near",
+    ANGLE=ANGLE,
+    ENERGY=ENERGY,
+    LENGTH=LENGTH,
+    MASS=MASS,
+    PRESSURE=PRESSURE,
+    SPEED=SPEED,
+    TIME=TIME,
+    TORQUE=TORQUE,
 )
 def test_refusals_say_what_is_near(text, dimension, begin):
     if begin is None:

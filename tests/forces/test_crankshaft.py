@@ -105,14 +105,6 @@ def test_one_throw_has_no_x_type():
     assert compute_guide_moments(inline_engine([0]), ORDERS).x is None
 
 
-def test_heights_of_guides_are_told_by_the_numbers_of_cylinders():
-    """A maker's numbers, 2 and 4 in the first bank, and a longer rod in cylinder 2."""
-    layout = "bank_angle = 90\nnumbering = [[2, 4], [1, 3]]\n[cylinder.2]\nrod_length = 200"
-    subject = build_text(INLINE.format(throws=[0, 180], layout=layout))
-    found = compute_guide_moments(subject, ORDERS)
-    assert found.height_m.tolist() == [0.16, 0.2, 0.16, 0.16]
-
-
 def test_the_x_type_is_the_moment_of_the_side_forces_on_the_pistons():
     """Couples from the motion of the pistons, with the rods' masses at their ends, times the places
     of the cylinders, over the height of the guide: as MAN's project guides define it (17.05).

@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from support.commands import run_here
+from support.cases import cases
 from support.engines import RADIAL, build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import write
 
 from balcli.core.mechanisms.closed_form import find_harmonics
 from balcli.engine.load import load
-from balcli.errors import BalcliError
 from balcli.forces.gas import compute_gas_torque, compute_gas_torque_of_each
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.symmetry import explain_symmetry
-from balcli.render.analysis import sheet
-from balcli.render.table import plain_text
-from balcli.render.units import SI
 from balcli.results.analysis import analyze
 
 ORDERS = np.arange(0, 24.5, 0.5)
@@ -118,17 +113,7 @@ def test_the_mean_torque_does_the_work_of_the_cylinders(seed):
     assert mean * found.gas.cycle == pytest.approx(work, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("throws", "firing", "strokes"),
-    [
-        ([0, 180, 180, 0], [1, 3, 4, 2], 4),
-        ([0, 240, 120], [1, 3, 2], 4),
-        (None, [1, 2, 4, 5, 3], 4),
-        ([0, 240, 120], [1, 2, 3], 2),
-        (None, [1, 2, 3, 4, 5, 6, 7], 4),
-        (None, [1, 6, 4, 2, 7, 5, 3], 2),
-    ],
-)
+@cases("forces/gas", "equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone")
 def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(throws, firing, strokes):
     text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}" if throws else "")
     text = text.replace("[1, 3, 4, 2]", f"{firing}\nstrokes = {strokes}")
@@ -181,14 +166,6 @@ def test_totals_are_sums_of_inertia_and_gas():
 
 
 # ------------------------------------------------------------------ what is shown
-def test_an_analysis_shows_gas_where_there_is_some():
-    found = analyze(build_text(FOUR + WIEBE))
-    assert found.spectra.gas is not None
-    assert found.orders.tolist() == [1, 2, 4, 6, 8, 10, 12]
-    plain = analyze(build_text(FOUR))
-    assert plain.spectra.gas is None
-    with pytest.raises(BalcliError, match=r"has no \[gas\]; give a diagram, a cycle or harmonics"):
-        analyze(build_text(FOUR), only=["gas"])
 
 
 def test_only_gas_is_all_that_gas_does():
@@ -206,21 +183,3 @@ def test_shares_that_are_fractions_of_each_other_may_cancel():
     silent = build_text(FOUR + WIEBE + "".join(f"[cylinder.{n}]\ngas = 0\n" for n in (1, 2, 3, 4)))
     reasons = explain_symmetry(silent, [0.5], ["gas"]).reasons
     assert [r.verdict for r in reasons] == ["none"]
-
-
-def test_people_read_which_order_rocks_the_engine():
-    text = plain_text([sheet(analyze(build_text(FOUR + WIEBE)), SI)])
-    assert " rocks the engine most: roll of " in text
-    half = plain_text([sheet(analyze(build_text(FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"), [0.5]), SI)])
-    assert re.search(r"Order ½ rocks the engine most: roll of [0-9.]+ N·m \(gas alone\)\.", half)
-    assert "About the crank axis with gas, N·m" in text
-    assert "balcli torque" in text
-    inner = plain_text([sheet(analyze(build_text(FOUR + WIEBE), only=["inner"]), SI)])
-    assert "Loads of main bearings with gas" in inner
-
-
-@pytest.mark.parametrize("only", ["verdict", "verdict,xy"])
-def test_the_verdict_alone_says_so_too(only):
-    whole = run_here("analyze", "-", stdin=FOUR + WIEBE).out.splitlines()
-    (told,) = [line for line in whole if " rocks the engine most" in line]
-    assert told in run_here("analyze", "-", "--only", only, stdin=FOUR + WIEBE).out.splitlines()

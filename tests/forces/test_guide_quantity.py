@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from support.cases import cases
 from support.commands import ask_csv, refusal, run_here
 from support.paths import ENGINES
 
@@ -34,18 +35,6 @@ def test_each_variant_is_what_the_analysis_says(path, vary, line):
         assert float(row["guide.6.X"]) == pytest.approx(six["x_Nm"]["amplitude"], rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("path", "quantity", "message"),
-    [
-        (FOUR, "guide.H", "guide.H is no quantity: give guide.6.H or guide.6.X"),
-        (FOUR, "guide.6.Y", "guide.6.Y is no quantity: give guide.6.H or guide.6.X"),
-        (FOUR, "guide.x.H", "guide.x.H is no quantity: after guide comes an order up to 4096, as in guide.6.H"),
-        (
-            ENGINES / "single.toml",
-            "guide.2.X",
-            f"{ENGINES / 'single.toml'}: guide.2.X: all cylinders stand at one place",
-        ),
-    ],
-)
+@cases("forces/guide_quantity", "what_is_no_quantity", ENGINES=ENGINES, FOUR=FOUR)
 def test_what_is_no_quantity(path, quantity, message):
     assert refusal("sweep", path, "--vary", "rod.length=150", "-q", quantity) == message

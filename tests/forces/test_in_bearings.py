@@ -10,8 +10,12 @@ import pytest
 from support.commands import ask, ask_json
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
+<<<<<<< HEAD
 from support.in_time import run_in_time
 from support.paths import ENGINES, write
+=======
+from support.paths import ENGINES
+>>>>>>> own-tests
 
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError
@@ -195,37 +199,6 @@ def test_json_and_csv_have_every_place():
     ):
         for place in range(1, places + 1):
             assert any(f",{name} {place},,peak," in row for row in rows)
-
-
-def test_text_says_what_bears_what():
-    text = analyze(ENGINES / "i4_wiebe.toml", "--orders", "0.5-2")
-    assert "Bending moment in the crankshaft and block together, N·m" in text
-    assert "it shears and bends crankshaft and block together nowhere" in text
-    assert "Bending moment in the block with gas, N·m" in text
-    assert "shaft counts as cut in each" in text
-    assert "Inertia loads" not in text
-    assert max(map(len, text.split("\nOf inertia")[0].splitlines())) <= 80
-
-
-@pytest.mark.parametrize(
-    ("change", "why"),
-    [
-        (("throws = [0, 180, 180, 0]\nspacing = 100\n", ""), "a crank with one throw does not say"),
-        (("[layout]", "[layout]\nrotary = true"), "the crank of turning cylinders stands still"),
-        ((WIEBE, '[gas]\nharmonics = "h.csv"\n'), "loads of pins need pressures; harmonics of"),
-    ],
-)
-def test_where_it_is_not_known_the_reason_stands_there(tmp_path, change, why):
-    text = FOUR + WIEBE
-    if "throws" in change[0]:
-        text = text.replace("firing_order = [1, 3, 4, 2]\n", "")
-    path = write(tmp_path / "engine.toml", text.replace(*change))
-    (tmp_path / "h.csv").write_text("order,cos,sin\n0,2,0\n0.5,1,3\n")
-    out = analyze(path)
-    assert f"Inside, it is not known: {why}" in " ".join(out.split())
-    inner = json.loads(analyze(path, "-f", "json"))["inner"]
-    assert "with_gas" not in inner
-    assert inner["obstacle"].startswith(why)
 
 
 def test_engines_with_gas_are_compared_by_it():

@@ -34,6 +34,7 @@ def make_uneven(lines):
     return FIRED.replace("speed = 3000", f"speed = 3000\nspeed_ripple = [{', '.join(tables)}]")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LINES)
 def test_force_roll_and_gas(name):
     """Half orders of gas, and order 0; gas over the angle reaches far beyond the orders wanted."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
@@ -24,24 +25,7 @@ from balcli.torque.analysis import analyze_torque
 from balcli.torsion.build_engine import excite_engine
 
 
-@pytest.mark.parametrize(
-    ("text", "order"),
-    [
-        ("0", 0),
-        ("2", 2),
-        ("4096", 4096),
-        ("4097", None),
-        ("0.5", 0.5),
-        ("11.0", 11),
-        ("4096.5", None),
-        ("0.25", None),
-        (".5", None),
-        ("-1", None),
-        ("", None),
-        ("²", None),
-        ("99999999999999999999", None),
-    ],
-)
+@cases("forces/orders", "the_order_that_a_text_names")
 def test_the_order_that_a_text_names(text: str, order: float | None) -> None:
     assert parse_order(text) == order
 

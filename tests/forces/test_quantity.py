@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import VEE
 
 from balcli.engine.build import build
@@ -22,23 +23,7 @@ def test_names_read_back(name: str) -> None:
     assert parse_quantities(name)[0].name == name
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("forse.2.major", "forse.2.major is no quantity: did you mean force?"),
-        (
-            "force.two.major",
-            "force.two.major is no quantity: after force comes an order up to 4096, as in force.2.major",
-        ),
-        (
-            "force.2",
-            "force.2 is no quantity: after the order comes one of major, minor, forward, backward, "
-            "axis, x, y, x_cos, x_sin, y_cos, y_sin",
-        ),
-        ("couple.2.axis", "couple.2.axis is no quantity: after the order comes one of amplitude, major, cos, sin"),
-        (" , ", "no quantity is given; name some, such as force.2.major,moment.1.backward"),
-    ],
-)
+@cases("forces/quantity", "mistakes_in_words")
 def test_mistakes_in_words(text: str, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         parse_quantities(text)

@@ -1,13 +1,9 @@
 """What is wrong names the function's own arguments, not the options of the command line."""
 
-import inspect
-import pickle
-
 import pytest
 
 import balcli
 
-FUNCTIONS = [name for name in balcli.__all__ if inspect.isfunction(getattr(balcli, name))]
 V8 = balcli.load_example("v8_crossplane")
 CHAIN = {
     "fixed": ["wall"],
@@ -92,10 +88,3 @@ def test_what_is_of_another_type(ask, told):
     with pytest.raises(TypeError) as refusal:
         ask()
     assert str(refusal.value) == told
-
-
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_a_function_is_still_found_by_its_name(name):
-    """By what sends it to another process."""
-    function = getattr(balcli, name)
-    assert pickle.loads(pickle.dumps(function)) is function

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 import inspect
 import re
 import shutil
-import sys
 
 import pytest
 from support.paths import ENGINES
@@ -44,32 +42,3 @@ def test_every_parameter_and_error_is_told(name):
     assert [p for p in parameters if not re.search(rf"\b{p}\b", args)] == []
     assert "Raises:" in text
     assert "Error: " in text.partition("Raises:")[2]
-
-
-def list_fields(shown):
-    if dataclasses.is_dataclass(shown):
-        return [field.name for field in dataclasses.fields(shown)]
-    return list(getattr(shown, "_fields", ()))
-
-
-RECORDS = [name for name in balcli.__all__ if list_fields(getattr(balcli, name))]
-
-
-@pytest.mark.parametrize("name", RECORDS)
-def test_every_attribute_is_told_on_a_line_of_its_own(name):
-    """The reference in Python takes what stands before the colon for one name."""
-    shown = getattr(balcli, name)
-    told = inspect.getdoc(shown).partition("Attributes:")[2]
-    named = re.findall(r"^ {4}(\S[^:]*):", told, re.MULTILINE)
-    assert sorted(named) == sorted(list_fields(shown))
-
-
-@pytest.mark.parametrize("name", [name for name in balcli.__all__ if name[0] != "_"])
-def test_no_name_of_our_own_stands_for_what_it_means(name):
-    """A constant, or a function that is not promised, says nothing to who asks for help."""
-    shown = getattr(balcli, name)
-    inside = vars(sys.modules[inspect.unwrap(shown).__module__]).keys() - set(balcli.__all__)
-    told = inspect.getdoc(shown)
-    quoted = {word.rpartition(".")[2] for word in re.findall(r"`([\w.]+)`", told)}
-    own = inside & (quoted | set(re.findall(r"[A-Z_]{3,}", told)))
-    assert own == set()

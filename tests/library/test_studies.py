@@ -8,7 +8,6 @@ import io
 import sys
 import tomllib
 from collections.abc import Callable
-from ctypes import CDLL
 
 import numpy as np
 import pytest
@@ -16,9 +15,7 @@ from support.paths import ENGINES
 from support.rotors import three_runs
 
 import balcli
-from balcli.errors import BalcliError
 from balcli.forces import curves as force_curves
-from balcli.library.arguments import check_count, check_inertia, check_speeds, check_torsion_orders, parse_share
 from balcli.limits import MOST_PARAMETER_VALUES, MOST_SPEEDS
 from balcli.studies import swept
 
@@ -29,37 +26,6 @@ CLOSE = 1e-12
 
 
 # ------------------------------------------------------------------ what is given
-HUGE = 10**5000  # Python does not write numbers of so many digits
-
-
-@pytest.mark.parametrize(
-    ("ask", "told"),
-    [
-        (lambda: check_inertia("damper_inertia", HUGE), "damper_inertia: an integer of about 5001"),
-        (lambda: check_count("seed", -HUGE, 0), "seed: an integer of about 5001 digits is less"),
-        (lambda: check_speeds("torsion", [HUGE]), "speeds_rpm: give crank speeds above 0 in rpm"),
-        (lambda: check_speeds("torsion", [1e-300]), "speeds_rpm: give crank speeds above 0 in rpm"),
-        (lambda: check_torsion_orders([HUGE]), "not an integer of about 5001 digits"),
-        (lambda: parse_share("quantile", HUGE), "quantile an integer of about 5001 digits: give"),
-        (lambda: balcli.analyze(FOUR, [HUGE]), "not an integer of about 5001 digits"),
-        (lambda: balcli.analyze(FOUR, HUGE), "orders: a number of thousands of digits (int): give"),
-        (lambda: balcli.curves(FOUR, HUGE), "step_deg inf: give a step"),
-        (lambda: balcli.combine(FOUR, FOUR, phase_deg=HUGE), "phase_deg inf: give an angle"),
-        (lambda: balcli.combine(FOUR, FOUR, turn_deg=HUGE), "turn_deg inf: give an angle"),
-        (lambda: balcli.analyze(FOUR, guide_height_m=HUGE), "guide_height_m inf: the distance"),
-        (lambda: balcli.analyze_torque(GAS, fluctuation=HUGE), "fluctuation inf: give "),
-        (lambda: balcli.balance(FOUR, tools=balcli.Tools(HUGE)), "radius: inf mm; give figures"),
-        (lambda: FOUR.vary({"rod.length": HUGE}), "rod.length: an integer of about 5001 digits"),
-        (
-            lambda: balcli.sweep(FOUR, {"rod.length": [HUGE]}, ["force.2.major"]),
-            "rod.length: an integer of about 5001 digits is too large a number; a length is wanted",
-        ),
-    ],
-)
-def test_numbers_of_thousands_of_digits_are_refused_in_words(ask, told):
-    with pytest.raises((BalcliError, TypeError)) as caught:
-        ask()
-    assert told in str(caught.value)
 
 
 # ------------------------------------------------------------------ sweep
@@ -187,13 +153,6 @@ def test_a_tolerance_is_a_number_of_numpy_too():
     assert of_numpy.spreads == usual.spreads
 
 
-def test_the_memory_of_the_host_is_left_as_it_is(monkeypatch):
-    asked = []
-    monkeypatch.setattr("ctypes.CDLL", lambda name: asked.append(name) or CDLL(name))
-    balcli.sweep(FOUR, {"rod.ratio": [0.25, 0.3]}, "force.2.major")
-    assert asked == []
-
-
 def test_with_gas_torque_is_that_of_gas_and_inertia():
     """As of the commands."""
     gas = balcli.load_example("i4_wiebe")
@@ -286,20 +245,6 @@ def test_an_engine_with_torsion_is_read_once_from_standard_input(monkeypatch):
     assert found.modes[0].frequency_hz == balcli.analyze_torsion(DIESEL).modes[0].frequency_hz
 
 
-def test_answers_tell_what_is_doubtful_of_them():
-    """At its resonance of 17.4 Hz 10 N m twist what hardly anything damps by turns."""
-    excited = f'{CHAIN}loss = LOSS\n[[excitation]]\nnode = "motor"\norder = 1\ncos = 10\n'
-    weak, usual = (
-        balcli.analyze_torsion(excited.replace("LOSS", loss), range(1000, 1100, 10)) for loss in ("1e-5", "0.1")
-    )
-    (told,) = weak.doubts
-    assert told.startswith("motor would swing by ")
-    assert "<b>Doubtful</b>" in weak._repr_html_()
-    assert usual.doubts == balcli.analyze_mounts(MOUNTS).doubts == ()
-    assert balcli.balance_rotor(three_runs()).doubts == balcli.analyze(FOUR).doubts == ()
-    assert "Doubtful" not in usual._repr_html_()
-
-
 def test_a_chain_is_a_path_a_text_or_a_dict(tmp_path):
     (tmp_path / "chain.toml").write_text(CHAIN)
     found = [
@@ -329,14 +274,6 @@ def test_mounts_of_an_engine_a_dict_or_a_body_alone():
     assert balcli.analyze_mounts(alone).response is None
     beside = balcli.analyze_mounts(MOUNTS, [2000], orders=[2], others={"V8": V8})
     assert [other.name for other in beside.others] == ["V8"]
-
-
-def test_a_word_alone_is_a_list_of_one():
-    assert balcli.analyze_torque(GAS, loads="pin").loads.pin
-    rotor = tomllib.loads(three_runs())
-    plane = rotor["planes"][0]
-    alone = balcli.balance_rotor(rotor, without=plane).planes
-    assert [each.plane for each in alone] == [p for p in rotor["planes"] if p != plane]
 
 
 # ------------------------------------------------------------------ what is wrong, in words

@@ -7,13 +7,10 @@ import re
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_csv, ask_json, refusal, run_here, run_in_terminal
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
 from support.paths import write
-
-from balcli.mounting.response import LargestAmplitude
-from balcli.render.mounts import _less
 
 DAMPED = ENGINE + block("loss = 0.1") + '[[point]]\nname = "lever"\nat = [100, 0, 300]\n'
 
@@ -69,28 +66,6 @@ def test_csv_has_the_figures_of_json(four):
     assert found["mode", "mode 6", "", "", "frequency"] == (frequency, "Hz")
 
 
-def test_the_sheet_says_what_the_frame_feels(four):
-    out = ask("mounts", four, "--speeds", "200:3000:50")
-    # Mounts 2 and 4 feel the same, of which the first is named.
-    assert re.search(r"^The mount 2 feels most: .* N at 28\d.* rpm, of which order 2", out, re.M)
-    assert "There it meets mode 2 (along x, 9.39 Hz): resonance." in out
-    assert re.search(r"^4 +17\.43 +roll +0\.0 .* 100\.0 +5\.0$", out, re.M)
-    assert re.search(r"^lever +", out, re.M)
-
-
-def test_mounts_that_travel_farther_than_any_are_doubted(tmp_path):
-    """At least as far as the force presses the stiffest of the springs."""
-    path = write(tmp_path / "undamped.toml", ENGINE + block("loss = 0.0001"))
-    found = run_here("mounts", path, "--speeds", "200:3000:50", "-f", "json")
-    worst = [mount["worst"] for mount in json.loads(found.out)["response"]["mounts"]]
-    force, rpm = max((each["force_N"], each["speed_rpm"]) for each in worst)
-    assert found.err == (
-        f"warning: {path}: the mount 2 would travel by {force / 400:.3g} mm or more at {rpm:.4g} "
-        "rpm, where stops hold others at 10 to 20; are loss and damping right, and does it run at "
-        "that speed, or pass it?\n"
-    )
-
-
 def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
     """The nearest mode was named: lengthways, in which nothing drives this body."""
     places = [(y, z) for y in (300, -300) for z in (300, -300)]
@@ -123,22 +98,6 @@ def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
     assert float(hertz) == pytest.approx(2 * float(rpm) / 60, rel=5e-3)
 
 
-def test_a_dashpot_beside_which_all_else_is_rounding_is_told():
-    """It was an internal error."""
-    told = refusal("mounts", "-", stdin=ENGINE + block("damping = [1e12, 1, 1]"))
-    assert re.search(r"at [\d.]+ Hz the motion of the body is lost in rounding errors", told)
-    assert told.endswith("is damping in N s/mm?")
-
-
-def test_orders_that_do_not_fit_are_counted():
-    """Half orders from 1/2 to 3 stood there, and nothing of those above."""
-    text = DAMPED + "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0.5\n" + WIEBE
-    out = run_here("mounts", "-", "--speeds", "200:3000:50", "--orders", "0.5-4", stdin=text).out
-    table = out.split("Where orders meet modes, rpm\n")[1].split("\n\n")[0]
-    assert table.splitlines()[0].split()[-2:] == ["order", "3"]
-    assert table.splitlines()[-1] == "JSON has 2 orders more."
-
-
 def test_a_scheme_is_shown_beside(four):
     out = run_here("mounts", four, "--scheme", "two-shaft").out
     assert "With two-shaft the largest force of any mount is " in out
@@ -147,32 +106,6 @@ def test_a_scheme_is_shown_beside(four):
     assert said["fitted"]["scheme"] == "two-shaft"
     assert len(said["fitted"]["response"]["mounts"]) == 4
     assert refusal("mounts", four, "--scheme", "nonsense").startswith(f"{four}: there is no scheme")
-
-
-def test_the_point_that_moves_most_is_told_with_a_scheme_and_without(four):
-    """A shaft that spares the mounts may shake a handlebar."""
-    asked = ("mounts", four, "--scheme", "two-shaft", "--at=0,300")
-    said = ask_json(*asked)
-    before = said["response"]["points"][0]["worst"]
-    after = said["fitted"]["response"]["points"][0]["worst"]
-    change = after["motion_mm"] / before["motion_mm"] - 1
-    out = run_here(*asked).out
-    number, rpm = r"([\d.]+) mm", r"at ([\d.]+) rpm"
-    own = re.search(rf"^The point lever moves most: {number} {rpm}\.$", out, re.MULTILINE)
-    assert float(own[1]) == pytest.approx(before["motion_mm"], rel=1e-3)
-    fitted = re.search(rf"; the point lever moves most, {number} {rpm}: (.*)\.\n", out)
-    assert float(fitted[1]) == pytest.approx(after["motion_mm"], rel=1e-3)
-    assert fitted[3] == f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
-
-
-@pytest.mark.parametrize(
-    ("after", "told"),
-    [(0.0, ": nothing is left"), (0.3, ": over 99% less"), (2.0, ": 98% less"), (110.0, ": 10% more")],
-)
-def test_what_hardly_anything_is_left_of_is_not_told_as_all(after, told):
-    """It said "100% less" of what was there."""
-    before, worst = (LargestAmplitude(value, 3000.0, 2.0, value, 0) for value in (100.0, after))
-    assert _less(worst, before) == told
 
 
 def test_other_engines_on_the_same_mounts(four, tmp_path):
@@ -195,32 +128,6 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
     assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
     parts = {row["part"] for row in ask_csv("mounts", four, light)}
     assert {"mount", "light four: mount", "light four: point"} <= parts
-
-
-def test_half_orders_are_written_as_elsewhere():
-    weak = "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0\n"
-    out = run_here("mounts", "-", stdin=ENGINE + weak + WIEBE + block("loss = 0.1")).out
-    passed = out.partition("Passed on to the frame")[2]
-    assert re.search(r"(?m)^½ +roll z", passed)
-    assert re.search(r"(?m)^mode .* order ½ +order 1 +order 1½", out)
-
-
-def test_cylinders_that_do_not_fire_are_named(tmp_path):
-    path = tmp_path / "weak.toml"
-    weak = "[layout]\nfiring_order = [1, 3, 4, 2]\n[cylinder.3]\ngas = 0\n[cylinder.4]\nheat = 0\n"
-    path.write_text(ENGINE + weak + WIEBE + block("loss = 0.1"), encoding="utf-8")
-    told = "the same diagram at every speed; no gas in 3; no burning in 4."
-    assert told in " ".join(run_here("mounts", path).out.split())
-    said = ask_json("mounts", path)["response"]
-    assert (said["no_gas_in"], said["no_burning_in"]) == ([3], [4])
-    listed = run_here("mounts", path, "-f", "csv").out.splitlines()
-    assert "engine,,,,no_gas_in,3," in listed
-    assert "engine,,,,no_burning_in,4," in listed
-    told = " ".join(
-        run_here("mounts", path, "-", stdin=path.read_text("utf-8").replace("gas = 0", "gas = 1")).out.split()
-    )
-    assert "; no gas in 3; no burning in 4. With " in told
-    assert "% more; no burning in 4. " in told
 
 
 def test_a_misfire_is_a_cylinder_whose_gas_does_nothing(tmp_path):
@@ -246,16 +153,6 @@ def test_what_cannot_misfire_is_told(four, tmp_path):
     assert "--misfire 9: " in refusal("mounts", fired, "--misfire", "9")
 
 
-def test_without_an_engine_modes_and_rest_are_told(tmp_path):
-    path = write(tmp_path / "block.toml", block())
-    out = ask("mounts", path)
-    assert "Natural modes" in out
-    assert "At rest" in out
-    assert "feels" not in out
-    said = ask_json("mounts", path)
-    assert "response" not in said
-
-
 def test_rounding_is_no_share_of_a_mode_and_turns_no_shape(tmp_path):
     """Mounts at the height of the centre of gravity, stiff along the diagonals of x and y: two modes
     move along these, half and half; which half is larger is rounding.
@@ -271,14 +168,6 @@ def test_rounding_is_no_share_of_a_mode_and_turns_no_shape(tmp_path):
     assert all(mode["shape"][0] > 0 for mode in diagonal)
     shares = [share for mode in found for share in mode["energy_percent"].values()]
     assert all(share == 0 or abs(share) > 1e-6 for share in shares)
-
-
-def test_it_is_readable_in_a_terminal(four):
-    """No figure is broken, no line longer than 80."""
-    out = run_in_terminal("mounts", four, columns=80).out
-    plain = re.sub(r"\x1b\[[0-9;]*m", "", out)
-    assert max(map(len, plain.splitlines())) <= 80
-    assert "17.43" in plain
 
 
 @pytest.mark.stress
@@ -305,14 +194,6 @@ def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path, asked):
     )
 
 
-def test_picture_of_a_body_alone(tmp_path):
-    path, picture = tmp_path / "block.toml", tmp_path / "block.svg"
-    path.write_text(block(), encoding="utf-8")
-    assert run_here("mounts", path, "--plot", picture).status == 0
-    assert b"Force of each mount" not in picture.read_bytes()
-    assert b"6: 24.9 Hz" in picture.read_bytes()
-
-
 def rocking_of(page):
     (text,) = re.findall(r'id="rocking-data">(.*?)</script>', page, re.S)
     return json.loads(text)
@@ -336,24 +217,6 @@ def test_the_page_rocks_the_body(four):
         path += q[:3] + np.cross(q[3:].T, arm).T
     largest = np.linalg.norm(path, axis=0).max()
     assert largest == pytest.approx(said["points"][0]["peak_mm"][place], rel=1e-3)
-
-
-@pytest.mark.stress
-def test_a_page_that_cannot_show_the_mounts_says_so(tmp_path):
-    path = write(tmp_path / "undamped.toml", ENGINE.replace("speed = 3000", "speed = 1200") + block())
-    status, page, err = run_here("report", path, "-o", "-")
-    assert status == 0
-    assert "rocking" not in page
-    assert err.startswith(f"warning: the page does not show the mounts: {path}: mode ")
-
-
-def test_a_page_where_nothing_is_fitted_compares_nothing():
-    """Of a six, orders 1 and 2 are balanced: a column with the scheme would say the same twice."""
-    six = ENGINE.replace("[0, 180, 180, 0]", "[0, 240, 120, 120, 240, 0]")
-    page = ask("report", "-", "-o", "-", stdin=six.replace("0.55", "0.5") + block("loss = 0.1"))
-    assert "Nothing is fitted" in page
-    assert "On its mounts" in page
-    assert "with auto" not in page.lower()
 
 
 def test_pictures_overwrite_no_engine(four):
@@ -395,20 +258,6 @@ def test_an_engine_that_shakes_nothing(tmp_path):
     status, out, _ = run_here("mounts", path)
     assert status == 0
     assert "The mounts feel nothing of the orders that count." in out
-
-
-def test_an_engine_beside_one_that_shakes_nothing(tmp_path, four):
-    still = tmp_path / "still.toml"
-    text = ENGINE.replace("0.7", "0").replace("0.6", "0").replace("2500", "0").replace("0.55", "0")
-    still.write_text(text.replace("mass = 0.5\n", "mass = 0\n") + block("loss = 0.1"), "utf-8")
-    out = " ".join(run_here("mounts", still, four).out.split())
-    assert "The mounts feel nothing of the orders that count." in out
-    assert re.search(r"the largest force of any mount is [1-9]\S* k?N at [\d.]+ rpm\.", out)
-
-
-def test_one_speed(four):
-    out = run_here("mounts", four, "--speeds", "1000").out
-    assert "range" not in out.partition("Largest force")[0]
 
 
 def test_too_much_is_refused():

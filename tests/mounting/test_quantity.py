@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_csv, ask_json, refusal, run_here
 from support.mounts import ENGINE, block
-from support.paths import ENGINES, write
+from support.paths import write
 
 POINT = '[[point]]\nname = "shift lever"\nat = [100, 0, 300]\n'
 TEXT = ENGINE + block("loss = 0.1") + POINT
@@ -113,17 +114,6 @@ def test_stiffness_scatters():
     assert found["bound"] == pytest.approx(found["nominal"] + 4 * each, rel=0.01)
 
 
-@pytest.mark.parametrize("quantity", ["mode.1.Hz", "mount.left.force"])
-def test_files_without_a_body_on_mounts_have_none(quantity):
-    told = f"{quantity}: the file has no [body] on a [[mount]]; "
-    told += "balcli mounts --help says what it needs"
-    bare = ENGINES / "i4.toml"
-    assert refusal("scatter", bare, "-q", quantity) == told
-    assert refusal("search", bare, "--over", "rod.ratio=0.2:0.3", "--minimise", quantity) == told
-    varied = refusal("sweep", bare, "--vary", "rod.ratio=0.2,0.3", "-q", quantity)
-    assert varied == f"{bare}: {told}"
-
-
 def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
     told = refusal("scatter", four, "-q", "mode.1.Hz,force.2.major")
     assert told.startswith("force.2.major and mode.1.Hz have tolerances of their own")
@@ -148,16 +138,7 @@ LAYOUT = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
 
 
-@pytest.mark.parametrize(
-    ("path", "old", "new"),
-    [
-        ("rod.length", "length = 150", "length = {}"),
-        ("piston.mass", "mass = 0.5\n", "mass = {}\n"),
-        ("gas.imep", "imep = 9", "imep = {}"),
-        ("operation.speed", "speed = 3000", "speed = {}"),
-        ("mount.left.loss", "loss = 0.1", "loss = {}"),
-    ],
-)
+@cases("mounting/quantity", "with_gas_every_figure_varies")
 def test_with_gas_every_figure_varies(path, old, new, tmp_path):
     text = NAMED + LAYOUT + GAS
     assert old in text
@@ -179,21 +160,3 @@ def test_the_mean_torque_leans_on_the_mounts_whatever_else_is_asked(tmp_path):
         assert row["mount.left.static"] == pytest.approx(np.linalg.norm(rest), rel=1e-12)
     weight = said_by(file, NAMED)["static"]["mounts"][0]["force_N"]
     assert np.linalg.norm(rest) > 1.005 * np.linalg.norm(weight)
-
-
-def test_search_and_scatter_say_over_which_speeds_a_mount_is_loaded(four):
-    """A mount so soft that it resonates below an eighth of the speed is no better for it."""
-    told = "Of mounts and points: the largest from an eighth of the engine's speed up to it;"
-    over = ("--over", "mount.left.stiffness.2=100:200", "--minimise", "mount.left.force")
-    assert told in run_here("search", four, *over).out
-    options = ("--samples", "3", "--quantity")
-    assert told in run_here("scatter", four, *options, "point.shift_lever.motion").out
-    assert told not in run_here("scatter", four, *options, "mount.left.static,mode.1.Hz").out
-
-
-def test_an_undamped_resonance_names_no_option_that_a_sweep_lacks(four):
-    four.write_text(NAMED.replace("loss = 0.1", "loss = 0"), encoding="utf-8")
-    asked = ("--vary", "body.mass=150,210", "-q", "mount.left.force")
-    told = refusal("sweep", four, *asked)
-    assert told.startswith(f"{four}: body.mass = 150: mode ")
-    assert told.endswith("give the mounts a loss, such as loss = 0.1, or a range without that speed")

@@ -14,7 +14,7 @@ from support.paths import write
 from balcli.errors import BalcliError
 from balcli.forces.in_time import compute_spectra_in_time
 from balcli.forces.spectrum import compute_spectra
-from balcli.mounting.motions import describe_free_motion, name_motions
+from balcli.mounting.motions import describe_free_motion
 from balcli.mounting.read import read_mounted
 from balcli.mounting.report import report_mounts
 
@@ -172,6 +172,7 @@ def test_the_worst_speed_lies_between_those_computed(report):
         pytest.fail("no peak inside the range")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loss", [0.1, 0.01, 0.001])
 def test_no_resonance_is_too_narrow_to_be_found(report, loss):
     """Between speeds a hundred rpm apart, a range that is fine about every speed at which an order
@@ -189,6 +190,7 @@ def test_no_resonance_is_too_narrow_to_be_found(report, loss):
     assert found == pytest.approx(highest, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("seed", "loss"), [(7, 0.3), (15, 0.3), (23, 0.1), (42, 0.1)])
 def test_of_several_peaks_the_highest_is_found(report, seed, loss):
     """Among four speeds, where peaks are of nearly one height."""
@@ -354,15 +356,6 @@ def test_orders_meet_modes_where_their_frequencies_agree(report):
         assert 200 <= one.omega * 30 / np.pi <= 2000
 
 
-def test_motions_have_names(report):
-    """Of the block that stands along -z: up and down is z; two pairs sway and turn together."""
-    names = [mode.motion for mode in report(block()).modes.six]
-    assert "up and down" not in names[:2]
-    assert names.count("up and down") == 1
-    upright = report(block().replace("gravity = [0, 0, -1]", "")).modes.six
-    assert "roll" in [mode.motion for mode in upright]
-
-
 # ------------------------------------------------------------------ published, from a file
 def test_symmetric_block_in_closed_form(report):
     closed = [50.13149728, 58.99302875, 89.4427191, 109.5445115, 146.5838769, 156.5880665]
@@ -442,27 +435,9 @@ def test_components_that_rounding_leaves_are_0():
     assert told == "turning about (0.8, 0, 0.6) through (0, 0, 0) mm"
 
 
-def test_several_free_motions_are_counted(report):
-    assert ", and 2 other motions; give" in refused(report, block(count=1))
-
-
 def test_where_throws_stand_must_be_known(report):
     text = ENGINE.replace("spacing = 100\n", "") + block("loss = 0.1")
     assert refused(report, text).startswith("engine.toml: ")
-
-
-@pytest.mark.parametrize(
-    ("up", "names"),
-    [
-        ((1, 0, 0), "up and down, sideways, lengthways, yaw, pitch, roll"),
-        ((0.3, -0.9, 0), "sideways, up and down, lengthways, pitch, yaw, roll"),
-        ((0, 0, -1), "along x, along y, up and down, turn about x, turn about y, roll"),
-        ((0.6, 0.8, 0), "sideways, up and down, lengthways, pitch, yaw, roll"),
-        ((0.71, -0.7, 0), "along x, along y, along z, turn about x, turn about y, roll"),
-    ],
-)
-def test_motions_are_called_by_where_up_is(up, names):
-    assert ", ".join(name_motions(np.array(up))) == names
 
 
 RIPPLE = ENGINE.replace(

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.cases import cases
 from support.engines import build_text, engine_text
 
 from balcli.core import enclosing_circle as circle
@@ -107,18 +108,7 @@ def test_single_cylinder_at_high_precision(lam, offset):
     assert found.excess <= 1e-13 * found.radius
 
 
-@pytest.mark.parametrize(
-    "tables",
-    [
-        {"layout": "bank_angle = 45"},
-        {"layout": "bank_angle = 72"},
-        {"layout": "bank_angle = 120", "piston": "mass = 1\noffset = 6"},
-        {"crank": "stroke = 100\nthrows = [0, 270]\nspacing = 80"},
-        {"crank": "stroke = 100\nthrows = [0, 100]", "rod": "ratio = 0.6"},
-        {"layout": "radial = 5", "cylinder.3": "piston_mass = 1.5"},
-        {"layout": "banks = [-60, 0, 60]"},
-    ],
-)
+@cases("oracle/circle", "nothing_near_is_better")
 def test_nothing_near_is_better(tables):
     """Convex: if no centre on a small ring is better, none is; and points of the curve alone prove
     the radius.

@@ -174,6 +174,7 @@ def test_means_of_the_squares(lam):
         assert getattr(closed_form, name)([0], lam)[0] == pytest.approx(float(mp.re(want[name][0])), rel=RELATIVE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lam", [0.9, 0.97, 0.995])
 def test_high_orders_lose_a_rounding_an_order(lam):
     """Orders about 600 are 1e-29 to 1e-121; their relative error is that of the power x^n."""

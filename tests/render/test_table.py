@@ -11,6 +11,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text as Line
+from support.cases import cases
 from support.paths import ENGINE_FILES, ENGINES
 
 from balcli import analyze, balance, load
@@ -88,16 +89,7 @@ LETTERS = "a few words of different length, 七气缸 and e\u0301tude, μ − ω
 LONG = "x" * 60 + " end"
 
 
-@pytest.mark.parametrize(
-    "cells",
-    [
-        [("1", LETTERS, "2.5"), ("row 2", "short", "−1")],
-        [("1", f"{LETTERS}; {LETTERS}; {LETTERS}", "2.5"), ("row 2", "", "100000")],
-        [("1", LONG, "2.5"), (LONG, LETTERS, LONG)],
-        [("", "", "")],
-        [],
-    ],
-)
+@cases("render/table", "any_grid_is_as_rich_prints_it", LETTERS=LETTERS, LONG=LONG)
 def test_any_grid_is_as_rich_prints_it(cells):
     columns = ("no.", "what it is", "figure")
     parts = (

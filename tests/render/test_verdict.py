@@ -10,7 +10,6 @@ import pytest
 
 from balcli.core.phasors import Phasors
 from balcli.forces.spectrum import Spectra
-from balcli.render.gas_torque import tell_rocking
 from balcli.render.units import SI
 from balcli.render.verdict import verdict
 
@@ -131,33 +130,9 @@ def test_what_is_small_beside_one_cylinder_is_negligible(force: dict, moment: di
     assert verdict(found, SI, {"force": 1000.0, "moment": 2000.0}) == told
 
 
-def test_of_many_higher_orders_the_lowest_are_told_and_the_largest_of_the_others() -> None:
-    """Near the lock hundreds of orders matter; each has a row in the table."""
-    orders = np.arange(1.0, 41)
-    half = 1000 / orders
-    force = Phasors.of(orders, half + 0j, half + 0j, np.zeros(40))
-    first, second, *told = verdict(Spectra(orders, force=force), SI)
-    assert first.startswith("First order: ")
-    assert second.startswith("Second order: ")
-    assert [line.split(" order")[0] for line in told[:-1]] == [
-        *("Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth", "9th", "10th")
-    ]
-    assert told[-1] == "30 more, of orders 11 to 40: at most a force of 181.8 N in order 11."
-    orders, force = orders[:11], force.select_orders(orders[:11])
-    last = verdict(Spectra(orders, force=force), SI)[-1]
-    assert last.startswith("11th order: force up to 181.8 N; ")
-
-
 @pytest.mark.parametrize(("order", "name"), [(11, "11th"), (21, "21st"), (22, "22nd"), (13, "13th")])
 def test_ordinals(order: int, name: str) -> None:
     one = np.array([5 + 0j])
     force = Phasors.of(np.array([float(order)]), one, one, np.zeros(1))
     (told,) = verdict(Spectra(np.array([float(order)]), force=force), SI)
     assert told.startswith(f"{name} order: force up to 10 N; ")
-
-
-def test_of_orders_that_rock_alike_the_first_is_named():
-    """The second is larger by an ulp."""
-    roll = Phasors.from_scalar(np.array([2.0, 4.0]), np.array([0.3, 0.1 + 0.2 + 0j]), np.zeros(2))
-    spectra = Spectra(roll.orders, roll=roll, gas=roll, roll_total=roll)
-    assert tell_rocking(spectra, SI, "the crank axis").startswith("Order 2 rocks the engine most")

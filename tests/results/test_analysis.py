@@ -13,7 +13,6 @@ from support.engines import alone, build_text, engine
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
-from balcli.core.mechanisms import harmonics
 from balcli.engine.build import Engine, build
 from balcli.engine.load import read
 from balcli.errors import BalcliError
@@ -176,22 +175,6 @@ def test_only_one_quantity(quantity):
         assert np.array_equal(result.spectra[quantity].forward, whole.forward)
 
 
-def test_what_is_not_asked_for_is_not_computed(monkeypatch):
-    """Without couple, torque and roll no harmonics of rod and energy; with explicit orders and no
-    peak, no others.
-    """
-    asked = []
-    original = harmonics.find_distinct_harmonics
-
-    def spy(orders, lam, eps, wanted):
-        asked.append((list(orders), set(wanted) - {"along", "across"}))
-        return original(orders, lam, eps, wanted)
-
-    monkeypatch.setattr(harmonics, "find_distinct_harmonics", spy)
-    analyze(example("i4"), [1, 2], only=["force"])
-    assert asked == [([1, 2], {"piston"})]
-
-
 def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
     """Of the tens of thousands that peaks need there is no end."""
     locked = (FOUR + WIEBE).replace("length = 150", "ratio = 0.999999").replace("inertia = 2600", "")
@@ -215,15 +198,6 @@ def test_an_unknown_quantity():
     )
     with pytest.raises(BalcliError, match='there is no quantity "": choose'):
         analyze(example("i4"), only=["force", ""])
-
-
-def test_more_by_cylinder_than_anyone_reads_is_refused():
-    """1000 cylinders to order 512 would be gigabytes of text."""
-    with pytest.raises(BalcliError) as caught:
-        analyze(example("v8_crossplane"), range(1, 2050), by_cylinder=True, only=["force"])
-    assert str(caught.value) == (
-        "by cylinder, 2049 orders of 8 cylinders are 16392 results, and at most 16384 are told: ask for fewer orders"
-    )
 
 
 def test_all_but_sizing_by_default():

@@ -8,12 +8,12 @@ import re
 from pathlib import Path
 
 import pytest
+from support.cases import cases
 from support.commands import ask_csv, refusal, run_here
 from support.engines import GOOD, SINGLE, build_text, changed
-from support.paths import ENGINES, write
+from support.paths import write
 
 from balcli.core.drilled_hole import STEEL, find_drill_depth
-from balcli.engine.load import load
 from balcli.enginefile.model import Counterweight, Slider
 from balcli.errors import BalcliError
 from balcli.results.balance import balance
@@ -47,14 +47,6 @@ def test_every_scheme_and_format(scheme):
         assert result.out.strip()
 
 
-def test_tables_fit_eighty_columns(monkeypatch):
-    for scheme in SCHEMES:
-        result = run("-", "--scheme", scheme, "--drill", "10", text=SINGLE)
-        tables = [line for line in result.out.splitlines() if set(line) == {"─"}]
-        assert tables
-        assert max(map(len, tables)) <= 80
-
-
 def test_json_has_devices_reasons_and_both_analyses(file):
     doc = document(file, "--scheme", "two-shaft", "--at=-40,60", "--order", "2")
     assert list(doc) == [
@@ -81,28 +73,6 @@ def test_json_has_devices_reasons_and_both_analyses(file):
     assert second["after"]["balanced"] is True
 
 
-def test_before_and_after_show_the_same_orders():
-    doc = document("-", "--scheme", "eccentric-slider", text=SINGLE)
-    assert [o["order"] for o in doc["before"]["orders"]] == [o["order"] for o in doc["after"]["orders"]]
-    assert 3 in [o["order"] for o in doc["after"]["orders"]]
-
-
-def test_what_has_one_size_all_round_is_largest_at_any_angle():
-    """Two weights on a shaft, 1 kg m each: 2 cos 15 times 3948 N together, and 1974 N m by the one
-    half a metre off, which a plane at 0 leaves.
-    """
-    text = """
-        crank = { stroke = 400 }
-        rod = { length = 1000 }
-        piston = { mass = 0 }
-        operation = { speed = 600 }
-        counterweight = [{ unbalance = 1e6, angle = 30 }, { unbalance = 1e6, position = 500 }]
-        """
-    out = run_here("balance", "-", "--scheme", "counterweights", "--planes", "0", stdin=text).out
-    assert re.search(r"^force, kN +7\.6266 +any +balanced$", out, re.MULTILINE)
-    assert re.search(r"^moment, N·m +1973\.9 +any +1973\.9 +any$", out, re.MULTILINE)
-
-
 def test_csv_has_one_figure_a_line(file):
     rows = ask_csv("balance", file)
     devices = {(r["part"], r["figure"]): r["value"] for r in rows if r["part"].startswith("shaft")}
@@ -111,32 +81,7 @@ def test_csv_has_one_figure_a_line(file):
     assert devices["shaft 2", "speed_rpm"] == "6000.0"
 
 
-def test_csv_has_what_json_calls_practical_and_details(file):
-    options = ("--scheme", "factor", "--factor", "0.5")
-    rows = ask_csv("balance", file, *options)
-    found = {(r["part"], r["figure"]): r["value"] for r in rows if not r["quantity"]}
-    wanted = document(file, *options)
-    for k, shop in enumerate(wanted["practical"], 1):
-        assert {key: found[f"counterweight {k}", key] for key in shop} == {
-            key: str(value) for key, value in shop.items()
-        }
-    assert found["details", "card.2.bobweight_g"] == str(wanted["details"]["card"][1]["bobweight_g"])
-    assert found["details", "card.2.cylinders.1"] == "2"
-
-
-@pytest.mark.parametrize(("units", "size", "length"), [("si", 1.0, 1.0), ("imperial", 28.349523125 * 25.4, 25.4)])
-def test_csv_has_devices_in_the_units_asked_for(file, units, size, length):
-    options = ("--scheme", "two-shaft", "--at=-60 mm,80 mm", "--position", "12 mm")
-    rows = ask_csv("balance", file, *options, "--units", units)
-    found = {r["figure"]: (float(r["value"]), r["unit"]) for r in rows if r["part"] == "shaft 1" and r["unit"]}
-    shaft = document(file, *options)["shafts"][0]
-    names = {"si": ("g·mm", "mm"), "imperial": ("oz·in", "in")}[units]
-    assert found["unbalance"] == (pytest.approx(shaft["unbalance_kg_m"] * 1e6 / size), names[0])
-    assert [found["at_x"], found["at_y"], found["position"]] == [
-        (pytest.approx(v / length), names[1]) for v in (-60, 80, 12)
-    ]
-
-
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_imperial_units_reach_reasons_and_notes(file, scheme):
     """Grams stand on the bobweight card in either system, as on the scales of a shop."""
@@ -149,24 +94,6 @@ def test_imperial_units_reach_reasons_and_notes(file, scheme):
 
 def test_imperial_units(file):
     assert "oz·in" in run(file, "--units", "imperial").out
-
-
-def test_uneven_speed_is_said(file):
-    file.write_text(GOOD + "speed_ripple = [{ order = 2, amplitude = 0.01 }]\n")
-    assert "steady mean speed" in document(file)["details"]["speed"]
-    assert "steady mean speed" in run(file).out
-
-
-def test_what_is_balanced_is_so_at_steady_speed(tmp_path, file):
-    """Uneven speed makes order 2 of what orders 4 and 6 are."""
-    six = changed(
-        ("throws = [0, 180, 180, 0]", "throws = [0, 120, 240, 240, 120, 0]"),
-        ("firing_order = [1, 3, 4, 2]", "strokes = 4"),
-    )
-    path = write(tmp_path / "six.toml", six)
-    assert "Orders 1 and 2 are balanced.\n" in run(path).out
-    path.write_text(six + "speed_ripple = [{ order = 4, amplitude = 0.1 }]\n")
-    assert "Orders 1 and 2 are balanced at steady speed.\n" in run(path).out
 
 
 def test_written_file_reads_back(file, tmp_path):
@@ -200,20 +127,7 @@ def test_standard_input_can_be_written(tmp_path):
     assert (tmp_path / "out.toml").read_text().startswith(GOOD)
 
 
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        (("--scheme", "tow-shaft"), "did you mean two-shaft?"),
-        (("--scheme", "two-shaft", "--at", "here"), '--at "here": give x,y of a shaft in mm, such as -40,60'),
-        (("--scheme", "two-shaft", "--at", "1,2", "--at", "3,4", "--at", "5,6"), "a pair of shafts has two places"),
-        (("--scheme", "two-shaft", "--position", "nan"), '--position "nan": give one place along z in mm'),
-        (("--scheme", "factor", "--factor", "0:1"), "a range is first:last:step"),
-        (("--scheme", "factor", "--factor", "0:1:1e-9"), "at most 1000 steps"),
-        (("--scheme", "oldham"), "oldham is for a single cylinder; this engine has 4 cylinders"),
-        (("--drill", "-3"), "--drill: -3 mm; give figures above 0"),
-        (("--thickness", "10", "--disc", "50"), "not both"),
-    ],
-)
+@cases("results/balance", "refusals")
 def test_refusals(file, options, told):
     assert told in refusal("balance", file, *options)
 
@@ -271,11 +185,6 @@ def test_shafts_turn_at_their_ratio():
     assert sorted(p.speed_rpm for p in found) == [3000, 3000, 6000, 6000]
 
 
-def test_a_slow_engine_has_the_speeds_of_its_shafts_with_their_fractions():
-    out = run("-", "--scheme", "four-shaft", "--speed", "61.25", text=SINGLE).out
-    assert re.findall(r"^\d shaft +(\S+)", out, re.M) == ["61.25", "61.25", "122.5", "122.5"]
-
-
 def test_given_thickness_sets_the_radius():
     remedy = balance(engine()).remedy
     for p in find_practical(engine(), remedy, Tools(thickness=0.03)):
@@ -293,37 +202,11 @@ def test_drill_depth_removes_the_unbalance():
     assert find_drill_depth(0.0, 0.08, 0.012) == 0
 
 
-def test_a_first_guess_of_a_device_in_steel():
-    """A half disc 20 mm thick (if nothing else is said) of 50 mm radius, 7850 kg/m3: its unbalance
-    `t 2/3 R^3` times that.
-    """
-    weight = Remedy(
-        "", counterweights=(Counterweight(unbalance=7850 * 0.02 * 2 / 3 * 0.05**3 * 1e6, angle=0, position=0),)
-    )
-    (figures,) = find_practical(engine(), weight, Tools())
-    assert (figures.disc_radius, figures.disc_thickness) == pytest.approx((0.05, 0.02), rel=1e-14)
-    assert (figures.radius, figures.mass) == (0.045, pytest.approx(figures.unbalance / 0.045))
-    assert figures.holes is None
-
-
 @pytest.mark.parametrize("name", ["radius", "thickness", "disc", "drill"])
 @pytest.mark.parametrize("length", [0.0, -1e-3, math.inf, math.nan])
 def test_lengths_of_tools_are_positive(name, length):
     with pytest.raises(BalcliError, match=rf"^--{name}: .* mm; give figures above 0$"):
         find_practical(engine(), Remedy(""), Tools(**{name: length}))
-
-
-@pytest.mark.parametrize(
-    ("tools", "told"),
-    [
-        # the crank radius of 45 mm; mm where m are wanted
-        (Tools(drill=0.0901), "--drill: a hole of 90.1 mm is wider than its rim of radius 45 mm"),
-        (Tools(drill=12, radius=0.08), "--drill: a hole of 12000 mm is wider than its rim of "),
-    ],
-)
-def test_a_hole_is_narrower_than_its_rim(tools, told):
-    with pytest.raises(BalcliError, match=f"^{re.escape(told)}"):
-        find_practical(engine(), Remedy(""), tools)
 
 
 def test_a_hole_ends_at_the_axis():
@@ -333,16 +216,6 @@ def test_a_hole_ends_at_the_axis():
     most = STEEL * math.pi / 4 * 0.01**2 * 0.05**2 / 2
     assert find_drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
     assert math.isnan(find_drill_depth(most * (1 + 1e-14), 0.05, 0.01))
-
-
-def test_a_slider_is_no_disc(file):
-    told = run(file, "--scheme", "slider", "--order", "2").out
-    (row,) = [line.split() for line in told.splitlines() if line.startswith("1 slider")]
-    assert row[-2:] == ["–", "–"]
-    assert "mass at an amplitude of 45 mm." in told
-    assert "centrifugal" not in told
-    assert "Of sliders: the phase at crank angle 0, along a path that counts from x." in told
-    assert "Of sliders" not in run(file).out
 
 
 def test_sliders_move_at_their_order():
@@ -416,93 +289,6 @@ def test_more_holes_than_any_counterweight_has_room_for():
     assert "One hole would be deeper than the radius." in out
 
 
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        (
-            ("--drill", "20", "--slug", "4"),
-            "--slug: 4 g/cm3 is not heavier than the steel in whose place it is put (7.85 g/cm3); "
-            "tungsten alloy has 17 to 18.5",
-        ),
-        (
-            ("--drill", "20", "--slug", "unobtainium"),
-            '--slug "unobtainium": give tungsten, mallory, lead, or a density in g/cm3 such as 18.5',
-        ),
-        (
-            ("--slug", "tungsten"),
-            "--max-depth and --slug are for holes: give the diameter of the drill, too, with --drill",
-        ),
-        (
-            ("--max-depth", "20"),
-            "--max-depth and --slug are for holes: give the diameter of the drill, too, with --drill",
-        ),
-    ],
-)
+@cases("results/balance", "what_holes_cannot_be")
 def test_what_holes_cannot_be(file, options, told):
     assert refusal("balance", file, *options) == told
-
-
-def test_holes_as_the_shop_reads_them(file):
-    options = ("--drill", "1 in", "--radius", "60 mm", "--scheme", "counterweights")
-    told = run("-", *options, text=SINGLE).out.partition("Holes to drill, 25.4 mm")[2]
-    weight = document("-", *options, text=SINGLE)
-    entry = weight["practical"][0]
-    assert entry["hole_angle_deg"] == 0 == weight["counterweights"][0]["angle_deg"] - 180
-    assert told.splitlines()[3].split() == [
-        "1",
-        "counterweight",
-        "0.0",
-        str(entry["holes"]),
-        f"{entry['drill_depth_mm']:.2f}",
-    ]
-    assert "opposite to the weight to add; radial, from a rim at 60 mm (--radius) inwards" in told
-    slugs = run("-", *options, "--slug", "tungsten", text=SINGLE).out
-    assert "Holes for slugs of 17 g/cm³, 25.4 mm" in slugs
-    assert "1 counterweight           180.0" in slugs
-
-
-def list_orders(*options: object) -> list[str]:
-    """The table of orders, without its heads: rows, and a note if there is one."""
-    out = run_here("balance", ENGINES / "i3.toml", "--scheme", "counterweights", *options).out
-    table = out.partition("Largest value by order, before and after\n")[2].partition("\n\n")[0]
-    return table.splitlines()[2:]
-
-
-def test_orders_that_are_negligible_before_and_after_are_told_in_one_line() -> None:
-    """A thousandth of one cylinder's, whose torque at the crank radius is the smallest of these;
-    orders that are asked for have a row.
-    """
-    *rows, note = list_orders()
-    assert [row.split()[0] for row in rows] == ["1", "2", "3", "4", "6"]
-    found = balance(load(ENGINES / "i3.toml"), "counterweights", orders=[8, 9, 12])
-    roll, moment = (
-        max(float(one.spectra[kind].major.max()) for one in (found.before, found.after)) for kind in ("roll", "moment")
-    )
-    assert max(roll, moment) < 1e-3 * found.before.of_one_cylinder["roll"]
-    assert note.startswith("Negligible: orders 8, 9, 12 (at most force ")
-    assert note.endswith(f", moment {moment:.4g} N·m, roll {roll:.4g} N·m).")
-    asked = list_orders("--orders", "1,8,9")
-    assert [row.split()[0] for row in asked] == ["1", "8", "9"]
-
-
-NEGLIGIBLE_ORDER = "Order {} is negligible beside one cylinder, hardly worth a device."
-
-
-def test_a_scheme_for_a_negligible_order_says_so():
-    """The only force of a three is that of order 6, a ten thousandth of one cylinder's; the only
-    one of a nine-cylinder star that turns against the crank that of order 8.
-    """
-    assert NEGLIGIBLE_ORDER.format(6) in run(ENGINES / "i3.toml", "--scheme", "single-shaft").out
-    assert NEGLIGIBLE_ORDER.format(8) in run(ENGINES / "radial9.toml", "--scheme", "single-shaft").out
-    for order in (2, 4, 6):
-        out = run(ENGINES / "i4.toml", "--scheme", "two-shaft", f"--order={order}").out
-        assert (NEGLIGIBLE_ORDER.format(order) in out) == (order == 6)
-    out = run(ENGINES / "i4.toml", "--scheme", "two-shaft", "--order=2", "--orders=1").out
-    assert "hardly worth" not in out
-    # Weights opposite the pins are for what each pin carries: the free force is none before.
-    assert "hardly worth" not in run(ENGINES / "i4.toml", "--scheme", "factor").out
-
-
-def test_notes_are_sentences():
-    note = "There is no free force of orders 1 and 2: nothing to balance; couple-shaft takes moments."
-    assert note in run(ENGINES / "i3.toml", "--scheme", "four-shaft").out.splitlines()

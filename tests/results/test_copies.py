@@ -105,6 +105,7 @@ OF_CHAPTERS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("burn", ["otto", "diesel", "wiebe"])
 @pytest.mark.parametrize("name", ["i3", "radial7_articulated"])

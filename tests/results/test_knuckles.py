@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import re
 
 import numpy as np
 import pytest
 from support.commands import ask_json, refusal, run_here
 from support.engines import RADIAL
-from support.paths import ENGINES, write
+from support.paths import ENGINES
 
 from balcli.engine import load as enginefile
 from balcli.errors import BalcliError
@@ -108,29 +107,6 @@ def test_what_is_written_reads_back_as_it_was_analysed(tmp_path, older):
     assert list(read.articulation.knuckle_angles) == document["details"]["knuckle_angles_deg"]
     assert out.read_text().startswith("# a comment\n")
     assert np.abs(even_knuckles(read).before.top_deg).max() < 1e-9
-
-
-def test_an_articulation_in_one_line_stays_in_its_line(tmp_path):
-    file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
-    head, table = RADIAL.split("[articulation]")
-    file.write_text(f"articulation = {{ {', '.join(table.strip().splitlines())} }}\n{head}")
-    assert run(file, "--write", out).status == 0
-    line, rest = out.read_text().split("\n", 1)
-    assert line.startswith("articulation = { ")
-    assert "knuckle_angles = [0.0, " in line
-    assert rest == head
-    assert np.abs(even_knuckles(enginefile.read(out)).before.top_deg).max() < 1e-9
-
-
-def test_a_table_says_which_angles_are_even_and_what_is_left(tmp_path):
-    file = write(tmp_path / "radial.toml", RADIAL)
-    text = run(file, "--even", "strokes", "--speed", "2000").out
-    assert "What is changed, and why" in text
-    assert "strokes equal to the master's" in text
-    even = run(file).out
-    assert re.search(r"(?m)^knuckle angles  0\.0, .* deg$", even)
-    assert re.search(r"(?m)^stroke least    120 mm$", even)
-    assert re.search(r"(?m)^top least       0\.000 deg$", even)  # and no rounding noise
 
 
 def test_with_gas_the_roll_is_that_of_both(tmp_path):

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from support.commands import ask
 from support.engines import build_text
 from support.paths import ENGINES, write
 
@@ -96,49 +94,12 @@ def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
     assert entry["guide_x_Nm"] is None
 
 
-def test_over_speed_a_table_without_orders_is_a_sentence(balcli, tmp_path) -> None:
-    file = write(tmp_path / "nowhere.toml", (ENGINES / "i4.toml").read_text().replace("spacing ", "# "))
-    for engine, told in ((file, "not known"), (ENGINES / "i4.toml", "balanced")):
-        out = balcli("analyze", engine, "--format", "marine", "--speed", "1000,2000")[1]
-        assert f"\nExternal moments: {told}.\n" in out
-        assert f"\nX-type guide-force moments of inertia alone, without gas: {told}.\n" in out
-
-
-def test_orders_that_matter_are_shown_with_the_first_two(balcli) -> None:
-    """An in-line four's order 1 is balanced, order 6 matters to the guides alone; of a five, what
-    one component has is negligible beside the other.
-    """
-    four = balcli("analyze", ENGINES / "i4.toml", "--format", "marine")[1]
-    assert [line.split()[0] for line in four.splitlines() if re.match(r"\d ", line)] == [
-        *("1", "2", "4"),
-        *("1", "2", "4", "6"),
-    ]
-    assert "1       balanced   balanced   balanced   balanced\n" in four
-    vr6 = ("analyze", ENGINES / "vr6.toml", "--format", "marine")
-    assert "\n3          74.83      54.32      13.41   negligible\n" in balcli(*vr6)[1]
-    assert "negligible" not in balcli(*vr6, "--all")[1]
-
-
 @pytest.mark.parametrize(
     ("engine", "includes"), [("i4.toml", "inertia, without gas"), ("i4_wiebe.toml", "inertia and gas")]
 )
 def test_json_says_whether_gas_is_in_it(balcli, engine, includes) -> None:
     given = ("analyze", ENGINES / engine, "--format", "marine", "--format", "json")
     assert json.loads(balcli(*given)[1])["includes"] == includes
-
-
-def test_names_of_orders_head_the_columns_over_speed(tmp_path) -> None:
-    file = write(tmp_path / "four.toml", TEXT)
-    at_one = ask("analyze", file, "--format", "marine")
-    assert re.search("order +FnV, kN +FnH, kN +MnV, kN·m +MnH, kN·m\n", at_one)
-    assert "V is along the cylinders (x), H across them (y)." in at_one
-    over = ask("analyze", file, "--format", "marine", "--speed", "80:110:15")
-    heads = [line.split() for line in over.splitlines() if line.lstrip().startswith("rpm")]
-    assert heads[0][:4] == ["rpm", "F1V", "F1H", "F2V"]
-    assert heads[1][:4] == ["rpm", "M1V", "M1H", "M2V"]
-    assert heads[2][1].startswith("H")
-    assert heads[3][1].startswith("X")
-    assert [line.split()[0] for line in over.splitlines() if line.startswith((" 80", " 95"))]
 
 
 def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
@@ -151,18 +112,6 @@ def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
         "engine,speed_rpm,order,force_v_N,force_h_N,moment_v_Nm,moment_h_Nm,guide_h_Nm,guide_x_Nm,torque_Nm"
     )
     assert [line.split(",")[1:3] for line in lines] == [["80.0", "1"], ["80.0", "2"], ["110.0", "1"], ["110.0", "2"]]
-
-
-@pytest.mark.parametrize(
-    ("banks", "told"),
-    [
-        ("bank_angle = 60", "V is along x, from which bank angles count (midway between the banks)"),
-        ("banks = [90]", "(banks at 90 deg), H along y."),
-    ],
-)
-def test_where_vertical_is_told_by_the_banks(banks, told) -> None:
-    out = ask("analyze", "-", "--format", "marine", stdin=f"{TEXT}[layout]\n{banks}\n")
-    assert told in out
 
 
 def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal
 from support.paths import ENGINES
 
@@ -24,13 +25,6 @@ def test_a_range_has_its_ends_and_every_analysis_is_that_of_its_speed(balcli):
         assert entry["moment_Nm"]["major"] == pytest.approx(
             orders[entry["order"]]["moment_Nm"]["major"], rel=1e-12, abs=1e-12
         )
-
-
-@pytest.mark.parametrize("form", ["table", "marine"])
-def test_that_gas_stays_is_said_where_there_are_several_speeds_and_gas(balcli, form):
-    for engine, speeds, told in ((DIESEL, "900,1000", 1), (DIESEL, "900", 0), (FIVE, "90,100", 0)):
-        out = balcli("analyze", engine, "--speed", speeds, "-f", form)[1]
-        assert out.count("; gas as in the file at every speed\n") == told
 
 
 def test_gas_stays_and_inertia_grows_with_the_square():
@@ -54,34 +48,7 @@ def test_a_table_a_kind_a_row_a_speed():
     assert max(map(len, out.splitlines())) <= 80
 
 
-def test_what_was_named_is_shown_and_why_is_said_once():
-    out = ask(*("analyze", FIVE, "--speed", "3000,6000", "--only", "guide,inner", "--orders", "1-4"), "--why")
-    titles = [line.partition(",")[0] for line in out.splitlines() if "largest by order" in line]
-    assert titles == [
-        "Shear force in the crankshaft",
-        "Bending moment in the crankshaft",
-        "Load of a main bearing",
-        "H-type guide moment of inertia alone",
-        "X-type guide moment of inertia alone",
-    ]
-    assert out.count("Why") == 1
-
-
-def test_one_speed_in_a_list_is_one_speed(balcli):
-    assert balcli("analyze", FIVE, "--speed", "3000,3000") == balcli("analyze", FIVE, "--speed", "3000")
-
-
-@pytest.mark.parametrize(
-    ("given", "told"),
-    [
-        (("--speed", "3:1"), '--speed "3:1": must rise; give first:last:step in rpm'),
-        (("--speed", "1:20000:1"), f"has 20000 speeds; at most {MOST_ANALYSED_SPEEDS} are computed"),
-        (("--speed", "0,5"), "or speeds such as 1500,2000"),
-        (("--speed", "5,6", "--by", "cylinder"), "--speed: --by is of one speed"),
-        (("--speed", "5,6", "--only", "xy"), "--only xy: is of one speed"),
-        (("--format", "marine", "--only", "guide"), "--format marine: --only adds nothing to this sheet"),
-    ],
-)
+@cases("results/speeds", "what_does_not_go_together_is_refused", MOST_ANALYSED_SPEEDS=MOST_ANALYSED_SPEEDS)
 def test_what_does_not_go_together_is_refused(given, told):
     assert told in refusal("analyze", FIVE, *given)
 

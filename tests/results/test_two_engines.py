@@ -5,14 +5,13 @@ mirroring curves gives.
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from oracle import momentum
+from support.cases import cases
 from support.commands import ask, ask_json, refusal, run_here
 from support.engines import build_text
-from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES, write
 
 from balcli.forces import spectrum
@@ -232,30 +231,6 @@ def test_gas_of_different_cycles_against_curves(load):
     )
 
 
-def test_whose_gas_counts_is_told(tmp_path):
-    bare, gas = tmp_path / "bare.toml", tmp_path / "gas.toml"
-    text = "[crank]\nstroke = 90\n" + PARTS.format(operation="")
-    bare.write_text(text)
-    gas.write_text(text.replace("mass = 0.5", "bore = 86\nmass = 0.5") + GAS)
-    for pair, told in (
-        ((gas, gas), "of both; their torques add as those of inertia do"),
-        ((gas, bare), "of the first alone; the file of the second has no [gas]"),
-        ((bare, gas), "of the second alone; the file of the first has no [gas]"),
-    ):
-        text = run(*map(str, pair)).out
-        assert f"gas        {told}\n" in text
-        assert "About the crank axis with gas" in text
-        document = ask_json("sum", *pair, "--orders", "0.5-1")
-        assert [entry["gas"] for entry in document["engines"]] == [path == gas for path in pair]
-        assert not document["orders"][0]["gas_torque_Nm"]["balanced"]
-        assert "roll_total_Nm" in document["orders"][1]
-        rows = run(*map(str, pair), "--orders", "0.5", "-f", "csv").out
-        assert "gas,0.5,amplitude," in rows
-    without = run(str(bare), str(bare))
-    assert "gas" not in without.out
-    assert "gas" not in run(str(bare), str(bare), "-f", "json").out
-
-
 # ------------------------------------------------------------------ the command
 @pytest.fixture
 def file(tmp_path):
@@ -292,73 +267,9 @@ def test_other_formats(file, form):
     assert "roll" in result.out
 
 
-@pytest.mark.parametrize(
-    ("load", "roll"),
-    [
-        ("first", "It drives the load, and the roll is C − T."),
-        ("second", "The second one drives the load, against its sense: the roll is C + T."),
-        ("both", "Each has its own flywheel and load: the roll is C − T1 + T2."),
-    ],
-)
-def test_what_the_roll_is_stands_under_the_table(file, load, roll):
-    told = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2. "
-    assert told + roll in run(file, file, "--reverse", "--load", load).out
-    assert told not in run(file, file).out
-
-
-def test_a_speed_that_no_file_gives_is_told_as_assumed(file, tmp_path):
-    """Both run at the first one's speed."""
-    slow = write(tmp_path / "slow.toml", Path(file).read_text().replace("speed = 3000", ""))
-    assert "speed      both at 3000 rpm\n" in run(file, str(slow)).out
-    told = "speed      both at 1000 rpm, assumed: the file gives none; what the second's file says"
-    assert told in run(slow, file).out
-
-
-@pytest.mark.parametrize("own", ["speed = 3001", f"speed = 3000\n{RIPPLE}"])
-def test_a_speed_of_the_second_that_does_not_count_is_told(file, tmp_path, own):
-    other = write(tmp_path / "other.toml", Path(file).read_text().replace("speed = 3000", own))
-    told = "both at 3000 rpm; what the second's file says of its speed does not count\n"
-    assert told in run(file, str(other)).out
-    assert "does not count" not in run(file, file).out
-    assert "does not count" not in run(file, str(other), "--speed", "900").out or RIPPLE in own
-
-
-def test_engines_without_a_name_go_by_their_files(file, tmp_path):
-    nameless = write(tmp_path / "twin.toml", Path(file).read_text().replace('name = "single"', ""))
-    assert run(file, str(nameless)).out.startswith("single and twin\n\nfirst      single, 1 cylinder\n")
-    assert [e["name"] for e in ask_json("sum", str(nameless), file)["engines"]] == ["twin", "single"]
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--at", "0,1"], '--at "0,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-        (["--at", "0,nan,1"], '--at "0,nan,1": give three numbers, X,Y,Z in mm, such as 0,300,0'),
-        (["--at", "0,2e9,1"], "--at: the place of the second engine may be up to 1e+06 m off"),
-        (["--phase", "inf"], "--phase inf: give an angle in degrees, up to 1e+06"),
-        (["--load", "third"], '--load "third": choose from first, second, both'),
-        (
-            ["--load", "both"],
-            "--load both: cranks that turn alike roll the frame alike, whichever drives the load; "
-            "it matters with --reverse",
-        ),
-    ],
-)
+@cases("results/two_engines", "arrangements_that_cannot_be_are_refused")
 def test_arrangements_that_cannot_be_are_refused(file, options, message):
     assert refusal("sum", file, file, *options) == message
-
-
-def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
-    """The tens of thousands that peaks need would take minutes."""
-    text = (FOUR + WIEBE).replace("length = 150", "ratio = 0.999999").replace("inertia = 2600", "")
-    fired, motored = build_text(text), build_text(text.replace(WIEBE, ""))
-    how = Arrangement(phase_deg=90.0)
-    found, still = combine_engines(fired, fired, how), combine_engines(motored, motored, how)
-    few = combine_engines(fired, fired, how, [4, 8])
-    assert found.force == few.force == still.force
-    at = np.searchsorted(found.spectra.orders, [4, 8])
-    assert few.spectra.gas.major == pytest.approx(found.spectra.gas.major[at], rel=1e-9)
-    assert few.spectra.gas.major[0] > 100  # N m
 
 
 def test_orders_that_are_asked_for_have_a_row_balanced_or_not():

@@ -21,30 +21,6 @@ def test_every_device_has_its_reason():
     )
 
 
-def test_reasons_name_what_turns_and_how_it_is_cancelled():
-    """One eccentric for a force, two planes for force and moment, two opposite ones for a
-    moment.
-    """
-    four, three, vee = (
-        size_auto(build_text(write_engine(*throws, **more))).reasons
-        for throws, more in (
-            ((0, 180, 180, 0), {}),
-            ((0, 240, 120), {}),
-            ((0, 100, 210), {"layout": "bank_angle = 50"}),
-        )
-    )
-    assert four[0] == (
-        "Order 2 force turning with the crank: nothing on the crankshaft can cancel it; one "
-        "eccentric on a shaft at +2 times crank speed can"
-    )
-    assert three[2].startswith("Order 1 moment turning against the crank: nothing")
-    assert vee[0].endswith("and moment turning with the crank: counterweights turn with it too and cancel both")
-    assert vee[-1] == (
-        "Order 2 force and moment turning against the crank: nothing on the crankshaft can cancel "
-        "it; eccentrics in two planes on a shaft at -2 times crank speed can"
-    )
-
-
 def test_nothing_is_fitted_where_nothing_is_left():
     engine = build_text(write_engine(0, 240, 120))
     assert not size_auto(fit_scheme(engine)).devices

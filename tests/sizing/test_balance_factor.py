@@ -5,7 +5,6 @@ calculation on a grid.
 from __future__ import annotations
 
 import math
-import shlex
 import tomllib
 
 import numpy as np
@@ -13,10 +12,9 @@ import pytest
 from oracle import momentum
 from support.commands import refusal, run_here
 from support.engines import build_text, changed
-from support.paths import ENGINES, write
+from support.paths import write
 from support.remedies import SMALL, figures, size_scheme, write_engine
 
-from balcli.commands.balance import balance
 from balcli.core.phasors import unit
 from balcli.errors import BalcliError
 from balcli.sizing.options import SchemeOptions
@@ -347,7 +345,6 @@ def test_a_cylinder_of_its_own_is_weighed_on_its_own():
 
 
 # ------------------------------------------------------------------ both definitions, and the inverse
-ABOVE_ALL = "a factor above 1: more than all reciprocating mass on the pin is balanced"
 
 
 def test_the_same_weight_by_both_definitions():
@@ -377,36 +374,12 @@ def test_what_was_measured_is_the_factor_it_stands_for():
     assert remedy.counterweights[0].unbalance == pytest.approx((1375 + 900) * 48.4, rel=1e-12)
 
 
-def test_less_than_the_rotating_mass_is_told():
-    remedy = size_scheme(build_text(TWIN), "factor", measured=0.8)
-    assert figures(remedy)["factor"] == pytest.approx(-100 / 1440, rel=1e-12)
-    assert remedy.note == "a factor below 0: not even all rotating mass is balanced"
-
-
-@pytest.mark.parametrize(("factor", "told"), [(1.0, ""), (1.02, ABOVE_ALL), (2.0, ABOVE_ALL)])
-def test_more_than_all_reciprocating_mass_is_told(factor, told):
-    """102 % may be meant of one cylinder's mass, 200 % for 20 %."""
-    assert fit(TWIN, factor).note == told
-
-
 def test_unequal_pins_share_what_was_measured():
     """The mean of all pins counts."""
     engine = build_text(UNEQUAL)
     mean = np.mean([one.bobweight_g for one in size(engine, "factor").card]) / 1e3
     measured = size_scheme(engine, "factor", measured=float(mean))
     assert figures(measured)["factor"] == pytest.approx(0.5, rel=1e-12)
-
-
-def test_a_range_tells_bobweight_counterweight_and_what_is_left():
-    factors = tuple(k / 100 for k in range(50, 55))
-    engine = build_text(FORD)
-    rows = size_scheme(engine, "factor", factor=factors, planes=(-0.2, 0.25)).sweep
-    for factor, row in zip(factors, rows, strict=True):
-        alone = fit(FORD, factor, planes=(-0.2, 0.25))
-        assert row.factor == factor
-        assert row.bobweight_g == pytest.approx(898 + factor * 1910)
-        assert row.counterweight * 1e6 == max(w.unbalance for w in alone.counterweights)
-    assert [row.moment for row in rows] == sorted(row.moment for row in rows)
 
 
 # ------------------------------------------------------------------ refusals
@@ -460,13 +433,6 @@ def ford(tmp_path):
     return write(tmp_path / "ford.toml", FORD)
 
 
-@pytest.mark.parametrize("line", [line for line in str(balance.__doc__).splitlines() if "balcli balance" in line])
-def test_the_examples_of_the_help_work(ford, line):
-    _, command, file, *options = shlex.split(line)
-    engines = {"i4.toml": ENGINES / "i4.toml", "v8.toml": ford, "twin.toml": ENGINES / "vtwin45.toml"}
-    assert run_here(command, engines[file], *options).status == 0
-
-
 def test_a_factor_alone_chooses_its_scheme(ford):
     in_full = run_here("balance", ford, "--scheme", "factor", "--factor", "0.51").out
     for alone in (("--factor", "51%"), ("--factor", "51 %"), ("--measured", "1872.1 g")):
@@ -477,42 +443,12 @@ def test_a_factor_alone_chooses_its_scheme(ford):
     assert "Ford 302: auto\n" in run_here("balance", ford).out
 
 
-def test_grams_are_what_a_shop_measures(ford):
-    bare, said = (run_here("balance", ford, "--measured", text).out for text in ("1872.1", "1872.1 g"))
-    assert bare == said
-    pounds = run_here("balance", ford, "--measured", "66.04 oz", "--units", "imperial").out
-    assert "1872.2 g balance each bare pin, at the crank radius, without rods" in pounds
-    assert refusal("balance", ford, "--measured", "775 gr").startswith(
-        '--measured "775 gr": has the unit "gr": g, or grain (65 mg)?'
-    )
-    assert "1872.1" in refusal("balance", ford, "--measured", "1872.1", "--units", "imperial")
-    assert run_here("balance", ford, "--measured", "1.8721e3").out == bare
-    assert refusal("balance", ford, "--measured", "-5 g") == ('--measured "-5 g": a mass on the pin is not negative')
-    assert refusal("balance", ford, "--measured", "inf").startswith(
-        '--measured "inf": a mass is wanted: a bare number in g'
-    )
-
-
 def test_a_table_with_a_row_for_each_factor(ford):
     out = run_here("balance", ford, "--factor", "50%:54%:1%", "--planes", "ends").out
     rows = out.partition("Largest values by factor")[2].splitlines()
     assert [row.split()[0] for row in rows if " %  " in row] == ["50", "51", "52", "53", "54"]
     assert len(rows[2]) <= 80
     assert [row.split()[2] for row in rows if " %  " in row][:2] == ["1853", "1872.1"]
-
-
-def test_what_each_plane_has_and_lacks_is_shown(ford):
-    ford.write_text(FORD + "[[counterweight]]\nunbalance = 30000\nangle = 90\nposition = -200\n")
-    out = run_here("balance", ford, "--factor", "51%", "--planes=-200,250").out
-    table = out.partition("What each plane has, and lacks")[2].splitlines()
-    assert table[3].split()[3:5] == ["30000", "90.0"]
-    assert table[4].split()[3:5] == ["0", "–"]
-    assert "clockwise seen from the free end" in out
-
-
-@pytest.mark.parametrize("text", ["51%%", "51 percent", "nan", "0.5:0.6", "a:b:c", "%", "50%:54%"])
-def test_factors_that_say_nothing(ford, text):
-    assert "51%" in refusal("balance", ford, "--factor", text)
 
 
 # ------------------------------------------------------------------ the card for the wall
@@ -571,67 +507,6 @@ def test_a_card_alone_chooses_the_scheme_of_factors(ford, tmp_path):
     assert "ends in .txt" in refusal("balance", ford, "--format", "card", "-o", tmp_path / "x.json")
 
 
-def test_a_card_says_from_which_rim_holes_go_inwards(ford):
-    """Without a radius it is the crank's, which nobody has said."""
-    asked = ("balance", ford, "--planes=-220,230", "--drill", "25.4", "--format", "card")
-    given = " ".join(run_here(*asked, "--radius", "2.7 in").out.split())
-    assert "Holes: radial, from a rim at 68.58 mm (2.7 in) (--radius) inwards." in given
-    assumed = " ".join(run_here(*asked).out.split())
-    assert "(the crank radius, assumed: --radius says where it is) inwards." in assumed
-    assert "from a rim" not in run_here("balance", ford, "--format", "card").out
-
-
-def test_a_card_says_what_is_still_missing_or_that_nothing_is(ford):
-    ford.write_text(FORD + "[[counterweight]]\nunbalance = 30000\nangle = 90\nposition = -200\n")
-    page = run_here("balance", ford, "--format", "card", "--planes=-200,250").out
-    assert "STILL MISSING ON THE CRANKSHAFT" in page
-    ford.write_text(FORD + WEIGHTS)
-    page = run_here("balance", ford, "--format", "card").out
-    assert "These planes are where the counterweights of the file stand; --planes throws" in page
-    ford.write_text(insert_remedy(FORD.encode(), fit(FORD)))
-    page = run_here("balance", ford, "--format", "card").out
-    assert "Nothing is missing: the counterweights of the file balance this factor." in page
-
-
-def test_holes_that_are_many_or_deep_are_told(ford):
-    """13 of 1 in stand along 330 mm; without a limit they go nearly to the axis."""
-    asked = ("balance", ford, "--factor", "51%")
-    room = "13 holes side by side take 330 mm along the axis at the least."
-    for form in ("card", "table"):
-        out = " ".join(run_here(*asked, *DRILLED, "--format", form).out.split())
-        assert room in out
-        assert "--max-depth says how deep" not in out
-        deep = run_here(*asked, *DRILLED[:-2], "--format", form).out
-        assert "of 63.5 mm towards the axis: --max-depth says" in " ".join(deep.split())
-    wide = ("--planes=-220,230", "--radius", "200 mm", "--drill", "60 mm", "--max-depth", "100 mm")
-    assert "side by side take" not in run_here(*asked, *wide).out
-
-
-def test_a_throw_that_nobody_has_weighed_is_said_to_count_as_nothing(ford):
-    """The card has no row for it then, and the counterweight is lighter by it."""
-    told = "counts as 0, as crank.throw_mass is 0 or not given"
-    for form in ("card", "table"):
-        assert told not in run_here("balance", ford, "--factor", "51%", "--format", form).out
-    ford.write_text(FORD.replace("throw_mass = 1.1\n", ""))
-    for form in ("card", "table"):
-        assert told in run_here("balance", ford, "--factor", "51%", "--format", form).out
-
-
-def test_the_card_of_a_radial_stays_within_eighty_columns(tmp_path):
-    """Nine unlike pistons on one pin, and a name longer than the page."""
-    path = tmp_path / "radial.toml"
-    cylinders = "".join(f"[cylinder.{k}]\npiston_mass = 0.5{k}1\n" for k in range(1, 10))
-    layout = changed(
-        ("in-line four", "nine " * 30),
-        ("throws = [0, 180, 180, 0]", "throws = [0]"),
-        ("firing_order = [1, 3, 4, 2]", "radial = 9"),
-    )
-    path.write_text(layout + cylinders)
-    page = run_here("balance", path, "--format", "card").out
-    assert max(map(len, page.splitlines())) == 80
-    assert "9, weighed one by one" in page
-
-
 def test_a_piston_a_little_heavier_does_not_decide_which_factor_is_best():
     """Pins of a crank of three at 120 degrees balance each other: a factor changes its moment, of
     which 50 % leaves least in a vee at 90 degrees, and the force by 10 g alone. On one pin it
@@ -653,15 +528,3 @@ def find_cylinder_force(text: str) -> float:
     """m r omega^2 of the reciprocating mass of cylinder 1, N."""
     engine = build_text(text)
     return float(engine.weighed[0].reciprocating * engine.cylinders.radius * engine.omega**2)
-
-
-def test_split_pins_are_told_from_front_to_back():
-    """Of a 60-degree V6 with pins 60 degrees apart: those of the first bank stand in front."""
-    six = changed(
-        ("throws = [0, 180, 180, 0]", "splay = -60"),
-        ("firing_order = [1, 3, 4, 2]", "firing_order = [1, 4, 2, 5, 3, 6]\nstagger = 36\nbank_angle = 60"),
-    )
-    remedy = size(build_text(six), "factor")
-    assert [pin.cylinders for pin in remedy.card] == [(1,), (4,), (2,), (5,), (3,), (6,)]
-    places = [device.position for device in remedy.devices]
-    assert places == sorted(places)

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from support.engines import build_text, rotary_engine
+from support.engines import build_text
 from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
 from balcli.core import enclosing_circle as circle
@@ -57,22 +57,6 @@ def test_minimax_with_nothing_to_fit_says_so_and_fits_no_rounding():
     assert (figures(remedy)["improvement"], figures(remedy)["relative error bound"]) == (0, 0)
 
 
-def test_minimax_of_a_crank_that_has_its_weight_already_gives_no_false_reason():
-    """What is left of a single cylinder has a part of order 1 that turns with the crank; and yet
-    no other weight leaves less.
-    """
-    engine = build_text(SMALL["one"])
-    fitted = fit_scheme(engine, "minimax")
-    force = find_orders(fitted)
-    assert abs(force.forward[0]) > 0.01 * abs(force.backward[0])
-    remedy = size(fitted, "minimax")
-    assert remedy.devices == ()
-    assert remedy.note == (
-        "no counterweight makes the largest force smaller than it is: the smallest circle around "
-        "the force as seen from the crank has its centre at 0"
-    )
-
-
 @pytest.mark.parametrize("slip", [-1e-15, 1e-15])
 def test_a_gain_of_rounding_is_none(monkeypatch, slip):
     exact = circle.enclose_curve
@@ -109,14 +93,6 @@ def test_minimax_without_a_force():
     in_planes = size_scheme(engine, "minimax", planes="ends")
     assert [d.position for d in in_planes.counterweights] == [-100, 100]
     assert (figures(in_planes)["improvement"], figures(in_planes)["relative error bound"]) == (0, 0)
-
-
-def test_minimax_of_a_rotary_engine_is_compared_with_no_factor():
-    """Its crank pins stand still with all that is on them: `factor` refuses it."""
-    told = figures(size(rotary_engine(more="[cylinder.2]\npiston_mass = 1.5\n"), "minimax"))
-    assert told["peak force"] > 0
-    assert "factor half peak" not in told
-    assert "improvement" not in told
 
 
 def test_minimax_of_an_engine_without_any_force():

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
-from support.commands import ask_json, refusal, run_here
-from support.engines import STAGGERED_TWIN, build_text, engine
+from support.cases import cases
+from support.commands import refusal, run_here
+from support.engines import engine
 from support.paths import ENGINES
 from support.remedies import fit_scheme, size_scheme
 
-from balcli.core.cylinders import DeviceKind
 from balcli.engine.load import load
 from balcli.forces.spectrum import compute_spectra
-from balcli.render.page_scene import place_beside, scene
-from balcli.render.units import SYSTEMS
-from balcli.results.analysis import analyze
 from balcli.sizing.device_tables import find_free, make_counterweight, make_shaft
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
@@ -99,28 +94,7 @@ def test_two_planes_take_a_moment_alone_too():
     )
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (
-            ["--scheme=single-shaft", "--planes=-48,48", "--position", "3"],
-            "--planes and --position both say where along the shaft: give one",
-        ),
-        (
-            ["--scheme=single-shaft", "--planes=5,5"],
-            "--planes: one plane, or planes at the same z, cannot take a moment; choose two planes "
-            "with some distance between them",
-        ),
-        (
-            ["--scheme=single-shaft", "--planes=1,2,3"],
-            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z",
-        ),
-        (
-            ["--scheme=couple-shaft", "--at=1,2", "--at=3,4", "--at=5,6"],
-            "--at: this moment takes two shafts; give no more places",
-        ),
-    ],
-)
+@cases("sizing/shafts", "refusals")
 def test_refusals(options, message):
     assert refusal("balance", TWIN, *options) == message
 
@@ -159,15 +133,6 @@ def test_opposite_eccentrics_that_nobody_has_placed_are_free():
     assert find_free([make_shaft(1e-3, 2, 0.0, 0j)]) == (False,)
 
 
-def test_free_places_are_told():
-    table = run_here("balance", I5, "--scheme", "couple-shaft", "--order", 2, "--at=100,0").out
-    rows = [line.split() for line in table.splitlines() if line.startswith("shaft")]
-    assert [(row[1], row[4]) for row in rows] == [("+2", "free")] * 2 + [("-2", "100,")] * 2
-    assert "free: the shaft may stand anywhere, for it makes a moment alone." in table
-    sizing = ask_json("analyze", I5)["sizing"]
-    assert [(s["free"], s["at_mm"]) for s in sizing["shafts"]] == [(True, [0, 0])] * 6
-
-
 def test_a_force_has_no_free_place():
     """The shafts of a four at +2 and -2 add a roll wherever they stand but on the crank axis, and
     there, too, about a point of reference elsewhere.
@@ -177,120 +142,4 @@ def test_a_force_has_no_free_place():
     assert "At 0, 0, the crank's centre line, a shaft adds no roll about it; elsewhere" in table
 
 
-def test_sizes_name_the_device_they_are_of():
-    lines = run_here("balance", I3).out.splitlines()
-    start = next(k for k, line in enumerate(lines) if "disc r, mm" in line)
-    kinds = ["counterweight"] * 2 + ["shaft"] * 6
-    found = [line.split()[:2] for line in lines[start + 2 : start + 10]]
-    assert found == [[str(k), kind] for k, kind in enumerate(kinds, 1)]
-
-
-def test_how_a_shaft_stands_is_told():
-    """Against the crank, an angle might count either way; of counterweights alone it cannot."""
-    told = "angles of those that turn against the crank count in its sense, too."
-    assert told in run_here("balance", I3, "--scheme", "couple-shaft", "--order", 1).out
-    assert told not in run_here("balance", I3, "--scheme", "counterweights").out
-
-
-def test_the_file_says_which_are_free(tmp_path):
-    out = tmp_path / "out.toml"
-    run_here("balance", I3, "--scheme", "couple-shaft", "--order", 1, "--write", out)
-    lines = out.read_text().splitlines()
-    assert lines.count("at = [0.0, 0.0]  # free: it may stand anywhere") == 4
-
-
-def test_shafts_on_the_crank_axis_are_drawn_beside_the_engine():
-    built = load(I5)
-    fitted = fit_scheme(built)
-    radius = float(built.cylinders.radius)
-    drawn = place_beside(fitted, 0.08)
-    shafts = {row for row, device in enumerate(fitted.devices) if device.kind is DeviceKind.SHAFT}
-    assert set(drawn) == shafts
-    assert min(abs(place) for place in drawn.values()) > 2 * radius
-    turning = {row: 1 if fitted.devices[row].forward else -1 for row in drawn}
-    assert all(place.imag * turning[row] > 0 for row, place in drawn.items())
-    by_place = {}
-    for row, place in drawn.items():
-        by_place.setdefault(place, set()).add((fitted.devices[row].order, turning[row]))
-    assert sorted(map(len, by_place.values())) == [1, 1, 1]  # no two shafts in one place
-
-
-def test_shafts_with_a_place_are_drawn_there():
-    built = load(I4)
-    options = SchemeOptions(order=2, at=(0.2 + 0.1j, 0.2 - 0.1j))
-    assert place_beside(fit_devices(built, size(built, "two-shaft", options)), 0.08) == {}
-
-
-def test_the_page_has_no_shaft_inside_the_crank():
-    built = load(I5)
-    now, after = (analyze(e, [1, 2]) for e in (built, fit_scheme(built)))
-    shown = scene(now, after, SYSTEMS["si"])
-    shafts = [device for device in shown["variants"][-1]["devices"] if device["beside"]]
-    assert len(shafts) == 6
-    assert all(max(map(abs, shaft["at"])) > shown["stroke"] for shaft in shafts)
-
-
 # ------------------------------------------------------------------ an order that was not asked for
-def test_lower_orders_that_stay_as_they_are_are_named():
-    """Pins split by 2 x 75 - 180 degrees: no force of order 1 turns against the crank."""
-    twin = build_text(STAGGERED_TWIN)
-    remedy = size(twin, "single-shaft")
-    assert remedy.order == 2
-    assert remedy.note == (
-        "Order 2 is the lowest with a free force turning against the crank. Order 1 stays as it is "
-        "(its force and moment turning with the crank: the scheme counterweights; its moment turning "
-        "against the crank: eccentrics in two planes)."
-    )
-    assert not size_scheme(twin, "single-shaft", order=2).note
-    assert not size_scheme(twin, "single-shaft", planes=(-0.01, 0.01)).note
-    assert not size(load(I4), "single-shaft").note  # order 1 is balanced
-
-
-def test_orders_that_stay_for_the_same_reason_are_named_together():
-    """A four has forces of even orders alone, and no moment."""
-    note = size(load(I4), "couple-shaft").note
-    assert note.endswith("Orders 2, 4, 6 and 8 stay as they are (they have a free force: two-shaft)")
-
-
-def test_so_are_orders_whose_moment_is_left():
-    """A twelve without any free order below 6, and two pairs of eccentrics that turn against it."""
-    shafts = "".join(
-        f"[[shaft]]\nratio = {ratio}\nunbalance = 500\nangle = {angle}\nposition = {angle}\n"
-        for ratio in (-1, -2)
-        for angle in (0, 180)
-    )
-    twelve = load((ENGINES / "v12_60.toml").read_text() + shafts)
-    note = size(twelve, "single-shaft").note
-    assert note.endswith(
-        "Orders 1 and 2 stay as they are (their moment turning against the crank: eccentrics in two planes)."
-    )
-
-
-def test_what_turns_with_the_crank_is_said_with_its_size():
-    twin = build_text(STAGGERED_TWIN)
-    remedy = size_scheme(twin, "single-shaft", order=1)
-    assert remedy.note == (
-        "order 1 has no free force turning against the crank: nothing to balance; its force and "
-        "moment turning with the crank: the scheme counterweights; its moment turning against the "
-        "crank: eccentrics in two planes"
-    )
-    force = analyze(twin, [1], ["force"]).spectra.force
-    (detail,) = remedy.details
-    assert detail.label == "force with crank left"
-    assert detail.value == pytest.approx(abs(force.forward[0]), rel=1e-12)
-
-
-def test_a_shaft_that_turns_as_the_crank_does_names_counterweights():
-    twin = build_text(STAGGERED_TWIN)
-    reasons = [*size(twin, "couple-shaft").reasons, *size(twin, "two-shaft").reasons]
-    told = [reason for reason in reasons if "+1 times crank speed" in reason]
-    assert len(told) == 3
-    assert all("the scheme counterweights" in reason for reason in told)
-    assert not any("nothing on the crankshaft" in reason for reason in told)
-
-
-def test_what_is_left_is_said_with_its_order():
-    table = run_here("balance", I3, "--scheme", "couple-shaft").out
-    assert "order 1 moment left  0 N" in table
-    document = json.loads(run_here("balance", I3, "--scheme=couple-shaft", "--format=json").out)
-    assert "moment_left_Nm" in document["details"]

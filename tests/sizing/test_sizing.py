@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import build_text, engine_text
 from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
@@ -115,24 +116,7 @@ def test_a_single_device_has_no_condition_number():
     assert not size_auto(balanced).details
 
 
-@pytest.mark.parametrize(
-    ("scheme", "name", "order"),
-    [
-        ("auto", "three", None),
-        ("counterweights", "three", 1),
-        ("counterweights", "one", 1),
-        ("factor", "one", 1),
-        ("minimax", "one", 1),
-        ("single-shaft", "four", 2),
-        ("two-shaft", "four", 2),
-        ("two-shaft", "one", 1),
-        ("four-shaft", "one", None),
-        ("couple-shaft", "three", 1),
-        ("slider", "four", 2),
-        ("minimax", "four", None),
-        ("oldham", "centred", None),
-    ],
-)
+@cases("sizing/sizing", "a_remedy_says_its_scheme_and_its_order")
 def test_a_remedy_says_its_scheme_and_its_order(scheme, name, order):
     remedy = size(build_text((SMALL | {"centred": write_engine(0)})[name]), scheme)
     assert (remedy.scheme, remedy.order) == (scheme, order)
@@ -186,19 +170,6 @@ def test_planes_are_named_or_given():
     assert ends[0] == ends[1] == ends[2]
     with pytest.raises(BalcliError, match=r"--at: this scheme has one place; give it once$"):
         size_scheme(engine, "slider", at=(0j, 1j))
-
-
-@pytest.mark.parametrize("place", [0.0, 0.1])
-def test_what_a_single_plane_leaves_is_said(place):
-    """Away from the middle, force and moment both."""
-    engine = build_text(SMALL["vee"])
-    remedy = size_scheme(engine, "counterweights", planes=(place,))
-    after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
-    assert figures(remedy)["force with crank left"] == pytest.approx(abs(after.force.forward[0]), rel=1e-9, abs=1e-9)
-    assert (figures(remedy)["force with crank left"] > 1) == (place != 0)
-    assert figures(remedy)["moment with crank left"] == pytest.approx(abs(after.moment.forward[0]), rel=1e-12)
-    assert figures(remedy)["moment with crank left"] > 1
-    assert remedy.note.startswith("one plane, or planes at the same z, cannot take a moment")
 
 
 @pytest.mark.parametrize("name", ["one", "vee", "uneven"])
@@ -292,33 +263,9 @@ def test_other_devices_do_so_too(scheme):
     assert {d.at for d in remedy.devices if not isinstance(d, Counterweight)} == {(0, 0)}
 
 
-def test_a_single_shaft_says_what_force_it_leaves():
-    """Of an order that nothing on the crankshaft can take."""
-    engine = build_text(UNEVEN)
-    remedy = size_scheme(engine, "single-shaft", order=2)
-    left = compute_spectra(fit_devices(engine, remedy), [2], ("force",)).force.forward[0]
-    assert figures(remedy)["force with crank left"] == pytest.approx(abs(left), rel=1e-12)
-    assert figures(remedy)["force with crank left"] > 1
-
-
 def test_a_single_shaft_has_counterweights_at_both_throws():
     """As `auto` has, though one plane would do."""
     assert [d.position for d in size(build_text(write_engine(0, 0)), "single-shaft").counterweights] == [-50, 50]
-
-
-def test_the_geometry_of_a_pair_in_the_details():
-    engine = build_text(SMALL["vee"])
-    remedy = size_scheme(engine, "two-shaft", order=2, at=(-0.03 + 0.04j, 0.12j))
-    told = figures(remedy, "order 2")
-    assert (told["radius against crank"], told["radius with crank"]) == pytest.approx((0.05, 0.12))
-    assert told["radius ratio"] == pytest.approx(120 / 50)
-    assert (told["direction with crank"], told["direction against crank"]) == pytest.approx(
-        (90, math.degrees(math.atan2(4, -3)))
-    )
-    before, after = (compute_spectra(e, [2], ("moment", "roll")) for e in (engine, fit_devices(engine, remedy)))
-    assert told["roll before"] == pytest.approx(before.roll.major[0], rel=1e-12)
-    assert told["roll left"] == pytest.approx(after.roll.major[0], rel=1e-12)
-    assert told["moment left"] == pytest.approx(after.moment.major[0], rel=1e-9)
 
 
 def test_shafts_on_the_crank_axis_have_no_direction_there():
@@ -354,25 +301,6 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     assert [key for key in told if key.startswith("radius")] == [f"radius {turning} crank"]
 
 
-def test_couple_shafts_say_what_they_do_and_what_is_left():
-    engine = build_text(SMALL["vee"])
-    remedy = size_scheme(engine, "couple-shaft", order=1)
-    assert list(remedy.reasons[::2]) == [
-        f"Order 1 moment turning {turning} the crank: two opposite eccentrics on a shaft at "
-        f"{ratio} times crank speed make the opposite "
-        f"moment and no force, wherever the shaft stands{weights}"
-        for turning, ratio, weights in (
-            ("with", "+1", "; the scheme counterweights would do so without a shaft"),
-            ("against", "-1", ""),
-        )
-    ]
-    after = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
-    assert after.moment.balanced.all()
-    assert (figures(remedy)["moment left"], figures(remedy)["force left"]) == pytest.approx(
-        (0, after.force.major[0]), rel=1e-12
-    )
-
-
 def star(cylinders):
     return build_text(write_engine(0, layout=f"radial = {cylinders}"))
 
@@ -393,19 +321,6 @@ def test_the_lowest_order_that_is_there_up_to_8():
     assert size(weighted, "two-shaft").order == 2
     assert size_scheme(star(3), "two-shaft", order=1000).note.startswith("order 1000 has no free force: nothing")
     assert [size_scheme(star(3), "two-shaft", order=order).order for order in (1, 4)] == [1, 4]
-
-
-def test_what_else_an_order_has_is_said():
-    three, vee = (build_text(SMALL[name]) for name in ("three", "four"))
-    assert size_scheme(three, "two-shaft", order=1).note == (
-        "order 1 has no free force: nothing to balance; it has a free moment: couple-shaft"
-    )
-    assert size_scheme(vee, "couple-shaft", order=2).note == (
-        "order 2 has no free moment: nothing to balance; it has a free force: two-shaft"
-    )
-    cross = build_text(write_engine(0, 90, 270, 180, layout="bank_angle = 90"))  # a moment with the crank alone
-    assert size_scheme(cross, "two-shaft", order=1).note.endswith("; it has a free moment: couple-shaft")
-    assert size_scheme(three, "two-shaft", order=3).note == "order 3 has no free force: nothing to balance"
 
 
 @pytest.mark.parametrize("bank", [-90, -89.5, -0.5, 0, 0.5, 30, 89.5, 90])

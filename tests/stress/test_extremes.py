@@ -12,11 +12,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.engines import engine
-from support.paths import DOCS
 
 from balcli.core.mechanisms import closed_form, fourier, harmonics, sampled
 from balcli.core.mechanisms.fourier import SERIES
-from balcli.core.peaks import find_peak
 from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.errors import InputError
@@ -40,8 +38,6 @@ BOUNDS = {  # by row of docs/accuracy.md; roundings, or relative errors
 LAMBDAS = [1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.28, 0.5, 0.75, 0.9, 0.99, 1 - 1e-5, 1 - 1e-6]
 HIGH = [255, 256, 4095, 4096]
 SMALLEST = 1e-290  # below which a float has not all its digits
-NEAREST = 1 - 1e-6  # of lambda + |eps|
-PAGE = DOCS / "accuracy.md"
 REVOLVING = 0.05 * (2 * np.pi) ** 2  # m r omega^2 of `kit.engine`: 1 kg, 50 mm, 60 rpm
 
 
@@ -225,17 +221,6 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
     assert share_of_bound(found.rod, row, want[1]) < 0.5
 
 
-def test_the_mirror_image_of_an_articulated_rod_has_the_same_bound():
-    """It leans to the other side."""
-    bounds = []
-    for master in (1, 2):
-        c = vee(1e-2, master).cylinders
-        few, which = c.linkage.find_distinct_harmonics([1, 2], c.lam, c.eps, SERIES)
-        found, row = few.select_cylinders(which), 2 - master
-        bounds.append((found.piston.noise[row], found.rod.noise[row], found.piston.noise[1 - row]))
-    assert bounds[0] == pytest.approx(bounds[1], rel=1e-6, abs=0)
-
-
 def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
     assert len(find_relevant_orders(vee(2e-6))) == 1 << 14
     with pytest.raises(InputError, match=r"stands 0\.9999995\d* rod lengths beside .*at most 1 - 1e-06 is allowed"):
@@ -245,50 +230,6 @@ def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
 def short(number: int) -> float:
     """Of the lock, by the number of a cylinder."""
     return 1e-6 * (1.1 + number / 1000)
-
-
-@pytest.mark.parametrize(
-    ("kind", "parts", "different", "samples"),
-    [
-        (
-            "centred",
-            {"rod": {"ratio": 0.9}, "cylinder": {str(n): {"rod_ratio": 1 - short(n)} for n in range(1, 65)}},
-            64,
-            64 << 16,
-        ),
-        (
-            "offset",
-            {
-                "rod": {"ratio": 0.3},
-                "cylinder": {str(n): {"piston_offset": 50 / 0.3 * (0.7 - short(n))} for n in range(1, 65)},
-            },
-            64,
-            64 << 15,
-        ),
-        (
-            "articulated",
-            {
-                "rod": {"length": 180},
-                "layout": {"banks": [-22.5, 22.5]},
-                "articulation": {"master": 1, "knuckle_radius": 40, "rod": {"length": 80}},
-                "cylinder": {str(n): {"rod_length": DEAD / (1 - short(n))} for n in range(65, 129)},
-            },
-            65,
-            65 << 16,
-        ),
-    ],
-)
-def test_too_many_different_mechanisms_near_their_lock_are_refused_with_the_number(kind, parts, different, samples):
-    """Each takes milliseconds, and megabytes where rods are articulated; equal ones are computed
-    once.
-    """
-    with pytest.raises(InputError) as caught:
-        engine(crank={"stroke": 100, "throws": [0] * 64}, **parts)
-    assert str(caught.value).startswith(
-        f"engine: cylinder: the cylinders have {different} different mechanisms, some so near "
-        f"their lock that all of them need {samples} "
-        "samples of a revolution; at most 524288 are taken: "
-    ), caught.value
 
 
 @pytest.mark.parametrize(
@@ -357,17 +298,6 @@ def test_planes_that_almost_coincide(apart):
     assert found.moment.major[0] == pytest.approx(REVOLVING * apart / 1e3, rel=BOUNDS["planes 1e-9 mm apart"])
 
 
-def test_planes_that_almost_coincide_far_from_the_point_of_reference():
-    """10 m away, 1e-9 mm is below the rounding of the place itself, and nothing is invented."""
-    found = compute_spectra(
-        engine(
-            crank={"stroke": 100, "throws": [0, 180], "positions": [1e4, 1e4 + 1e-12]}, frame={"reference": [0, 0, 0]}
-        ),
-        [1],
-    )
-    assert found.moment.major[0] <= 1e4 / 1e3 * EPS * 8 * REVOLVING
-
-
 # ------------------------------------------------------------------ sizes
 @pytest.mark.parametrize("stroke", [1e-3, 1.0, 1e6])
 @pytest.mark.parametrize("mass", [1e-9, 1.0, 1e9])
@@ -427,38 +357,4 @@ def test_many_cylinders(count):
     assert np.all(np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want)
 
 
-def test_512_cylinders_at_odd_angles():
-    """Against the sum with 50 digits: 8 roundings a cylinder, of the sum of their sizes, and n
-    roundings of the angle.
-    """
-    throws = [7.3 * k % 360 for k in range(512)]
-    orders = [1, 2, 4, 64, 256]
-    found = compute_spectra(engine(crank={"stroke": 100, "throws": throws}, rod={"ratio": 0.999}), orders).force
-    for row, (n, a) in enumerate(zip(orders, closed_form.piston(orders, 0.999), strict=True)):
-        want = abs(mp.fsum(mp.expjpi(n * mp.mpf(throw) / 180) for throw in throws)) * REVOLVING * abs(a)
-        assert abs(found.major[row] - float(want)) <= BOUNDS["many cylinders"] * 512 * EPS * REVOLVING * abs(a)
-
-
-def test_peaks_of_32768_orders_and_64_cylinders_are_the_sum_of_all():
-    """lambda = 1 - 1e-6, all pistons together: at the quick point beside 90 degrees 64 times the
-    peak of one.
-    """
-
-    def highest(count: int) -> float:
-        whole = engine(crank={"stroke": 100, "throws": [0] * count}, rod={"ratio": NEAREST})
-        orders = find_relevant_orders(whole)
-        assert len(orders) == 1 << 15
-        return find_peak(compute_spectra(whole, orders, ("force",)).force).value
-
-    assert highest(64) == pytest.approx(64 * highest(1), rel=1e-12)
-
-
 # ------------------------------------------------------------------ docs/accuracy.md
-def test_the_page_states_these_bounds_and_found_less():
-    page = PAGE.read_text(encoding="utf-8")
-    table = page.partition("| what | where | bound | found |\n")[2].partition("\n\n")[0]
-    _, *rows = table.splitlines()
-    split = [[cell.strip() for cell in line.strip("|").split("|")] for line in rows]
-    shown = {cells[0]: cells[2:] for cells in split}
-    assert {name: float(bound.removesuffix(" ε")) for name, (bound, _) in shown.items()} == BOUNDS
-    assert all(float(found.removesuffix(" ε")) <= float(bound.removesuffix(" ε")) for bound, found in shown.values())

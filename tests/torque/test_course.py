@@ -4,31 +4,24 @@ step-by-step integration of the equation of motion.
 
 from __future__ import annotations
 
-import json
-import re
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from support.commands import run_here
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
-from support.paths import ENGINES, write
 
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.torque.analysis import analyze_torque
 from balcli.torque.course import (
-    count_repeats,
     find_constant_inertia,
     find_inertia_torque,
     find_moving_inertia,
     find_torque_curves,
     silence,
 )
-from balcli.torque.quantity import CycleQuantity, evaluate_engine
 
 HALVES = np.arange(25)
 FLYWHEEL = "[flywheel]\ninertia = {}\n"
@@ -211,84 +204,3 @@ def test_the_inertia_torque_is_half_the_slope_of_the_inertia():
     slope = (moving(angle + shift) - moving(angle - shift)) / (2 * shift)
     want = -0.5 * slope * float(found.omega) ** 2
     assert find_inertia_torque(found)(angle) == pytest.approx(want, abs=1e-6 * np.abs(want).max())
-
-
-def test_of_a_crank_that_would_stand_still_all_is_told_but_its_speed():
-    slow = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
-    found = analyze_torque(slow)
-    assert re.match(
-        r"the shaft stalls at \d+\.\d°: with this inertia it needs a mean speed above \d+", found.flywheel.stall
-    )
-    assert found.flywheel.speed is None
-    assert found.mean_torque == analyze_torque(replace(slow, speed_rpm=3000.0)).mean_torque
-    with pytest.raises(BalcliError, match=r"^the shaft stalls at"):
-        evaluate_engine(slow, [CycleQuantity("fluctuation")])
-
-
-def test_a_crank_that_would_stand_still_is_told_what_it_needs():
-    slow = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1000)), speed_rpm=300.0)
-    heavy = replace(build_text(FOUR + WIEBE + FLYWHEEL.format(1e9)), speed_rpm=300.0)
-    found, want = (analyze_torque(one, fluctuation=0.02).flywheel for one in (slow, heavy))
-    assert found.needed == want.needed
-    assert found.speed is None
-    assert found.stall.startswith("the shaft stalls at")
-    assert not want.stall
-
-
-def test_without_inertia_nothing_is_said_of_the_speed():
-    assert analyze_torque(build_text(FOUR + WIEBE)).flywheel is None
-    asked = analyze_torque(build_text(FOUR + WIEBE), fluctuation=0.01).flywheel
-    assert asked.mean is None
-    assert asked.speed is None
-    assert asked.needed > asked.moving > 0
-
-
-@pytest.mark.parametrize(("name", "times"), [("i4_wiebe", 4), ("v8_wiebe", 8), ("marine/marine6", 6)])
-def test_what_repeats_itself_is_computed_once(name, times):
-    """And is still what the orders say."""
-    found = load(ENGINES / f"{name}.toml")
-    assert count_repeats(found) == times
-    assert count_repeats(silence(found, 2)) == 1
-    curves = find_torque_curves(found)
-    assert curves.total.period == pytest.approx(found.gas.cycle, rel=1e-15)
-    orders = HALVES / 2
-    phasors = compute_spectra(found, orders, ["torque_total"])["torque_total"]
-    want = phasors.forward + np.conj(phasors.backward)
-    per_order = round(found.gas.cycle / (2 * np.pi))
-    every = curves.total.harmonics(np.arange(12 * per_order + 1))
-    assert every == pytest.approx(want[:: 2 // per_order], abs=1e-12 * np.abs(want).max())
-    heavy = replace(found, flywheel_inertia=1e9)
-    whole = analyze_torque(heavy)
-    assert whole.flywheel.speed.fluctuation == pytest.approx(whole.flywheel.speed.small, rel=1e-6)
-
-
-def test_gas_is_equal_by_value():
-    """Which objects cylinders share says nothing."""
-    found = build_text(FOUR + WIEBE)
-    apart = tuple(c._replace(torque=replace(c.torque)) for c in found.gas.cylinders)
-    found = replace(found, gas=replace(found.gas, cylinders=apart))
-    assert count_repeats(found) == 4
-    assert [rows for _, rows in found.gas.group_equal()] == [[0, 1, 2, 3]]
-
-
-def test_large_figures_have_large_units(tmp_path):
-    """Gas does work by the square of the bore."""
-    small = (ENGINES / "i4_wiebe.toml").read_text()
-    text = run_here("torque", ENGINES / "i4_wiebe.toml").out
-    assert " N·m at " in text
-    assert re.search(r"work of a cycle +[\d.]+ J\n", text)
-    heavy = small.replace("[flywheel]\ninertia = ", "[flywheel]\ninertia = 10000")
-    assert "bore = 86" in heavy != small
-    told = {}
-    for factor in (6, 60):
-        path = write(tmp_path / f"{factor}.toml", heavy.replace("bore = 86", f"bore = {factor * 86}"))
-        out = run_here("torque", path).out
-        figures = json.loads(run_here("torque", path, "-f", "json").out)
-        assert "Torque by order, kN·m\n" in out
-        found = re.search(r"work of a cycle +([\d.]+) (\w+)\n", out)
-        told[factor] = found[2]
-        size = {"kJ": 1e3, "MJ": 1e6}[found[2]]
-        assert float(found[1]) * size == pytest.approx(figures["energy"]["work_J"], rel=1e-3)
-        mean = re.search(r"mean torque +([\d.]+) kN·m indicated", out)
-        assert float(mean[1]) * 1e3 == pytest.approx(figures["mean_torque_Nm"], rel=1e-3)
-    assert told == {6: "kJ", 60: "MJ"}

@@ -8,9 +8,9 @@ import re
 import numpy as np
 import pytest
 from support import chains
-from support.commands import ask, ask_csv, ask_json, ask_torsion, refusal, run_here, run_in_terminal
-from support.diesel import write_diesel
-from support.paths import ENGINES, write
+from support.cases import cases
+from support.commands import ask_csv, ask_torsion, refusal, run_here
+from support.paths import ENGINES
 
 from balcli.enginefile.templates import template
 
@@ -76,23 +76,6 @@ def test_forced_vibration_against_50_digits(kind):
         assert said["free_end_deg"][k] == pytest.approx(swing, rel=1e-9, abs=1e-15)
 
 
-def test_the_starting_file_shows_every_part():
-    assert run_here("new", "torsion").out == CHAIN
-    asked = ("torsion", "-", "--speeds", "1000:2500:25", "--holzer", "1")
-    out = ask(*asked, stdin=CHAIN)
-    heads = ["Natural modes", "Inertias and shapes", "Critical speeds, 1000 to 2500 rpm", "Holzer's table, mode 1"]
-    for head in (*heads, "Vibratory torque, 1000 to 2500 rpm", "Limits"):
-        assert head in out
-
-
-def test_a_terminal_of_80_columns_shows_all(tmp_path):
-    path = write(tmp_path / "chain.toml", CHAIN)
-    out = run_in_terminal("torsion", path, "--speeds", "1000:2500:25", "--holzer", "1").out
-    plain = re.sub(r"\x1b\[[0-9;]*m", "", out)
-    assert max(map(len, plain.splitlines())) <= 80
-    assert "…" not in plain
-
-
 def test_csv_lists_the_figures_of_json():
     options = ("--speeds", "1000:1100:50", "--holzer", "2")
     said = ask_torsion(CHAIN, *options)
@@ -147,26 +130,6 @@ def test_a_limit_of_stress_without_any_diameter_is_not_judged():
     said = run_here("torsion", "-", "--speeds", "800:1600:20", stdin=text).out
     assert "limit          ±0.1 deg at engine\n" in said
     assert "not judged     40 N/mm²: no shaft has a diameter" in said
-
-
-def test_shafts_without_a_diameter_are_told_as_not_judged():
-    """None in this range, it said, of the stress of all shafts that twist: one was judged."""
-    text = re.sub(r"(?m)^diameter = 60 .*\n", "", CHAIN, count=1)
-    ring = 'damper = { kind = "rubber", inertia = 3e4, stiffness = 4e4, loss = 0.1 }\n'
-    text = text.replace("inertia = 950000\n", f"inertia = 950000\n{ring}")
-    said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=text).out
-    assert said.rstrip().endswith("\nnot judged     engine-flywheel: no diameter, so that no stress is known")
-    said = run_here("torsion", "-", "--speeds", "800:900:20", stdin=CHAIN).out
-    assert "not judged" not in said
-
-
-def test_what_nothing_damps_is_told_with_its_speed():
-    text = CHAIN.replace("loss = 0.02", "loss = 0").replace("loss = 0.03", "")
-    text = text.replace("damping = 1.5", "")
-    assert refusal("torsion", "-", "--speeds", "1000:2500", stdin=text) == (
-        "standard input: the natural frequency of 77.1782 Hz is excited by order 2 at 2315.35 rpm and "
-        "nothing damps it: its vibration has no bound; give a loss factor (loss = 0.02), or damping"
-    )
 
 
 def test_what_pendulums_leave_undamped_is_told(tmp_path):
@@ -283,158 +246,7 @@ def test_a_tuned_pendulum_holds_its_node_still():
     assert ask_torsion(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
 
 
-def test_that_no_order_is_critical_is_said():
-    """It was not, and the table left out."""
-    chain = """
-        node = [{ name = "a", inertia = 2e5 }, { name = "b", inertia = 3e5 }]
-        shaft = [{ from = "a", to = "b", stiffness = 1e6 }]
-        """
-    driven = chain + 'excitation = [{ node = "a", order = 2, sin = 3 }]'
-    none = "Critical speeds, 100 to 200 rpm\nNone: no order meets a mode that it drives. Of order 2."
-    slow = ("torsion", "-", "--speeds", "100:200:100")
-    assert none in run_here(*slow, stdin=driven).out
-    assert "Critical" not in run_here("torsion", "-", stdin=chain).out
-    assert "Critical" not in run_here("torsion", "-", "--orders", "3", stdin=driven).out
-
-
-def test_an_excitation_without_torque_is_doubted():
-    text = """
-        loss = 0.02
-        node = [{ name = "a", inertia = 2e5 }, { name = "b", inertia = 3e5 }]
-        shaft = [{ from = "a", to = "b", stiffness = 1e6 }]
-        excitation = [{ node = "a", order = 2 }, { node = "b", order = 2, sin = 3 }]
-        """
-    assert run_here("torsion", "-", stdin=text).err == (
-        "warning: standard input: excitation.1 on 'a' has neither cos nor sin, and so no torque; "
-        "give one of them, such as cos = 150 (N m)\n"
-    )
-
-
-def test_an_excitation_that_a_fixing_takes_is_doubted():
-    text = """
-        loss = 0.02
-        fixed = ["hull"]
-        node = [{ name = "a", inertia = 2e5 }, { name = "hull" }]
-        shaft = [{ from = "a", to = "hull", stiffness = 1e6 }]
-        excitation = [{ node = "a", order = 2, cos = 9 }, { node = "hull", order = 2, sin = 3 }]
-        """
-    assert run_here("torsion", "-", stdin=text).err == (
-        "warning: standard input: excitation.2 is on 'hull', which is fixed: it moves nothing\n"
-    )
-
-
-def test_loss_factors_of_a_chain_in_percent_are_doubted():
-    text = """
-        loss = 2
-        node = [{ name = "a", inertia = 2e5 }, { name = "b", inertia = 3e5 }]
-        shaft = [{ from = "a", to = "b", stiffness = 1e6, loss = 5 }]
-        """
-    found = run_here("torsion", "-", stdin=text)
-    assert [line.partition(",")[0] for line in found.err.splitlines()] == [
-        "warning: standard input: loss is 2",
-        "warning: standard input: shaft.1.loss is 5",
-    ]
-
-
-@pytest.mark.parametrize("diameter", ["", "diameter = 60"])
-def test_what_no_shaft_outlasts_is_doubted(diameter):
-    """At resonance 100 N m are magnified by the inverse of the loss, 1e-4: 1 MN m, on 1e4 N m/rad
-    100 rad; with 60 mm 23.6 kN/mm2.
-    """
-    text = f"""
-        fixed = ["wall"]
-        node = [{{ name = "disc", inertia = 1e6 }}, {{ name = "wall" }}]
-        [[shaft]]
-        from = "disc"
-        to = "wall"
-        stiffness = 1e4
-        loss = LOSS
-        {diameter}
-        [[excitation]]
-        node = "disc"
-        order = 1
-        cos = 100
-        """
-    options = ("torsion", "-", "--speeds", "900:1000:1")
-    what = f"disc would swing by {np.degrees(100):.4g} deg at 954.93 rpm, which no shaft outlasts"
-    if diameter:
-        stress = 16 * 1e6 / (np.pi * 0.06**3) / 1e6
-        what = f"disc-wall would bear {stress:.4g} N/mm2 at 954.93 rpm, which no steel does"
-    found = run_here(*options, stdin=text.replace("LOSS", "1e-4"))
-    why = "is the damping (loss, damping) of all that twists right?"
-    assert found.err == f"warning: standard input: {what}; {why}\n"
-    assert run_here(*options, stdin=text.replace("LOSS", "0.05")).err == ""
-
-
-def test_what_swings_as_one_is_told_so():
-    """100 N m on 1 kg m2 that turns at 10 rad/s swings it by 1 rad; the shaft has to give the half
-    of it 50 N m, which is 5e-6 rad.
-    """
-    text = """
-        loss = 0.02
-        node = [{ name = "a", inertia = "0.5 kg m^2" }, { name = "b", inertia = "0.5 kg m^2" }]
-        shaft = [{ from = "a", to = "b", stiffness = 1e7 }]
-        excitation = [{ node = "a", order = 1, cos = 100 }]
-        """
-    found = run_here("torsion", "-", "--speeds", "95.493,200", stdin=text)
-    assert found.err == (
-        "warning: standard input: a would swing by 57.3 deg at 95.493 rpm, and everything with it, "
-        "for the shafts twist by less: it turns too unevenly for what is computed here, small "
-        "swings; is an inertia missing, or the speed too low?\n"
-    )
-
-
-def test_pendulums_that_swing_beyond_what_is_small_are_doubted():
-    """Tuned, they hold 300 N m with 2 kg: m R (R + L) W^2 for each rad, 92 deg at 1500 rpm; five
-    times as many swing by 18 deg.
-    """
-    text = """
-        [[node]]
-        name = "crank"
-        inertia = 3e5
-        damper = { kind = "pendulum", mass = MASS, radius = 60, length = 2.962962962962963 }
-        [[excitation]]
-        node = "crank"
-        order = 4.5
-        cos = 300
-        """
-    swing = np.degrees(300 / (2 * 0.06 * (0.06 + 0.06 / 4.5**2) * (50 * np.pi) ** 2))
-    options = ("torsion", "-", "--speeds", "1500:3000:100")
-    found = run_here(*options, stdin=text.replace("MASS", "2"))
-    assert f"The pendulums of crank swing by ±{swing:.4g} deg at 1500 rpm." in found.out
-    assert found.err == (
-        f"warning: standard input: the pendulums of crank swing by {swing:.3g} deg at 1500 rpm, "
-        "computed as if that were small: at 20 deg one on a circle is 0.8 % out of tune, farther "
-        f"out more; with {swing / 20:.2g} times their mass they would swing by about 20 deg\n"
-    )
-    assert run_here(*options, stdin=text.replace("MASS", "10")).err == ""
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (("--holzer", "9"), "standard input: has 3 modes, but --holzer asks for 9"),
-        (
-            ("--holzer", "x"),
-            '--holzer "x": give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"',
-        ),
-        (
-            ("--speeds", "3:1"),
-            '--speeds "3:1": must rise; give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000',
-        ),
-        (
-            ("--speeds", "fast"),
-            '--speeds "fast": give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000',
-        ),
-        (("--speeds", "1:1e8:1"), '--speeds "1:1e8:1": has 100000000 speeds; at most 20000 are computed'),
-        (
-            ("--orders", "0.7"),
-            '--orders "0.7": give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or 1,2.5,4',
-        ),
-        (("--orders", "8-1"), '--orders "8-1": 8-1 must rise, from above 0 to 256 at most'),
-        (("--speeds", "1000", "--orders", "0.5"), "standard input: nothing excites it at the orders asked for"),
-    ],
-)
+@cases("torsion/command", "options_that_cannot_be")
 def test_options_that_cannot_be(options, message):
     assert refusal("torsion", "-", *options, stdin=CHAIN) == message
 
@@ -453,16 +265,6 @@ def test_orders_are_those_asked_for():
 
 
 LONE = '[[node]]\nname = "a"\ninertia = 1e6\n[[excitation]]\nnode = "a"\norder = 1\ncos = 3\n'
-
-
-def test_a_chain_without_excitation_is_told_to_take_one():
-    text = LONE.partition("[[excitation]]")[0]
-    assert refusal("torsion", "-", "--speeds", "100", stdin=text) == (
-        "standard input: nothing excites it; give an [[excitation]]: node, order, cos"
-    )
-    assert refusal("torsion", "-", "--speeds", "100", "--damper", "viscous", stdin=text) == (
-        "--damper: nothing excites the system; give an [[excitation]]"
-    )
 
 
 def test_a_node_alone_swings_rigidly(tmp_path):
@@ -559,6 +361,7 @@ IMPERIAL = {  # SI units of the CSV: what stands instead, and its size
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "kind", ["viscous", *(pytest.param(kind, marks=pytest.mark.stress) for kind in ("rubber", "pendulum"))]
 )
@@ -573,139 +376,8 @@ def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
             assert float(ours["value"]) == pytest.approx(float(si["value"]) / size, rel=1e-14)
 
 
-def test_tables_and_pictures_in_imperial_units(tmp_path):
-    picture = tmp_path / "six.svg"
-    own = ("--damper", "viscous", "--damper-inertia", "200 lb in^2")
-    asked = ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:2000:20", "--plot", picture)
-    said = run_here(*asked, *own, "--holzer", "1", "--units", "imperial").out
-    assert re.search(r"^ring +200 lb·in²$", said, re.MULTILINE)
-    assert re.search(r"^node +lb·in² ", said, re.MULTILINE)
-    assert re.search(r"^node +J, lb·in² .* k, lbf·ft/rad ", said, re.MULTILINE)
-    assert re.search(r"^shaft +± lbf·ft +at rpm +sum, lbf·ft +psi ", said, re.MULTILINE)
-    assert re.search(r"^limit +7251\.9 psi$", said, re.MULTILINE)  # 50 N/mm²
-    assert not re.search(r"N·m|N/mm²|kg|\bk?W\b", said)
-    drawn = picture.read_text(encoding="utf-8")
-    assert "± psi" in drawn
-    assert " lbf·ft" in drawn
-    assert refusal(*asked, *own[:3], "200", "--units", "imperial") == (
-        '--damper-inertia "200": with --units imperial a moment of inertia needs its unit: '
-        '"200 lb in^2" or "200 kg mm^2"'
-    )
-
-
-def test_markdown_has_the_same_tables():
-    out = run_here("torsion", "-", "-f", "markdown", stdin=CHAIN).out
-    assert "| mode | Hz | 1/min | nodes | node in |" in out
-
-
-def test_progress_says_nothing_where_nobody_looks():
-    status, _, err = run_here("torsion", "-", "--speeds", "1000:1100", "--progress", stdin=CHAIN)
-    assert (status, err.strip()) == (0, "")
-
-
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
     monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
     assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=CHAIN) == (
         "2 orders at 101 speeds in 4 shafts are 808 torques, and at most 800 are kept: take fewer speeds or orders"
     )
-
-
-RING = 'damper = { kind = "viscous", inertia = 2e5, damping = 50 }'
-PENDULUMS = 'damper = { kind = "pendulum", mass = 2, radius = 160, length = 10 }'
-HELD = "The order that pendulums are tuned to meets modes in which their node is at rest."
-
-
-@pytest.mark.parametrize(
-    ("dampers", "told", "shifted"),
-    [
-        (("", ""), "", ""),
-        (
-            (RING, ""),
-            " Rings in oil are left out, as if they were not there.",
-            " Without rings in oil, which shift them.",
-        ),
-        (
-            ("", PENDULUMS),
-            " Pendulums are left out; they follow the order.",
-            f" Without pendulums, which shift them. {HELD}",
-        ),
-        (
-            (RING, PENDULUMS),
-            " Rings in oil are left out, as if they were not there. So are pendulums, which follow the order.",
-            f" Without rings in oil and pendulums, which shift them. {HELD}",
-        ),
-    ],
-)
-def test_what_modes_leave_out_is_said_and_tiny_orders_are_not_named(dampers, told, shifted):
-    first, second = dampers
-    chain = """
-        node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 2e6 }]
-        shaft = [{ from = "a", to = "b", stiffness = 1e5, loss = 0.1 }]
-        excitation = [
-            { node = "b", order = 1, cos = 100 }, { node = "b", order = 2, cos = 0.001 }
-        ]
-        """
-    chain = chain.replace("inertia = 1e6", f"inertia = 1e6, {first}".rstrip(", "))
-    chain = chain.replace("inertia = 2e6", f"inertia = 2e6, {second}".rstrip(", "))
-    out = run_here("torsion", "-", "--speeds", "1000:2000:500", stdin=chain).out
-    assert f"\nNode in: the shafts whose ends turn against each other.{told}\n" in out
-    assert f"share: of all work done on the mode. Of orders to 2.{shifted}\n" in out
-    row = next(line for line in out.splitlines() if line.startswith("a-b  "))
-    assert re.search(r" 1: [\d.]+$", row), "order 1 alone"
-
-
-def test_criticals_say_of_which_orders_and_speeds_they_are():
-    """Of an engine without a speed they went to 71905 rpm without a word; of order 6 alone it said
-    orders to 6.
-    """
-    text = write_diesel()
-    alone = run_here("torsion", "-", "--orders", "6", stdin=text).out
-    assert re.search(r"share: of all work done on the mode\. Of order 6\. To [\d.]+ rpm, 1\.5", alone)
-    assert "At any speed" not in alone
-    text = re.sub(r"(?m)^speed = .*\n", "", text)
-    assert " At any speed: the file gives none." in run_here("torsion", "-", stdin=text).out
-    over = run_here("torsion", "-", "--speeds", "1000:2000:500", stdin=text).out
-    assert "At any speed" not in over
-
-
-def test_what_a_table_of_an_engine_leaves_to_json_and_what_gas_does():
-    file = ENGINES / "i6_diesel.toml"
-    out = run_here("torsion", file, "--holzer", "2").out
-    found = ask_json("torsion", file)
-    rows = re.search(r"\nCritical speeds\n.*\n.*\n((?:\d.*\n)+)", out)[1].count("\n")
-    assert f" JSON has {len(found['criticals']) - rows} more.\n" in out
-    assert "Left over at the end: 0 N·m." in out
-    over = run_here("torsion", file, "--speeds", "1000:1500:500").out
-    assert re.search(r"deg at [\d.]+ rpm\. Gas as in the file at every speed\.\n", over)
-
-
-@pytest.mark.parametrize(("speed", "told"), [(2166, "; the file's own speed, 2166 rpm, is barred"), (2000, "")])
-def test_a_barred_speed_that_is_the_file_s_own_is_named(speed, told):
-    text = (ENGINES / "i6_diesel.toml").read_text("utf-8").replace("speed = 2000", f"speed = {speed}")
-    out = run_here("torsion", "-", "--speeds", "2000:2300:50", stdin=text).out
-    assert re.search(r"\nbarred speeds  2086 to 2268\.4 rpm(.*)\n", out)[1] == told
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "told"),
-    [
-        (
-            "inertia = 950000",
-            "inertia = 0.95",
-            "node.2.inertia of 'flywheel' is 0.95 kg mm^2; is it in kg mm^2? Another unit is said as "
-            'in "0.95 kg m^2"',
-        ),
-        (
-            "diameter = 45 ",
-            "diameter = 0.045 ",
-            'shaft.2.diameter is 0.045 mm; is it in mm? Another unit is said as in "0.045 m"',
-        ),
-        ("inertia = 950000", 'inertia = "0.95 kg m^2"', ""),
-    ],
-)
-def test_chains_in_metres_are_asked_back(old, new, told):
-    text = CHAIN
-    assert old in text
-    result = run_here("torsion", "-", stdin=text.replace(old, new))
-    assert result.status == 0
-    assert result.err == (f"warning: standard input: {told}\n" if told else "")

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_torsion, refusal
 from support.diesel import INERTIAS, NATURAL_HZ, RUNNING_GEAR, write_diesel
 
@@ -265,93 +266,7 @@ def test_a_rigid_part_adds_to_its_neighbour():
     assert found == pytest.approx(NATURAL_HZ, rel=1e-7)
 
 
-BAD_PARTS = """
-[torsion]
-throw_inertia = [40000, 40000]
-throw_stiffness = [1e6, 2e6]
-[[torsion.front]]
-name = "a"
-stiffness = 1
-of = "thrwo 1"
-[[torsion.front]]
-name = "a"
-stiffness = 1
-[[torsion.rear]]
-name = "throw 1"
-stiffness = 1
-[[torsion.rear]]
-name = "b"
-stiffness = 1
-of = "c"
-[[torsion.rear]]
-name = "c"
-stiffness = 1
-of = "b"
-"""
-
-
-def test_every_misfit_of_torsion_is_told_by_its_path():
-    head = write_diesel().partition("[torsion]")[0]
-    assert refusal("torsion", "-", stdin=head + BAD_PARTS).split("\n") == [
-        "standard input: 7 mistakes",
-        "  torsion.throw_stiffness: has 2 values, but 6 throws need 5; give one for all, or a list of these",
-        "  torsion.throw_inertia: has 2 values, but 6 throws need 6; give one for all, or a list of these",
-        '  torsion.front.1.of: "thrwo 1" is no part; did you mean throw 1?',
-        '  torsion.front.2.name: "a" is there twice; give each its own',
-        '  torsion.rear.1.name: "throw 1" is a name that throws have',
-        '  torsion.rear.2.of: "c" does not lead to the crankshaft; name what the part hangs on',
-        '  torsion.rear.3.of: "b" does not lead to the crankshaft; name what the part hangs on',
-    ]
-
-
-@pytest.mark.parametrize(
-    ("torsion", "message"),
-    [
-        ("[torsion]\nfront = 3", "torsion.front: 3 is no table; write [[torsion.front]] in double brackets"),
-        ("[torsion.front]\nname = 3", "torsion.front: is one of several; write [[torsion.front]] in double brackets"),
-        (
-            '[[torsion.front]]\nname = "a"\nstiffness = 1\ninertja = 3',
-            "torsion.front.1.inertja: unknown key in [torsion.front]; did you mean inertia?",
-        ),
-        (
-            '[[torsion.front]]\nname = "a"\ninertia = 0\nstiffness = 1',
-            "torsion.front.1.inertia: is 0; leave it out where a node has no inertia",
-        ),
-        (
-            '[[torsion.front]]\nname = "a"\ninertia = 1',
-            "torsion.front.1: has no stiffness; give it, such as stiffness = 1.25e6, or diameter and "
-            "length of a plain shaft",
-        ),
-        (
-            '[[torsion.front]]\nname = "a"\ninertia = 1\nstiffness = 1\ndamper = { kind = "rubber" }',
-            "torsion.front.1.damper: is rubber and lacks inertia and stiffness and loss",
-        ),
-        ("[[torsion.front]]\nstiffness = 1", 'torsion.front.1.name: is missing; give it, such as name = "flywheel"'),
-        (
-            "[torsion]\nthrow_bore = 3",
-            "torsion: has a throw_bore without a larger throw_diameter; the bore lies within the shaft",
-        ),
-        (
-            "[torsion]\nthrow_stiffness = []",
-            "torsion.throw_stiffness: [] has 0 values; give one for all, or a list of up to 200",
-        ),
-        (
-            "[torsion]\nthrow_stiffness = [1, -2]",
-            "torsion.throw_stiffness: -2 is not above 0; a torsional stiffness is wanted: a bare number "
-            'in N m/rad, or "1.25e6 N m/rad" or "24.17e6 lbf in/rad", above 0',
-        ),
-        (
-            "[torsion]\nthrow_stiffness = 1e6",
-            "torsion.throw_inertia: is missing; give it, such as throw_inertia = 46700, or inertia of "
-            "the whole [crank]",
-        ),
-        (
-            "",
-            "has no [torsion]; write it with throw_stiffness, throw_inertia and [[torsion.rear]] for "
-            "the flywheel, or a chain of [[node]] and [[shaft]]",
-        ),
-    ],
-)
+@cases("torsion/engine", "mistakes_of_torsion_say_what_would_be_right")
 def test_mistakes_of_torsion_say_what_would_be_right(torsion, message):
     head = write_diesel().partition("[torsion]")[0]
     assert refusal("torsion", "-", stdin=head + torsion) == f"standard input: {message}"

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.commands import ask_json, refusal, run_here
+from support.commands import ask_json, refusal
 from support.diesel import INERTIAS, STIFFNESSES, write_diesel
-from support.paths import ENGINES, write
 
 BORE, RADIUS, ROD, RECIPROCATING = 0.105, 0.0685, 0.207, 2.521
 ORDER = (1, 5, 3, 6, 2, 4)
@@ -79,36 +78,6 @@ def test_a_misfire_takes_away_the_gas_of_one_cylinder(diesel):
     assert found == pytest.approx(exact, rel=1e-9)
 
 
-@pytest.mark.parametrize("said_in", ["option", "file"])
-def test_cylinders_without_gas_are_named(diesel, said_in):
-    """In every format, whether the option or the file silences them."""
-    options = ["--misfire=5", "--misfire=2"]
-    if said_in == "file":
-        options = []
-        text = diesel.read_text(encoding="utf-8")
-        diesel.write_text(f"{text}[cylinder.2]\ngas = 0\n[cylinder.5]\ngas = 0\n", "utf-8")
-    assert ask_json("torsion", diesel, *options)["no_gas_in"] == [2, 5]
-    assert "\nno gas in  2, 5\n" in run_here("torsion", diesel, *options).out
-    assert "engine,,,,,no_gas_in,2 5," in run_here("torsion", diesel, *options, "-f", "csv").out
-
-
-def test_cylinders_that_burn_nothing_are_named(tmp_path):
-    text = (ENGINES / "i6_diesel.toml").read_text(encoding="utf-8")
-    diesel = write(tmp_path / "weak.toml", f"{text}[cylinder.5]\nheat = 0\n")
-    assert ask_json("torsion", diesel)["no_burning_in"] == [5]
-    assert "\nno burning in  5\n" in run_here("torsion", diesel).out
-    assert "engine,,,,,no_burning_in,5," in run_here("torsion", diesel, "-f", "csv").out
-    for command in ("torque", "analyze"):
-        said = ask_json(command, diesel)
-        assert said["no_burning_in"] == [5]
-    assert "no burning in     5\n" in run_here("torque", diesel).out
-
-
-def test_nothing_is_said_of_gas_where_all_cylinders_have_some(diesel):
-    assert not {"no_gas_in", "no_burning_in"} & set(ask_json("torsion", diesel))
-    assert "no gas in" not in run_here("torsion", diesel).out
-
-
 def test_the_phase_sum_counts_what_a_misfire_leaves(diesel):
     """Order 6 in line: without cylinder 6 the sum of the angles lacks its own."""
     whole, missing = (
@@ -143,12 +112,3 @@ def test_two_strokes_have_whole_orders(tmp_path):
     )
     criticals = ask_json("torsion", "-", stdin=text)["criticals"]
     assert all(isinstance(c["order"], int) for c in criticals)
-
-
-def test_without_gas_the_figures_are_told_as_of_inertia_alone(tmp_path, diesel):
-    """Stress is a fifth of what it is with gas, and "none in this range" said nothing of that."""
-    told, bare = "Of inertia alone: the torque of the gas is not in this.", tmp_path / "bare.toml"
-    bare.write_text(write_diesel(), encoding="utf-8")
-    for options in ([], ["--speeds", "1000:2000:500"]):
-        assert run_here("torsion", bare, *options).out.count(told) == 1
-        assert told not in run_here("torsion", diesel, *options).out

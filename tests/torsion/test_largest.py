@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.commands import ask_torsion, run_here
+from support.cases import cases
+from support.commands import ask_torsion
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
@@ -52,16 +53,8 @@ def search_finely(text, shaft):
     return largest
 
 
-@pytest.mark.parametrize(
-    ("loss", "damper"),
-    [
-        (0.035, ""),
-        (0.005, ""),
-        (0.005, 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'),
-        (0.005, 'damper = { kind = "pendulum", mass = 2, radius = 80, length = 2.3 }'),
-    ],
-    ids=["usual", "hardly damped", "a ring that hardly slips", "pendulums"],
-)
+@pytest.mark.slow
+@cases("torsion/largest", "no_resonance_is_too_narrow_to_be_found")
 def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     """A ring in thick oil and pendulums shift resonances, away from the modes without them."""
     text = write_engine(loss, damper)
@@ -70,6 +63,7 @@ def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     assert found == pytest.approx(search_finely(text, -1), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_largest_of_an_answer_lies_between_its_speeds():
     """Torque, stress and swing of hardly damped shafts, 50 rpm apart and next to each other."""
     text = write_engine(0.005)
@@ -247,11 +241,3 @@ def test_what_something_damps_is_found(loss):
         """
     worst = analyze_torsion(text, [800, 1100]).response.worst
     assert worst.torque == pytest.approx(1 / loss, rel=1e-6)
-
-
-def test_a_single_speed_is_headed_as_one():
-    """It said "1790 to 1790 rpm" twice."""
-    text = write_engine(0.005).replace("[torsion]\n", "[torsion]\nlimit = 1\n")
-    lines = run_here("torsion", "-", "--speeds", "1790", stdin=text).out.splitlines()
-    assert "Vibratory torque, 1790 rpm" in lines
-    assert "barred speeds  1790 rpm" in lines

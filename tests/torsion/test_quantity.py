@@ -7,6 +7,7 @@ import json
 from io import StringIO
 
 import pytest
+from support.cases import cases
 from support.commands import ask, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import write
@@ -42,17 +43,6 @@ def test_each_variant_is_what_the_command_says(diesel):
         assert max(flywheel["stress_Pa"]) / highest == pytest.approx(stress / torque, rel=1e-12)
 
 
-def test_search_and_scatter_say_over_which_speeds_a_shaft_is_loaded(diesel):
-    """A shaft so soft that it resonates below this range is no better for it."""
-    told = "Of shafts: the largest from half to 1.5 times the engine's speed; what resonates at"
-    over = ("--over", "torsion.rear.1.stiffness=1e6:2e6", "--minimise", "shaft.flywheel.torque")
-    assert told in run_here("search", diesel, *over).out
-    options = ("--quantity", "torsion.1.Hz,shaft.flywheel.torque", "--samples", "3")
-    assert told in run_here("scatter", diesel, *options).out
-    options = ("--quantity", "torsion.1.Hz", "--samples", "3")
-    assert told not in run_here("scatter", diesel, *options).out
-
-
 def test_figures_of_lists_and_dampers_vary(tmp_path):
     own = 'damper = { kind = "rubber", inertia = 20000, stiffness = 40000, loss = 0.1 }\n'
     path = write(tmp_path / "damped.toml", write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{own}'))
@@ -63,17 +53,7 @@ def test_figures_of_lists_and_dampers_vary(tmp_path):
     assert one < two
 
 
-@pytest.mark.parametrize(
-    ("figure", "told"),
-    [
-        (
-            "torsion.rear.1.bore = 90",
-            "torsion.rear.1: has a bore of 90 mm and a diameter of 85; the bore is the smaller of both",
-        ),
-        ("torsion.rear.1.length = 100", "torsion.rear.1: has stiffness and length; leave one of them out"),
-        ("torsion.front.2.damper.stiffness = 10000", "torsion.front.2.damper: is viscous, which has no stiffness"),
-    ],
-)
+@cases("torsion/quantity", "a_figure_that_contradicts_its_table_is_refused")
 def test_a_figure_that_contradicts_its_table_is_refused(figure, told, tmp_path):
     """A bore wider than its shaft had a stress below 0."""
     own = 'damper = { kind = "viscous", inertia = 20000, damping = 4 }\n'
@@ -90,15 +70,7 @@ def test_without_gas_figures_of_the_engine_vary_too(tmp_path):
     assert 1.3 < heavy / light < 1.7, "inertia torque grows with the mass"
 
 
-@pytest.mark.parametrize(
-    ("quantity", "message"),
-    [
-        ("torsion.first.Hz", "torsion.first.Hz is no quantity: after torsion comes the number of a mode, from 1"),
-        ("torsion.9.Hz", "FILE: torsion.9.Hz: there are 8 modes"),
-        ("shaft.flywhel.torque", 'FILE: shaft.flywhel.torque: the file has no shaft "flywhel"; did you mean flywheel?'),
-        ("shaft.pulley.stress", "FILE: shaft.pulley.stress: this shaft has no diameter, so its stress is not known"),
-    ],
-)
+@cases("torsion/quantity", "what_is_no_quantity")
 def test_what_is_no_quantity(diesel, quantity, message):
     told = refusal("sweep", diesel, "--vary", "torsion.loss=0.01,0.02", "-q", quantity)
     assert told == message.replace("FILE", str(diesel))

@@ -134,6 +134,7 @@ def test_gas_is_kept_only_where_a_number_leaves_it_alone(path):
 QUANTITIES = [parse_quantity(q) for q in ("shaft.wheel.torque", "shaft.wheel.stress")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SOME)
 def test_shaft_torque_is_that_of_a_file_that_says_so(path):
     variants = Variants(MODEL, [*QUANTITIES, parse_quantity("torsion.2.Hz")])

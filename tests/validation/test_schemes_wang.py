@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import build_text, engine_text
 from support.remedies import figures, fit_scheme, size_scheme
 
@@ -238,16 +239,7 @@ def test_single_shaft_leaves_a_couple():
     assert (abs(left.moment.backward[0]), left.moment.forward[0]) == (pytest.approx(couple, rel=1e-14), 0)
 
 
-@pytest.mark.parametrize(
-    ("lam", "peak", "k"),
-    [
-        (0.20, 0.624638, 0.575362),
-        (0.25, 0.658266, 0.591734),
-        (0.30, 0.692876, 0.607124),
-        (0.35, 0.728433, 0.621567),
-        (0.40, 0.764890, 0.635110),
-    ],
-)
+@cases("validation/schemes_wang", "overbalance_optimum_of_both_orders")
 def test_overbalance_optimum_of_both_orders(lam, peak, k):
     """Table 1 over the full cycle, for his two-term force: P^2 is convex, the weight stands
     opposite the pin, three angles are active.

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 
 from balcli.core.torsional_chain import ChainShaft, join_chain
 from balcli.core.torsional_modes import find_chain_modes
@@ -40,14 +41,13 @@ BRANCHES = join_chain(
 )
 
 
-@pytest.mark.parametrize(
-    ("chain", "printed", "places", "recomputed"),
-    [
-        (TWO_DISCS, [0, 176.1], 1, [176.0767468]),
-        (THREE_CYLINDERS, [0, 81.21, 141.21, 378.95, 536.36], 2, [81.20762902, 141.2140714, 378.9529539, 536.3632829]),
-        (PAIR_OF_GEARS, [0, 425.4, 634.1, 3247.2], 1, [425.3594775, 634.07276, 3247.192354]),
-        (BRANCHES, [0, 10.304, 20.479, 24.423], 3, [10.30419334, 20.47926065, 24.42291926]),
-    ],
+@cases(
+    "validation/torsion_friswell",
+    "natural_frequencies",
+    BRANCHES=BRANCHES,
+    PAIR_OF_GEARS=PAIR_OF_GEARS,
+    THREE_CYLINDERS=THREE_CYLINDERS,
+    TWO_DISCS=TWO_DISCS,
 )
 def test_natural_frequencies(chain, printed, places, recomputed):
     hertz = find_chain_modes(chain).omega / (2 * np.pi)
