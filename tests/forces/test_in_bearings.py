@@ -10,12 +10,8 @@ import pytest
 from support.commands import ask, ask_json
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
-<<<<<<< HEAD
 from support.in_time import run_in_time
-from support.paths import ENGINES, write
-=======
 from support.paths import ENGINES
->>>>>>> own-tests
 
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError

@@ -15,7 +15,7 @@ from . import scheme_options
 from .declare import optional
 from .file_names import choose_target, picture_form
 from .options import EnginePath, Orders, Speed, Target, UnitsOption
-from .output import refuse_overwriting, write_file
+from .output import refuse_overwriting
 from .scheme_options import parse_scheme_options
 
 if TYPE_CHECKING:

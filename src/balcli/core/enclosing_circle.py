@@ -16,7 +16,7 @@ import numpy as np
 
 from .peaks import find_near_peaks
 from .phasors import EPS, Complex, Phasors
-from .singular_values import Real
+from .vibration import Real
 
 _SAME = 8 * EPS  # points no farther outside than this, relative, are on the circle
 _TOUCHING = 1e-11  # the same for the angles that are reported

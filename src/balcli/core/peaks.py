@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .phasors import Array, Phasors
-from .singular_values import Complex, Real
-from .sorted_sets import sort_distinct
+from .vibration import Complex, Real
 
 _TURN = 2 * np.pi  # rad
 _SAMPLES = 16  # for each period of the highest order
@@ -199,7 +198,7 @@ def _common_harmonics(
     """
     halves = 2 * np.asarray(orders, float)
     harmonics = np.rint(halves).astype(np.int64)
-    once = len(sort_distinct(harmonics)) == len(harmonics)
+    once = len(np.unique(harmonics)) == len(harmonics)
     if not once or np.any(harmonics != halves) or np.any(harmonics < 0):
         raise ValueError("orders have to be different multiples of 1/2, none below 0")
     there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))

@@ -21,7 +21,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from .cached_property import cached_property
 from .phasors import Array, Complex
-from .sorted_sets import sort_distinct
 
 Function: TypeAlias = Callable[[Array], Array]  # value at angles (rad), of their shape
 
@@ -281,7 +280,7 @@ def piece_of(angle: Array, breaks: Array, *, before: bool = False) -> NDArray[np
 
 def with_break(breaks: Array, angle: float) -> Array:
     """Return the breakpoints with one more, unless it is among them."""
-    return sort_distinct(np.append(breaks, angle))
+    return np.unique(np.append(breaks, angle))
 
 
 def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
