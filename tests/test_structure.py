@@ -144,7 +144,6 @@ ON_REQUEST = {
         "balcli.sizing.schemes",
         "balcli.studies.quantity_names",
     ),
-    "balcli.commands.defaults": ("balcli.enginefile.toml_text",),
     "balcli.core.mechanisms.harmonics": ("balcli.core.mechanisms.sampled", "balcli.core.mechanisms.slidercrank"),
     "balcli.engine.assembly": (
         "balcli.core.mechanisms.rotary",

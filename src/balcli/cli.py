@@ -22,7 +22,6 @@ from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
 from . import __version__
-from .commands.defaults import Defaults, load_defaults, origins
 from .errors import BalcliError, Exit, Loudness, note, say, set_loudness, warn
 from .limits import MOST_DIGITS
 from .render.formats import USUAL_DIGITS, set_digits
@@ -85,7 +84,6 @@ GROUPS = {
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
 
 IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
-WITHOUT_DEFAULTS = ("new", "engines", "schema", "check")  # have no format, units or digits
 
 
 class _Command(TyperCommand):
@@ -162,7 +160,7 @@ def _share(options: Iterable[Any], command: str, own: Iterable[Any]) -> Iterator
         if option.name in ("quiet", "verbose") or (option.name == "digits" and tables):
             shared = copy(option)
             shared.opts = [word for word in option.opts if word not in taken]
-            shared.expose_value = False
+            shared.expose_value, shared.envvar = False, None  # the group has read it
             if shared.opts:
                 yield shared
 
@@ -191,7 +189,6 @@ def _digits(wanted: int | None) -> int | None:
 
 @app.callback()
 def _options(
-    context: typer.Context,
     version: Annotated[
         bool,
         typer.Option(
@@ -226,6 +223,8 @@ def _options(
             min=1,
             max=MOST_DIGITS,
             metavar="N",
+            envvar="BALCLI_DIGITS",
+            show_envvar=False,
             show_default=False,
             help=f"Significant digits of figures in tables; default: {USUAL_DIGITS}.",
         ),
@@ -237,24 +236,7 @@ def _options(
     Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then
     `balcli analyze i4.toml`.
     """
-    usual = _load_defaults(context)
-    set_digits(digits or usual.digits)
-    if usual.units is not None and context.invoked_subcommand is not None:
-        context.default_map = {context.invoked_subcommand: {"units": usual.units.value}}
-
-
-def _load_defaults(context: typer.Context) -> Defaults:
-    """Those of the command that is called; what is wrong with them does not keep anyone from its
-    help, or from a command that uses none.
-    """
-    try:
-        return load_defaults()
-    except BalcliError as error:
-        wants_help = not {*context.help_option_names}.isdisjoint(sys.argv[1:])
-        if not wants_help and context.invoked_subcommand not in WITHOUT_DEFAULTS:
-            raise
-        warn(str(error))
-        return Defaults()
+    set_digits(digits)
 
 
 def main() -> NoReturn:
@@ -287,8 +269,6 @@ def _run() -> Any:
     """The exit status of the command of `sys.argv`."""
     set_loudness(Loudness.USUAL)
     status = app(prog_name="balcli", standalone_mode=False)
-    for origin in origins:
-        note(origin)
     note(f"{time.process_time():.2f} s of processor time, the start of Python included")
     return status
 

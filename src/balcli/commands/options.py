@@ -53,6 +53,8 @@ UnitsOption = Annotated[
     typer.Option(
         "--units",
         case_sensitive=False,
+        envvar="BALCLI_UNITS",
+        show_envvar=False,
         help="imperial: lbf, lbf·ft, oz·in, lb·in², psi, hp; JSON stays SI.",
     ),
 ]
