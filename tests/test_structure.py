@@ -132,18 +132,11 @@ def test_core_knows_numpy_and_the_standard_library_alone(file):
 # or kind of engine that it does not need.
 ON_REQUEST = {
     "balcli.__main__": ("balcli.cli",),
-    "balcli.cli": ("balcli.commands.other_words",),
     "balcli.commands.analysis_answer": (
         *("balcli.render.marine", "balcli.results.marine"),
         *("balcli.render.speeds", "balcli.results.speeds"),
     ),
-    "balcli.commands.completion": (
-        "balcli.documents.names",
-        "balcli.enginefile.examples",
-        "balcli.enginefile.templates",
-        "balcli.sizing.schemes",
-        "balcli.studies.quantity_names",
-    ),
+    "balcli.commands.completion": ("balcli.enginefile.examples", "balcli.sizing.schemes"),
     "balcli.core.mechanisms.harmonics": ("balcli.core.mechanisms.sampled", "balcli.core.mechanisms.slidercrank"),
     "balcli.engine.assembly": (
         "balcli.core.mechanisms.rotary",

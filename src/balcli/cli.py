@@ -103,8 +103,9 @@ class _Command(TyperCommand):
 class _OnDemand(TyperGroup):
     """The commands by name; a command's module is imported when it, or its help, is asked for."""
 
-    def list_commands(self, ctx: Any) -> list[str]:
-        return list(COMMANDS)
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.commands: dict[str, Any] = dict.fromkeys(COMMANDS)  # names, for lists and suggestions
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in COMMANDS:
@@ -123,15 +124,6 @@ class _OnDemand(TyperGroup):
         for title, group in GROUPS.items():
             with formatter.section(title):
                 formatter.write_dl(list(group.items()))
-
-    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        try:
-            return super().resolve_command(ctx, args)
-        except typer.TyperException as error:
-            from .commands.other_words import suggest_command
-
-            error.message += suggest_command(args[0], COMMANDS)
-            raise
 
 
 def _unwrapped(text: str) -> str:
@@ -290,32 +282,4 @@ def _usage(error: Any) -> str:
     """How the command is used and what is wrong, plain: a box would fold it, even in a pipe."""
     text = StringIO()
     error.show(text)
-    told = text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
-    if "No such option: --scheme" in told and "{FILE}" in told.partition("\n")[0]:
-        told += (
-            ". Fit the devices first, balcli balance FILE --scheme NAME --write FITTED.toml, and "
-            "give this command FITTED.toml."
-        )
-    elif unknown := re.search(r"No such option: (--[a-z-]+)", told):
-        from .commands.other_words import suggest_option
-
-        own = {word for each in error.ctx.command.params for word in each.opts}
-        told += suggest_option(unknown[1], own) or _name_commands_with(unknown[1])
-    if "unexpected extra argument" not in told:
-        return told
-    extra = told.rpartition("argument(s) (")[2]
-    if re.match(r"Usage: balcli sweep ", told) and re.match(r"[a-z_]+\.[^=]*=", extra):
-        return f"{told}: each number that varies has a --vary of its own."
-    if re.match(r"Usage: balcli (sweep|scatter) ", told) and re.match(r"[a-z_]+\.", extra):
-        return told + ": names of quantities stand after -q, with commas between them."
-    if re.search(r"\.toml\b", extra):
-        return told + ": no more files are read; balcli analyze and balcli compare read several."
-    return told + ': a value or a name with a blank goes in quotes, such as "52 %".'
-
-
-def _name_commands_with(option: str) -> str:
-    """The commands that have an option, in words; their modules are imported for that."""
-    group: Any = get_command(app)
-    params = {name: group.get_command(None, name).params for name in COMMANDS}
-    having = [name for name in COMMANDS if any(option in each.opts for each in params[name])]
-    return f". Commands that have it: {', '.join(having)}" if having else ""
+    return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words

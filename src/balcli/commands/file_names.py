@@ -116,11 +116,8 @@ def format_option(formats: type[StrEnum], text: str) -> Any:
             latex = f"; {_LATEX}" if small in ("latex", "tex") and "markdown" in [*formats] else ""
             raise typer.BadParameter(f"'{name}' is not one of {known}{latex}.") from None
 
-    def complete(incomplete: str) -> list[str]:
-        return [name for name in formats if name.startswith(incomplete.lower())]
-
     names = "|".join(formats)
-    return optional(names, text, "--format", "-f", parser=parse, autocompletion=complete)
+    return optional(names, text, "--format", "-f", parser=parse)
 
 
 def text_format(output: Path | None, asked: Format | None) -> Format:
