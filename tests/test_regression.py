@@ -49,8 +49,7 @@ def test_folders_within_a_folder_are_checked_hidden_ones_and_settings_are_not(ch
     for place in ("a", "a/b", ".venv/c", "a/.tox"):
         (tmp_path / place).mkdir(parents=True)
         shutil.copy(ENGINES / "single.toml", tmp_path / place / "single.toml")
-    for settings in ("pyproject.toml", "balcli.toml"):
-        (tmp_path / settings).write_text("[tool.balcli]\n")
+    (tmp_path / "pyproject.toml").write_text("[tool.balcli]\n")
     assert check("--update", tmp_path) == (0, "2 engines recorded\n", "")
     assert (tmp_path / "a/b/expected/single.json").exists()
     assert not (tmp_path / ".venv/c/expected").exists()

@@ -35,7 +35,6 @@ FUNCTION = (
     f'balcli() {{ "{sys.executable}" -m balcli "$@"; }}; python() {{ "{sys.executable}" "$@"; }}\n'
 )
 ENVIRONMENT = os.environ | {
-    "BALCLI_CONFIG": "",
     "PYTHONPATH": str(ROOT / "src"),
     "NO_COLOR": "1",
     "COLUMNS": "80",

@@ -22,7 +22,6 @@ from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
 from . import __version__
-from .commands.defaults import Defaults, load_defaults, origins
 from .errors import BalcliError, Exit, Loudness, note, say, set_loudness, warn
 from .limits import MOST_DIGITS
 from .render.formats import USUAL_DIGITS, set_digits
@@ -85,7 +84,6 @@ GROUPS = {
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
 
 IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
-WITHOUT_DEFAULTS = ("new", "engines", "schema", "check")  # have no format, units or digits
 
 
 class _Command(TyperCommand):
@@ -105,8 +103,9 @@ class _Command(TyperCommand):
 class _OnDemand(TyperGroup):
     """The commands by name; a command's module is imported when it, or its help, is asked for."""
 
-    def list_commands(self, ctx: Any) -> list[str]:
-        return list(COMMANDS)
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.commands: dict[str, Any] = dict.fromkeys(COMMANDS)  # names, for lists and suggestions
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in COMMANDS:
@@ -125,15 +124,6 @@ class _OnDemand(TyperGroup):
         for title, group in GROUPS.items():
             with formatter.section(title):
                 formatter.write_dl(list(group.items()))
-
-    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        try:
-            return super().resolve_command(ctx, args)
-        except typer.TyperException as error:
-            from .commands.other_words import suggest_command
-
-            error.message += suggest_command(args[0], COMMANDS)
-            raise
 
 
 def _unwrapped(text: str) -> str:
@@ -162,7 +152,7 @@ def _share(options: Iterable[Any], command: str, own: Iterable[Any]) -> Iterator
         if option.name in ("quiet", "verbose") or (option.name == "digits" and tables):
             shared = copy(option)
             shared.opts = [word for word in option.opts if word not in taken]
-            shared.expose_value = False
+            shared.expose_value, shared.envvar = False, None  # the group has read it
             if shared.opts:
                 yield shared
 
@@ -191,7 +181,6 @@ def _digits(wanted: int | None) -> int | None:
 
 @app.callback()
 def _options(
-    context: typer.Context,
     version: Annotated[
         bool,
         typer.Option(
@@ -226,6 +215,8 @@ def _options(
             min=1,
             max=MOST_DIGITS,
             metavar="N",
+            envvar="BALCLI_DIGITS",
+            show_envvar=False,
             show_default=False,
             help=f"Significant digits of figures in tables; default: {USUAL_DIGITS}.",
         ),
@@ -237,24 +228,7 @@ def _options(
     Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then
     `balcli analyze i4.toml`.
     """
-    usual = _load_defaults(context)
-    set_digits(digits or usual.digits)
-    if usual.units is not None and context.invoked_subcommand is not None:
-        context.default_map = {context.invoked_subcommand: {"units": usual.units.value}}
-
-
-def _load_defaults(context: typer.Context) -> Defaults:
-    """Those of the command that is called; what is wrong with them does not keep anyone from its
-    help, or from a command that uses none.
-    """
-    try:
-        return load_defaults()
-    except BalcliError as error:
-        wants_help = not {*context.help_option_names}.isdisjoint(sys.argv[1:])
-        if not wants_help and context.invoked_subcommand not in WITHOUT_DEFAULTS:
-            raise
-        warn(str(error))
-        return Defaults()
+    set_digits(digits)
 
 
 def main() -> NoReturn:
@@ -287,8 +261,6 @@ def _run() -> Any:
     """The exit status of the command of `sys.argv`."""
     set_loudness(Loudness.USUAL)
     status = app(prog_name="balcli", standalone_mode=False)
-    for origin in origins:
-        note(origin)
     note(f"{time.process_time():.2f} s of processor time, the start of Python included")
     return status
 
@@ -310,32 +282,4 @@ def _usage(error: Any) -> str:
     """How the command is used and what is wrong, plain: a box would fold it, even in a pipe."""
     text = StringIO()
     error.show(text)
-    told = text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
-    if "No such option: --scheme" in told and "{FILE}" in told.partition("\n")[0]:
-        told += (
-            ". Fit the devices first, balcli balance FILE --scheme NAME --write FITTED.toml, and "
-            "give this command FITTED.toml."
-        )
-    elif unknown := re.search(r"No such option: (--[a-z-]+)", told):
-        from .commands.other_words import suggest_option
-
-        own = {word for each in error.ctx.command.params for word in each.opts}
-        told += suggest_option(unknown[1], own) or _name_commands_with(unknown[1])
-    if "unexpected extra argument" not in told:
-        return told
-    extra = told.rpartition("argument(s) (")[2]
-    if re.match(r"Usage: balcli sweep ", told) and re.match(r"[a-z_]+\.[^=]*=", extra):
-        return f"{told}: each number that varies has a --vary of its own."
-    if re.match(r"Usage: balcli (sweep|scatter) ", told) and re.match(r"[a-z_]+\.", extra):
-        return told + ": names of quantities stand after -q, with commas between them."
-    if re.search(r"\.toml\b", extra):
-        return told + ": no more files are read; balcli analyze and balcli compare read several."
-    return told + ': a value or a name with a blank goes in quotes, such as "52 %".'
-
-
-def _name_commands_with(option: str) -> str:
-    """The commands that have an option, in words; their modules are imported for that."""
-    group: Any = get_command(app)
-    params = {name: group.get_command(None, name).params for name in COMMANDS}
-    having = [name for name in COMMANDS if any(option in each.opts for each in params[name])]
-    return f". Commands that have it: {', '.join(having)}" if having else ""
+    return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words

@@ -6,7 +6,7 @@ import mpmath
 import pytest
 from support.paths import DOCS
 
-from balcli.bench import cold_start, methods
+from balcli.bench import methods
 from balcli.bench.bench import LAM, cases
 
 ROUNDING = 1e-13  # of the first order: errors below it are rounding, and differ from machine to machine
@@ -89,14 +89,3 @@ def test_the_page_shows_every_row_and_its_true_error() -> None:
             assert page[key] == "rounding", key
         else:
             assert page[key] == f"{error:.1e}", key
-
-
-def test_programs_are_started_as_from_a_shell(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What balcli sets to start quickly itself would make importing numpy quicker, too."""
-    environments = []
-    monkeypatch.setattr(cold_start.subprocess, "run", lambda _, env, **__: environments.append(env))
-    monkeypatch.setenv("SET_BY_BALCLI", "1")
-    cold_start.start_libraries()
-    cold_start.start_balcli(["--help"])
-    assert [env.get("SET_BY_BALCLI") for env in environments] == [None, None]
-    assert all(env["PATH"] and not env["BALCLI_CONFIG"] for env in environments)

@@ -272,14 +272,3 @@ def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
     assert "The roll of order 1 grows by " in far
     assert "single-shaft" in near
     assert "grows by" not in near
-
-
-def test_a_project_file_whose_table_is_none_is_refused(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.delenv("BALCLI_CONFIG", raising=False)
-    Path("i4.toml").write_text(GOOD)
-    Path("pyproject.toml").write_text("tool.balcli = 3\n")
-    assert refusal("analyze", "i4.toml") == (
-        f"{Path('pyproject.toml').resolve()}: tool.balcli: 3 stands where a table belongs; "
-        "write [tool.balcli] and its keys below it"
-    )

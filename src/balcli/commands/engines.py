@@ -10,7 +10,7 @@ import typer
 
 from ..enginefile import examples
 from ..errors import BalcliError
-from .completion import complete_classes, complete_examples
+from .completion import complete_examples
 from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
 
@@ -44,7 +44,6 @@ def engines(
             "--class",
             metavar="CLASS",
             help="List one class: layout, aero, car, historic, marine or motorcycle.",
-            autocompletion=complete_classes,
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,

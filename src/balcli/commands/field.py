@@ -56,6 +56,8 @@ def field(
         typer.Option(
             "--units",
             case_sensitive=False,
+            envvar="BALCLI_UNITS",
+            show_envvar=False,
             help="imperial: in, oz·in and lb in tables; weights and readings have the units of the "
             "file, JSON and CSV stay metric.",
         ),

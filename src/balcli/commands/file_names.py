@@ -12,15 +12,14 @@ import typer
 
 from ..errors import BalcliError
 from ..render.formats import Format
-from . import defaults
 from .declare import optional
-from .defaults import SHORT
 
 if TYPE_CHECKING:
     from ..render.plot.style import Form
 
 F = TypeVar("F", bound=str)
 
+_SHORT = {"md": "markdown", "txt": "table", "text": "table"}
 TEXTS = {
     ".txt": Format.TABLE,
     ".json": Format.JSON,
@@ -111,22 +110,19 @@ def format_option(formats: type[StrEnum], text: str) -> Any:
     def parse(name: str) -> StrEnum:
         small = name.lower()
         try:
-            return formats(SHORT.get(small, small))
+            return formats(_SHORT.get(small, small))
         except ValueError:
             known = ", ".join(f"'{one}'" for one in formats)
             latex = f"; {_LATEX}" if small in ("latex", "tex") and "markdown" in [*formats] else ""
             raise typer.BadParameter(f"'{name}' is not one of {known}{latex}.") from None
 
-    def complete(incomplete: str) -> list[str]:
-        return [name for name in formats if name.startswith(incomplete.lower())]
-
     names = "|".join(formats)
-    return optional(names, text, "--format", "-f", parser=parse, autocompletion=complete)
+    return optional(names, text, "--format", "-f", parser=parse)
 
 
 def text_format(output: Path | None, asked: Format | None) -> Format:
     """Return the format of a result; a table by default. Raises as `format_of`."""
-    return format_of(output, asked, TEXTS, defaults.usual.format or Format.TABLE)
+    return format_of(output, asked, TEXTS, Format.TABLE)
 
 
 def format_of(

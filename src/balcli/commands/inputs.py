@@ -23,8 +23,6 @@ from .options import WORDS_OF_ONLY
 # What says something of moments besides them, of all that can be asked for.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
 
-SETTINGS = frozenset({"balcli.toml", "pyproject.toml"})  # TOML beside engines, not of engines
-
 P = TypeVar("P")
 T = TypeVar("T")
 
@@ -165,7 +163,7 @@ def _walk(folder: Path) -> Iterator[Path]:
 
 
 def _is_engine(path: Path) -> bool:
-    return path.suffix == ".toml" and path.name not in SETTINGS
+    return path.suffix == ".toml" and path.name != "pyproject.toml"
 
 
 def require_gas(engine: Engine, path: str) -> None:

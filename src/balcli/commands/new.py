@@ -8,7 +8,6 @@ from typing import Annotated
 import typer
 
 from ..enginefile.templates import template
-from .completion import complete_kinds
 from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
 
@@ -21,7 +20,6 @@ def new(
             help="single, inline, vee, boxer, radial or w; mounts: an engine on its mounts; field: "
             "runs of a rotor on a machine; torsion: a chain of inertias and shafts.",
             show_default=False,
-            autocompletion=complete_kinds,
         ),
     ],
     path: Annotated[

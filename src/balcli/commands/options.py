@@ -21,13 +21,6 @@ PARTS = ("xy", "textbook", "verdict")
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", *GAS_KINDS, "inner", "guide", *PARTS)
 
 
-def complete_parts(incomplete: str) -> list[str]:
-    """Words of `--only` for the shell, the last one of those with commas between them."""
-    before, comma, last = incomplete.rpartition(",")
-    left = [word for word in WORDS_OF_ONLY if word not in before.split(",")]
-    return [f"{before}{comma}{word}" for word in left if word.startswith(last)]
-
-
 EnginePath = Annotated[
     str,
     typer.Argument(
@@ -53,6 +46,8 @@ UnitsOption = Annotated[
     typer.Option(
         "--units",
         case_sensitive=False,
+        envvar="BALCLI_UNITS",
+        show_envvar=False,
         help="imperial: lbf, lbf·ft, oz·in, lb·in², psi, hp; JSON stays SI.",
     ),
 ]
@@ -96,7 +91,6 @@ Only = Annotated[
         f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
         "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
         "--only",
-        autocompletion=complete_parts,
     ),
 ]
 OnlyParts = Annotated[
@@ -106,7 +100,6 @@ OnlyParts = Annotated[
         f"Only some of {', '.join(KINDS)}, peak, sizing, gas; inner (shear, bending, bearing "
         "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
         "--only",
-        autocompletion=complete_parts,
     ),
 ]
 Whole = Annotated[

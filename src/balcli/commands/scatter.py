@@ -13,7 +13,6 @@ from ..enginefile.toml_text import name_file
 from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..render import tolerances as renderer
-from .completion import complete_quantities
 from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import refuse_overwriting, show
@@ -100,7 +99,6 @@ def scatter(
             "-q",
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
-            autocompletion=complete_quantities,
             help="As force.1.major, couple.4.amplitude; of the cycle, as torque.max, fluctuation, "
             "guide.6.H; of mounts, as mode.roll.Hz, mount.left.force; or of torsion, as "
             "torsion.1.Hz, shaft.flywheel.torque.",

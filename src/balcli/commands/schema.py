@@ -11,7 +11,6 @@ import typer
 from ..documents.names import DOCUMENTS
 from ..enginefile.fields import suggest_nearest
 from ..errors import BalcliError
-from .completion import complete_documents
 from .file_names import require_ending
 from .options import Output
 from .output import emit
@@ -40,7 +39,6 @@ def schema(
             "--of",
             metavar="RESULT",
             show_default=False,
-            autocompletion=complete_documents,
             help=f"Of a result as JSON instead: {', '.join(DOCUMENTS)}.",
         ),
     ] = None,

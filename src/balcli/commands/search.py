@@ -11,7 +11,6 @@ from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import naming_file
 from ..limits import MOST_FOUND
 from ..render import search as renderer
-from .completion import complete_quantities, complete_searches
 from .declare import optional
 from .file_names import require_ending, text_format
 from .options import EnginePath, FormatOption, Output
@@ -33,7 +32,6 @@ def search(
             "of the file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles "
             "are searched together.",
             "--over",
-            autocompletion=complete_searches,
         ),
     ],
     minimise: Annotated[
@@ -44,7 +42,6 @@ def search(
             "sweep has, such as shaft.flywheel.torque.",
             "--minimise",
             "--minimize",
-            autocompletion=complete_quantities,
         ),
     ] = None,
     maximise: Annotated[

@@ -17,7 +17,6 @@ from ..process import count_cores
 from ..render.sweep_plot import check_drawable, make_sweep
 from ..studies.quantity_names import describe_names
 from ..studies.threads import share_work
-from .completion import complete_numbers, complete_quantities
 from .declare import optional
 from .file_names import (
     VARIANTS,
@@ -46,7 +45,6 @@ def sweep(
             "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step, "
             "ends included) or crank.throws.2=90,180. Several span a grid, the last one fastest.",
             "--vary",
-            autocompletion=complete_numbers,
         ),
     ],
     quantity: Annotated[
@@ -56,7 +54,6 @@ def sweep(
             "-q",
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
-            autocompletion=complete_quantities,
             help=f"Figures by name: {describe_names()}",
         ),
     ] = None,
