@@ -57,7 +57,7 @@ GROUPS = {
         "for `sweep`, `search` and `scatter`, with values, units and meanings.",
         "sweep": "Figures of many variants of an engine: numbers of its file over ranges, "
         "as a table, CSV, JSON or Parquet.",
-        "search": "The best crank, firing order, bank angle or splay, or value of any number; "
+        "search": "The best crank, firing order, bank angle or splay, or values of any numbers; "
         "mirror images and rotations once.",
         "scatter": "How free forces and moments spread when masses (rod lengths, throw "
         "angles) vary, and which tolerance matters most.",

@@ -13,10 +13,10 @@ from support.engines import GOOD, VEE, changed
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
-from balcli.errors import InputError
+from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.render.sweep import sweep_csv, sweep_json
-from balcli.studies.boxes import Box, BoxSize, divide_grid, group_boxes
+from balcli.studies.boxes import Box, BoxSize, divide_grid
 from balcli.studies.parameters import Parameter, parse_parameter
 from balcli.studies.quantities import parse_quantities
 from balcli.studies.sweep import (
@@ -138,15 +138,6 @@ def test_boxes_are_the_smaller_the_more_each_variant_needs(engine: str, vary: st
     assert size_boxes(asked(engine, vary, of=of)).variants <= most
 
 
-@pytest.mark.parametrize(("rows", "lengths"), [(1, [1] * 20), (8, [2] * 10), (1000, [8, 8, 4])])
-def test_groups_of_boxes_are_whole_and_in_order(rows: int, lengths: list[int]) -> None:
-    """20 boxes of 3 variants: by eight, or as many as have so many rows, and one at least."""
-    boxes = list(divide_grid((60,), 3))
-    groups = list(group_boxes(boxes, rows))
-    assert [box for group in groups for box in group] == boxes
-    assert list(map(len, groups)) == lengths
-
-
 def test_a_part_of_a_grid_is_a_sweep_of_its_own() -> None:
     sweep = asked(VEE, "layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3,0.31", of="moment.1.major")
     box = (slice(1, 3), slice(2, 3))
@@ -213,6 +204,17 @@ def test_a_variant_that_cannot_turn_is_found_before_anything_is_computed() -> No
         check_corners(asked(GOOD, "crank.stroke=80:400:1"))
 
 
+def test_a_system_that_gives_no_thread_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: Thread) -> None:
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 300)
+    sweep = asked(VEE, *GRID, of="force.2.major")
+    monkeypatch.setattr(Thread, "start", refuse)
+    with pytest.raises(BalcliError, match="--jobs 5: can't start new thread; give fewer, as --jobs 1"):
+        list(evaluate_chunks(sweep, 5, alone_s=0.0))
+
+
 GRID = ("layout.bank_angle=0:100:1", "rod.ratio=0.2:0.3:0.0002")
 
 
@@ -223,26 +225,6 @@ def test_threads_give_identical_rows(monkeypatch: pytest.MonkeyPatch, threads: i
     sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
     there = "".join(sweep_csv(sweep, evaluate_chunks(sweep, threads, alone_s=0.0)))
     assert there == "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
-
-
-@pytest.mark.parametrize("given", [0, 1, 3])
-def test_a_system_that_gives_few_threads_has_the_same_rows(monkeypatch: pytest.MonkeyPatch, given: int) -> None:
-    """Limits of users and containers (`ulimit -u`, `--pids-limit`) are told by a RuntimeError."""
-    begun: list[Thread] = []
-    start = Thread.start
-
-    def start_few(thread: Thread) -> None:
-        if sum(other.is_alive() for other in begun) >= given:
-            raise RuntimeError("can't start new thread")
-        begun.append(thread)
-        start(thread)
-
-    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 300)
-    sweep = asked(VEE, *GRID, of="force.2.major")
-    alone = "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
-    monkeypatch.setattr(Thread, "start", start_few)
-    assert "".join(sweep_csv(sweep, evaluate_chunks(sweep, 5, alone_s=0.0))) == alone
-    assert bool(begun) == bool(given)
 
 
 def test_threads_end_with_who_asks_for_their_figures(monkeypatch: pytest.MonkeyPatch) -> None:

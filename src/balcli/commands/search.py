@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,6 +20,7 @@ from .progress import exit_if_cut_short, reporting, reporting_until_stopped
 
 if TYPE_CHECKING:
     from ..enginefile.model import EngineFile
+    from ..studies.search.objective import Objective
 
 
 def search(
@@ -84,29 +86,19 @@ def search(
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
-    if (minimise is None) == (maximise is None):
-        raise typer.BadParameter("give exactly one of --minimise and --maximise")
     require_ending(write, ".toml", "--write")
     from ..engine.load import parse
     from ..studies.search.designs import write_design
-    from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
 
-    if require not in ("", "even-firing"):
-        message = f'"{require}": only even-firing can be required'
-        raise typer.BadParameter(message, param_hint="--require")
+    _check_options(minimise, maximise, require)
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
     with naming_file(name):
         _doubt(model, over, name)
     if write is not None:
         refuse_leaving_files(text, path, write)
-    goal = parse_objective(
-        minimise or maximise or "",
-        limit or (),
-        maximise=maximise is not None,
-        with_gas=model.gas is not None,
-    )
+    goal = _read_goal(model, minimise, maximise, limit or ())
     watching = reporting if any("=" in one for one in over) else reporting_until_stopped
     with watching("arrangements") as progress, naming_file(name):
         found = search_arrangements(model, over, goal, top, bool(require), progress)
@@ -114,6 +106,24 @@ def search(
     if write is not None:
         write_file(write_design(text, found.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")
+
+
+def _check_options(minimise: str | None, maximise: str | None, require: str) -> None:
+    if (minimise is None) == (maximise is None):
+        raise typer.BadParameter("give exactly one of --minimise and --maximise")
+    if require not in ("", "even-firing"):
+        message = f'"{require}": only even-firing can be required'
+        raise typer.BadParameter(message, param_hint="--require")
+
+
+def _read_goal(
+    model: EngineFile, minimise: str | None, maximise: str | None, limits: Sequence[str]
+) -> Objective:
+    from ..studies.search.objective import parse_objective
+
+    goal = minimise or maximise or ""
+    with_gas = model.gas is not None
+    return parse_objective(goal, limits, maximise=maximise is not None, with_gas=with_gas)
 
 
 def _doubt(model: EngineFile, over: list[str], name: str) -> None:

@@ -29,7 +29,7 @@ from .file_names import (
 )
 from .options import EnginePath, ProgressAtOnce
 from .output import is_seen, refuse_overwriting, write_figure
-from .progress import exit_if_cut_short, reporting_until_stopped
+from .progress import reporting
 
 if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep
@@ -71,7 +71,8 @@ def sweep(
         optional(
             "FILE|FOLDER/",
             "Write into this file instead, its ending says the format; or into a folder, as "
-            "numbered Parquet files that threads or workers write. - is standard output.",
+            "numbered Parquet files that threads or workers write; the same sweep again computes "
+            "those that are missing. - is standard output.",
             "--output",
             "-o",
             parser=read_place,
@@ -106,7 +107,7 @@ def sweep(
     """Figures of many variants of an engine: numbers of its file over ranges, as a table, CSV, JSON
     or Parquet.
 
-    Ctrl-C ends it with the variants computed so far, in -o's FILE.part if there is a -o.
+    Ctrl-C leaves an older file as it was; in a folder, the same sweep computes what is missing.
 
     \b
     Examples:
@@ -120,7 +121,7 @@ def sweep(
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..studies.sweep import join_chunks, read_sweep
     from . import sweep_output as out
-    from .sweep_folder import write_parts
+    from .sweep_folder import write_blocks
 
     job = read_sweep(path, vary, quantity)
     _doubt(job, quantity)
@@ -128,14 +129,13 @@ def sweep(
         check_drawable(job)
     kept: list[Chunk] | None = [] if drawn else None
     shown = not is_seen(file) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
-    with reporting_until_stopped("variants", job.variants, progress, shown) as watch:
+    with reporting("variants", job.variants, progress, shown) as watch:
         if output is not None and output.is_folder:
-            place = write_parts(job, output.path, _sharing(jobs, dask), watch, force=force)
+            write_blocks(job, output.path, _sharing(jobs, dask), watch, force=force)
         else:
             with _computing(job, jobs, dask) as chunks:
-                counted = out.until_stopped(chunks, watch, kept)
-                place = out.write_sweep(job, counted, kind, file, watch)
-    exit_if_cut_short(watch, place)
+                counted = out.count_variants(chunks, watch, kept)
+                out.write_sweep(job, counted, kind, file)
     if plot is not None and drawn is not None:
         write_figure(make_sweep(job, join_chunks(job, kept or ())), drawn, plot)
 

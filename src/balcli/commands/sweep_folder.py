@@ -1,10 +1,15 @@
-"""A sweep as a folder of numbered Parquet files, each of which is written by whoever computes it: a
-thread, or a worker of a cluster.
+"""A sweep as a folder of numbered Parquet files, each written by the thread or worker that computes
+it.
+
+The folder holds a manifest that names the sweep. A block exists or not: it is written under a
+hidden name and renamed when it is whole. The same sweep into the same folder computes the missing
+blocks. Nothing but blocks and manifests is ever replaced or deleted.
 """
 
 from __future__ import annotations
 
-import os
+import hashlib
+import json
 import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, suppress
@@ -12,142 +17,128 @@ from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
-from ..errors import BalcliError
-from ..files import discard, follow_link, make_folder, making_beside, name_hidden, name_part
+from .. import __version__
+from ..errors import BalcliError, tell_unwritable
+from ..files import replacing
 from ..render.sweep_parquet import write_sweep_parquet
-from ..studies.boxes import BoxSize, group_boxes
-from ..studies.sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes, split_columns
+from ..studies.sweep import Block, Sweep, divide_into_blocks, evaluate_chunks, split_columns
 from .progress import Progress
 
-ROWS_A_PART = 1 << 20
-_PART = re.compile(r"part-\d{6,}\.parquet")
+ROWS_A_BLOCK = 1 << 20
+MANIFEST = "_balcli_sweep.json"  # readers of Parquet pass over names that begin with _
+_BLOCK = re.compile(r"part-\d{6,}\.parquet")
+_UNFINISHED = re.compile(rf"\.{_BLOCK.pattern}\.[0-9a-f]+")  # as `files.name_hidden` names it
 
-Task: TypeAlias = tuple[int, list[Sweep]]  # number of a part, and the boxes that it is made of
-Share: TypeAlias = Callable[[Callable[[Task], int], Iterable[Task]], Iterator[int]]
+Share: TypeAlias = Callable[[Callable[[Block], int], Iterable[Block]], Iterator[int]]
 
 
-def write_parts(
+def write_blocks(
     sweep: Sweep,
-    target: Path,
+    folder: Path,
     sharing: AbstractContextManager[Share],
     progress: Progress,
     *,
     force: bool,
-) -> str:
-    """Write all variants into a folder, which takes its place when it is whole. What there is of
-    one that Ctrl-C has cut short, whole files of fewer rows, goes to `name.part` beside it, or
-    to `name.part2` if something else is there. Returns where that is, in words.
+) -> None:
+    """Write all variants into a folder; blocks that an interrupted run of this sweep has left there
+    stay.
 
     Args:
         sharing: gives what shares work among threads or workers.
-        force: whether an earlier sweep in this folder may be replaced.
+        force: whether an earlier sweep in this folder is deleted first.
 
     Raises:
-        BalcliError: something is in the folder already, or it cannot be written, or pyarrow is
-            missing.
+        BalcliError: the folder holds something else or another sweep, it cannot be written, or
+            pyarrow is missing.
     """
-    _refuse_content(target, force)
-    size = size_boxes(sweep)
-    groups = group_boxes(divide_sweep(sweep, size), ROWS_A_PART)
-    tasks = ((number, [sweep.cut(box) for box in group]) for number, group in enumerate(groups))
     try:
-        real = follow_link(target)
-        with making_beside(real, make_folder) as folder:
-            write = partial(_write_part, folder.absolute(), size)
-            with sharing as share:
-                written = _count_parts(share(write, tasks), progress)
-            _keep_first(folder, written)
-            if not progress.cut_short:
-                _move(folder, real)
-                return ""
-            part = name_part(real, _is_sweep)
-            _move(folder, part)
+        made = _claim(folder, _name_sweep(sweep), force)
     except OSError as error:
-        raise BalcliError(f"{target}/: cannot be written ({error.strerror or error})") from None
-    return f"they are in {part}/"
+        raise tell_unwritable(folder, error) from None
+    done = 0
+    try:
+        with sharing as share:
+            blocks = divide_into_blocks(sweep, ROWS_A_BLOCK)
+            for variants in share(partial(_write_block, folder.absolute()), blocks):
+                done += variants
+                progress(done)
+    except BalcliError:
+        if made and not done:
+            _give_up(folder)
+        raise
 
 
-def _count_parts(parts: Iterator[int], progress: Progress) -> int:
-    """How many parts are written, of so many variants each, until Ctrl-C is noted."""
-    written, done = 0, 0
-    for written, variants in enumerate(parts, 1):  # noqa: B007 (the last one counts)
-        done += variants
-        if progress(done):
-            break
-    return written
+def _give_up(folder: Path) -> None:
+    """Delete the manifest, and the folder if it is empty then, where no block has been written."""
+    if not any(_BLOCK.fullmatch(path.name) for path in folder.iterdir()):
+        (folder / MANIFEST).unlink()
+        with suppress(OSError):
+            folder.rmdir()
 
 
-def _write_part(folder: Path, size: BoxSize, task: Task) -> int:
-    """Compute and write one part; returns its number of variants. Its file takes its name when it
-    is whole: a worker that is taken for lost may still write while another does the same.
+def _write_block(folder: Path, block: Block) -> int:
+    """Compute and write a block unless it is there; returns its number of variants."""
+    target = folder / f"part-{block.number:06}.parquet"
+    if not target.exists():
+        rows = (split_columns(block.sweep, chunk) for chunk in evaluate_chunks(block.sweep))
+        with replacing(target) as place:
+            write_sweep_parquet(block.sweep, rows, place)
+    return block.sweep.variants
+
+
+def _name_sweep(sweep: Sweep) -> str:
+    """Return the manifest: the same for the same engine, numbers, values and quantities."""
+    whole = repr((sweep.file, [(p.path, p.values.tobytes()) for p in sweep.parameters]))
+    content = {
+        "format": "balcli.sweep/1",
+        "version": __version__,
+        "engine": sweep.file.name,
+        "columns": sweep.columns,
+        "variants": sweep.variants,
+        "rows_a_block": ROWS_A_BLOCK,
+        "sha256": hashlib.sha256(whole.encode()).hexdigest(),
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def _claim(folder: Path, manifest: str, force: bool) -> bool:
+    """Make the folder and its manifest; returns whether the manifest is new.
+
+    Raises:
+        BalcliError: there is a file of this name, or the folder holds something else or another
+            sweep.
     """
-    number, boxes = task
-    name = _name_part(number)
-    place = name_hidden(folder / name)
-    every = (Chunk(box.whole, evaluate_box(box, box.whole, size)) for box in boxes)
-    rows = (split_columns(box, chunk) for box, chunk in zip(boxes, every, strict=True))
-    write_sweep_parquet(boxes[0], rows, place)
-    place.replace(folder / name)
-    return sum(box.variants for box in boxes)
-
-
-def _name_part(number: int) -> str:
-    """In the order of their names parts are in the order of rows."""
-    return f"part-{number:06}.parquet"
-
-
-# ------------------------------------------------------------------ folders
-def _refuse_content(target: Path, force: bool) -> None:
-    """BalcliError for what may not be replaced by a folder of parts."""
-    if not os.path.lexists(target):
-        return
-    if not target.is_dir():
-        raise BalcliError(f"{target}/: is a file; choose another name for the folder")
-    names = sorted(os.listdir(target))
-    others = _list_others(names)
-    if others:
+    if folder.exists() and not folder.is_dir():
+        raise BalcliError(f"{folder}/: is a file; choose another name for the folder")
+    folder.mkdir(exist_ok=True)
+    if _is_same(folder, manifest):
+        return False
+    names = sorted(path.name for path in folder.iterdir())
+    known = [re.compile(re.escape(MANIFEST)), _BLOCK, _UNFINISHED]
+    strange = [name for name in names if not any(one.fullmatch(name) for one in known)]
+    if strange or (names and MANIFEST not in names):
         raise BalcliError(
-            f"{target}/: holds {others[0]}, which is no part of a sweep; choose a folder that is "
-            "empty or not there"
+            f"{folder}/: holds {(strange or names)[0]}, which is no part of a sweep; choose a "
+            "folder that is empty or not there"
         )
     if names and not force:
         raise BalcliError(
-            f"{target}/: holds an earlier sweep; choose another folder, or --force to replace it"
+            f"{folder}/: holds another sweep; choose another folder, or --force to replace it"
         )
-
-
-def _is_sweep(path: Path) -> bool:
-    """Whether this is a folder that holds nothing but parts of a sweep, as far as can be seen."""
-    if path.is_symlink():
-        return False
-    with suppress(OSError):
-        return not _list_others(os.listdir(path))
-    return False
-
-
-def _list_others(names: list[str]) -> list[str]:
-    """Those that are no parts."""
-    return [name for name in names if not _PART.fullmatch(name)]
-
-
-def _keep_first(folder: Path, count: int) -> None:
-    """Delete all but so many parts: later ones, and what a lost worker has not finished."""
-    kept = set(map(_name_part, range(count)))
-    for file in folder.iterdir():
-        if file.name not in kept:
-            file.unlink()
-
-
-def _move(folder: Path, target: Path) -> None:
-    """Put a folder in the place of another, if there is one."""
-    if not target.exists():
-        folder.rename(target)
-        return
-    old = name_hidden(target)
-    target.rename(old)
+    for name in names:  # blocks first: whoever is interrupted here finds the manifest
+        if name != MANIFEST:
+            (folder / name).unlink()
+    if names:
+        (folder / MANIFEST).unlink()
     try:
-        folder.rename(target)
-    except OSError:
-        old.rename(target)
-        raise
-    discard(old)
+        with (folder / MANIFEST).open("x", encoding="utf-8") as stream:
+            stream.write(manifest)
+    except FileExistsError:  # another run was faster
+        raise BalcliError(f"{folder}/: another sweep is just beginning there") from None
+    return True
+
+
+def _is_same(folder: Path, manifest: str) -> bool:
+    with suppress(FileNotFoundError):
+        return (folder / MANIFEST).read_bytes() == manifest.encode()
+    return False

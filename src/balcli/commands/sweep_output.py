@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import BalcliError
-from ..files import follow_link, name_part, replacing
+from ..files import replacing
 from ..limits import MOST_ROWS_READ
 from ..render.formats import Format, lay_out
 from ..render.sweep import sweep_csv, sweep_json
@@ -25,16 +25,10 @@ _FIRST, _LAST = 20, 10  # rows of a table of many
 
 
 def write_sweep(
-    sweep: Sweep,
-    chunks: Iterable[Chunk],
-    kind: VariantsFormat,
-    output: Path | None,
-    progress: Progress,
-) -> str:
+    sweep: Sweep, chunks: Iterable[Chunk], kind: VariantsFormat, output: Path | None
+) -> None:
     """Write all chunks as csv, json or parquet, or a table of them. A file takes its place when it
-    is whole; what there is of one that Ctrl-C has cut short, a whole document of fewer rows, goes
-    to `name.part` beside it, or to `name.part2` if something else is there. Returns where that is,
-    in words.
+    is whole.
 
     Raises:
         BalcliError: parquet without a file, the file cannot be written, or pyarrow is missing.
@@ -44,17 +38,13 @@ def write_sweep(
     if output is None:
         with standard_output() as stream:
             stream.writelines(_make_text(sweep, chunks, kind, seen=is_seen(output)))
-        return ""
+        return
     with replacing(output) as place:
         if kind is VariantsFormat.PARQUET:
             write_sweep_parquet(sweep, (split_columns(sweep, chunk) for chunk in chunks), place)
         else:
             with place.open("w", encoding="utf-8", newline="\n") as stream:
                 stream.writelines(_make_text(sweep, chunks, kind))
-        if not progress.cut_short or place == output:  # a device has what it has
-            return ""
-        part = place.replace(name_part(follow_link(output), Path.is_file))
-    return f"they are in {part}"
 
 
 def _make_text(
@@ -94,11 +84,11 @@ def _first_at_once(chunks: Iterable[Chunk]) -> Iterator[Chunk]:
     return chain(list(islice(waiting, 1)), waiting)
 
 
-def until_stopped(
+def count_variants(
     chunks: Iterable[Chunk], progress: Progress, kept: list[Chunk] | None = None
 ) -> Iterator[Chunk]:
-    """The chunks, each counted when it has been written, until Ctrl-C is noted; and kept, where
-    there is a list for them.
+    """Yield the chunks and report each when it has been written; keep them in a list, if there is
+    one.
     """
     done = 0
     for chunk in chunks:
@@ -106,5 +96,4 @@ def until_stopped(
             kept.append(chunk)
         yield chunk
         done += len(chunk.values[0])
-        if progress(done):
-            return
+        progress(done)

@@ -1,9 +1,9 @@
-"""Boxes of a grid: which variants of a sweep are computed and written together."""
+"""Boxes of a grid: which variants of a sweep are computed together."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import product
 from typing import NamedTuple, TypeAlias
 
@@ -12,7 +12,6 @@ import numpy as np
 Box: TypeAlias = tuple[slice, ...]
 JOINED = 1 << 20  # variants in a box that is computed in tiles, at most: their figures are kept
 _TILES = 8  # in such a box, at most
-_TOGETHER = 8  # boxes in a group, at most
 
 
 class BoxSize(NamedTuple):
@@ -67,21 +66,3 @@ def divide_into_tiles(shape: tuple[int, ...], size: BoxSize) -> Iterator[Box]:
         yield tuple(
             slice(k, min(k + step, n)) for k, step, n in zip(starts, steps, shape, strict=True)
         )
-
-
-def group_boxes(boxes: Iterable[Box], rows: int) -> Iterator[list[Box]]:
-    """The boxes in their order, some at a time: what is handed to a worker at once, or written
-    together. Each has about a tenth of a second's work; together they have at most so many rows, or
-    are one.
-    """
-    group: list[Box] = []
-    left = rows
-    for box in boxes:
-        count = math.prod(cut.stop - cut.start for cut in box)
-        if group and (len(group) == _TOGETHER or count > left):
-            yield group
-            group, left = [], rows
-        group.append(box)
-        left -= count
-    if group:
-        yield group

@@ -1,6 +1,4 @@
-"""Sweeps beyond one process: the same boxes, computed by the workers of a dask cluster (extra
-`balcli[scale]`).
-"""
+"""Sweeps on a dask cluster (extra `balcli[scale]`): workers compute blocks of the grid."""
 
 from __future__ import annotations
 
@@ -9,14 +7,11 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import ExitStack, contextmanager
-from functools import partial
 from itertools import islice
 from typing import Any, TypeVar
 
 from ..errors import BalcliError
-from ..process import ctrl_c_later
-from .boxes import Box, BoxSize, group_boxes
-from .sweep import Chunk, Sweep, divide_sweep, evaluate_box, size_boxes
+from .sweep import Block, Chunk, Sweep, divide_into_blocks, evaluate_chunks
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -27,11 +22,11 @@ AHEAD = 4  # tasks for each thread that may wait to be fetched
 
 @contextmanager
 def connect_cluster(address: str) -> Iterator[Any]:
-    """A client of the scheduler at an address such as tcp://host:8786, or of a cluster on this
-    machine (`local`) that ends with it.
+    """Yield a client of the scheduler at an address such as tcp://host:8786, or of a cluster on
+    this machine (`local`) that ends with it.
 
     Raises:
-        BalcliError: dask is not installed, or nobody answers.
+        BalcliError: dask is not installed, or no scheduler responds.
     """
     try:
         import distributed
@@ -42,11 +37,10 @@ def connect_cluster(address: str) -> Iterator[Any]:
         try:
             if address == "local":
                 # Its workers, when it ends, complain of the scheduler's absence.
-                with ctrl_c_later():
-                    own = dask.LocalCluster(
-                        threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
-                    )
-                client = ends.enter_context(dask.Client(ends.enter_context(own)))
+                cluster = dask.LocalCluster(
+                    threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
+                )
+                client = ends.enter_context(dask.Client(ends.enter_context(cluster)))
             else:
                 client = ends.enter_context(dask.Client(address, timeout=10))
         except (OSError, ValueError, RuntimeError) as error:
@@ -55,29 +49,21 @@ def connect_cluster(address: str) -> Iterator[Any]:
 
 
 def evaluate_on_cluster(sweep: Sweep, client: Any) -> Iterator[Chunk]:
-    """All variants, computed by the workers of a client's cluster, in the order of rows. The part
-    of the sweep that a worker computes goes with each task, so that one whose worker is lost can be
-    given to another.
-
-    Raises:
-        BalcliError: all workers are lost, again and again.
-    """
-    size = size_boxes(sweep)
-    groups = group_boxes(divide_sweep(sweep, size), ROWS)
-    parts = ([(box, sweep.cut(box)) for box in group] for group in groups)
-    for found in run_on_cluster(client, partial(_evaluate_parts, size), parts):
+    """Yield all variants in the order of rows; errors as of `run_on_cluster`."""
+    for found in run_on_cluster(client, _evaluate, divide_into_blocks(sweep, ROWS)):
         yield from found
 
 
-def _evaluate_parts(size: BoxSize, parts: list[tuple[Box, Sweep]]) -> list[Chunk]:
-    return [Chunk(box, evaluate_box(part, part.whole, size)) for box, part in parts]
+def _evaluate(block: Block) -> list[Chunk]:
+    """Return the chunks of a block with their boxes in the whole grid."""
+    return [block.place(chunk) for chunk in evaluate_chunks(block.sweep)]
 
 
 def run_on_cluster(
     client: Any, work: Callable[[Item], Outcome], items: Iterable[Item]
 ) -> Iterator[Outcome]:
-    """What becomes of each item, in their order, by the workers of a client's cluster; a bounded
-    number of items is under way at a time.
+    """Yield `work(item)` for each item, in their order, by the workers of a client's cluster; a
+    bounded number of items is under way.
 
     Raises:
         BalcliError: all workers are lost, again and again.

@@ -56,6 +56,7 @@ ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 PRODUCTS = 8  # times as many where each is but a product of what is computed for fewer
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
+_BOXES = 8  # in a block, each with a tenth of a second's work
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
 
 
@@ -341,6 +342,35 @@ def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) ->
     size = size_boxes(sweep)
     compute = partial(_evaluate_chunk, sweep, size)
     return share_work(compute, divide_sweep(sweep, size), threads, alone_s)
+
+
+class Block(NamedTuple):
+    """A part of a sweep that is computed and written by itself.
+
+    Attributes:
+        number: from 0, in the order of rows.
+        box: in the whole grid.
+        sweep: the part as a sweep of its own.
+    """
+
+    number: int
+    box: Box
+    sweep: Sweep
+
+    def place(self, chunk: Chunk) -> Chunk:
+        """Return a chunk of this part with its box in the whole grid."""
+        pairs = zip(self.box, chunk.box, strict=True)
+        box = (slice(own.start + cut.start, own.start + cut.stop) for own, cut in pairs)
+        return Chunk(tuple(box), chunk.values)
+
+
+def divide_into_blocks(sweep: Sweep, rows: int) -> Iterator[Block]:
+    """Yield the blocks of a sweep in the order of rows, of at most so many rows; fewer where a
+    variant takes long.
+    """
+    most = min(rows, _BOXES * size_boxes(sweep).variants)
+    for number, box in enumerate(divide_grid(sweep.shape, most)):
+        yield Block(number, box, sweep.cut(box))
 
 
 def _evaluate_chunk(sweep: Sweep, size: BoxSize, box: Box) -> Chunk:

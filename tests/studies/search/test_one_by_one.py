@@ -17,7 +17,7 @@ from balcli.core.telling import tell_nobody
 from balcli.engine.load import parse
 from balcli.studies.search import evaluate
 from balcli.studies.search.designs import Design
-from balcli.studies.search.local import Box, Effort, find_optima
+from balcli.studies.search.local import Box, Effort, find_local_optima
 from balcli.studies.search.objective import Merit, parse_objective
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
@@ -30,7 +30,7 @@ def search(path, *args):
 
 
 def find_merits(judge, *ranges, points=32, ring=False):
-    """Optima of a function of numbers that gives excess and cost, best first."""
+    """LocalOptima of a function of numbers that gives excess and cost, best first."""
     low, high = np.array(ranges, float).T
     box = Box(low, high, np.full(len(low), ring))
 
@@ -38,7 +38,7 @@ def find_merits(judge, *ranges, points=32, ring=False):
         judged = np.array([judge(*row) for row in rows], float).reshape(-1, 2)
         return Merit(judged[:, 0], judged[:, 1])
 
-    return find_optima(judge_all, box, Effort(points, 8, 1e-12)).places
+    return find_local_optima(judge_all, box, Effort(points, 8, 1e-12)).places
 
 
 def find_best(function, low, high) -> list[float]:

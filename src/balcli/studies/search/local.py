@@ -92,7 +92,7 @@ class Effort:
         return round(self.points + self.starts * rounds * (1 if numbers == 1 else 20 * numbers))
 
 
-class Optima(NamedTuple):
+class LocalOptima(NamedTuple):
     """Result of a search.
 
     Attributes:
@@ -106,7 +106,7 @@ class Optima(NamedTuple):
     merits: Merit
 
 
-def find_optima(judge: Judge, box: Box, effort: Effort) -> Optima:
+def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     """Return every local optimum in a box that is found from `effort.starts` starts, once."""
     points = box.spread(effort.points)
     merits = judge(points)
@@ -129,7 +129,7 @@ def find_optima(judge: Judge, box: Box, effort: Effort) -> Optima:
         new = all(np.abs(box.subtract(found[k], other)).max() > _SAME for other in best)
         if new and ends.excess[k] == 0 and np.isfinite(ends.cost[k]):
             best.append(found[k])
-    return Optima(np.array(best).reshape(-1, box.size), points, merits)
+    return LocalOptima(np.array(best).reshape(-1, box.size), points, merits)
 
 
 def _find_starts(points: Array, merits: Merit, box: Box) -> Array:

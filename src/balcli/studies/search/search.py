@@ -29,7 +29,7 @@ from ..quantities import choose_of_engine, refuse_unknown_of_chapters
 from .designs import PATHS, Design, Found, drop_mirror_images
 from .evaluate import NumbersJudge, drop_firing_order, fires_evenly, rank_designs, rank_one_by_one
 from .firing_orders import find_slots, search_firing_order
-from .local import Box, Effort, Optima, find_optima
+from .local import Box, Effort, LocalOptima, find_local_optima
 from .objective import Objective
 from .throws import give_throws, list_throws, search_throws
 
@@ -41,7 +41,7 @@ _GRID, _SPREAD = 720, 2048  # candidates of one number, of several
 _SLOW = 32  # candidates a number, where each takes a computation of its own
 
 
-class Range(NamedTuple):
+class SearchRange(NamedTuple):
     """A number that is searched over.
 
     Attributes:
@@ -79,7 +79,7 @@ class Search(Result):
     objective: Objective
     results: tuple[Found, ...]
     scale: TextbookUnits
-    ranges: tuple[Range, ...] = ()
+    ranges: tuple[SearchRange, ...] = ()
     locked: tuple[tuple[float, float], ...] = ()
     constant: bool = False
     refused: str = ""
@@ -202,7 +202,7 @@ def _list_designs(model: EngineFile, what: str, even_firing: bool) -> Iterator[D
 
 
 # ------------------------------------------------------------------ numbers
-def read_ranges(model: EngineFile, over: Sequence[str]) -> tuple[Range, ...]:
+def read_ranges(model: EngineFile, over: Sequence[str]) -> tuple[SearchRange, ...]:
     """Read the numbers that are searched over; none for throws and firing orders.
 
     Raises:
@@ -224,10 +224,10 @@ def read_ranges(model: EngineFile, over: Sequence[str]) -> tuple[Range, ...]:
     return ranges
 
 
-def _read_range(model: EngineFile, text: str) -> Range:
+def _read_range(model: EngineFile, text: str) -> SearchRange:
     if text in ANGLES:
         _check_angle(model, text)
-        return Range(text, Parameter(PATHS[text], np.array(ANGLES[text]), "deg"))
+        return SearchRange(text, Parameter(PATHS[text], np.array(ANGLES[text]), "deg"))
     path, is_number, ends = text.partition("=")
     if not is_number:
         known = (*ARRANGED, *ANGLES)
@@ -243,7 +243,7 @@ def _read_range(model: EngineFile, text: str) -> Range:
             "takes steps and lists"
         )
     number = parse_parameter(f"{path}={ends.replace(':', ',')}", model)
-    return Range(number.path, number)
+    return SearchRange(number.path, number)
 
 
 def _check_angle(model: EngineFile, key: str) -> None:
@@ -271,7 +271,11 @@ class NumbersFound(NamedTuple):
 
 
 def _search_numbers(
-    model: EngineFile, ranges: Sequence[Range], objective: Objective, even_firing: bool, tell: Tell
+    model: EngineFile,
+    ranges: Sequence[SearchRange],
+    objective: Objective,
+    even_firing: bool,
+    tell: Tell,
 ) -> NumbersFound:
     """Return the local optima over some numbers, best first.
 
@@ -291,7 +295,7 @@ def _search_numbers(
     if even_firing:  # candidates fire evenly to 1e-9 deg, a round angle may do so exactly
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
-    optima = find_optima(judge, box, effort)
+    optima = find_local_optima(judge, box, effort)
     if not np.isfinite(optima.merits.excess).any() and judge.first_error is not None:
         raise judge.first_error
     designs = [_name_numbers(ranges, place) for place in optima.places.tolist()]
@@ -318,14 +322,14 @@ def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
     return Effort(max(_GRID, 16 * (math.ceil(highest) + 1)), _GRID, 1e-13)
 
 
-def _name_numbers(ranges: Sequence[Range], place: Sequence[float]) -> Design:
+def _name_numbers(ranges: Sequence[SearchRange], place: Sequence[float]) -> Design:
     named = {one.key: value for one, value in zip(ranges, place, strict=True)}
     angles = {key: named.pop(key) for key in ANGLES if key in named}
     return Design(**angles, numbers=named)  # type: ignore[arg-type]
 
 
 def _find_locked(
-    model: EngineFile, ranges: Sequence[Range], optima: Optima
+    model: EngineFile, ranges: Sequence[SearchRange], optima: LocalOptima
 ) -> tuple[tuple[float, float], ...]:
     """Return from where to where a bank angle leaves articulated rods that cannot follow, deg, to
     the step of the grid.

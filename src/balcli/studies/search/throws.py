@@ -358,13 +358,19 @@ class _Tree:
         sums = self._add_beginning(prefix)
         to_come = self._places.free[len(prefix) :]
 
+        keys: dict[AnyQuantity, Key] = {
+            q: (q.kind, q.order) for q in choose_of_engine(self._objective.quantities)
+        }
+
         def bound(q: AnyQuantity, side: int) -> Array:
-            key = _get_key(q)
+            key = keys[q]
             reach = side * float(self._table[key].reach[to_come].sum())
             ahead, astern = (max(float(np.abs(v[0])) + reach, 0.0) for v in sums[key])
             sizes = {"forward": ahead, "backward": astern}
             sizes |= dict.fromkeys(("major", "amplitude"), ahead + astern)
-            return np.array(sizes.get(getattr(q, "part", ""), 0.0 if side < 0 else ahead + astern))
+            return np.array(
+                sizes.get(q.name.rpartition(".")[2], 0.0 if side < 0 else ahead + astern)
+            )
 
         if any(bound(q, -1) >= limit for q, limit in self._objective.limits.items()):
             return math.inf
@@ -391,11 +397,6 @@ class _Tree:
             angles, values = angles[may], values[may]
         first = np.argsort(values, kind="stable")[: self._best.count]
         self._best.take(angles[first], values[first])
-
-
-def _get_key(q: AnyQuantity) -> Key:
-    assert isinstance(q, Quantity)
-    return q.kind, q.order
 
 
 def _sum_endings(table: dict[Key, Contributions], free: list[int], left: Left) -> Sums:
