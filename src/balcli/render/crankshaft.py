@@ -54,16 +54,25 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
 
 
 def _gas_grids(found: LoadsWithGas, system: System) -> Iterator[Grid]:
-    tables = (
-        (found.shear, "Shear force in the crankshaft with gas", system.force),
-        (found.bending, "Bending moment in the crankshaft with gas", system.moment),
-        (found.bearings, "Loads of main bearings with gas", system.force),
-        (found.block_shear, "Shear force in the block with gas", system.force),
-        (found.block_bending, "Bending moment in the block with gas", system.moment),
+    titles = (
+        "Shear force in the crankshaft with gas",
+        "Bending moment in the crankshaft with gas",
+        "Loads of main bearings with gas",
+        "Shear force in the block with gas",
+        "Bending moment in the block with gas",
     )
-    for along, title, unit in tables:
+    for (name, along, unit), title in zip(_list_gas(found, system), titles, strict=True):
         grid = _grid(along, title, unit, system.length, GAS_ORDERS_SHOWN)
-        yield grid._replace(note=_CUT) if along is found.bearings else grid
+        yield grid._replace(note=_CUT) if name == "main" else grid
+
+
+def _list_gas(found: LoadsWithGas, system: System) -> Iterator[tuple[str, AlongCrank, ShownUnit]]:
+    """Yield each load with gas along the crank, with its name in CSV and its unit."""
+    yield "shaft_shear", found.shear, system.force
+    yield "shaft_bending", found.bending, system.moment
+    yield "main", found.bearings, system.force
+    yield "block_shear", found.block_shear, system.force
+    yield "block_bending", found.block_bending, system.moment
 
 
 def document(inner: InnerLoads) -> dict[str, Any]:
@@ -115,11 +124,8 @@ def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
     if inner.bearings is not None:
         yield from _rows_along("bearing", inner.bearings, system.force, system.length)
     if (gas := inner.with_gas) is not None:
-        yield from _rows_along("shaft_shear", gas.shear, system.force, system.length)
-        yield from _rows_along("shaft_bending", gas.bending, system.moment, system.length)
-        yield from _rows_along("main", gas.bearings, system.force, system.length)
-        yield from _rows_along("block_shear", gas.block_shear, system.force, system.length)
-        yield from _rows_along("block_bending", gas.block_bending, system.moment, system.length)
+        for name, along, unit in _list_gas(gas, system):
+            yield from _rows_along(name, along, unit, system.length)
 
 
 def _grid(
