@@ -53,7 +53,6 @@ def search(
             "What should be large, instead of --minimise.",
             "--maximise",
             "--maximize",
-            autocompletion=complete_quantities,
         ),
     ] = None,
     limit: Annotated[
