@@ -701,19 +701,6 @@ def test_a_fluctuation_needs_inertia():
     assert "fluctuation: the file gives no inertia" in run_here("sweep", "-", *arguments, stdin=FOUR + WIEBE).err
 
 
-def test_the_torque_is_drawn_in_a_table(four, curve):
-    """And nowhere else, which is said."""
-    for arguments, what in (((four,), "Gas and inertia"), (("--curve", curve), "Torque over the p")):
-        for terminal in (True, False):
-            seen = run_here("torque", *arguments, "--plot", terminal=terminal).out
-            assert what in seen
-            assert any(0x2800 < ord(letter) <= 0x28FF for letter in seen)
-        plain = run_here("torque", *arguments, "--format", "csv")
-        found = run_here("torque", *arguments, "--plot", "--format", "csv")
-        assert found.out == plain.out
-        assert "no pictures in csv" in found.err
-
-
 def test_power_and_torque_say_whether_they_are_indicated(four, curve, tmp_path):
     """A shaft gives away less than the gas does: 2 litres at 9 bar are 143.2 N m, 80 % of it 114.6."""
     volume = 4 * np.pi / 4 * 0.086**2 * 0.09
