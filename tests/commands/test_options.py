@@ -7,7 +7,7 @@ from support.cases import cases
 from support.paths import ENGINES
 
 from balcli.commands.options import parse_orders
-from balcli.commands.torsion_options import parse_half_orders
+from balcli.commands.torsion_answer import parse_half_orders
 from balcli.render.sheet import order_name
 
 

@@ -16,7 +16,7 @@ from ..render.formats import Format, Renderer, Units
 from ..render.view import NamedResult, View
 from ..results.analysis import Analysis, analyze, list_usual_quantities
 from .inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
-from .output import draws_sketch, show
+from .output import show
 
 if TYPE_CHECKING:
     from .analysis_options import Request
@@ -102,8 +102,7 @@ def _show_each(
     Raises:
         Exit: with status 2, after the messages, if a file is bad.
     """
-    drawn = draws_sketch(asked.plot, target.form)
-    view = View(asked.whole, asked.parts, asked.orders is not None, pictures=drawn)
+    view = View(asked.whole, asked.parts, asked.orders is not None)
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
 
     def find_one(path: str) -> tuple[str, str, Found]:

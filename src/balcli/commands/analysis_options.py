@@ -51,12 +51,6 @@ Why = Annotated[
     bool,
     typer.Option("--why", help="Also print what is balanced by symmetry, and what by chance."),
 ]
-Plot = Annotated[
-    bool,
-    typer.Option(
-        "--plot", help="Also draw, with characters: bars by order and the loci of force and moment."
-    ),
-]
 
 
 class Request(NamedTuple):
@@ -68,7 +62,7 @@ class Request(NamedTuple):
         quantities: what to compute; None: what there is of every engine.
         parts: words of `--only`; empty: none was given.
         whole: every table and every order.
-        by_cylinder, why, plot: whether these were asked for.
+        by_cylinder, why: whether these were asked for.
         height_m: from the crankshaft to the middle of the guides; None: the rods' lengths.
         misfires: numbers of the cylinders without gas.
         marine: whether it is the sheet of marine builders.
@@ -81,7 +75,6 @@ class Request(NamedTuple):
     whole: bool
     by_cylinder: bool
     why: bool
-    plot: bool
     height_m: float | None
     misfires: tuple[int, ...]
     marine: bool
@@ -115,7 +108,6 @@ def parse_request(
     whole: bool,
     by: str,
     why: bool,
-    plot: bool,
     guide_height: str | None,
     misfire: Sequence[int] | None,
     units: Units,
@@ -135,7 +127,6 @@ def parse_request(
         whole,
         _is_by_cylinder(by),
         why,
-        plot,
         parse_guide_height(guide_height, units),
         tuple(misfire or ()),
         marine,
@@ -175,7 +166,7 @@ def _refuse_what_does_not_go_together(asked: Request) -> None:
     Raises:
         BalcliError: with both.
     """
-    given = {"--by": asked.by_cylinder, "--plot": asked.plot}
+    given = {"--by": asked.by_cylinder}
     if asked.marine:
         given |= {"--only": bool(asked.parts), "--why": asked.why}
     named = [option for option, is_given in given.items() if is_given]

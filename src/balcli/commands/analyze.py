@@ -29,7 +29,6 @@ def analyze(
     guide_height: GuideHeight = None,
     misfire: Misfire = None,
     units: UnitsOption = Units.SI,
-    plot: analysis_options.Plot = False,
     output: Output = None,
 ) -> None:
     """Free forces and moments of an engine, order by order, and what balances them.
@@ -43,7 +42,7 @@ def analyze(
     refuse_overwriting(reads=paths, writes={"--output": output})
     chosen, marine = analysis_options.choose_analysis_format(output, form)
     asked = analysis_options.parse_request(
-        speed, orders, only, whole, by, why, plot, guide_height, misfire, units, marine
+        speed, orders, only, whole, by, why, guide_height, misfire, units, marine
     )
     from .analysis_answer import Target, answer
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
 from ..enginefile.toml_text import parse_toml, read_bytes
-from ..errors import BalcliError, tell_unwritable, warn
+from ..errors import BalcliError, tell_unwritable
 from ..files import replacing
 from ..process import has_no_reader
 from ..render.formats import Format, Renderer, Units, render
@@ -45,13 +45,6 @@ def show(
 def is_seen(output: Path | None) -> bool:
     """Whether the output is printed to a terminal."""
     return output is None and sys.stdout.isatty()
-
-
-def draws_sketch(wanted: bool, form: Format) -> bool:
-    """Whether pictures made of characters go with a result."""
-    if wanted and form is not Format.TABLE:
-        warn(f"--plot draws with characters into a table; there are no pictures in {form}")
-    return wanted and form is Format.TABLE
 
 
 def emit(text: str, output: Path | None = None) -> None:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
 from ..render.formats import Units
+from .amounts import read_angle, read_lengths
 from .file_names import text_format
 from .options import (
     EnginePath,
@@ -19,6 +20,9 @@ from .options import (
     parse_speed,
 )
 from .output import refuse_overwriting, show
+
+if TYPE_CHECKING:
+    from ..results.two_engines import Arrangement, Load
 
 
 def sum(  # noqa: A001 (the command's name)
@@ -68,11 +72,23 @@ def sum(  # noqa: A001 (the command's name)
     form = text_format(output, form)
     from ..render import two_engines as renderer
     from ..results.two_engines import combine_engines
-    from .arrangement_options import parse_arrangement
     from .inputs import named_by_file, read_engine
 
     rpm, asked = parse_speed(speed), parse_orders(orders)
-    arrangement = parse_arrangement(phase, at, turn, reverse, load, units)
+    arrangement = _parse_arrangement(phase, at, turn, reverse, load, units)
     engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
     result = combine_engines(engines[0], engines[1], arrangement, asked)
     show([result], renderer, form, output, units)
+
+
+def _parse_arrangement(
+    phase: str, at: str, turn: str, reverse: bool, load: str, units: Units
+) -> Arrangement:
+    """Return where the second engine stands; raises BalcliError for what cannot be."""
+    from ..results.two_engines import Arrangement, check_arrangement
+
+    x, y, z = read_lengths("--at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
+    lead, turned = read_angle("--phase", phase), read_angle("--turn", turn)
+    arrangement = Arrangement(lead, (x, y, z), turned, reverse, cast("Load", load))
+    check_arrangement(arrangement)
+    return arrangement

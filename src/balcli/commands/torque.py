@@ -6,7 +6,7 @@ from ..render.formats import Units
 from . import torque_options as own
 from .file_names import require_ending, text_format
 from .options import FormatOption, Misfire, Output, Speed, UnitsOption
-from .output import draws_sketch, refuse_overwriting, show
+from .output import refuse_overwriting, show
 
 
 def torque(
@@ -19,7 +19,6 @@ def torque(
     load: own.Load = None,
     inertia: own.Inertia = None,
     write: own.Write = None,
-    plot: own.Plot = False,
     speed: Speed = None,
     orders: own.Orders = None,
     form: FormatOption = None,
@@ -41,9 +40,8 @@ def torque(
     refuse_overwriting(reads=reads, writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..render import torque, torque_sketch
+    from ..render import torque as renderer
 
-    renderer = torque_sketch if draws_sketch(plot, form) else torque
     alone = {"--misfire": misfire, "--write": write, "--cylinder": cylinder != 1, "--loads": loads}
     own.refuse_mixture(path, curve, alone, {"--load": load, "--inertia": inertia})
     if curve is not None:

@@ -74,9 +74,6 @@ Orders = Annotated[
         "--orders",
     ),
 ]
-Plot = Annotated[
-    bool, typer.Option("--plot", help="Also draw, with characters: the torque over the cycle.")
-]
 Write = Annotated[
     Path | None,
     optional(

@@ -111,9 +111,8 @@ def torsion(
     require_ending(write, ".toml", "--write")
     from ..render import torsion as renderer
     from . import torsion_answer as answers
-    from .torsion_options import parse_question
 
-    asked = parse_question(speeds, orders, holzer, damper, damper_at, damper_inertia, units)
+    asked = answers.parse_question(speeds, orders, holzer, damper, damper_at, damper_inertia, units)
     answers.require_options(asked, write, plot, what)
     source, result = answers.find_answer(path, asked, misfire or (), progress)
     if write is not None:

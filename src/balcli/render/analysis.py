@@ -29,7 +29,6 @@ from .overview import (
     vectors_grid,
 )
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, sentence
-from .terminal_plot import sketches
 from .units import System
 from .verdict import verdict
 from .view import IN_BRIEF, View
@@ -66,8 +65,6 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
             yield from _sizing_parts(result.sizing, system)
         else:
             yield sizing_in_brief(result.sizing, system)
-    if view.pictures:
-        yield from sketches(replace(result, spectra=_known_spectra(result)), system)
 
 
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:

@@ -15,7 +15,7 @@ from .sheet import Facts, Grid, Sheet, Text
 GAP = 3  # blanks between the columns of a grid
 FACTS_GAP = 2  # between names and what they are
 PROSE = 50  # width at which columns of words are folded; figures never are
-_SINGLE = frozenset("–−…≠≤≥→∠⋅█▒▏θλμπψω")  # what we write ourselves takes one place each
+_SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # what we write ourselves takes one place each
 
 
 def plain_text(sheets: Sequence[Sheet]) -> str:

@@ -17,14 +17,12 @@ class View(NamedTuple):
         whole: every table and every order; else what most people want, orders that matter.
         parts: words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
         every_order: whether orders that are negligible are shown, too.
-        pictures: whether there are pictures made of characters, too.
         hints: whether commands and options that show more are named.
     """
 
     whole: bool = False
     parts: frozenset[str] = frozenset()
     every_order: bool = False
-    pictures: bool = False
     hints: bool = True
 
 
