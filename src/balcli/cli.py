@@ -40,8 +40,8 @@ GROUPS = {
         "given torque curve does.",
         "curves": "Force, moment, couple, torque and roll over the crank angle, or the "
         "motion of one piston.",
-        "plot": "Draw free forces and moments: loci over a revolution, order by order, "
-        "and over the crank angle; or torsional vibration.",
+        "plot": "Draw free forces and moments: the locus over a revolution and the "
+        "spectrum of orders, or other pages (--what).",
         "report": "Write one self-contained page: the engine in motion, what it shakes, and "
         "a balance scheme before and after.",
     },

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
+from unittest.mock import patch
+
 from balcli.render.plot.pages import PageSubject, make_page
 from balcli.render.plot.style import Form, save_figure
 
@@ -9,3 +12,13 @@ from balcli.render.plot.style import Form, save_figure
 def draw_page(subject: PageSubject, what: str, form: Form) -> bytes:
     """The content of a file with this page of `PAGES`."""
     return save_figure(make_page(subject, what), form)
+
+
+def without_pictures() -> ExitStack:
+    """A context in which reports have empty pictures: drawing them takes most of their time."""
+    stack = ExitStack()
+    for name in ("draw_panel", "inline_svg"):
+        stack.enter_context(patch(f"balcli.render.html.{name}", lambda *_: "<svg></svg>"))
+    for name in ("balcli.render.html.save_figure", "balcli.render.plot.torsion.make_torsion"):
+        stack.enter_context(patch(name, lambda *_, **__: b""))
+    return stack

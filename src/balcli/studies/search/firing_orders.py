@@ -20,7 +20,7 @@ from ...core.phasors import Array
 from ...engine.build import assemble
 from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import Cell, cycle_deg, plan_cylinders
-from ...engine.split_pins import find_fitting_splay
+from ...engine.numbering import find_fitting_splay
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError
 from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
