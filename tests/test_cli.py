@@ -718,7 +718,7 @@ IMPORTED = {
     "format_names inputs options output overwrite_guard speed_range",
     "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple speeds",
     "core.mechanisms": "closed_form distinct fourier harmonics",
-    "engine": "arrays assembly build devices even_order figures firing layout load positions rods rules split_pins",
+    "engine": "arrays assembly build devices figures firing layout load numbering positions rods rules",
     "enginefile": "conflicts exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
     "units unknown_keys",
     "forces": "kinds orders spectrum",

@@ -148,6 +148,7 @@ ON_REQUEST = {
     "balcli.commands.overwrite_guard": ("balcli.commands.named_files",),
     "balcli.core.mechanisms.harmonics": ("balcli.core.mechanisms.sampled", "balcli.core.mechanisms.slidercrank"),
     "balcli.engine.assembly": (
+        "balcli.core.strokes",
         "balcli.core.mechanisms.rotary",
         "balcli.engine.articulation",
         "balcli.engine.build_gas",

@@ -31,6 +31,8 @@ big_end = 0
 mass = {MASS}
 [operation]
 speed = 100
+[layout]
+strokes = 2
 """
 RPM = (80.0, 110.0)
 Z = SPACING * (np.arange(4) - 1.5)
@@ -161,7 +163,7 @@ def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
     ],
 )
 def test_where_vertical_is_told_by_the_banks(banks, told) -> None:
-    out = ask("analyze", "-", "--format", "marine", stdin=f"{TEXT}[layout]\n{banks}\n")
+    out = ask("analyze", "-", "--format", "marine", stdin=f"{TEXT}{banks}\n")
     assert told in out
 
 
