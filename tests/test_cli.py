@@ -516,6 +516,85 @@ for command in {list(COMMANDS)}:
     assert all("balcli" in line for line in lines)
 
 
+<<<<<<< HEAD
+=======
+CHAPTERS = (*("bench", "field_balancing", "mounting", "printed_tables"), *("studies", "torque", "torsion"))
+FOR_WHO_ASKS = (
+    *("core.strokes", "forces.crankshaft", "forces.guide_moments", "forces.symmetry"),
+    "sizing.scheme_figures",
+)
+RARE = (
+    *("core.mechanisms.articulated", "core.mechanisms.rotary"),
+    *("core.mechanisms.sampled", "core.mechanisms.slidercrank"),
+    *("engine.articulation", "enginefile.articulation_tables"),
+)
+FOR_PEOPLE = (
+    *("render.analysis", "render.verdict", "render.markdown", "render.terminal", "render.table"),
+    *("render.crankshaft", "render.guide_moments", "render.strokes", "render.symmetry"),
+)
+FOR_PROGRAMS = ("render.analysis_document", "render.json", "render.markdown", "render.terminal")
+
+
+def own_modules(*args: object) -> set[str]:
+    return {name for name in modules_of(*args) if name.startswith("balcli.")}
+
+
+@pytest.mark.parametrize(("form", "left_out"), [("json", FOR_PEOPLE), ("table", FOR_PROGRAMS)])
+def test_a_plain_analysis_imports_no_other_format_chapter_or_kind_of_engine(form, left_out):
+    loaded = own_modules("analyze", V8, "--format", form)
+    names = {name.removeprefix("balcli.") for name in loaded}
+    assert "results.analysis" in names
+    assert names & {*left_out, *RARE, *FOR_WHO_ASKS, "sizing.sizing", "commands.balance"} == set()
+    assert {name.partition(".")[0] for name in names} & {*CHAPTERS} == set()
+
+
+IMPORTED = {
+    "": "__main__ cli errors limits process result",
+    "commands": "amounts analysis_answer analysis_options analyze declare defaults file_names "
+    "format_names inputs options output overwrite_guard speed_range",
+    "core": "cached_property cylinders factored_phasors least_squares loads peaks phases phasors speed_ripple speeds",
+    "core.mechanisms": "closed_form distinct fourier harmonics",
+    "engine": "arrays assembly build devices figures firing layout load numbering positions rods rules",
+    "enginefile": "conflicts exclusive fields file_kinds messages model plain_tables read suspicious toml_text unit_table "
+    "units unknown_keys",
+    "forces": "kinds orders spectrum",
+    "render": "analyses analysis_document csv devices figures formats json sheet units view",
+    "results": "analysis",
+    "sizing": "auto details device_tables effects fitting options planes reasons remedy residual schemes",
+}
+
+
+def test_a_plain_analysis_as_json_imports_these_modules_and_no_other():
+    """What else a change brings along is here for all to see: does everybody need it?"""
+    loaded = own_modules("analyze", V8, "--format", "json")
+    wanted = {f"balcli.{package}" for package in IMPORTED if package}
+    for package, names in IMPORTED.items():
+        wanted |= {f"balcli.{package}.{name}".replace("..", ".") for name in names.split()}
+    assert {*loaded} - {"balcli"} == wanted
+
+
+DEPTH = """
+import sys
+class Finder:
+    def find_spec(self, name, *_):
+        if name == "numpy":
+            frame, depth = sys._getframe(), 0
+            while frame := frame.f_back:
+                depth += 1
+            sys.stderr.write(str(depth))
+sys.meta_path.insert(0, Finder())
+from balcli.__main__ import main
+main()
+"""
+
+
+def test_numpy_is_imported_where_the_stack_is_low():
+    """Its own modules import each other so deep that they take most of the stack's first block."""
+    done = run_python("-c", DEPTH, "analyze", V8, "--format", "json")
+    assert 0 < int(done.stderr) < 30
+
+
+>>>>>>> own-input
 # ------------------------------------------------------------------ the end of the process
 def test_an_interruption_has_its_own_status(balcli, monkeypatch, good):
     def interrupted(**_):

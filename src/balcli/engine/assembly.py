@@ -15,7 +15,6 @@ from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine
-from ..core.strokes import find_travel
 from ..enginefile.model import ONE_BY_ONE, EngineFile
 from . import firing
 from .arrays import column, shared_column
@@ -202,6 +201,8 @@ class Assembly:
         """
         if self.model.articulation is None or self.rank:
             return self.tops_deg
+        from ..core.strokes import find_travel
+
         tops = find_travel(self.cylinders).top_deg
         return {
             n: self.axes_deg[n] + self.sense * float(top)

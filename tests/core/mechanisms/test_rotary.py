@@ -63,11 +63,7 @@ def test_strokes_and_dead_centres_are_those_of_the_same_engine_with_a_turning_cr
 def test_every_second_cylinder_fires_as_they_come_round():
     """Cylinder 5 of 5 stands 72 degrees behind cylinder 1 and comes to the top after it."""
     rotary_engine("radial = 5", more="firing_order = [1, 4, 2, 5, 3]\n")
-    with pytest.raises(
-        InputError,
-        match="cylinder 3 is not at top dead centre when it fires: its crank pin stands 0 deg "
-        "ahead of cylinder 1's, and would have to stand at 288 deg",
-    ):
+    with pytest.raises(InputError, match=r"layout.numbering = \[\[1\], \[5\], \[4\], \[3\], \[2\]\]"):
         rotary_engine("radial = 5", more="firing_order = [1, 3, 5, 2, 4]\n")
 
 

@@ -178,9 +178,15 @@ def test_v8_firing_orders_fit_their_crank() -> None:
     ],
 )
 def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay: float) -> None:
-    def text(order: tuple[int, ...]) -> str:
+    count = layout[layout.index("firing_order") :].partition("]")[0].count(",") + 1
+    ends = range(0, count, 1 if "radial" in layout else count // 2) if "bank" in layout or "radial" in layout else [0]
+    size = count // len(ends)
+    numbering = [list(range(end + 1, end + size + 1)) for end in ends]
+    even = [(360 if "strokes = 2" in layout else 720) / count] * count
+
+    def text(order: tuple[int, ...], more: str = "") -> str:
         at = layout.index("firing_order"), layout.index("]", layout.index("firing_order")) + 1
-        own = layout[: at[0]] + f"firing_order = {list(order)}" + layout[at[1] :]
+        own = layout[: at[0]] + f"firing_order = {list(order)}\nnumbering = {numbering}\n{more}" + layout[at[1] :]
         return changed(
             ("throws = [0, 180, 180, 0]\n", f"splay = {splay}\n"),
             ("firing_order = [1, 3, 4, 2]", own),
@@ -189,12 +195,11 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
 
     def fits(order: tuple[int, ...]) -> bool:
         try:
-            build(load(text(order)))
+            build(load(text(order, f"firing_intervals = {even}\n")))
         except InputError:
             return False
         return True
 
-    count = layout[layout.index("firing_order") :].partition("]")[0].count(",") + 1
     every = {order for rest in permutations(range(2, count + 1)) if fits(order := (1, *rest))}
     given = load(text(next(iter(every))))
     found = [r.design.firing_order for r in search_least(given, "firing_order", "moment.1.major", count=1000).results]
