@@ -116,21 +116,6 @@ def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
     assert [line.split(",")[1:3] for line in lines] == [["80.0", "1"], ["80.0", "2"], ["110.0", "1"], ["110.0", "2"]]
 
 
-<<<<<<< HEAD
-=======
-@pytest.mark.parametrize(
-    ("banks", "told"),
-    [
-        ("bank_angle = 60", "V is along x, from which bank angles count (midway between the banks)"),
-        ("banks = [90]", "(banks at 90 deg), H along y."),
-    ],
-)
-def test_where_vertical_is_told_by_the_banks(banks, told) -> None:
-    out = ask("analyze", "-", "--format", "marine", stdin=f"{TEXT}{banks}\n")
-    assert told in out
-
-
->>>>>>> own-input
 def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli):
     """As `gas = 0` in the file does."""
     text = MARINE.read_text(encoding="utf-8")
