@@ -228,8 +228,8 @@ class Lost:
     def nthreads(self):
         return {"one": 1}
 
-    def submit(self, work, parts, **options):
-        self.given += [(part, options["retries"] > 0) for _, part in parts]
+    def submit(self, work, block, **options):
+        self.given += [(block.sweep, options["retries"] > 0)]
         return self
 
     def result(self):
@@ -238,11 +238,10 @@ class Lost:
 
 def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
     from balcli.studies import dask_cluster as cluster
-    from balcli.studies.boxes import BoxSize
     from balcli.studies.sweep import read_sweep
 
     monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
-    monkeypatch.setattr(cluster, "size_boxes", lambda sweep: BoxSize(1, 1))
+    monkeypatch.setattr(cluster, "ROWS", 1)
     sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
     with pytest.raises(BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"):
         list(cluster.evaluate_on_cluster(sweep, client))

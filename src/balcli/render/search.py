@@ -97,9 +97,10 @@ def _notes(result: Search) -> Iterator[str]:
     if result.refused:
         yield f"Not every value of the range makes an engine; with {result.refused}."
     if result.constant:
-        yield f"{result.over} changes nothing of the objective: it is the same at every value."
+        done = "maximised" if result.objective.maximise else "minimised"
+        yield f"{result.over} changes nothing of what is {done}: it is the same at every value."
     for key in result.at_ends:
-        yield f"The best {key} is an end of its range: beyond it may be better."
+        yield (f"The best {key} is an end of the range that was searched: beyond it may be better.")
     assumed = tell_assumed_speed(result.model)
     if assumed and "operation.speed" not in result.over.split(", "):
         yield assumed

@@ -184,7 +184,8 @@ def rank_designs(
     for k in Merit(merit.excess, ranked(merit.cost)).rank():
         if merit.excess[k] == 0 and np.isfinite(merit.cost[k]):
             figures = {q.name: float(value[k]) for q, value in values.items()}
-            yield Found(designs[k], float(objective.add_up(lambda q: values[q][k])), figures)  # noqa: B023
+            total = -merit.cost[k] if objective.maximise else merit.cost[k]
+            yield Found(designs[k], float(total), figures)
 
 
 def rank_one_by_one(
