@@ -9,10 +9,13 @@ import pytest
 import balcli
 
 
-def test_the_mass_at_its_radius_has_the_unbalance_and_makes_the_force():
-    """Of balancer shafts of an in-line three: both as the device itself says it."""
-    found = balcli.balance(balcli.load_example("i3"), "couple-shaft")
-    omega = 6000 * math.pi / 30
+@pytest.mark.parametrize(
+    ("example", "scheme", "order", "rpm"), [("i3", "couple-shaft", 1, 6000), ("i4", "two-shaft", 2, 7000)]
+)
+def test_the_mass_at_its_radius_has_the_unbalance_and_makes_the_force(example, scheme, order, rpm):
+    """Of balancer shafts, both as the device itself says it; they turn at `order` times crank speed."""
+    found = balcli.balance(balcli.load_example(example), scheme)
+    omega = order * rpm * math.pi / 30
     assert found.practical
     for device, figures in zip(found.remedy.devices, found.practical, strict=True):
         assert figures.mass * figures.radius == pytest.approx(device.unbalance / 1e6)
