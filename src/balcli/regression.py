@@ -363,7 +363,8 @@ def _are_same_angles(
     number = float(order.removeprefix("order ") or 1)
     turn = {"axis_deg": 180.0, "phase_deg": 360.0, "peak_deg": 360.0 / (number or 1)}[key]
     move = abs(math.remainder(new.value - old.value, turn))
-    return move <= 1e-9 or math.radians(move) * min(weights) <= 4 * allowed
+    phase = math.radians(move) * (number if key == "peak_deg" else 1)
+    return move <= 1e-9 or phase * min(weights) <= 4 * allowed
 
 
 def _ellipticity(leaf: _Leaf) -> float:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.singular_values import Real
+from ..core.vibration import Real
 from ..enginefile.toml_text import name_file
 from ..enginefile.units import Dimension, Powers, convert
 from ..errors import BalcliError, warn
