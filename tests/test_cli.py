@@ -556,24 +556,6 @@ main()
     assert (done.returncode, done.stdout, done.stderr) == (128 + number, "", "")
 
 
-@unix
-def test_ctrl_c_ends_it_without_a_word_from_the_first_import_on():
-    """The signal comes while the program's own first module is being imported."""
-    code = f"""
-import os, signal, sys
-signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs the tests may ignore it
-class Import:
-    def find_spec(self, name, path=None, target=None):
-        if name == "balcli.errors":
-            os.kill(os.getpid(), {int(signal.SIGINT)})
-sys.meta_path.insert(0, Import())
-from balcli.__main__ import main
-main()
-"""
-    done = run_python("-c", code, "analyze", I4)
-    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
-
-
 FAULT = (
     "balcli: internal error (ZeroDivisionError: by nought); this is a fault of balcli, no figure "
     "is to be trusted: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "

@@ -19,7 +19,7 @@ from balcli.cli import COMMANDS
 from balcli.documents.names import DOCUMENTS
 
 FILES = sorted(PACKAGE.rglob("*.py"))
-MOST_MODULES, MOST_LINES = 365, 630  # of the package; of a module, docstrings and all
+MOST_MODULES, MOST_LINES = 385, 630  # of the package; of a module, docstrings and all
 LIMITS = ("MOST", "LARGEST", "LONGEST", "HIGHEST", "DEEPEST", "FARTHEST", "FINEST", "NEAREST")
 
 

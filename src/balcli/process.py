@@ -5,8 +5,6 @@ from __future__ import annotations
 import errno
 import os
 import signal
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 WINDOWS = os.name == "nt"
 
@@ -23,22 +21,6 @@ def exit_on_signals() -> None:
 
 def _exit(number: int, _frame: object) -> None:
     raise SystemExit(128 + number)
-
-
-@contextmanager
-def ctrl_c_later() -> Iterator[None]:
-    """Delay Ctrl-C; processes that are started here never receive it from the terminal."""
-    if not hasattr(signal, "pthread_sigmask"):  # Windows
-        yield
-        return
-    from multiprocessing import resource_tracker
-
-    resource_tracker.ensure_running()  # its start would unblock the signal
-    usual = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, usual)
 
 
 def has_no_reader(error: OSError) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from enum import StrEnum
 from pathlib import Path
@@ -13,6 +12,7 @@ import typer
 
 from ..enginefile.fields import counted
 from ..errors import BalcliError, Exit, legible
+from ..render.json import json_text
 from .output import emit, make_folder_of, write_file
 from .progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
 
@@ -90,7 +90,7 @@ def check(
             lines = [*_list_lines(moved), counted(len(results), "engine") + done]
             emit(legible("\n".join(lines)))
         case CheckFormat.JSON:
-            emit(json.dumps(_describe(files, moved), ensure_ascii=False))
+            emit(json_text(_describe(files, moved)))
         case CheckFormat.JUNIT:
             emit(_write_junit(files, moved))
     exit_on_errors(errors)

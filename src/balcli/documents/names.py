@@ -5,6 +5,7 @@ DOCUMENTS = {
     "analysis": "analysis",
     "balance": "analysis",
     "bench": "studies",
+    "check": "studies",
     "compare": "studies",
     "curves": "studies",
     "field": "field",
