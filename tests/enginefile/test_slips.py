@@ -281,8 +281,6 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
     )
     told = run_here("tables", "kvasnikov").err
     assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1, kvasnikov-2: name one\n"
-    told = run_here("sweep", "i4.toml", "--vary", "rpm=1,2", "--scheme", "auto").err
-    assert "balcli balance FILE --scheme NAME --write FITTED.toml" in told
     assert "FITTED.toml" not in run_here("engines", "--scheme", "auto").err
 
 
