@@ -213,10 +213,6 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
     )
     told = run_here("tables", "kvasnikov").err
     assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1, kvasnikov-2: name one\n"
-<<<<<<< HEAD
-=======
-    assert "FITTED.toml" not in run_here("engines", "--scheme", "auto").err
->>>>>>> own-shell
 
 
 def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
