@@ -251,7 +251,14 @@ def _list_paths(value, path=()):
         yield path, value
 
 
-@pytest.mark.parametrize("name", ["i3", "vtwin45", "i4_wiebe", "i6_diesel", "i4_mounts", "radial7_articulated"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "i3",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("vtwin45", "i4_wiebe", "i6_diesel", "i4_mounts")),
+        pytest.param("radial7_articulated", marks=pytest.mark.slow),
+    ],
+)
 def test_a_change_of_any_leaf_is_noticed(tmp_path, name):
     """Axes, angles, flags, texts, dead centers, and the figures of further chapters, at most 60 of each engine."""
     engine, record = load_example(name), tmp_path / "expected" / "x.json"

@@ -7,7 +7,7 @@ import sys
 from typing import NoReturn
 
 from .errors import Exit, say
-from .process import exit_on_signals
+from .process import exit_on_signals, has_no_reader
 
 
 def main() -> NoReturn:
@@ -17,15 +17,36 @@ def main() -> NoReturn:
         if getattr(sys, name) is None:  # closed by the caller (`>&-`): its use shall be an OSError
             setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are too small for threads
+    status: int = Exit.DONE
     try:
         from .cli import main as run  # imports libraries that read the environment
 
         run()
+    except SystemExit as end:
+        status = int(end.code or 0)
     except KeyboardInterrupt:
-        sys.exit(Exit.INTERRUPTED)
+        status = Exit.INTERRUPTED
     except Exception as error:
         _report_fault(error)
-        sys.exit(Exit.INTERNAL)
+        status = Exit.INTERNAL
+    sys.exit(_flush_streams(status))
+
+
+def _flush_streams(status: int) -> int:
+    """Write what is buffered, and return the exit status: 2 if a result cannot be written.
+
+    A stream that fails is replaced by the null device, or the interpreter's own flush at the end
+    would fail as well.
+    """
+    for stream in (sys.stderr, sys.stdout):
+        try:
+            stream.flush()
+        except OSError as error:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+            if stream is sys.stdout and status == Exit.DONE and not has_no_reader(error):
+                say(f"balcli: standard output: {error.strerror or error}")
+                status = Exit.BAD_INPUT
+    return status
 
 
 def _report_fault(error: Exception) -> None:

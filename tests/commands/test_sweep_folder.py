@@ -17,6 +17,8 @@ from balcli.commands.sweep_folder import MANIFEST, write_blocks
 from balcli.studies.sweep import read_sweep
 from balcli.studies.threads import share_work
 
+pytestmark = pytest.mark.slow
+
 dataset = pytest.importorskip("pyarrow.dataset")
 parquet = pytest.importorskip("pyarrow.parquet")
 

@@ -12,6 +12,8 @@ from balcli.core.combustion import Diesel, Dual, Otto, Wiebe
 from balcli.core.cylinder_pressure import GasError, PressureOnPiston
 from balcli.core.gas_cycle import Goal, Process, find_cycle_mistakes, gas_cycle
 
+pytestmark = pytest.mark.slow
+
 OF_THE_LARGEST = 1e-13  # harmonics
 RELATIVE = 1e-13  # imep
 LENGTHS = 0.045, 0.15, 0.086  # radius, rod, bore

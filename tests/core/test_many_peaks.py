@@ -9,6 +9,8 @@ from balcli.core import peaks
 from balcli.core.peaks import find_largest, find_peak
 from balcli.core.phasors import Phasors
 
+pytestmark = pytest.mark.slow
+
 DENSE = np.linspace(0, 4 * np.pi, 200_001)
 
 

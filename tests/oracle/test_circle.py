@@ -22,6 +22,8 @@ from balcli.core.phasors import Phasors
 from balcli.forces.orders import find_relevant_orders
 from balcli.forces.spectrum import compute_spectra
 
+pytestmark = pytest.mark.slow
+
 TRUE = 1e-10  # relative to the true optimum
 VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False)
 

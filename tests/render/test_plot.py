@@ -30,6 +30,8 @@ from balcli.results.analysis import QUANTITIES, analyze
 from balcli.studies.pictures import Study
 from balcli.torque.pictures import compute_picture
 
+pytestmark = pytest.mark.slow
+
 HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
 ANALYSES = PAGES[:6]
 MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}

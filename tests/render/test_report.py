@@ -21,6 +21,8 @@ from balcli.render.units import IMPERIAL, SI
 from balcli.results.analysis import analyze
 from balcli.results.balance import balance
 
+pytestmark = pytest.mark.slow
+
 HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
 RADIAL = """\
 name = "radial with a master rod"

@@ -17,6 +17,8 @@ from balcli.forces.guide_moments import compute_guide_moments
 from balcli.studies.deviations import DeviatingEngine, Tolerances
 from balcli.torque.analysis import analyze_torque
 
+pytestmark = pytest.mark.slow
+
 FOUR = PETROL_FOUR.replace("[rod]", "inertia = 90000\n[rod]")
 PLAIN = f"{FOUR}[cylinder]\n"
 

@@ -21,6 +21,8 @@ from balcli.forces.spectrum import compute_spectra
 from balcli.studies.deviations import DeviatingEngine, Tolerances
 from balcli.studies.quantities import parse_quantities
 
+pytestmark = pytest.mark.slow
+
 FOUR = (
     PETROL_FOUR.replace("[rod]", "throw_mass = 0.8\n[rod]")
     + """\

@@ -18,6 +18,8 @@ from balcli.render.plot.pages import PageSubject
 from balcli.sizing.options import SchemeOptions
 from balcli.studies.pictures import compute_study, swing_banks
 
+pytestmark = pytest.mark.slow
+
 VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""))
 CROSS = changed(

@@ -32,6 +32,8 @@ from balcli.studies.sweep import (
     split_columns,
 )
 
+pytestmark = pytest.mark.slow
+
 SAME = 1e-12  # of the largest value of a column
 LARGE = BoxSize(1 << 20, 1 << 20)  # more than any sweep here has
 EVERYTHING = parse_quantities(

@@ -17,6 +17,8 @@ from balcli import analyze_torsion
 from balcli.enginefile.templates import template
 from balcli.render.plot.torsion import make_torsion
 
+pytestmark = pytest.mark.slow
+
 CHAIN = template("torsion")  # the file to start from
 RANGE = ("--speeds", "850:1150:0.5")
 # 1 kg m2 on a spring with a natural frequency of 1000 rpm, excited by 100 N m

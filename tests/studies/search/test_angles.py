@@ -26,6 +26,8 @@ from balcli.studies.search.evaluate import fires_evenly
 from balcli.studies.search.objective import Objective, parse_objective
 from balcli.studies.search.search import search_arrangements
 
+pytestmark = pytest.mark.slow
+
 Array = NDArray[np.float64]
 PATHS = {"bank_angle": "layout.bank_angle", "splay": "crank.splay"}
 SPANS = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}

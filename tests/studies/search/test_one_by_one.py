@@ -20,6 +20,8 @@ from balcli.studies.search.designs import Design
 from balcli.studies.search.local import Box, Effort, find_local_optima
 from balcli.studies.search.objective import Merit, parse_objective
 
+pytestmark = pytest.mark.slow
+
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 SIX = write_diesel(extra=GAS)
 ORDER = "firing_order = [1, 5, 3, 6, 2, 4]"
