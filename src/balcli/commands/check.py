@@ -65,7 +65,7 @@ def check(
     Examples:
       balcli check v8.toml --update
       balcli check v8.toml
-      balcli check engines --tolerance 1e-6 --format junit
+      balcli check v8.toml --tolerance 1e-6 --format junit
     """
     from .. import regression
     from .inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each

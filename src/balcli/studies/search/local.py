@@ -150,18 +150,24 @@ def _find_starts(points: Array, merits: Merit, box: Box) -> Array:
 
 
 def _divide(judge: Judge, middle: Array, step: Array, exact: Array) -> Array:
-    """Return the minima in middle +- step by golden section, all at once, shape (minima, 1)."""
-    low, high = middle - step, middle + step
-    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    at_left, at_right = judge(left), judge(right)
-    for _ in range(math.ceil(math.log(float(exact[0] / (2 * step[0]))) / math.log(_GOLDEN))):
-        lower = at_left.is_at_most(at_right)[:, None]
-        low, high = np.where(lower, low, left), np.where(lower, right, high)
-        new = np.where(lower, high - _GOLDEN * (high - low), low + _GOLDEN * (high - low))
-        at_new, side = judge(new), lower[:, 0]
-        left, right = np.where(lower, new, right), np.where(lower, left, new)
-        at_left, at_right = _choose(side, at_new, at_right), _choose(side, at_left, at_new)
-    return np.where(at_left.is_at_most(at_right)[:, None], left, right)
+    """Return the minima in middle +- step by golden section, all at once, shape (minima, 1).
+
+    The best point so far stays between the ends of its bracket, so that the search never leaves
+    what keeps the limits, however narrow it is.
+    """
+    low, best, high = middle - step, middle, middle + step
+    reached = judge(best)
+    for _ in range(4 + math.ceil(math.log(float(exact[0] / (2 * step[0]))) / math.log(_GOLDEN))):
+        above = high - best > best - low
+        new = best + (1 - _GOLDEN) * np.where(above, high - best, low - best)
+        merit = judge(new)
+        better = merit.is_at_most(reached)
+        found = better[:, None]
+        low = np.where(above, np.where(found, best, low), np.where(found, low, new))
+        high = np.where(above, np.where(found, high, new), np.where(found, best, high))
+        best = np.where(found, new, best)
+        reached = _choose(better, merit, reached)
+    return best
 
 
 def _choose(where: NDArray[np.bool_], one: Merit, other: Merit) -> Merit:
