@@ -120,7 +120,8 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     ends = judge(found)
     better = ends.is_at_most(merits.take(starts))[:, None]
     found = np.where(better, found, points[starts])
-    slack = effort.as_good * np.abs(merits.cost[starts])
+    found = found[judge(found).excess == 0]  # others would be rounded to wherever limits are kept
+    slack = effort.as_good * np.abs(judge(found).cost)
     rounded = [_round_off(judge, box, x, each) for x, each in zip(found, slack, strict=True)]
     found = np.array(rounded).reshape(-1, box.size)
     best: list[Array] = []
