@@ -1,6 +1,7 @@
 """Which documents there are, without what it takes to describe them."""
 
-# By name, which stands in `format` too, the module with the type that is called so.
+# By name, which stands in `format` too: the module here with the TypedDict that is called so, or
+# the module of the package and the class of records that `to_document` writes.
 DOCUMENTS = {
     "analysis": "analysis",
     "balance": "analysis",

@@ -9,36 +9,21 @@ from pydantic import TypeAdapter
 
 from ..enginefile.schema import DIALECT, Node
 from .names import DOCUMENTS
-
-_UNITS = {  # endings of names
-    "N": "N",
-    "Nm": "N·m",
-    "J": "J",
-    "W": "W",
-    "Pa": "Pa",
-    "Hz": "Hz",
-    "deg": "deg",
-    "rpm": "rpm",
-    "mm": "mm",
-    "m": "m",
-    "m3": "m³",
-    "kg": "kg",
-    "kg_m": "kg·m",
-    "kg_m2": "kg·m²",
-    "g_mm": "g·mm",
-    "N_per_m": "N/m",
-    "Nm_per_rad": "N·m/rad",
-    "Nms_per_rad": "N·m·s/rad",
-    "percent": "%",
-}
+from .records import describe_record, find_unit
 
 
 def describe_document(name: str) -> Node:
     """JSON Schema (draft 2020-12) of one of `DOCUMENTS`. Further keys are allowed: new ones may be
     added under the same version.
     """
-    module = import_module(f".{DOCUMENTS[name]}", __package__)
-    described = _tidy(TypeAdapter(getattr(module, name.capitalize())).json_schema())
+    place, _, record = DOCUMENTS[name].partition(":")
+    if record:  # a class of records
+        described = describe_record(getattr(import_module(f"balcli.{place}"), record))
+        described["properties"] = {"version": {"type": "string"}} | described["properties"]
+        described["required"] = ["version", *described["required"]]
+    else:
+        module = import_module(f".{place}", __package__)
+        described = _tidy(TypeAdapter(getattr(module, name.capitalize())).json_schema())
     head = {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}:1"}
     return {**head, **described, "title": f"balcli.{name}/1"}
 
@@ -51,7 +36,7 @@ def _tidy(node: Node) -> Node:
     if isinstance(tidied.get("description"), str):
         tidied["description"] = " ".join(tidied["description"].split())
     for key, field_node in tidied.get("properties", {}).items():
-        if (unit := _find_unit(key)) and "$ref" not in field_node:
+        if (unit := find_unit(key)) and "$ref" not in field_node:
             field_node.setdefault("description", f"[{unit}]")
     return tidied
 
@@ -60,10 +45,3 @@ def _tidy_member(value: Any) -> Any:
     if isinstance(value, dict):
         return _tidy(value)
     return [_tidy_member(item) for item in value] if isinstance(value, list) else value
-
-
-def _find_unit(key: str) -> str:
-    """The unit in which a name ends: `kg_m` before `m`."""
-    parts = key.split("_")
-    ends = ("_".join(parts[k:]) for k in range(1, len(parts)))
-    return next((_UNITS[end] for end in ends if end in _UNITS), "")

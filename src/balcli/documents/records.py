@@ -1,0 +1,284 @@
+"""Records: a figure of a result is declared once, as an attribute of a frozen dataclass.
+
+A result is a tree of dataclasses, and all that programs read derives from their attributes. The
+name of an attribute is its key in JSON and its path in CSV (`worst.speed_rpm`), the ending of the
+name is its unit, the annotation is its type, the line in `Attributes:` of the docstring is its
+description in the JSON Schema.
+
+    to_document(record)       the JSON object
+    list_figures(document)    one figure a number, for the lines of CSV
+    describe_record(kind)     the JSON Schema
+
+Rules:
+
+* An attribute with the default None is optional: where it is None, its key is left out.
+* A number that is not finite becomes null; a negative zero becomes 0.
+* Marks in `Annotated`: `Polar` writes a complex number as magnitude and angle, `Axes(2)` is an
+  array of two axes (no mark: one), `INLINE` puts the keys of a value beside those of the other
+  attributes, `HIDDEN` keeps an attribute for Python alone.
+
+Example::
+
+    @dataclass(frozen=True, kw_only=True)
+    class Weight:
+        '''A weight in a plane.
+
+        Attributes:
+            force: Centrifugal force.
+            radius_mm: Radius of the weight; left out where the file has none.
+        '''
+
+        force: Annotated[complex, Polar("force_N", "angle_deg"), INLINE]
+        radius_mm: float | None = None
+
+    to_document(Weight(force=3j))      # {"force_N": 3.0, "angle_deg": 90.0}
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from functools import cache
+from inspect import cleandoc
+from types import NoneType, UnionType
+from typing import Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+Node = dict[str, Any]  # an object of JSON
+
+# Units by the ending of a name, longest first.
+UNITS = {
+    "Nms_per_rad": "N·m·s/rad",
+    "Nm_per_rad": "N·m/rad",
+    "N_per_m": "N/m",
+    "kg_m2": "kg·m²",
+    "kg_m": "kg·m",
+    "g_mm": "g·mm",
+    "percent": "%",
+    "Nm": "N·m",
+    "m3": "m³",
+    **{unit: unit for unit in ("rpm", "deg", "mm", "Hz", "Pa", "kg", "N", "J", "W", "m")},
+}
+_IN_CSV = str.maketrans("·²³", " 23")
+
+
+class Polar(NamedTuple):
+    """Mark of a complex number: the keys of its magnitude and of its angle.
+
+    The angle is in degrees, 0 <= angle < 360, and null where the magnitude is 0.
+    """
+
+    magnitude: str
+    angle: str
+
+    def split(self, value: complex) -> Node:
+        """Return the JSON object of a value."""
+        return {
+            self.magnitude: float(abs(value)),
+            self.angle: angle_deg(value) if value else None,
+        }
+
+
+class Axes(NamedTuple):
+    """Mark of an array: how many axes it has."""
+
+    number: int
+
+
+INLINE = "inline"
+HIDDEN = "hidden"
+
+
+def angle_deg(value: complex) -> float:
+    """Return the angle of a complex number, deg, 0 <= angle < 360."""
+    angle = math.degrees(math.atan2(value.imag, value.real)) % 360
+    return 0.0 if angle == 360 else angle
+
+
+class _Attribute(NamedTuple):
+    name: str
+    kind: Any  # annotation without marks
+    optional: bool
+    marks: tuple[Any, ...]
+
+    @property
+    def polar(self) -> Polar | None:
+        return next((mark for mark in self.marks if isinstance(mark, Polar)), None)
+
+
+@cache
+def _list_attributes(record: type) -> tuple[_Attribute, ...]:
+    """Return the attributes that documents show, in their order."""
+    hints = get_type_hints(record, include_extras=True)
+    found = (
+        _Attribute(each.name, hints[each.name], each.default is None, _find_marks(hints[each.name]))
+        for each in fields(record)
+    )
+    return tuple(each for each in found if HIDDEN not in each.marks)
+
+
+def _find_marks(annotation: Any) -> tuple[Any, ...]:
+    """Return what `Annotated` adds to a type and to the types within it."""
+    inner = (mark for part in get_args(annotation) for mark in _find_marks(part))
+    return (*getattr(annotation, "__metadata__", ()), *inner)
+
+
+# ------------------------------------------------------------------ JSON
+def to_document(record: Any) -> Node:
+    """Return the JSON object of a record.
+
+    Args:
+        record: Instance of a dataclass whose attributes are numbers, words, arrays, records, or
+            lists and dicts of these.
+    """
+    document: Node = {}
+    for each in _list_attributes(record.__class__):
+        value = getattr(record, each.name)
+        if value is not None or not each.optional:
+            written = _write(value, each.polar)
+            document |= written if INLINE in each.marks else {each.name: written}
+    return document
+
+
+def _write(value: Any, polar: Polar | None) -> Any:
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)) and not hasattr(value, "_fields"):
+        return [_write(item, polar) for item in value]
+    if isinstance(value, Mapping):
+        return {key: _write(item, polar) for key, item in value.items()}
+    if polar is not None and value is not None:
+        return polar.split(value)
+    if is_dataclass(value):
+        return to_document(value)
+    if isinstance(value, float):
+        return value + 0.0 if math.isfinite(value) else None
+    return value
+
+
+# ------------------------------------------------------------------ CSV
+class Figure(NamedTuple):
+    """A number or word of a document, with its path (`worst.speed_rpm`) and its unit."""
+
+    name: str
+    value: float | bool | str | None
+    unit: str
+
+
+def list_figures(
+    document: Mapping[str, Any], without: Collection[str] = (), path: str = ""
+) -> Iterator[Figure]:
+    """Yield one figure for every number and word of a document; lists of numbers are left out.
+
+    Args:
+        document: As of `to_document`, or an object in it.
+        without: Keys to leave out, such as those that stand in columns of their own.
+        path: Beginning of all names.
+    """
+    for key, value in document.items():
+        if key in without:
+            continue
+        if isinstance(value, Mapping):
+            yield from list_figures(value, (), f"{path}{key}.")
+        elif isinstance(value, list):
+            for k, item in enumerate(value, 1):
+                if isinstance(item, Mapping):
+                    yield from list_figures(item, (), f"{path}{key}.{k}.")
+        else:
+            yield Figure(f"{path}{key}", value, find_unit(key).translate(_IN_CSV))
+
+
+def list_series(document: Mapping[str, Any], place: int) -> Iterator[Figure]:
+    """Yield one figure for every list of numbers in a document: the number at `place`, from 0."""
+    for key, value in document.items():
+        if isinstance(value, list) and value and not isinstance(value[0], (Mapping, list)):
+            yield Figure(key, value[place], find_unit(key).translate(_IN_CSV))
+
+
+def find_unit(key: str) -> str:
+    """Return the unit that a key ends in; empty if it ends in none."""
+    return next((UNITS[end] for end in UNITS if key == end or key.endswith(f"_{end}")), "")
+
+
+def remove_unit(key: str) -> str:
+    """Return a key without the unit at its end: `inertia` of `inertia_kg_m2`."""
+    return next((key.removesuffix(f"_{end}") for end in UNITS if key.endswith(f"_{end}")), key)
+
+
+# ------------------------------------------------------------------ JSON Schema
+_SIMPLE = {bool: "boolean", int: "integer", str: "string", NoneType: "null"}
+_NUMBER = {"type": ["number", "null"]}
+_ATTRIBUTE = re.compile(r"^ {4}(\w+): (.*(?:\n {8}.*)*)", re.MULTILINE)
+
+
+def describe_record(record: type) -> Node:
+    """Return the JSON Schema of the documents that `to_document` makes of a class of records."""
+    definitions: Node = {}
+    node = _describe_class(record, definitions)
+    return {**node, "$defs": definitions} if definitions else node
+
+
+def _describe_class(record: type, definitions: Node) -> Node:
+    summary, _, rest = cleandoc(record.__doc__ or "").partition("\n\n")
+    texts = dict(_ATTRIBUTE.findall(rest.partition("Attributes:\n")[2]))
+    properties: Node = {}
+    required: list[str] = []
+    for each in _list_attributes(record):
+        node = _describe(each.kind, each, definitions)
+        inline = INLINE in each.marks
+        if inline and "$ref" in node:
+            node = definitions[node["$ref"].rpartition("/")[2]]
+        for key, part in (node["properties"] if inline else {each.name: node}).items():
+            unit = find_unit(key)
+            text = "" if inline else " ".join(texts.get(each.name, "").split())
+            text = " ".join(filter(None, (text, unit and f"[{unit}]")))
+            properties[key] = {"description": text} | part if text else part
+        if not each.optional:
+            required += node.get("required", ()) if inline else (each.name,)
+    return {
+        "type": "object",
+        "description": " ".join(summary.split()),
+        "properties": properties,
+        "required": required,
+    }
+
+
+def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
+    """Return the schema of a type within the annotation of an attribute."""
+    origin, arguments = get_origin(kind), get_args(kind)
+    if hasattr(kind, "__metadata__"):
+        return _describe(kind.__origin__, each, definitions)
+    if origin in (Union, UnionType):
+        kinds = [one for one in arguments if not (one is NoneType and each.optional)]
+        nodes = [_describe(one, each, definitions) for one in kinds]
+        return nodes[0] if len(nodes) == 1 else {"anyOf": nodes}
+    if origin is Literal:
+        return {"type": "string", "enum": [*arguments]}
+    if origin is not None:
+        return _describe_many(origin, arguments, each, definitions)
+    if each.polar is not None and kind is not NoneType:
+        properties = dict.fromkeys(each.polar, _NUMBER)
+        return {"type": "object", "properties": properties, "required": [*properties]}
+    if is_dataclass(kind):
+        name = kind.__name__  # type: ignore[union-attr]
+        if name not in definitions:
+            definitions[name] = {}  # stands there while its attributes are described
+            definitions[name] = _describe_class(kind, definitions)  # type: ignore[arg-type]
+        return {"$ref": f"#/$defs/{name}"}
+    return {"type": _SIMPLE[kind]} if kind in _SIMPLE else _NUMBER
+
+
+def _describe_many(origin: Any, arguments: Any, each: _Attribute, definitions: Node) -> Node:
+    """Return the schema of an array, dict, tuple or list."""
+    if issubclass(origin, np.ndarray):
+        node = _describe(float, each, definitions)
+        for _ in range(next((mark.number for mark in each.marks if isinstance(mark, Axes)), 1)):
+            node = {"type": "array", "items": node}
+        return node
+    if issubclass(origin, Mapping):
+        values = _describe(arguments[1], each, definitions)
+        return {"type": "object", "additionalProperties": values}
+    return {"type": "array", "items": _describe(arguments[0], each, definitions)}
