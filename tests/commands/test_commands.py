@@ -6,9 +6,7 @@ from __future__ import annotations
 
 import csv
 import json
-import math
 import re
-import subprocess
 import sys
 from contextlib import nullcontext
 from types import ModuleType
@@ -19,20 +17,18 @@ from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, tables
 from support.paths import ENGINES, write
 
-from balcli.bench import bench, stopwatch
-from balcli.bench.bench import Bench, Case, Ratio, Row
+from balcli import bench
+from balcli.bench import Bench, Ratio, Row
 from balcli.errors import BalcliError, InputError
-from balcli.process import WINDOWS
 
 MEASURED = Bench(
-    (
-        Row("A_2", "closed form", 2e-6, 0.0),
-        Row("A_2", "two-term formula", 1e-6, 3.2e-2),
-        Row("sweep", "exp alone", 5e-8, None),
-        Row("sweep", "closed form", 1e-7, 1e-16),
-        Row("sweep", "FFT", 1e-5, 1e-15),
+    rows=(
+        Row(task="A_2", method="closed form", seconds=2e-6, error=0.0),
+        Row(task="A_2", method="two-term formula", seconds=1e-6, error=3.2e-2),
+        Row(task="sweep", method="closed form", seconds=1e-7, error=1e-16),
+        Row(task="sweep", method="FFT", seconds=1e-5, error=1e-15),
     ),
-    (Ratio("one to other", 1.25),),
+    ratios=(Ratio(what="one to other", value=1.25),),
 )
 
 
@@ -95,7 +91,7 @@ def test_curves_as_json_have_an_angle_for_each_value(balcli, four):
 # ------------------------------------------------------------------ bench
 @pytest.fixture
 def measured(monkeypatch):
-    monkeypatch.setattr(bench, "bench", lambda: MEASURED)
+    monkeypatch.setattr(bench, "measure", lambda: MEASURED)
 
 
 @pytest.mark.usefixtures("measured")
@@ -111,59 +107,26 @@ def test_bench_in_every_format(balcli, tmp_path):
     assert ask_json("bench")["ratios"] == [{"what": "one to other", "value": 1.25}]
     assert balcli("bench", "-o", tmp_path / "x.svg")[0] == 0
     assert "two-term formula" in (tmp_path / "x.svg").read_text()
-    assert "exp alone" not in (tmp_path / "x.svg").read_text()  # has no error to be drawn over
 
 
-@pytest.mark.stress
-def test_bench_times_each_case_by_the_variant_and_its_own_pairs(monkeypatch):
-    case = Case("task", "way", lambda: sum(range(1000)), 0.5, times=1000)
-    monkeypatch.setattr(bench, "cases", lambda: [case])
-    monkeypatch.setattr(bench, "_start_ratios", lambda: iter([Ratio("cold", 2.0)]))
-    monkeypatch.setattr(bench, "time_run", lambda run: 8.0)
-    found = bench.bench()
-    assert found.rows[0].error == 0.5
-    assert found.rows[0].seconds == 0.008  # of one variant of a thousand
-    assert Ratio("cold", 2.0) in found.ratios
-    assert all(math.isfinite(r.value) and r.value > 0 for r in found.ratios)
-
-
-def test_two_times_are_taken_in_turn_and_compared_by_their_medians(monkeypatch):
+def test_bench_times_each_case_by_the_variant_and_cold_starts_by_medians_of_pairs(monkeypatch):
     """By a clock of ours: a busy machine disturbs some of the nine pairs, not their medians."""
-    taken = []
+    case = bench.Case("task", "way", lambda: sum(range(1000)), 0.5, times=1000)
+    clock, started = [0.0], []
 
-    def timed(run, number):
-        taken.append(run())
-        return {"one": 0.6, "other": 0.2}[taken[-1]] * number * (50 if len(taken) in (4, 9, 12, 15) else 1)
-
-    monkeypatch.setattr(stopwatch.timeit, "timeit", timed)
-    assert stopwatch.compare_times(lambda: "one", lambda: "other") == pytest.approx(3)
-    assert taken == ["other", *["one", "other"] * 9]
-
-
-def test_programs_are_compared_by_processor_time_and_by_the_clock(monkeypatch):
-    """By clocks of ours: the one computes twice as long as the other, and waits as well."""
-    clocks = {"processor": 0.0, "clock": 0.0}
-    monkeypatch.setattr(stopwatch, "_read_children_time", lambda: clocks["processor"])
-    monkeypatch.setattr(stopwatch.time, "perf_counter", lambda: clocks["clock"])
-    started = []
-
-    def start(name, computing, waiting):
-        disturbed = 50 if len(started) in (4, 9, 12, 15) else 1
+    def start(argv, **_):
+        name = argv[2]
         started.append(name)
-        clocks["processor"] += computing * disturbed
-        clocks["clock"] += (computing + waiting) * disturbed
+        clock[0] += {"balcli": 1.0, bench.LIBRARIES: 0.2}.get(name, 0.5) * (50 if len(started) in (4, 9, 12) else 1)
 
-    spent = stopwatch.compare_programs(lambda: start("one", 0.4, 0.6), lambda: start("other", 0.2, 0.0))
-    assert spent == pytest.approx((2, 5))
-    assert started == ["one", "other"] * 9
-
-
-def test_processor_time_of_programs_is_that_of_the_system():
-    """A program that computes for a fifth of a second by its own clock, and one that sleeps."""
-    busy = "import time\nwhile time.process_time() < 0.2: pass"
-    before = stopwatch._read_children_time()
-    subprocess.run([sys.executable, "-c", busy], check=True)
-    assert math.isnan(before) if WINDOWS else stopwatch._read_children_time() - before >= 0.19
+    monkeypatch.setattr(bench, "list_cases", lambda: [case])
+    monkeypatch.setattr(bench, "time_run", lambda run: 8.0)
+    monkeypatch.setattr(bench.time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(bench.subprocess, "run", start)
+    found = bench.measure()
+    assert found.rows == (Row(task="task", method="way", seconds=0.008, error=0.5),)  # of one variant of a thousand
+    assert [ratio.value for ratio in found.ratios] == pytest.approx([5, 2])
+    assert started == ["balcli", bench.LIBRARIES] * 9 + ["balcli", bench.SMALLEST] * 9
 
 
 def test_the_quickest_of_several_runs_counts(monkeypatch):
@@ -177,8 +140,8 @@ def test_the_quickest_of_several_runs_counts(monkeypatch):
         def repeat(self, times, number):
             return [number * seconds for seconds in (0.007, 0.003, 0.9, 0.005, 0.004)][:times]
 
-    monkeypatch.setattr(stopwatch.timeit, "Timer", Timer)
-    assert stopwatch.time_run(lambda: None) == pytest.approx(0.003)
+    monkeypatch.setattr(bench.timeit, "Timer", Timer)
+    assert bench.time_run(lambda: None) == pytest.approx(0.003)
 
 
 # ------------------------------------------------------------------ sweeps: cluster, files,

@@ -161,7 +161,7 @@ def test_field_and_a_chain_of_shafts() -> None:
 
 def test_a_bench() -> None:
     """Of a document as `bench` prints it: running it takes seconds."""
-    row = {"task": "a", "method": "b", "seconds": 1e-3, "error": None}
+    row = {"task": "a", "method": "b", "seconds": 1e-3, "error": 0.1}
     ratios = [{"what": "a / b", "value": 2.0}]
     check(json.dumps({"format": "balcli.bench/1", "version": __version__, "rows": [row], "ratios": ratios}))
 

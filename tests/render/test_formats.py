@@ -12,7 +12,7 @@ from support.commands import ask
 from support.paths import ENGINES, PACKAGE
 from support.rotors import three_runs
 
-from balcli.bench import bench
+from balcli import bench
 from balcli.commands import output
 from balcli.render.formats import Format
 
@@ -50,10 +50,10 @@ def show(monkeypatch):
         called.append(renderer.__name__)
         return render(results, renderer, *args, **options)
 
-    rows = (bench.Row("task", "method", 1e-6, None), bench.Row("task", "other", 2e-6, 1e-3))
-    measured = bench.Bench(rows, (bench.Ratio("one to other", 2.0),))
+    rows = (bench.Row(task="task", method="way", seconds=1e-6, error=1e-3),)
+    measured = bench.Bench(rows=rows, ratios=(bench.Ratio(what="one to other", value=2.0),))
     monkeypatch.setattr(output, "render", recorded)
-    monkeypatch.setattr(bench, "bench", lambda: measured)
+    monkeypatch.setattr(bench, "measure", lambda: measured)
 
     def run(name: str, form: Format) -> str:
         out = ask(*SHOWN[name], "--format", form, stdin=RUNS)

@@ -17,7 +17,7 @@ def bench(form: FormatOption = None, output: Output = None) -> None:
     Example:
       balcli bench -o bench.svg
     """
-    from ..bench.bench import bench as measure
+    from ..bench import measure
 
     chosen = format_of(output, form, {**TEXTS, ".svg": "svg"}, "table")
     found = measure()

@@ -5,7 +5,7 @@
 DOCUMENTS = {
     "analysis": "analysis",
     "balance": "analysis",
-    "bench": "studies",
+    "bench": "bench:Bench",
     "check": "studies",
     "compare": "studies",
     "curves": "studies",

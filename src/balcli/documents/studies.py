@@ -148,22 +148,6 @@ class Table(Document):
     errata: list[Erratum]
 
 
-class Timed(TypedDict):
-    """One way to some figures; error null: there is nothing to compare with."""
-
-    task: str
-    method: str
-    seconds: float
-    error: float | None
-
-
-class Ratio(TypedDict):
-    """Of two run times."""
-
-    what: str
-    value: float
-
-
 class Moved(TypedDict):
     """A figure that differs from the record, or the reason why nothing could be compared."""
 
@@ -186,11 +170,3 @@ class Check(Document):
 
     format: Literal["balcli.check/1"]
     engines: list[CheckedEngine]
-
-
-class Bench(Document):
-    """Run time against error."""
-
-    format: Literal["balcli.bench/1"]
-    rows: list[Timed]
-    ratios: list[Ratio]

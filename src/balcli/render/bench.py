@@ -4,27 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..documents.records import to_document
 from .csv import Rows
 from .plot import style
 from .sheet import Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..bench.bench import Bench, Row
+    from ..bench import Bench, Row
     from .units import System
 
 ROUNDING = 1e-13  # errors below it are rounding, which a picture shows here
 
 
 def document(result: Bench) -> dict[str, Any]:
-    """`balcli.bench/1`: seconds, relative errors (null: there is none), ratios of run times."""
-    return {
-        "format": "balcli.bench/1",
-        "rows": [
-            {"task": r.task, "method": r.method, "seconds": r.seconds, "error": r.error}
-            for r in result.rows
-        ],
-        "ratios": [{"what": r.what, "value": r.value} for r in result.ratios],
-    }
+    """Return `balcli.bench/1`."""
+    return to_document(result)
 
 
 def rows(result: Bench, _system: System) -> Rows:
@@ -62,7 +56,7 @@ def sheet(result: Bench, _system: System) -> Sheet:
 
 def _error(row: Row) -> str:
     """Two digits, where it is more than rounding."""
-    return "–" if row.error is None else "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
+    return "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
 
 
 def draw_bench(result: Bench) -> bytes:
@@ -70,9 +64,9 @@ def draw_bench(result: Bench) -> bytes:
     tasks = list(dict.fromkeys(r.task for r in result.rows))
     with style.open_figure(5.2 * len(tasks), 4.6) as page:
         for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
-            points = [r for r in result.rows if r.task == task and r.error is not None]
+            points = [r for r in result.rows if r.task == task]
             for r in points:
-                spot = r.seconds * 1e6, max(r.error or 0.0, ROUNDING)
+                spot = r.seconds * 1e6, max(r.error, ROUNDING)
                 axes.plot(
                     *spot,
                     "o",

@@ -1,0 +1,370 @@
+"""Run time against error of every method that finds the same figures, on this machine.
+
+The methods: the two-term formula, the series that books print, the closed form, the FFT of samples,
+and differences of the piston's position (time stepping). Each is written as one would write it with
+numpy alone; the closed form is balcli itself. Errors are relative to exact fractions.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+import timeit
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from .core.mechanisms import power_series
+from .core.phasors import Array, Complex
+from .engine.build import Engine, build
+from .engine.load import parse
+from .forces.kinds import DEFAULT_QUANTITIES
+from .forces.spectrum import compute_spectra
+from .studies.parameters import Parameter, ladder
+from .studies.quantities import parse_quantities
+from .studies.sweep import Sweep, evaluate_chunks
+
+LAM = 0.28
+ORDERS = [1, 2, 4, 6, 8]
+SWEPT_ORDERS = [1, 2]
+POWERS = (3, 5, 7)  # of lambda, up to which books print the series
+POINTS = (8, 16, 32, 64)
+STEPS = (64, 360, 720, 3600)
+EXACT_POWER = 81  # lambda^81 is below 1e-40 at lambda = 0.3
+CYLINDER = """
+[crank]
+stroke = 90
+[rod]
+ratio = 0.28
+[piston]
+mass = 0.5
+"""
+V8 = """
+name = "72-degree V8, uneven throws"
+[crank]
+stroke = 90
+throws = [0, 100, 250, 190]      # no order is balanced, so that relative errors mean something
+spacing = 110
+throw_mass = 1.2
+[rod]
+ratio = 0.28
+mass = 0.6
+cg = 45
+inertia = 4000
+[piston]
+mass = 0.5
+[layout]
+bank_angle = 72
+stagger = 22
+"""
+LIBRARIES = "import numpy, typer; from pydantic import BaseModel"
+SMALLEST = """
+import numpy, typer
+from pydantic import BaseModel
+
+def main(number: float = 1.0) -> None:
+    pass
+
+typer.run(main)
+"""
+_PAIRS = 9
+_SHORTEST = 1e-7  # s; no run is taken as quicker
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """One way to one figure.
+
+    Attributes:
+        task: What is computed.
+        method: How.
+        seconds: Run time; in a sweep, of each variant.
+        error: Largest relative error.
+    """
+
+    task: str
+    method: str
+    seconds: float
+    error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ratio:
+    """A run time as a multiple of another.
+
+    Attributes:
+        what: Which run, and by which it is divided.
+        value: The ratio.
+    """
+
+    what: str
+    value: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bench:
+    """All that was measured in one run.
+
+    Attributes:
+        rows: Run time and error of every method.
+        ratios: Pairs of run times, measured in turn.
+    """
+
+    format: Literal["balcli.bench/1"] = "balcli.bench/1"
+    rows: tuple[Row, ...]
+    ratios: tuple[Ratio, ...]
+
+
+class Case(NamedTuple):
+    """A run to be timed, and the error of its result; it computes `times` variants."""
+
+    task: str
+    method: str
+    run: Callable[[], object]
+    error: float
+    times: int = 1
+
+
+def measure() -> Bench:
+    """Time every method, and a cold start of the program; about ten seconds."""
+    rows = tuple(
+        Row(task=c.task, method=c.method, seconds=time_run(c.run) / c.times, error=c.error)
+        for c in list_cases()
+    )
+    return Bench(rows=rows, ratios=tuple(compare_starts()))
+
+
+def list_cases() -> Iterator[Case]:
+    """Yield every method of every task."""
+    cylinder, v8 = build(parse(CYLINDER)), build(parse(V8))
+    tasks = {
+        "one cylinder, order 2": (cylinder, [2]),
+        "one cylinder, order 8": (cylinder, [8]),
+        "one V8, force and moment": (v8, ORDERS),
+    }
+    for task, (engine, orders) in tasks.items():
+        for name, way in WAYS.items():
+            run = partial(way, engine, orders)
+            yield Case(task, name, run, find_error(engine, way, orders))
+    yield from _list_sweeps()
+
+
+# ------------------------------------------------------------------ coefficients A_n
+Coefficients = Callable[[list[int], float], Array]
+
+
+def find_exactly(orders: list[int], lam: float) -> Array:
+    """Return A_n to the last digit: the series in exact fractions."""
+    x = Fraction(lam)
+    series = (power_series.piston(n, EXACT_POWER).items() for n in orders)
+    return np.array([float(sum(c * x**p for p, c in terms)) for terms in series])
+
+
+def _use_two_terms(orders: list[int], lam: float) -> Array:
+    """A_n of the acceleration cos psi + lambda cos 2 psi."""
+    return np.array([{1: 1.0, 2: lam}.get(n, 0.0) for n in orders])
+
+
+def _cut_series(power: int) -> Coefficients:
+    terms = {
+        n: [(p, float(c)) for p, c in power_series.piston(n, power).items() if p <= power]
+        for n in range(1, 65)
+    }
+    return lambda orders, lam: np.array([sum(c * lam**p for p, c in terms[n]) for n in orders])
+
+
+def _divide_turn(points: int) -> Array:
+    return 2 * np.pi * np.arange(points) / points
+
+
+def _place_piston(psi: Array, lam: float) -> Array:
+    """Position of the piston from the crank's axis, in crank radii."""
+    return np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam
+
+
+def _accelerate(psi: Array, lam: float) -> Array:
+    """Acceleration of the piston, in crank radii by the square of the speed."""
+    cosine, sine = np.cos(psi), np.sin(psi)
+    cos_beta = np.sqrt(1 - (lam * sine) ** 2)
+    return cosine - lam * sine**2 / cos_beta + lam * cosine**2 / cos_beta**3
+
+
+def _difference_twice(place: Array | Complex) -> Array | Complex:
+    """Second difference by the square of the step, along the last axis, which is one turn."""
+    step = 2 * np.pi / place.shape[-1]
+    return (np.roll(place, -1, axis=-1) - 2 * place + np.roll(place, 1, axis=-1)) / step**2
+
+
+# ------------------------------------------------------------------ force and moment of an engine
+Way = Callable[[Engine, list[int]], Complex]  # shape (2, orders, 2): kind, order, direction
+
+
+def _add_up(find: Coefficients) -> Way:
+    """Add up the phases of every cylinder, each with its A_n."""
+
+    def evaluate(engine: Engine, orders: list[int]) -> Complex:
+        reciprocating, rotating, axis, phase, z = _list_columns(engine)
+        n = np.array(orders)[:, None]
+        c = reciprocating * find(orders, float(engine.cylinders.lam[0]))[:, None] / 2
+        forward = (c + rotating * (n == 1)) * np.exp(1j * (axis + n * phase))
+        backward = c * np.exp(1j * (axis - n * phase))
+        both = np.stack([forward, backward], axis=-1)
+        return np.stack([both.sum(axis=1), 1j * (z[:, None] * both).sum(axis=1)])
+
+    return evaluate
+
+
+def use_balcli(engine: Engine, orders: list[int]) -> Complex:
+    """Return force and moment as balcli computes them."""
+    found = compute_spectra(engine, orders, ("force", "moment"))
+    return np.array([(p.forward, p.backward) for _, p in found.items()]).transpose(0, 2, 1)
+
+
+def _sample(points: int, force_of: Callable[[Array, float, float, float], Complex]) -> Way:
+    """Sample the force of every cylinder over the crank angle, and transform the sums."""
+
+    def evaluate(engine: Engine, orders: list[int]) -> Complex:
+        reciprocating, rotating, axis, phase, z = _list_columns(engine)
+        psi = _divide_turn(points) + phase[:, None]
+        force = force_of(psi, float(engine.cylinders.lam[0]), reciprocating, rotating)
+        force = force * np.exp(1j * axis)[:, None]
+        curves = np.stack([force.sum(axis=0), 1j * (z[:, None] * force).sum(axis=0)])
+        lines = np.fft.fft(curves) / points
+        inside = [n if 2 * n < points else None for n in orders]
+        return np.array(
+            [[(0, 0) if n is None else (row[n], row[-n]) for n in inside] for row in lines]
+        )
+
+    return evaluate
+
+
+def _force_at_angles(psi: Array, lam: float, reciprocating: float, rotating: float) -> Complex:
+    return reciprocating * _accelerate(psi, lam) + rotating * np.exp(1j * psi)
+
+
+def _force_of_steps(psi: Array, lam: float, reciprocating: float, rotating: float) -> Complex:
+    place = reciprocating * _place_piston(psi, lam) + rotating * np.exp(1j * psi)
+    return np.asarray(-_difference_twice(place), complex)
+
+
+def _list_columns(engine: Engine) -> tuple[float, float, Array, Array, Array]:
+    """Return m r omega² of the reciprocating and rotating mass (N), then of each cylinder its axis
+    (rad), its crank angle (rad) and its arm (m).
+    """
+    c = engine.cylinders
+    scale = c.radius * engine.omega**2
+    return (
+        float(c.reciprocating[0] * scale),
+        float(c.rotating[0] * scale),
+        np.radians(c.axis_of_each_deg),
+        np.radians(c.angle_deg),
+        c.z - engine.reference_m[2],
+    )
+
+
+def find_error(engine: Engine, way: Way, orders: list[int]) -> float:
+    """Return the largest error, relative to the largest exact value of each order."""
+    exact = _add_up(find_exactly)(engine, orders)
+    scale = np.abs(exact).max(axis=(0, 2), keepdims=True)
+    return float((np.abs(way(engine, orders) - exact) / scale).max())
+
+
+WAYS: dict[str, Way] = {
+    "two-term formula": _add_up(_use_two_terms),
+    **{f"series to λ^{p}": _add_up(_cut_series(p)) for p in POWERS},
+    "closed form": use_balcli,
+    **{f"FFT, {n} points": _sample(n, _force_at_angles) for n in POINTS},
+    **{f"time stepping, {n} steps": _sample(n, _force_of_steps) for n in STEPS},
+}
+
+
+# ------------------------------------------------------------------ a sweep
+def _list_sweeps() -> Iterator[Case]:
+    """Yield methods for a V8 over bank angles and rod ratios, orders 1 and 2."""
+    task, few = "sweep of a V8, a variant", _grid(2, 2)
+    engines = list(_list_engines(few))
+    grid = _grid(1024, 512)
+    ways = {
+        "closed form": use_balcli,
+        "FFT, 16 points": WAYS["FFT, 16 points"],
+        "time stepping, 360 steps": WAYS["time stepping, 360 steps"],
+    }
+    errors = {
+        name: max(find_error(engine, way, SWEPT_ORDERS) for engine in engines)
+        for name, way in ways.items()
+    }
+    run = partial(run_sweep, grid)
+    yield Case(task, "closed form, as arrays", run, errors["closed form"], grid.variants)
+    for name, way in ways.items():
+        run = partial(_run_one_by_one, few, way)
+        yield Case(task, f"{name}, engine by engine", run, errors[name], few.variants)
+
+
+def _grid(banks: int, ratios: int) -> Sweep:
+    parameters = (
+        Parameter("layout.bank_angle", ladder(Fraction(40), Fraction(1, 5), banks)),
+        Parameter("rod.ratio", ladder(Fraction(1, 5), Fraction(1, 1000), ratios)),
+    )
+    return Sweep(parse(V8), parameters, parse_quantities(DEFAULT_QUANTITIES))
+
+
+def run_sweep(sweep: Sweep) -> None:
+    """Compute a sweep in one thread, and keep nothing."""
+    for _ in evaluate_chunks(sweep):
+        pass
+
+
+def _run_one_by_one(sweep: Sweep, way: Way) -> None:
+    for engine in _list_engines(sweep):
+        way(engine, SWEPT_ORDERS)
+
+
+def _list_engines(sweep: Sweep) -> Iterator[Engine]:
+    angles, ratios = sweep.parameters
+    for angle in angles.values:
+        for ratio in ratios.values:
+            file = sweep.file.with_table("layout", bank_angle=float(angle))
+            yield build(file.with_table("rod", ratio=float(ratio)))
+
+
+# ------------------------------------------------------------------ run times
+def time_run(run: Callable[[], object]) -> float:
+    """Return the seconds of the quickest of several runs, each of at least a few milliseconds."""
+    timer = timeit.Timer(run)
+    once = max(timer.timeit(1), _SHORTEST)
+    number = max(int(0.02 / once), 1)
+    return min(timer.repeat(5 if once < 0.2 else 2, number)) / number
+
+
+def compare_starts() -> Iterator[Ratio]:
+    """Yield the time of a cold `balcli analyze` as a multiple of other programs' times."""
+    others = {
+        "importing numpy, typer and pydantic": LIBRARIES,
+        "the smallest program of these that reads an option": SMALLEST,
+    }
+    for what, program in others.items():
+        pairs = [
+            (_start("-m", "balcli", "analyze", "-", text=V8), _start("-c", program))
+            for _ in range(_PAIRS)
+        ]
+        first, second = np.median(pairs, axis=0)
+        yield Ratio(what=f"cold balcli analyze to {what}", value=float(first / second))
+
+
+def _start(*argv: str, text: str = "") -> float:
+    """Return the seconds that a Python program takes with one thread of linear algebra."""
+    start = time.perf_counter()
+    subprocess.run(
+        [sys.executable, *argv],
+        input=text.encode(),
+        capture_output=True,
+        check=True,
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+    )
+    return time.perf_counter() - start

@@ -1,1 +1,0 @@
-"""An engine file in, run time against error of every method out."""
