@@ -9,6 +9,8 @@ cancels them.
 
 from __future__ import annotations
 
+from .version import __version__
+
 TYPE_CHECKING = (
     False  # typing takes longer than all else here, and until then Ctrl-C is a traceback
 )
@@ -47,7 +49,6 @@ if TYPE_CHECKING:
     from .torque.analysis import TorqueAnalysis
     from .torsion.analysis import TorsionAnalysis
 
-__version__ = "0.1.0"
 __all__ = [
     "Analysis",
     "Balance",

@@ -21,10 +21,10 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
-from . import __version__
 from .errors import BalcliError, Exit, Loudness, note, say, set_loudness, warn
 from .limits import MOST_DIGITS
 from .render.formats import USUAL_DIGITS, set_digits
+from .version import __version__
 
 # What each does in a line; the first paragraph of its own help says the same.
 GROUPS = {

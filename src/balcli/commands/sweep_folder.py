@@ -17,11 +17,11 @@ from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
-from .. import __version__
 from ..errors import BalcliError, tell_unwritable
 from ..files import replacing
 from ..render.sweep_parquet import write_sweep_parquet
 from ..studies.sweep import Block, Sweep, divide_into_blocks, evaluate_chunks, split_columns
+from ..version import __version__
 from .progress import Progress
 
 ROWS_A_BLOCK = 1 << 20

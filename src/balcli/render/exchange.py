@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from .. import __version__
 from ..errors import BalcliError
 from ..files import replacing
 from ..printed_tables.recomputed import Table
 from ..result import Result
+from ..version import __version__
 from .csv import Column, Columns, Rows
 from .json import stamp
 from .printed_table import RoundedTable

@@ -8,11 +8,11 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .. import __version__
 from ..core.telling import Tell, tell_nobody
 from ..results.analysis import Analysis
 from ..results.balance import Balance
 from ..studies.pictures import Study
+from ..version import __version__
 from . import analysis, balance
 from .page_scene import scene
 from .plot import OF_TORSION

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import __version__
 from ..core.phasors import Array
 from ..errors import BalcliError
+from ..version import __version__
 
 if TYPE_CHECKING:
     from ..studies.sweep import Sweep
