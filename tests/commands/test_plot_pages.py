@@ -9,7 +9,7 @@ from support.commands import refusal, run_here
 from support.paths import ENGINES, write
 
 from balcli.commands.plot import complete_pages, parse_pages
-from balcli.render.plot import PAGES
+from balcli.render.plot.names import PAGES
 
 FOUR = ENGINES / "i4_wiebe.toml"
 DIESEL = ENGINES / "i6_diesel.toml"

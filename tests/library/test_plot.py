@@ -12,7 +12,7 @@ import pytest
 from support.rotors import three_runs
 
 import balcli
-from balcli.render.plot import PAGES
+from balcli.render.plot.names import PAGES
 
 THREE, GAS = balcli.load_example("i3"), balcli.load_example("i4_wiebe")
 VEE, DIESEL = balcli.load_example("v6_60"), balcli.load_example("i6_diesel")

@@ -10,7 +10,7 @@ import typer
 from ..enginefile.fields import nearest
 from ..errors import BalcliError
 from ..render.formats import Units
-from ..render.plot import OF_TORSION, PAGES
+from ..render.plot.names import OF_TORSION, PAGES
 from . import scheme_options
 from .declare import optional
 from .file_names import choose_target, picture_form

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import warn
 from ..render.formats import Units
-from ..render.plot import OF_GAS, OF_TORSION
+from ..render.plot.names import OF_GAS, OF_TORSION
 from ..render.plot.pages import PageSubject, make_page
 from ..render.plot.style import save_figure, save_pages
 from ..render.units import SYSTEMS

@@ -15,9 +15,9 @@ from ..errors import BalcliError, check_type, wrong_type
 from ..field_balancing.balance import FieldBalance
 from ..forces.orders import check_orders
 from ..mounting.report import MountReport
-from ..render.plot import OF_GAS, OF_TORSION, PAGES
 from ..render.plot.field_balancing import make_field
 from ..render.plot.mounts import make_mounts
+from ..render.plot.names import OF_GAS, OF_TORSION, PAGES
 from ..render.plot.pages import PageSubject, make_page
 from ..render.plot.torsion import make_torsion
 from ..render.sweep_plot import check_drawable, make_sweep

@@ -15,7 +15,7 @@ from ..studies.pictures import Study
 from ..version import __version__
 from . import analysis, balance
 from .page_scene import scene
-from .plot import OF_TORSION
+from .plot.names import OF_TORSION
 from .plot.pages import PageSubject, draw_panel
 from .plot.style import inline_svg, save_figure
 from .sheet import Facts, Grid, Text
