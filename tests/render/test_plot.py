@@ -21,8 +21,8 @@ from support.gas_engines import WIEBE
 from support.pictures import draw_page
 
 from balcli.core.phasors import Phasors
-from balcli.render.plot.charts import draw_vector_bars, visible_rows
 from balcli.render.plot import style
+from balcli.render.plot.charts import draw_vector_bars, visible_rows
 from balcli.render.plot.names import OF_GAS, PAGES
 from balcli.render.plot.pages import PageSubject, draw_panel, make_page
 from balcli.render.plot.plane import draw_locus
