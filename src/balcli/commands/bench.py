@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ..render import bench as renderer
 from ..render.formats import Format
 from .file_names import TEXTS, format_of
 from .options import FormatOption, Output
@@ -18,6 +17,7 @@ def bench(form: FormatOption = None, output: Output = None) -> None:
       balcli bench -o bench.svg
     """
     from ..bench import measure
+    from ..render import bench as renderer
 
     chosen = format_of(output, form, {**TEXTS, ".svg": "svg"}, "table")
     found = measure()
