@@ -556,6 +556,23 @@ main()
     assert (done.returncode, done.stdout, done.stderr) == (128 + number, "", "")
 
 
+@unix
+@pytest.mark.parametrize("content", [b"\xff\xfe", b"backend: none\n", None], ids=["no text", "no backend", "pipe"])
+def test_settings_of_matplotlib_in_the_working_folder_are_ignored(tmp_path, content):
+    settings = tmp_path / "matplotlibrc"
+    os.mkfifo(settings) if content is None else settings.write_bytes(content)
+    done = run_command("plot", I4, "-o", "x.svg", cwd=tmp_path, env={"MPLBACKEND": "qt4agg"}, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "x.svg").exists()
+
+
+@unix
+def test_a_pipe_in_a_folder_is_passed_over(tmp_path):
+    os.mkfifo(tmp_path / "pipe.toml")
+    done = run_command("check", tmp_path, timeout=60)
+    assert (done.returncode, done.stderr) == (2, f"balcli: {tmp_path}: has no engine files (*.toml)\n")
+
+
 FAULT = (
     "balcli: internal error (ZeroDivisionError: by nought); this is a fault of balcli, no figure "
     "is to be trusted: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "

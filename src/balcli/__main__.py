@@ -7,7 +7,7 @@ import sys
 from typing import NoReturn
 
 from .errors import Exit, say
-from .process import exit_on_signals, has_no_reader
+from .process import exit_on_signals, has_no_reader, ignore_matplotlib_settings
 
 
 def main() -> NoReturn:
@@ -19,6 +19,7 @@ def main() -> NoReturn:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are too small for threads
     status: int = Exit.DONE
     try:
+        ignore_matplotlib_settings()
         from .cli import main as run  # imports libraries that read the environment
 
         run()

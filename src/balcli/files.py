@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import errno
 import os
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,20 +22,21 @@ def replacing(target: Path) -> Iterator[Path]:
         BalcliError: the target cannot be written; an older one is left as it was.
     """
     try:
-        if target.is_dir():
+        mode = _read_mode(target)
+        if mode is not None and stat.S_ISDIR(mode):
             raise BalcliError(f"{target}: is a folder, so no file can be written there")
-        if target.exists() and not target.is_file():
+        if mode is not None and not stat.S_ISREG(mode):
             yield target
             return
         real = Path(os.path.realpath(target))
-        if real.is_symlink():
-            raise OSError(errno.ELOOP, "a symbolic link that leads to itself")
         place = name_hidden(real)
         try:
-            _make_file(place, real)
+            # private if there is a target, whose mode it gets later
+            flags, private = os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600
+            os.close(os.open(place, flags, 0o666 if mode is None else private))
             yield place
-            if real.exists():
-                place.chmod(real.stat().st_mode & 0o777)
+            if mode is not None:
+                place.chmod(stat.S_IMODE(mode) & 0o777)
             with place.open("rb+") as stream:
                 os.fsync(stream.fileno())
                 size = stream.seek(0, os.SEEK_END)
@@ -47,10 +48,16 @@ def replacing(target: Path) -> Iterator[Path]:
         raise tell_unwritable(target, error) from None
 
 
-def _make_file(place: Path, target: Path) -> None:
-    """Create an empty file, private if there is a target, whose mode it gets later."""
-    mode = 0o600 if target.exists() else 0o666
-    os.close(os.open(place, os.O_CREAT | os.O_EXCL | os.O_WRONLY, mode))
+def _read_mode(path: Path) -> int | None:
+    """Return the mode of what a path leads to; None if there is nothing.
+
+    Unlike `Path.exists`, this never takes a refusal of the system, such as of a link in a shared
+    folder, for a file that is not there.
+    """
+    try:
+        return os.stat(path).st_mode
+    except FileNotFoundError:
+        return None
 
 
 def name_hidden(target: Path) -> Path:

@@ -1,19 +1,21 @@
-"""Process: signals that end it, and the cores that it may use."""
+"""Process: signals that end it, what it takes from its surroundings, and its cores."""
 
 from __future__ import annotations
 
 import errno
 import os
 import signal
+from contextlib import chdir
 
 WINDOWS = os.name == "nt"
+_ENDING = ("SIGTERM", "SIGHUP", "SIGQUIT", "SIGALRM", "SIGUSR1", "SIGUSR2", "SIGXCPU", "SIGBREAK")
 
 
 def exit_on_signals() -> None:
-    """Let SIGTERM, SIGHUP and the limit of processor time raise SystemExit (128 + number), so that
-    temporary files are removed. A signal that was ignored from the start (`nohup`) still is.
+    """Let every signal that ends a process raise SystemExit (128 + number), so that temporary files
+    are removed. A signal that was ignored from the start (`nohup`) still is.
     """
-    for name in ("SIGTERM", "SIGHUP", "SIGXCPU", "SIGBREAK"):
+    for name in _ENDING:
         number = getattr(signal, name, None)  # some are missing on Windows, the last elsewhere
         if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _exit)
@@ -21,6 +23,17 @@ def exit_on_signals() -> None:
 
 def _exit(number: int, _frame: object) -> None:
     raise SystemExit(128 + number)
+
+
+def ignore_matplotlib_settings() -> None:
+    """Keep matplotlib from reading settings of other people: a `matplotlibrc` in the working folder
+    may come with an archive, and a backend for windows may not be installed.
+    """
+    for name in ("MPLBACKEND", "MATPLOTLIBRC"):
+        os.environ.pop(name, None)
+    if os.path.lexists("matplotlibrc"):  # it is read when matplotlib is imported
+        with chdir(os.path.dirname(__file__)):
+            import matplotlib  # noqa: F401
 
 
 def has_no_reader(error: OSError) -> bool:

@@ -219,6 +219,13 @@ def test_a_spreadsheet_takes_no_file_for_a_formula():
     assert names == {"'=a.toml", "'=b.toml"}
 
 
+@pytest.mark.parametrize("name", ["a;=1+1;b", 'a "b", c'])
+def test_a_name_stays_in_one_cell_whatever_parts_cells(name):
+    Path("a.toml").write_text(changed(('"in-line four"', json.dumps(name))))
+    cell = '"' + name.replace('"', '""') + '"'
+    assert run_here("compare", "a.toml", "good.toml", "-f", "csv")[1].splitlines()[0].split(cell)[1] == ",in-line four"
+
+
 # ------------------------------------------------------------------ colours
 COLOURING = ("FORCE_COLOR", "TTY_COMPATIBLE", "GITHUB_ACTIONS")
 

@@ -163,7 +163,7 @@ def _walk(folder: Path) -> Iterator[Path]:
 
 
 def _is_engine(path: Path) -> bool:
-    return path.suffix == ".toml" and path.name != "pyproject.toml"
+    return path.suffix == ".toml" and path.name != "pyproject.toml" and path.is_file()
 
 
 def require_gas(engine: Engine, path: str) -> None:

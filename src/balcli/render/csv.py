@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import csv
+import re
 from collections.abc import Iterable, Mapping, Sequence
-from io import StringIO
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -13,6 +12,7 @@ if TYPE_CHECKING:
 
 # Beginnings of what is run, in full width as in small.
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+_PARTED = re.compile(r'[",;\t\r\n]')
 
 
 Column: TypeAlias = "Sequence[Any] | NDArray[Any]"
@@ -42,12 +42,8 @@ class Rows(NamedTuple):
 
 def csv_text(results: Sequence[Rows]) -> str:
     """The lines of all results under the header of the first; None is an empty cell."""
-    buffer = StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(results[0].header)
-    for rows in results:
-        writer.writerows([_cell(value) for value in line] for line in rows.lines)
-    return buffer.getvalue()
+    lines = [results[0].header, *(line for rows in results for line in rows.lines)]
+    return "".join(",".join(map(_cell, line)) + "\n" for line in lines)
 
 
 def name_cell(name: str) -> str:
@@ -57,7 +53,11 @@ def name_cell(name: str) -> str:
     return f"'{name}" if name.startswith(FORMULA) else name
 
 
-def _cell(value: Any) -> Any:
+def _cell(value: Any) -> str:
+    """A cell, between quotes where any program might part it."""
     if value is None:
         return ""
-    return str(value).lower() if isinstance(value, bool) else value
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = str(value)
+    return '"' + text.replace('"', '""') + '"' if _PARTED.search(text) else text
