@@ -265,7 +265,7 @@ def test_a_change_of_any_leaf_is_noticed(tmp_path, name):
     record.parent.mkdir()
     text = record_result(engine)
     record.write_text(text)
-    assert find_differences("x", engine, record) == []
+    assert find_differences(engine, record) == []
     leaves = list(_list_paths(json.loads(text)))
     for path, value in leaves[:: 1 + len(leaves) // 60]:
         document = json.loads(text)
@@ -280,7 +280,7 @@ def test_a_change_of_any_leaf_is_noticed(tmp_path, name):
             case _:
                 part[path[-1]] = 12.5 if value is None else f"{value}!"
         record.write_text(json.dumps(document))
-        assert find_differences("x", engine, record), path
+        assert find_differences(engine, record), path
 
 
 def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path):
@@ -297,7 +297,7 @@ def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path):
         (entry,) = [entry for entry in document["orders"] if entry["order"] == 9]
         entry["force_N"]["forward"][0] += roundings * noise
         record.write_text(json.dumps(document))
-        assert len(find_differences("x", engine, record)) == (roundings > 2)
+        assert len(find_differences(engine, record)) == (roundings > 2)
 
 
 def test_an_order_that_is_not_recorded(check, file):

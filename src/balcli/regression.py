@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import NoneType
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -45,34 +45,62 @@ _BROKEN = (
 )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Difference:
     """A figure that moved, or the reason why a record could not be compared.
 
     Attributes:
-        engine: Path of the engine file.
-        cause: What the figure belongs to, such as `force`; empty for a missing or broken record.
+        cause: What the figure belongs to, such as `force`; null for a missing or broken record.
         figure: The figure that moved, or the reason.
-        recorded: Recorded value; None without one.
-        now: Present value; None without one.
-        share: Size of the move over the largest figure of its group; None if it has no size.
+        recorded: Recorded value; null without one.
+        now: Present value; null without one.
+        share: Size of the move over the largest figure of its group; null if it has no size.
     """
 
-    engine: str
-    cause: str
+    cause: str | None
     figure: str
-    recorded: Any = None
-    now: Any = None
-    share: float | None = None
+    recorded: float | bool | str | None
+    now: float | bool | str | None
+    share: float | None
+
+    @classmethod
+    def of_record(cls, reason: str) -> Difference:
+        """Return the difference that a record cannot be compared."""
+        return cls(cause=None, figure=reason, recorded=None, now=None, share=None)
 
     def __str__(self) -> str:
-        if not self.cause:
+        if self.cause is None:
             return self.figure
         values = " -> ".join(
             f"{v:.10g}" if isinstance(v, float) else str(v) for v in (self.recorded, self.now)
         )
         share = "" if self.share is None else f" ({self.share:.1e} of the largest)"
         return f"{self.figure}: {values}{share}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckedEngine:
+    """An engine file and what differs from its record.
+
+    Attributes:
+        engine: Path of the engine file.
+        differences: Every figure that moved.
+    """
+
+    engine: str
+    differences: tuple[Difference, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """Engines compared with their recorded results.
+
+    Attributes:
+        engines: All that were compared.
+    """
+
+    format: Literal["balcli.check/1"] = "balcli.check/1"
+    engines: tuple[CheckedEngine, ...]
 
 
 class _Leaf(NamedTuple):
@@ -118,19 +146,17 @@ def find_engine_file(record: Path) -> Path:
     return record.parent.with_name(f"{record.stem}.toml")
 
 
-def find_abandoned(files: Iterable[Path]) -> list[Difference]:
-    """Return a difference for each record among `files` whose engine file is missing."""
-    gone = {record: find_engine_file(record) for record in files}
-    return [
-        Difference(
-            str(engine_file),
-            "",
-            f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
-            f"{engine_file.name}; bring it back, or delete the record",
-        )
-        for record, engine_file in gone.items()
-        if not engine_file.exists() and _is_record(record)
-    ]
+def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
+    """Yield what differs of each record among `files` whose engine file is missing."""
+    for record in files:
+        engine_file = find_engine_file(record)
+        if not engine_file.exists() and _is_record(record):
+            reason = (
+                f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
+                f"{engine_file.name}; bring it back, or delete the record"
+            )
+            found = (Difference.of_record(reason),)
+            yield CheckedEngine(engine=str(engine_file), differences=found)
 
 
 def _is_record(path: Path) -> bool:
@@ -222,21 +248,19 @@ def _describe_chapters(engine: Engine) -> dict[str, Any]:
 
 # ------------------------------------------------------------------ comparison
 def find_differences(
-    name: str, engine: Engine, record: Path, tolerance: float = TOLERANCE
+    engine: Engine, record: Path, tolerance: float = TOLERANCE
 ) -> list[Difference]:
     """Return every figure of an engine that differs from its record.
 
     Args:
-        name: Path of the engine file, for messages.
         engine: The engine.
         record: Path of the record.
         tolerance: Allowed move, as a share of the largest figure of the group.
     """
     where = f"{record.parent.name}/{record.name}"
     if not record.exists():
-        return [
-            Difference(name, "", f"no result is recorded in {where}; check --update records it")
-        ]
+        reason = f"no result is recorded in {where}; check --update records it"
+        return [Difference.of_record(reason)]
     document, spectra = _describe(engine)
     try:
         recorded = _read(record)
@@ -250,10 +274,10 @@ def find_differences(
         if not all(map(math.isfinite, numbers)):
             raise BalcliError("a figure is not finite")
         new = {leaf.path: leaf for leaf in _list_leaves(document)}
-        return list(_compare(name, engine, old, new, spectra, tolerance))
+        return list(_compare(engine, old, new, spectra, tolerance))
     except _BROKEN as error:
         broken = f"the result recorded in {where} cannot be read ({_describe_error(error)})"
-        return [Difference(name, "", f"{broken}; check --update records it anew")]
+        return [Difference.of_record(f"{broken}; check --update records it anew")]
 
 
 def _describe_error(error: Exception) -> str:
@@ -290,7 +314,6 @@ def _list_leaves(
 
 
 def _compare(
-    name: str,
     engine: Engine,
     old: Mapping[tuple[str, ...], _Leaf],
     new: Mapping[tuple[str, ...], _Leaf],
@@ -328,12 +351,11 @@ def _compare(
         if not same:
             sized = len(figures) == 2 and scale and not path[-1].endswith("_deg")
             yield Difference(
-                name,
-                leaf.cause,
-                leaf.figure,
-                before,
-                after,
-                abs(figures[1] - figures[0]) / scale if sized else None,
+                cause=leaf.cause,
+                figure=leaf.figure,
+                recorded=before,
+                now=after,
+                share=abs(figures[1] - figures[0]) / scale if sized else None,
             )
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterator, Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-from xml.sax.saxutils import escape, quoteattr
+from typing import TYPE_CHECKING, Annotated
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import typer
 
@@ -17,7 +17,7 @@ from .output import emit, make_folder_of, write_file
 from .progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
 
 if TYPE_CHECKING:
-    from ..regression import Difference
+    from ..regression import CheckedEngine, Difference
 
 
 class CheckFormat(StrEnum):
@@ -67,99 +67,72 @@ def check(
       balcli check v8.toml
       balcli check v8.toml --tolerance 1e-6 --format junit
     """
-    from .. import regression
+    from ..documents.records import to_document
+    from ..regression import (
+        Check,
+        CheckedEngine,
+        check_target,
+        find_abandoned,
+        find_differences,
+        find_record,
+        record_result,
+    )
     from .inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
 
-    def compare_or_record(path: Path) -> list[Difference]:
+    def compare_or_record(path: Path) -> CheckedEngine:
         engine = read_engine(str(path)).engine
-        if not update:
-            record = regression.find_record(path)
-            return regression.find_differences(str(path), engine, record, tolerance)
-        write_file(regression.record_result(engine), make_folder_of(regression.check_target(path)))
-        return []
+        differences: list[Difference] = []
+        if update:
+            write_file(record_result(engine), make_folder_of(check_target(path)))
+        else:
+            differences = find_differences(engine, find_record(path), tolerance)
+        return CheckedEngine(engine=str(path), differences=tuple(differences))
 
     files, expected = find_engine_files(paths), find_expected(paths)
     with reporting_until_stopped("engines", len(files)) as progress:
         each, found = each_until_stopped(files, progress), {*files} - {*paths}
         results, errors = try_each(each, compare_or_record, found)
-    abandoned = regression.find_abandoned(expected)
-    moved = [difference for listed in (*results, abandoned) for difference in listed]
-    done = " recorded" if update else f", {counted(len(moved), 'difference')}"
+    checked = [*results, *find_abandoned(expected)]
+    moved = sum(len(each.differences) for each in checked)
     match form:
         case CheckFormat.TABLE:
-            lines = [*_list_lines(moved), counted(len(results), "engine") + done]
-            emit(legible("\n".join(lines)))
+            done = " recorded" if update else f", {counted(moved, 'difference')}"
+            lines = [line for each in checked for line in _list_lines(each)]
+            emit(legible("\n".join([*lines, counted(len(results), "engine") + done])))
         case CheckFormat.JSON:
-            emit(json_text(_describe(files, moved)))
+            emit(json_text(to_document(Check(engines=tuple(checked)))))
         case CheckFormat.JUNIT:
-            emit(_write_junit(files, moved))
+            emit(_write_junit(checked))
     exit_on_errors(errors)
     exit_if_cut_short(progress)
-    if not results and not moved:
+    if not checked:
         raise BalcliError(f"{paths[0]}: has no engine files (*.toml)")
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)
 
 
-def _group(moved: Iterable[Difference]) -> dict[tuple[str, str], list[Difference]]:
-    """Return differences by engine and cause."""
-    groups: dict[tuple[str, str], list[Difference]] = {}
-    for each in moved:
-        groups.setdefault((each.engine, each.cause), []).append(each)
-    return groups
-
-
-def _list_lines(moved: Iterable[Difference]) -> Iterable[str]:
-    """Yield a line for each engine and cause, with the figures that moved below it."""
-    for (engine, cause), group in _group(moved).items():
-        if not cause:
-            yield from (f"{engine}: {each}" for each in group)
+def _list_lines(checked: CheckedEngine) -> Iterator[str]:
+    """Yield a line for each cause, with the figures that moved below it."""
+    for cause in dict.fromkeys(each.cause for each in checked.differences):
+        moved = [each for each in checked.differences if each.cause == cause]
+        if cause is None:
+            yield from (f"{checked.engine}: {each}" for each in moved)
             continue
-        largest = max((each.share for each in group if each.share is not None), default=None)
+        largest = max((each.share for each in moved if each.share is not None), default=None)
         share = "" if largest is None else f", by up to {largest:.1e} of the largest"
-        yield f"{engine}: {cause}: {counted(len(group), 'figure')} moved{share}"
-        yield from (f"  {each}" for each in group)
+        yield f"{checked.engine}: {cause}: {counted(len(moved), 'figure')} moved{share}"
+        yield from (f"  {each}" for each in moved)
 
 
-def _describe(files: list[Path], moved: list[Difference]) -> dict[str, Any]:
-    names = dict.fromkeys([*map(str, files), *(each.engine for each in moved)])
-    return {
-        "format": "balcli.check/1",
-        "engines": [
-            {
-                "engine": name,
-                "differences": [
-                    {
-                        "cause": each.cause or None,
-                        "figure": each.figure,
-                        "recorded": each.recorded,
-                        "now": each.now,
-                        "share": each.share,
-                    }
-                    for each in moved
-                    if each.engine == name
-                ],
-            }
-            for name in names
-        ],
-    }
-
-
-def _write_junit(files: list[Path], moved: list[Difference]) -> str:
+def _write_junit(checked: Sequence[CheckedEngine]) -> str:
     """Return an XML report in the form of JUnit: a test case for each engine."""
-    names = dict.fromkeys([*map(str, files), *(each.engine for each in moved)])
-    failed = {each.engine for each in moved}
-    lines = [
-        '<?xml version="1.0" encoding="utf-8"?>',
-        f'<testsuite name="balcli check" tests="{len(names)}" failures="{len(failed)}">',
-    ]
-    for name in names:
-        found = [each for each in moved if each.engine == name]
-        case = f'  <testcase classname="balcli" name={quoteattr(legible(name))}'
-        if not found:
-            lines.append(f"{case}/>")
-            continue
-        text = legible("\n".join(_list_lines(found)))
-        message = quoteattr(counted(len(found), "difference"))
-        lines.append(f"{case}><failure message={message}>{escape(text)}</failure></testcase>")
-    return "\n".join([*lines, "</testsuite>"])
+    failures = str(sum(bool(each.differences) for each in checked))
+    suite = Element("testsuite", name="balcli check", tests=str(len(checked)), failures=failures)
+    for each in checked:
+        case = SubElement(suite, "testcase", classname="balcli", name=legible(each.engine))
+        if each.differences:
+            message = counted(len(each.differences), "difference")
+            failure = SubElement(case, "failure", message=message)
+            failure.text = legible("\n".join(_list_lines(each)))
+    indent(suite)
+    return tostring(suite, encoding="utf-8", xml_declaration=True).decode()

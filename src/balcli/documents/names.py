@@ -6,7 +6,7 @@ DOCUMENTS = {
     "analysis": "analysis",
     "balance": "analysis",
     "bench": "bench:Bench",
-    "check": "studies",
+    "check": "regression:Check",
     "compare": "studies",
     "curves": "studies",
     "field": "field",

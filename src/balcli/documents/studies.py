@@ -146,27 +146,3 @@ class Table(Document):
     rows: list[list[Cell]]
     printed: list[list[str | None]]
     errata: list[Erratum]
-
-
-class Moved(TypedDict):
-    """A figure that differs from the record, or the reason why nothing could be compared."""
-
-    cause: str | None
-    figure: str
-    recorded: float | bool | str | None
-    now: float | bool | str | None
-    share: float | None
-
-
-class CheckedEngine(TypedDict):
-    """An engine file and what differs from its record."""
-
-    engine: str
-    differences: list[Moved]
-
-
-class Check(Document):
-    """Engines compared with their recorded results."""
-
-    format: Literal["balcli.check/1"]
-    engines: list[CheckedEngine]
