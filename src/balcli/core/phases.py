@@ -14,17 +14,16 @@ any trailing axes; an axis along which nothing varies has length 1.
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import groupby
 from typing import NamedTuple
 
 import numpy as np
 
-from .cached_property import cached_property
 from .cylinders import Cylinders
-from .factored_phasors import FactoredPhasors, Product
 from .mechanisms.fourier import Series
 from .mechanisms.harmonics import narrow
-from .phasors import EPS, Array, Complex, Phasors, unit
+from .phasors import EPS, Array, Complex, FactoredPhasors, Phasors, unit
 
 TURN = 360  # deg
 SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
@@ -96,9 +95,8 @@ class Phases:
         noise = self.add_figures(error, sizes)
         if self._of_variants and _are_equal(sides):
             ahead, astern = self._add_turned(self._planar, _as_factors(arms))
-            ahead_side = Product(sides[0, :, 0], ahead)
-            astern_side = Product(sides[1, :, 0].conj(), astern.conj())
-            return FactoredPhasors(self.orders, (ahead_side, astern_side), noise)
+            both = (sides[0, :, 0], ahead), (sides[1, :, 0].conj(), astern.conj())
+            return FactoredPhasors(self.orders, both, noise)
         sums = self._add(self._planar, sides, arms)
         np.conjugate(sums[1], out=sums[1])
         return Phasors(self.orders, sums, noise)
@@ -109,7 +107,7 @@ class Phases:
         if self._of_variants and len(series.c[0]) == 1 and np.all(self.orders):
             (turned,) = self._add_turned(self._scalar, None)
             half = series.c[:, 0] / 2
-            sides = Product(half, turned), Product(half.conj(), turned.conj())
+            sides = (half, turned), (half.conj(), turned.conj())
             return FactoredPhasors(self.orders, sides, noise)
         (total,) = self._add(self._scalar, series.c[None], None)
         return Phasors.from_scalar(self.orders, total, noise)

@@ -10,16 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .cached_property import cached_property
-
 Array: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]
 Figure: TypeAlias = float | Array  # a number, or an array of variants
+Side: TypeAlias = tuple[Array | Complex, Complex]  # a factor and a vector
 
 EPS = float(np.finfo(float).eps)
 # As arrays without axes, which numpy takes up quicker than Python's numbers.
@@ -229,6 +229,58 @@ class Phasors:
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
         curve: Complex = turning @ self.forward + np.conj(turning) @ self.backward
         return curve
+
+
+class FactoredPhasors(Phasors):
+    """Phasors whose vectors are products of what varies along some axes (what each of equal
+    cylinders does) and what varies along others (where they point).
+
+    The size of a product is the product of the sizes, so that amplitudes of many variants need no
+    complex number for each of them; vectors are multiplied where somebody reads them.
+
+    Args:
+        orders: shape (orders,).
+        sides: a factor and a vector, each of shape (orders, *trailing), of the vectors with the
+            crank, and of those against it.
+        noise: bound of the rounding error of either, shape (orders, *trailing).
+        settled: whether a product within the noise is exactly 0.
+    """
+
+    _sides: tuple[Side, Side]
+    _settled: bool
+
+    def __init__(
+        self, orders: Array, sides: tuple[Side, Side], noise: Array, *, settled: bool = False
+    ) -> None:
+        vars(self).update(orders=orders, noise=noise, _sides=sides, _settled=settled)
+
+    @cached_property
+    def vectors(self) -> Complex:
+        products = np.array([factor * vector for factor, vector in self._sides], complex)
+        return np.where(self._sizes == 0, 0, products) if self._settled else products
+
+    @cached_property
+    def _sizes(self) -> Array:
+        (factor, vector), _ = self._sides
+        sizes = np.empty((2, *np.broadcast_shapes(factor.shape, vector.shape)))
+        for size, (factor, vector) in zip(sizes, self._sides, strict=True):
+            np.multiply(np.abs(factor), np.abs(vector), out=size)
+        if self._settled:
+            sizes[sizes <= self.noise] = 0
+        return sizes
+
+    def __rmul__(self, factor: complex | Figure | Complex) -> FactoredPhasors:
+        ahead, astern = ((own, factor * vector) for own, vector in self._sides)
+        return FactoredPhasors(self.orders, (ahead, astern), np.abs(factor) * self.noise)
+
+    def drop_noise(self) -> FactoredPhasors:
+        return FactoredPhasors(self.orders, self._sides, self.noise, settled=True)
+
+    def select_row(self, row: int) -> FactoredPhasors:
+        only = slice(row, row + 1)
+        ahead, astern = ((own[only], vector[only]) for own, vector in self._sides)
+        noise, settled = self.noise[only], self._settled
+        return FactoredPhasors(self.orders[only], (ahead, astern), noise, settled=settled)
 
 
 def join_orders(parts: Sequence[Phasors]) -> Phasors:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Phasors
 from ..engine.assembly import PISTON_PARTS
