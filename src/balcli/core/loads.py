@@ -153,16 +153,16 @@ def find_pulls(
     """
     c, rounding = cylinders, phases.rounding
     if _has_pistons(c):
-        along = (c.reciprocating * c.radius * square / 2) * harmonics.piston
+        along = (c.reciprocating * c.radius * square / 2) * harmonics["piston"]
     else:
         along = Series(np.zeros_like(phases.n))
     turning = (phases.n == 1) * (c.rotating * (c.radius * square))
     forward: Array | Complex = along.c + turning
     mirrored = along.c
     error = rounding * (np.abs(along.c) + turning) + along.noise
-    if harmonics.curve is not None:
+    if c.linkage is not None:
         half = _weigh_on_curve(c, square) / 2
-        x, y = half * harmonics.curve.along, half * harmonics.curve.across
+        x, y = half * harmonics["along"], half * harmonics["across"]
         across: Complex = np.asarray(1j * y.c, np.complex128)
         forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
         error = error + rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
@@ -175,11 +175,11 @@ def find_couples(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     """
     c = cylinders
     if np.count_nonzero(c.couple):
-        yield (c.couple * square) * harmonics.rod
+        yield (c.couple * square) * harmonics["rod"]
     if np.count_nonzero(c.eps) and _has_pistons(c):
-        yield -(c.reciprocating * c.offset * c.radius * square) * harmonics.piston
-    if harmonics.curve is not None:
-        yield (_weigh_on_curve(c, square) * c.radius) * harmonics.curve.couple
+        yield -(c.reciprocating * c.offset * c.radius * square) * harmonics["piston"]
+    if c.linkage is not None:
+        yield (_weigh_on_curve(c, square) * c.radius) * harmonics["couple"]
 
 
 def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Series:
@@ -189,11 +189,11 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     c = cylinders
     parts = []
     if _has_pistons(c):
-        parts.append((c.reciprocating * c.radius**2 * square) * harmonics.kinetic)
-    if harmonics.curve is not None:
-        parts.append((_weigh_on_curve(c, square) * c.radius) * harmonics.curve.energy)
+        parts.append((c.reciprocating * c.radius**2 * square) * harmonics["kinetic"])
+    if c.linkage is not None:
+        parts.append((_weigh_on_curve(c, square) * c.radius) * harmonics["energy"])
     if np.count_nonzero(c.couple):
-        parts.append(-(c.couple * square) * harmonics.rod_kinetic)
+        parts.append(-(c.couple * square) * harmonics["rod_kinetic"])
     return reduce(add, parts)
 
 
@@ -203,10 +203,12 @@ def find_mean_momentum(cylinders: Cylinders, harmonics: Harmonics, square: Figur
     *trailing).
     """
     c = cylinders
-    mean = (c.rotating * c.radius**2 - c.couple * harmonics.turns) * square
-    if harmonics.curve is None:
+    linkage = c.linkage
+    turns = 1.0 if linkage is not None and linkage.turning else 0.0  # of the rods
+    mean = (c.rotating * c.radius**2 - turns * c.couple) * square
+    if linkage is None:
         return mean
-    return mean + _weigh_on_curve(c, square) * c.radius * harmonics.curve.swirl.c[0].real
+    return mean + linkage.mass * c.radius**2 * square * harmonics["swirl"].c[0].real
 
 
 def _weigh_on_curve(cylinders: Cylinders, square: Figure) -> Array:

@@ -26,6 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.loads import Loads, find_needed_series
+from ..core.mechanisms.fourier import select_cylinders
 from ..core.phases import TURN, Phases
 from ..core.speeds import RPM
 from ..enginefile.model import EngineFile
@@ -172,7 +173,7 @@ class Candidate:
         )
         devices = tuple(build_devices(model, parts.figures, parts.axes_deg[1]))
         square = (model.operation.speed * RPM) ** 2
-        place, own = place_in_plane(x, y), few.select_cylinders(which)
+        place, own = place_in_plane(x, y), select_cylinders(few, which)
         loads = Loads(c, devices, place, z, Phases(c, orders), own, square)
         force, moment = loads.force.drop_noise(), loads.moment.drop_noise()
         left = [float(abs(p.backward[0]) + p.major[1]) for p in (force, moment)]

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
+from ..core.mechanisms.fourier import select_cylinders, select_orders
 from ..core.phases import Phases, SeparatePhases
 from ..core.phasors import Array, Complex, Phasors, join_orders
 from ..engine.arrays import place_in_plane
@@ -221,8 +222,8 @@ def _compute_steady(
     most = max(_AT_ONCE // c.count, 1)
 
     def make_loads(block: slice) -> Loads:
-        own = few if len(orders) <= most else few.select_orders(block)
-        own = own.select_cylinders(which)
+        own = few if len(orders) <= most else select_orders(few, block)
+        own = select_cylinders(own, which)
         phases = (SeparatePhases if apart else Phases)(c, orders[block])
         return Loads(c, engine.devices, place_in_plane(x, y), z, phases, own, engine.omega**2)
 

@@ -1,96 +1,103 @@
-"""Mechanisms in motion: what moves in a cylinder along the crank angle, each figure worked out when
-it is first asked for.
+"""Mechanisms in motion: a rod with its piston on a pin that moves, each figure worked out when it
+is first asked for.
 
 All figures have the shape (*mechanisms, samples), lengths are in crank radii; rates are derivatives
-with respect to the crank angle.
+with respect to the crank angle. With the rod's lower end at z (complex, x along the cylinder's
+axis), `sin beta = lam Im z - eps`, and
+
+    s = Re z + cos beta/lam
+    s' = Re z' - tan beta Im z'
+    beta' = lam Im z'/cos beta
+    s'' = Re z'' - tan beta Im z'' - beta' Im z'/cos^2 beta
+    beta'' = lam Im z''/cos beta + beta'^2 tan beta
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cached_property, reduce
 from operator import add
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..phasors import Array, Complex, Figure
 
 
-class PointMass(ABC):
-    """A mass on a closed curve `z(psi)`, complex, x along the cylinder's axis.
+class PointMass(NamedTuple):
+    """A mass on a closed curve, complex, x along the cylinder's axis.
 
     Attributes:
+        z, z1, z2: the curve and its two derivatives.
         share: of the mass on curves that moves on this one.
     """
 
+    z: Complex
+    z1: Complex
+    z2: Complex
     share: Figure = 1.0
 
-    @property
-    @abstractmethod
-    def z(self) -> Complex:
-        """The curve."""
 
-    @property
-    @abstractmethod
-    def z1(self) -> Complex:
-        """Its derivative."""
-
-    @property
-    @abstractmethod
-    def z2(self) -> Complex:
-        """Its second derivative."""
-
-
-class Motion(ABC):
+class Motion:
     """Pistons, rods and masses on curves of mechanisms in motion.
 
-    Attributes:
-        points: where the masses on curves are; none in a plain slider-crank.
+    Args:
+        pin: lower ends of the rods.
+        lam: crank radius over rod length.
+        lean: sine of the rods' angle beta to the cylinders' axes.
+        cosine: its cosine.
+        points: where masses on curves are; none in a plain slider-crank.
+        condition: relative error of piston and rod, in roundings: large near a lock.
     """
 
-    points: tuple[PointMass, ...] = ()
+    def __init__(
+        self,
+        pin: PointMass,
+        lam: Array,
+        lean: Array,
+        cosine: Array,
+        points: tuple[PointMass, ...] = (),
+        condition: Array | float = 1.0,
+    ) -> None:
+        self._pin, self._lam, self.cosine, self._tangent = pin, lam, cosine, lean / cosine
+        self.lean, self.points, self.condition = lean, points, condition
 
-    @property
-    @abstractmethod
-    def lean(self) -> Array:
-        """Sine of the rod's angle beta to the cylinder's axis."""
-
-    @property
-    @abstractmethod
+    @cached_property
     def place(self) -> Array:
         """s of the piston along its axis, from the crank's axis."""
+        return np.asarray(self._pin.z.real + self.cosine / self._lam)
 
-    @property
-    @abstractmethod
+    @cached_property
     def velocity(self) -> Array:
         """s'"""
+        return np.asarray(self._pin.z1.real - self._tangent * self._pin.z1.imag)
 
-    @property
-    @abstractmethod
+    @cached_property
     def acceleration(self) -> Array:
         """s''"""
+        straight = self._pin.z2.real - self._tangent * self._pin.z2.imag
+        return np.asarray(straight - self._rate * self._pin.z1.imag / self.cosine**2)
+
+    @cached_property
+    def _rate(self) -> Array:
+        """beta'"""
+        return np.asarray(self._lam * self._pin.z1.imag / self.cosine)
 
     @property
-    @abstractmethod
     def spin(self) -> Array:
         """Angular velocity of the rod, in the crank's sense."""
+        return -self._rate
 
     @property
-    @abstractmethod
     def spin_rate(self) -> Array:
         """Derivative of `spin`."""
-
-    @property
-    def condition(self) -> Array | float:
-        """Relative error of piston and rod, in roundings: large near a lock."""
-        return 1.0
+        bend = self._lam * self._pin.z2.imag / self.cosine
+        return np.asarray(-(bend + self._rate**2 * self._tangent))
 
     # -------------------------------------------------------------- unit mass on its points
     @property
     def velocity_of_mass(self) -> Complex:
-        """Of unit mass on its points, likewise all that follows."""
+        """Velocity of unit mass on its points, likewise all that follows."""
         return reduce(add, (p.share * p.z1 for p in self.points))
 
     @cached_property

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..phasors import EPS, Array, Complex, unit
-from .fourier import NONE, Curve, Harmonics, Series
+from .fourier import Harmonics, Series
 from .motion import Motion, Move
 
 SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
@@ -45,15 +45,8 @@ class Sampled(NamedTuple):
     of each mechanism, shape (mechanisms,).
     """
 
-    series: dict[str, Series]
+    series: Harmonics
     counts: NDArray[np.intp]
-
-    def as_harmonics(self, turns: float = 0.0) -> Harmonics:
-        """Return the series as `Harmonics`, with its `turns`."""
-        of_rod = {name: self.series.get(name, NONE) for name in _OF_ROD}
-        of_mass = {name: self.series.get(name, NONE) for name in _OF_MASS}
-        on_curve = bool(self.series.keys() & of_mass.keys())
-        return Harmonics(**of_rod, curve=Curve(**of_mass) if on_curve else None, turns=turns)
 
 
 def sample_mechanisms(
@@ -78,7 +71,7 @@ def sample_mechanisms(
     """
     n = np.asarray(orders)
     taken = counts.copy()
-    series: dict[str, Series] = {}
+    series: Harmonics = {}
     waiting = [(count, np.flatnonzero(counts == count)) for count in set(counts.tolist())]
     while waiting:
         count, rows = waiting.pop()
