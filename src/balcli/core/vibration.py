@@ -191,25 +191,9 @@ def solve_response(
     """
     frequency = np.asarray(frequency, float)
     load = np.broadcast_to(load, (*frequency.shape, len(mass)))
-    if stiffness.ndim == 2 and not (np.any(np.imag(stiffness)) or np.any(damping)):
-        return _respond_by_modes(np.real(stiffness), mass, frequency, load)
     w = frequency[..., None, None]
     dynamic = np.asarray(stiffness + 1j * w * damping - w * w * mass, complex)
     return solve_equations(dynamic, load, frequency, np.zeros(frequency.shape, bool))
-
-
-def _respond_by_modes(stiffness: Real, mass: Real, frequency: Real, load: Complex) -> Complex:
-    """The same without damping, as a sum over modes."""
-    half = _over_root(mass, stiffness)
-    squares, turned = np.linalg.eigh(_over_root(mass, half.T))
-    shapes = _from_root(mass, turned.T)
-    drive = load @ shapes.T
-    distance = squares - frequency[..., None] ** 2
-    at_rest = np.abs(drive) <= _UNMOVED * (np.abs(load) @ _largest_motion(shapes))[..., None]
-    resonant = np.abs(distance) <= ROUNDING * np.maximum(np.abs(squares), frequency[..., None] ** 2)
-    _refuse(np.any(resonant & ~at_rest, axis=-1), frequency)
-    amplitude = np.where(resonant, 0, drive / np.where(resonant, 1, distance))
-    return np.asarray(amplitude @ shapes, complex)
 
 
 def solve_equations(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -227,16 +227,16 @@ def _compute_steady(
         phases = (SeparatePhases if apart else Phases)(c, orders[block])
         return Loads(c, engine.devices, place_in_plane(x, y), z, phases, own, engine.omega**2)
 
-    lowest = make_loads(slice(most))
-    found = {name: [getattr(lowest, name)] for name in names}
-    for start in range(most, len(orders), most):
-        loads = make_loads(slice(start, start + most))
-        for name in names:
-            found[name].append(getattr(loads, name))
-    return {name: _join(blocks) for name, blocks in found.items()}, lowest
+    lowest, blocks = make_loads(slice(most)), []
+    for start in range(0, max(len(orders), 1), most):
+        loads = make_loads(slice(start, start + most)) if start else lowest
+        blocks.append([getattr(loads, name) for name in names])
+    return {
+        name: _join(own) for name, own in zip(names, zip(*blocks, strict=True), strict=False)
+    }, lowest
 
 
-def _join(blocks: list[Phasors]) -> Phasors:
+def _join(blocks: Sequence[Phasors]) -> Phasors:
     return blocks[0] if len(blocks) == 1 else join_orders(blocks)
 
 
