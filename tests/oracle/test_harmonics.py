@@ -259,9 +259,7 @@ def test_mechanisms_given_as_several_may_be_one(eps):
     found = harmonics.find_harmonics([0, 1, 2, 3], np.full(3, 0.3), np.full(3, eps))
     single = harmonics.find_harmonics([0, 1, 2, 3], np.array([0.3]), np.array([eps]))
     for name in SERIES:
-        assert np.array_equal(
-            np.broadcast_to(found[name].c, (4, 3)), np.repeat(single[name].c, 3, axis=1)
-        )
+        assert np.array_equal(np.broadcast_to(found[name].c, (4, 3)), np.repeat(single[name].c, 3, axis=1))
 
 
 def test_a_variant_is_the_same_among_any_others():

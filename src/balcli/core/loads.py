@@ -161,7 +161,7 @@ def find_pulls(
     mirrored = along.c
     error = rounding * (np.abs(along.c) + turning) + along.noise
     if c.linkage is not None:
-        half = _weigh_on_curve(c, square) / 2
+        half = c.linkage.mass * c.radius * square / 2
         x, y = half * harmonics["along"], half * harmonics["across"]
         across: Complex = np.asarray(1j * y.c, np.complex128)
         forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
@@ -179,7 +179,7 @@ def find_couples(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     if np.count_nonzero(c.eps) and _has_pistons(c):
         yield -(c.reciprocating * c.offset * c.radius * square) * harmonics["piston"]
     if c.linkage is not None:
-        yield (_weigh_on_curve(c, square) * c.radius) * harmonics["couple"]
+        yield (c.linkage.mass * c.radius**2 * square) * harmonics["couple"]
 
 
 def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Series:
@@ -191,7 +191,7 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     if _has_pistons(c):
         parts.append((c.reciprocating * c.radius**2 * square) * harmonics["kinetic"])
     if c.linkage is not None:
-        parts.append((_weigh_on_curve(c, square) * c.radius) * harmonics["energy"])
+        parts.append((c.linkage.mass * c.radius**2 * square) * harmonics["energy"])
     if np.count_nonzero(c.couple):
         parts.append(-(c.couple * square) * harmonics["rod_kinetic"])
     return reduce(add, parts)
@@ -209,12 +209,3 @@ def find_mean_momentum(cylinders: Cylinders, harmonics: Harmonics, square: Figur
     if linkage is None:
         return mean
     return mean + linkage.mass * c.radius**2 * square * harmonics["swirl"].c[0].real
-
-
-def _weigh_on_curve(cylinders: Cylinders, square: Figure) -> Array:
-    """What a linkage's masses on their curves weigh in forces: mass x radius x square of the speed,
-    N; of cylinders that have one.
-    """
-    if cylinders.linkage is None:
-        return np.zeros(1)
-    return cylinders.linkage.mass * cylinders.radius * square

@@ -5,14 +5,14 @@ what does not fit together in [articulation].
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.linkage import STEPS, Linkage, revolution
+from ..core.mechanisms.motion import Motion
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Array, Figure, unit
 from ..enginefile.articulation_tables import Articulation
@@ -25,8 +25,6 @@ from .layout import Plan
 
 if TYPE_CHECKING:
     from .assembly import Assembly
-
-_AT_ONCE = 1 << 17  # rods x crank angles that are looked at together
 
 
 def build_linkage(parts: Assembly, at_pistons: Array) -> Linkage:
@@ -151,25 +149,19 @@ def check_knuckles(
 
 
 def _sample_leans(hung: Articulated, lam: Array, eps: Array) -> Array:
-    """The largest |sine| of each rod's angle to its cylinder's axis, of all variants that might
-    lock, over a revolution: shape (cylinders, STEPS).
+    """Return the largest |sine| of each rod's angle to its cylinder's axis, of all variants, over a
+    revolution: shape (cylinders, STEPS); 0 if no rod can come near its lock.
     """
     count = len(hung.master)
-    given = hung.figures(lam, eps)
-    _, *variants_shape = np.broadcast_shapes(*(np.shape(f) for f in given))
-    doubtful = np.any(hung.bound_lean(lam, eps) > 1 - NEAREST_TO_LOCK, axis=0)
-    variants = np.flatnonzero(np.broadcast_to(doubtful, variants_shape))
-    figures: list[NDArray[Any]] = [
-        np.broadcast_to(f, (count, *variants_shape)).reshape(count, -1) for f in given
-    ]
-    leans = np.zeros((count, STEPS))
-    step = max(_AT_ONCE // leans.size, 1)
-    for k in range(0, len(variants), step):
-        some = [values[:, variants[k : k + step], None] for values in figures]
-        with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
-            found = np.abs(hung.move(revolution(STEPS), *some).lean).max(axis=1)
-        leans = np.maximum(leans, found)
-    return leans
+    if np.all(hung.bound_lean(lam, eps) <= 1 - NEAREST_TO_LOCK):
+        return np.zeros((count, STEPS))
+
+    def find_largest(motion: Motion) -> Array:
+        lean = np.abs(motion.lean)
+        return lean.reshape(count, -1, lean.shape[-1]).max(axis=1)
+
+    with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
+        return hung.sample(find_largest, revolution(STEPS), lam, eps)
 
 
 def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Problem:

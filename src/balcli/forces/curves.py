@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
 
 import numpy as np
 
@@ -26,7 +25,6 @@ from ..result import Result
 from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
-_PLAIN = 10**6  # largest denominator of a step that is taken for a fraction
 _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
@@ -74,10 +72,7 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
             "degrees"
         )
     steps = np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9))
-    plain = Fraction(step).limit_denominator(_PLAIN)
-    if float(plain) != step:
-        return steps * step
-    return steps * plain.numerator / plain.denominator  # 3 steps of 0.1 are 0.3
+    return np.round(steps * step, 12)  # 3 steps of 0.1 are 0.3
 
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
