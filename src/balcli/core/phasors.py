@@ -47,17 +47,12 @@ def unit(degrees: ArrayLike) -> Complex:
     """
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
-    rest = x - _STEP * steps
+    rest: Array = x - _STEP * steps
     turned: Complex = _UNITS.take(steps.astype(np.intp) % _STEPS_A_TURN)
-    return turned * _turn(rest * _RADIANS_A_DEGREE) if np.count_nonzero(rest) else turned
-
-
-def _turn(radians: Array) -> Complex:
-    """e^{i x}: cosine and sine of real numbers are quicker than the complex exponential."""
-    result = np.empty(radians.shape, complex)
-    np.cos(radians, out=result.real)
-    np.sin(radians, out=result.imag)
-    return result
+    if not np.count_nonzero(rest):
+        return turned
+    rest = rest * _RADIANS_A_DEGREE
+    return turned * compose(np.cos(rest), np.sin(rest))
 
 
 def compose(real: Array, imaginary: Array) -> Complex:
@@ -209,17 +204,19 @@ class Phasors:
     @property
     def x(self) -> Complex:
         """Components along x as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
-        mean = _column(self.orders, self.forward) == 0
-        x = np.where(mean, self.forward.real, self.forward + np.conj(self.backward))
-        return _settle(x, 2 * self.noise)
+        return self._project(1.0)
 
     @property
     def y(self) -> Complex:
         """Components along y as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
-        mean = _column(self.orders, self.forward) == 0
-        across = -1j * (self.forward - np.conj(self.backward))
-        y = np.where(mean, self.forward.imag, across)
-        return _settle(y, 2 * self.noise)
+        return self._project(-1j)
+
+    def _project(self, turn: complex) -> Complex:
+        """Components along the axis that this factor turns onto x."""
+        ahead, against = turn * self.forward, turn * self.backward
+        mean = _column(self.orders, ahead) == 0
+        c = np.where(mean, ahead.real, ahead + np.conj(against))
+        return np.where(np.abs(c) <= 2 * self.noise, 0, c)
 
     def values(self, theta: ArrayLike) -> Complex:
         """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors
@@ -291,12 +288,6 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
         np.concatenate([p.vectors for p in parts], axis=1),
         np.concatenate(noises),
     )
-
-
-def _settle(vectors: Complex, noise: Array) -> Complex:
-    """Vectors with those within the noise set to 0."""
-    nothing = np.abs(vectors) <= noise
-    return np.where(nothing, 0, vectors) if np.count_nonzero(nothing) else vectors
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:

@@ -15,13 +15,16 @@ axis), `sin beta = lam Im z - eps`, and
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property, reduce
-from operator import add
+from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..phasors import Array, Complex, Figure
+
+# Of mechanisms without masses on curves.
+_NONE = np.zeros(())
+_NO_VECTOR = np.zeros((), complex)
 
 
 class PointMass(NamedTuple):
@@ -59,29 +62,29 @@ class Motion:
         points: tuple[PointMass, ...] = (),
         condition: Array | float = 1.0,
     ) -> None:
-        self._pin, self._lam, self.cosine, self._tangent = pin, lam, cosine, lean / cosine
+        self.pin, self._lam, self.cosine, self._tangent = pin, lam, cosine, lean / cosine
         self.lean, self.points, self.condition = lean, points, condition
 
     @cached_property
     def place(self) -> Array:
         """s of the piston along its axis, from the crank's axis."""
-        return np.asarray(self._pin.z.real + self.cosine / self._lam)
+        return np.asarray(self.pin.z.real + self.cosine / self._lam)
 
     @cached_property
     def velocity(self) -> Array:
         """s'"""
-        return np.asarray(self._pin.z1.real - self._tangent * self._pin.z1.imag)
+        return np.asarray(self.pin.z1.real - self._tangent * self.pin.z1.imag)
 
     @cached_property
     def acceleration(self) -> Array:
         """s''"""
-        straight = self._pin.z2.real - self._tangent * self._pin.z2.imag
-        return np.asarray(straight - self._rate * self._pin.z1.imag / self.cosine**2)
+        straight = self.pin.z2.real - self._tangent * self.pin.z2.imag
+        return np.asarray(straight - self._rate * self.pin.z1.imag / self.cosine**2)
 
     @cached_property
     def _rate(self) -> Array:
         """beta'"""
-        return np.asarray(self._lam * self._pin.z1.imag / self.cosine)
+        return np.asarray(self._lam * self.pin.z1.imag / self.cosine)
 
     @property
     def spin(self) -> Array:
@@ -91,39 +94,39 @@ class Motion:
     @property
     def spin_rate(self) -> Array:
         """Derivative of `spin`."""
-        bend = self._lam * self._pin.z2.imag / self.cosine
+        bend = self._lam * self.pin.z2.imag / self.cosine
         return np.asarray(-(bend + self._rate**2 * self._tangent))
 
     # -------------------------------------------------------------- unit mass on its points
     @property
     def velocity_of_mass(self) -> Complex:
         """Velocity of unit mass on its points, likewise all that follows."""
-        return reduce(add, (p.share * p.z1 for p in self.points))
+        return sum((p.share * p.z1 for p in self.points), _NO_VECTOR)
 
     @cached_property
     def acceleration_of_mass(self) -> Complex:
         """Derivative of `velocity_of_mass`."""
-        return reduce(add, (p.share * p.z2 for p in self.points))
+        return sum((p.share * p.z2 for p in self.points), _NO_VECTOR)
 
     @property
     def swirl(self) -> Array:
         """Moment of momentum."""
-        return reduce(add, (p.share * (np.conj(p.z) * p.z1).imag for p in self.points))
+        return sum((p.share * (np.conj(p.z) * p.z1).imag for p in self.points), _NONE)
 
     @property
     def swirl_rate(self) -> Array:
         """Derivative of `swirl`."""
-        return reduce(add, (p.share * (np.conj(p.z) * p.z2).imag for p in self.points))
+        return sum((p.share * (np.conj(p.z) * p.z2).imag for p in self.points), _NONE)
 
     @property
     def energy(self) -> Array:
         """Twice the kinetic energy."""
-        return reduce(add, (p.share * np.abs(p.z1) ** 2 for p in self.points))
+        return sum((p.share * np.abs(p.z1) ** 2 for p in self.points), _NONE)
 
     @property
     def power(self) -> Array:
         """Half the derivative of `energy`."""
-        return reduce(add, (p.share * (np.conj(p.z1) * p.z2).real for p in self.points))
+        return sum((p.share * (np.conj(p.z1) * p.z2).real for p in self.points), _NONE)
 
 
 Move: TypeAlias = Callable[..., Motion]  # of e^{i psi} and figures that tell mechanisms apart
