@@ -58,8 +58,8 @@ class Loads:
     def couple(self) -> Phasors:
         """Free transverse couple about z, N m: the cylinders' own, and the forces' arms."""
         own = find_couples(self.cylinders, self.harmonics, self.square)
-        parts = [self.phases.add_scalars(series) for series in own]
-        total = reduce(add, parts) if parts else self.phases.nothing()
+        series = list(own) or [Series(np.zeros_like(self.phases.n))]
+        total = reduce(add, map(self.phases.add_scalars, series))
         if np.count_nonzero(self.place):
             total += self.phases.add_vectors(self._pulls).about(-self.place)
         for device, force in zip(self.devices, self._of_devices, strict=True):

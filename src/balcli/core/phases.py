@@ -123,15 +123,6 @@ class Phases:
             return np.add.reduce(values if sizes is None else values * sizes, axis=1)
         return values[:, 0] * (self.count if sizes is None else np.add.reduce(sizes, axis=0))
 
-    def nothing(self) -> Phasors:
-        """A sum of nothing."""
-        zero: Complex = np.zeros((2, *self._sum_shape), np.complex128)
-        return Phasors(self.orders, zero, zero[0].real)
-
-    @property
-    def _sum_shape(self) -> tuple[int, ...]:
-        return self.n.shape[:1] + self.n.shape[2:]
-
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
         """`sum over banks of turns * sum over its cylinders of arms * vectors * e^{i n pin}`.
 
@@ -199,10 +190,6 @@ class SeparatePhases(Phases):
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
         """The terms of this sum."""
         return values * (self._ones if sizes is None else sizes)
-
-    @property
-    def _sum_shape(self) -> tuple[int, ...]:
-        return len(self.orders), self.count
 
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
         """The terms of this sum, shape (sides, orders, cylinders)."""

@@ -28,7 +28,7 @@ import numpy as np
 from ..core.loads import Loads, find_needed_series
 from ..core.mechanisms.fourier import select_cylinders
 from ..core.phases import TURN, Phases
-from ..core.phasors import Array
+from ..core.phasors import Phasors
 from ..core.speeds import RPM
 from ..enginefile.model import EngineFile
 from ..errors import InputError, Problem
@@ -129,11 +129,9 @@ class Candidate:
         return bool(np.all(np.abs(off) <= TOLERANCE_DEG))
 
     @cached_property
-    def balance(self) -> tuple[Array, Array]:
-        """Free force (N) and moment (N m) at the speed of the file: largest values of orders 1 and
-        2, shape (2, 2), and what counterweights leave of both orders, shape (2,), all exactly 0
-        within rounding of what one cylinder makes. Where the file does not say how far apart the
-        throws are, moments are those of throws 0.1 m apart.
+    def balance(self) -> tuple[Phasors, Phasors]:
+        """Free force (N) and moment (N m) of orders 1 and 2 at the speed of the file; where it does
+        not say how far apart the throws are, moments are those of throws 0.1 m apart.
         """
         model, orders = self.model, np.array([1.0, 2.0])
         if not self._knows_places:
@@ -146,14 +144,7 @@ class Candidate:
         square = (model.operation.speed * RPM) ** 2
         place, own = place_in_plane(x, y), select_cylinders(few, which)
         loads = Loads(c, devices, place, z, Phases(c, orders), own, square)
-        both = loads.force.drop_noise(), loads.moment.drop_noise()
-        mass = float(np.max(c.reciprocating) + np.max(c.rotating)) or 1.0
-        force = mass * float(c.radius.flat[0]) * square
-        scales = np.array([force, force * (float(np.ptp(parts.throws_m)) or 1.0)])
-        sizes = np.array([p.major for p in both])
-        left = np.array([float(abs(p.backward[0]) + p.major[1]) for p in both])
-        sizes[sizes <= 1e-9 * scales[:, None]] = 0
-        return sizes, np.round(left / scales, 6)
+        return loads.force.drop_noise(), loads.moment.drop_noise()
 
     @property
     def _knows_places(self) -> bool:
@@ -163,7 +154,9 @@ class Candidate:
     def describe(self) -> str:
         """Return the line of this engine in a list: keys to copy, throws, balance."""
         keys = f"layout.numbering = {write_rows(self.numberings[0])}"
-        force, moment = (" and ".join(f"{v:.4g}" for v in sizes) for sizes in self.balance[0])
+        force, moment = (
+            " and ".join(f"{v:.4g}" for v in sizes) for sizes in (p.major for p in self.balance)
+        )
         known = self._knows_places or self.parts.plan.throws == 1
         told = f"{moment} N m" if known else "not known"
         same = " or ".join(map(write_rows, self.numberings[1:]))
@@ -189,7 +182,8 @@ class Candidate:
         """
         if self.parts.plan.rods_on_throw == 1:
             position = {0: 1, 1: 0}.get(position, position)
-        return *self.balance[1].tolist(), abs(self.splay), position
+        left = (float(abs(p.backward[0]) + p.major[1]) for p in self.balance)
+        return *(float(f"{size:.6g}") for size in left), abs(self.splay), position
 
 
 def find_missed(parts: Assembly) -> list[Problem]:
@@ -315,6 +309,14 @@ def _number(model: EngineFile, tier: Iterable[Rows]) -> list[Candidate]:
     return [Candidate(model.with_table("layout", numbering=rows), [rows]) for rows in tier]
 
 
+def _split_pins(one: Candidate) -> Iterator[Candidate]:
+    """Yield the engine with the splay that makes it fit, if there is one."""
+    splay = find_fitting_splay(one.model)
+    if splay is not None:
+        split = one.model.with_table("crank", splay=splay)
+        yield Candidate(split, one.numberings, f"crank.splay = {splay:g}", splay)
+
+
 def _find_remedies(parts: Assembly) -> list[Candidate]:
     """Return the engines that fit with the intervals of shared pins, and then those that fit with
     another splay, of the numberings of the first tier; none where the file gives the splay.
@@ -334,12 +336,7 @@ def _find_remedies(parts: Assembly) -> list[Candidate]:
         for rows in tier
         for intervals in uneven
     ]
-    by_splay = []
-    for one in _number(model, tier):
-        splay = find_fitting_splay(one.model)
-        if splay is not None:
-            changed = one.model.with_table("crank", splay=splay)
-            by_splay.append(Candidate(changed, one.numberings, f"crank.splay = {splay:g}", splay))
+    by_splay = [split for one in _number(model, tier) for split in _split_pins(one)]
     common = _sort([one for one in by_intervals if one.fits()], tier)
     split = [one for one in _sort(by_splay, tier) if not any(map(one.is_same, common))]
     return [*common[: LIST_LENGTH - bool(split)], *split]
@@ -379,25 +376,22 @@ def _suggest(parts: Assembly) -> str:
     if parts.varies:
         return ""
     model, intervals = parts.model, parts.model.layout.firing_intervals
-    ways: list[tuple[str, EngineFile]] = []
+    ways: list[Candidate] = []
     if intervals is not None:
         later = (*intervals[1:], intervals[0])
         keys = f"layout.firing_intervals = [{_join(later)}]"
-        ways.append((keys, model.with_table("layout", firing_intervals=later)))
+        ways.append(Candidate(model.with_table("layout", firing_intervals=later), [], keys))
     if model.crank.throws is not None:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
         keys = f"crank.throws = [{_join(throws)}], which count in the sense of rotation"
-        ways.append((keys, model.with_table("crank", throws=throws)))
+        ways.append(Candidate(model.with_table("crank", throws=throws), [], keys))
         if len(throws) > 1:
             free = model.with_table("crank", throws=None)
             listed = _join(_count_throws_from_first(Assembly(free)))
-            ways.append((f"crank.throws = [{listed}]", free))
+            ways.append(Candidate(free, [], f"crank.throws = [{listed}]"))
     if "splay" not in model.crank.model_fields_set:
-        splay = find_fitting_splay(model)
-        if splay is not None:
-            keys = f"crank.splay = {splay:g}"
-            ways.append((keys, model.with_table("crank", splay=splay)))
-    fitting = (keys for keys, changed in ways if not find_missed(Assembly(changed)))
+        ways += _split_pins(Candidate(model, []))
+    fitting = (way.change for way in ways if not find_missed(way.parts))
     return next((f". It fits with {keys}" for keys in fitting), "")
 
 

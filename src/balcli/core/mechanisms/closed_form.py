@@ -72,16 +72,12 @@ def _expand_cosine(count: int, x: Array) -> Array:
     binomials = np.cumprod(np.where(m == 0, 1.0, 1.5 / np.maximum(m, 1) - 1), axis=0)
     z = x**4
     gauss = np.ones((count, *x.shape))
-    for j in range(_count_terms(z), 0, -1):  # Horner's rule
+    terms = 1 + int(np.log(EPS / 64) / np.log(z.max(initial=1e-99)))  # the next is below rounding
+    for j in range(terms, 0, -1):  # Horner's rule
         gauss *= (m + (j - 1.5)) / (m + j) * ((j - 1.5) / j * z)
         gauss += 1
     gauss *= binomials * x ** (2 * m)
     return np.concatenate([gauss, np.zeros((1, *x.shape))])
-
-
-def _count_terms(z: Array) -> int:
-    """Return after how many powers of z < 1 the next is below rounding."""
-    return 1 + int(np.log(EPS / 64) / np.log(z.max(initial=1e-99)))
 
 
 def piston(orders: ArrayLike, lam: ArrayLike) -> Array:
