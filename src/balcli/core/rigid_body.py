@@ -109,12 +109,8 @@ def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
     """(3, 3), columns: axes turned by these angles (rad) about x, then y, then z: `Rz Ry Rx`."""
 
     def turn(angle: float, axis: int) -> Real:
-        one, two = (axis + 1) % 3, (axis + 2) % 3
-        result = np.eye(3)
-        result[one, one] = result[two, two] = np.cos(angle)
-        result[two, one] = np.sin(angle)
-        result[one, two] = -np.sin(angle)
-        return result
+        c, s = np.cos(angle), np.sin(angle)
+        return np.roll([[1, 0, 0], [0, c, -s], [0, s, c]], (axis, axis), (0, 1))
 
     return turn(about_z, 2) @ turn(about_y, 1) @ turn(about_x, 0)
 

@@ -459,11 +459,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
                 f"if it is so, say layout.firing_intervals = [{_join(gaps)}]"
             )
     elif layout.firing_intervals is None and layout.strokes == 4:
-        usual = ""
-        if plan.banks == 1 and not _is_usual(parts.order):
-            usual = USUAL_ORDERS.get(len(parts.order), "")
-        elif plan.banks == 2 and plan.rods_on_throw == 1 and not _has_opposite_pins(parts):
-            usual = USUAL_FLAT_ORDERS.get(len(parts.order), "")
+        usual = _find_usual_orders(parts)
         if usual:
             listed = _join(_count_throws_from_first(parts))
             yield (
@@ -472,28 +468,28 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
             )
 
 
-def _is_usual(order: Sequence[int]) -> bool:
-    """Return whether an in-line engine is built with this order: its crank is its own mirror image
-    end for end, or that of a usual five.
+def _find_usual_orders(parts: Assembly) -> str:
+    """Return usual firing orders if nobody builds the crank of this one, else an empty text. The
+    usual crank of an engine in line is its own mirror image end for end, or that of a usual five;
+    pins of neighbouring cylinders of a flat engine stand 180 deg apart.
     """
-    count, begin = len(order), order.index(1)
-    turned = (*order[begin:], *order[:begin])
-    if count % 2:
-        return count != 5 or "-".join(map(str, turned)) in USUAL_ORDERS[5].split(" or ")
-    pairs = zip(turned[: count // 2], turned[count // 2 :], strict=True)
-    return all(a + b == count + 1 for a, b in pairs)
+    throws, plan = _count_throws_from_first(parts), parts.plan
+    angles = [*map(float, bank_angles(parts.model.layout, parts.figures))]
+    if plan.banks == 1:
+        order = parts.order or ()
+        turned = "-".join(map(str, order[order.index(1) :] + order[: order.index(1)]))
+        built = len(throws) % 2 or throws == throws[::-1]
+        if len(throws) == 5:
+            built = turned in USUAL_ORDERS[5]
+        return "" if built else USUAL_ORDERS.get(len(throws), "")
+    if plan.banks > 2 or plan.rods_on_throw > 1 or not _are_opposite(*angles):
+        return ""
+    built = all(map(_are_opposite, throws[::2], throws[1::2]))
+    return "" if built else USUAL_FLAT_ORDERS.get(len(throws), "")
 
 
-def _has_opposite_pins(parts: Assembly) -> bool:
-    """Return whether the pins of neighbouring cylinders of a flat engine stand 180 deg apart; true
-    for other engines.
-    """
-    first, second = map(float, bank_angles(parts.model.layout, parts.figures))
-    if abs((second - first) % TURN - 180) > TOLERANCE_DEG:
-        return True
-    throws = [float(parts.throws_deg[t]) for t in range(parts.plan.throws)]
-    pairs = zip(throws[::2], throws[1::2], strict=False)
-    return all(abs((b - a) % TURN - 180) <= TOLERANCE_DEG for a, b in pairs)
+def _are_opposite(first: float, second: float) -> bool:
+    return abs((second - first) % TURN - 180) <= TOLERANCE_DEG
 
 
 def write_rows(rows: Sequence[Sequence[int]]) -> str:
