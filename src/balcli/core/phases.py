@@ -93,8 +93,8 @@ class Phases:
         """
         sides, error = vectors
         noise = self.add_figures(error, sizes)
-        if self._of_variants and _are_equal(sides):
-            ahead, astern = self._add_turned(self._planar, _as_factors(arms))
+        if self.n.ndim > 2 and sides.shape[2] == 1:  # of variants
+            ahead, astern = self._add_turned(self._planar, None if arms is None else arms[None])
             both = (sides[0, :, 0], ahead), (sides[1, :, 0].conj(), astern.conj())
             return FactoredPhasors(self.orders, both, noise)
         sums = self._add(self._planar, sides, arms)
@@ -104,7 +104,7 @@ class Phases:
     def add_scalars(self, series: Series) -> Phasors:
         """Sum of what the cylinders do about z."""
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
-        if self._of_variants and len(series.c[0]) == 1 and np.all(self.orders):
+        if self.n.ndim > 2 and len(series.c[0]) == 1 and np.all(self.orders):
             (turned,) = self._add_turned(self._scalar, None)
             half = series.c[:, 0] / 2
             sides = (half, turned), (half.conj(), turned.conj())
@@ -132,8 +132,10 @@ class Phases:
 
         Returns: shape (sides, orders, *trailing).
         """
-        if _are_equal(sides):
-            return np.asarray(sides[:, :, 0] * self._add_turned(turns, _as_factors(arms)))
+        if sides.shape[2] == 1:
+            return np.asarray(
+                sides[:, :, 0] * self._add_turned(turns, None if arms is None else arms[None])
+            )
         each = (side if arms is None else arms * side for side in sides)
         own = [self._add_turned(turns[k : k + 1], factors) for k, factors in enumerate(each)]
         return np.concatenate(own)
@@ -147,10 +149,6 @@ class Phases:
             moving = sum(phase if factors is None else factors[:, k] * phase for k, phase in phases)
             total = total + turns[:, :, bank] * moving
         return total
-
-    @property
-    def _of_variants(self) -> bool:
-        return self.n.ndim > 2
 
     @cached_property
     def _of_banks(self) -> Complex:
@@ -201,13 +199,3 @@ class SeparatePhases(Phases):
     def _ones(self) -> Array:
         """A 1 for each cylinder, shape (cylinders,)."""
         return np.ones(self.count)
-
-
-def _are_equal(sides: Array | Complex) -> bool:
-    """Whether one vector stands for those of all cylinders, which is taken out of their sum."""
-    return sides.shape[2] == 1
-
-
-def _as_factors(arms: Array | None) -> Array | None:
-    """Factors of equal vectors, shape (1, cylinders, *trailing)."""
-    return None if arms is None else arms[None]

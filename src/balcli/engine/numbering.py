@@ -276,15 +276,12 @@ def check_numbering(parts: Assembly) -> Iterator[Problem]:
     else:
         yield from (
             p._replace(message=f"{p.message}, or give layout.numbering" + _suggest(parts))
-            for p in missed or _miss_everywhere(order)
+            for p in missed
+            or [Problem("layout.firing_order", f"{order} fits no usual numbering of the cylinders")]
         )
         return
     lines = [engine.describe() for engine in engines[:LIST_LENGTH]]
     yield Problem("layout.numbering", "\n    ".join([f"{told}:", *lines, FREE_END]))
-
-
-def _miss_everywhere(order: str) -> list[Problem]:
-    return [Problem("layout.firing_order", f"{order} fits no usual numbering of the cylinders")]
 
 
 def find_engines_meant(parts: Assembly) -> tuple[list[Candidate], int]:

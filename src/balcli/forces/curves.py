@@ -11,8 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
@@ -24,6 +26,7 @@ from ..limits import FINEST_STEP_DEG
 from ..result import Result
 from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
+Number = TypeVar("Number", np.float64, np.complex128)
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
 _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
@@ -148,9 +151,9 @@ def _sum_parts(
 
 
 def compute_piecemeal(
-    engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
-) -> dict[str, Array]:
-    """Curves by name, each of shape (angles,), computed at so many angles at a time that memory
+    engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, NDArray[Number]]]
+) -> dict[str, NDArray[Number]]:
+    """Curves by name, each of shape (..., angles), computed at so many angles at a time that memory
     does not grow with both cylinders and angles.
 
     Args:
@@ -159,7 +162,7 @@ def compute_piecemeal(
     step = max(AT_ONCE // engine.cylinders.count, 1)
     starts = range(0, max(len(crank_deg), 1), step)
     pieces = [compute(crank_deg[start : start + step]) for start in starts]
-    return {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+    return {name: np.concatenate([piece[name] for piece in pieces], axis=-1) for name in pieces[0]}
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:

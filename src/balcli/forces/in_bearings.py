@@ -25,7 +25,7 @@ from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_FORCES_OVER_CYCLE
 from .crankshaft import AlongCrank, InnerLoads, is_counterweight, place_bearings
-from .curves import AT_ONCE, compute_device_forces, find_crank_speed
+from .curves import compute_device_forces, compute_piecemeal, find_crank_speed
 from .gas import take_gas
 from .orders import list_gas_orders, mark_considerable
 from .rod_forces import compute_rod_forces, list_hung_rows
@@ -219,6 +219,4 @@ def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Comple
             f"loads with gas of {engine.cylinders.count} cylinders are {count * len(angles)} "
             f"forces over the cycle, and at most {MOST_FORCES_OVER_CYCLE} are kept"
         )
-    step, degrees = max(AT_ONCE // count, 1), np.degrees(angles)
-    parts = [compute(degrees[k : k + step]) for k in range(0, len(degrees), step)]
-    return np.concatenate(parts, axis=1)
+    return compute_piecemeal(engine, np.degrees(angles), lambda some: {"": compute(some)})[""]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
+from operator import add, sub
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -182,15 +184,8 @@ def _compute_gas(engine: Engine, orders: Array, *, apart: bool) -> Phasors:
 
 def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
     """Phasors of a kind by those of its parts (`Kind.parts`), which are given by name."""
-    if not kind.plus:
-        return parts[kind.name]
-    first, *others = kind.plus
-    total = parts[first]
-    for name in others:
-        total = total + parts[name]
-    for name in kind.minus:
-        total = total - parts[name]
-    return total
+    plus = reduce(add, (parts[name] for name in kind.plus or (kind.name,)))
+    return reduce(sub, (parts[name] for name in kind.minus), plus)
 
 
 def with_only(engine: Engine, moving: ArrayLike) -> Engine:
