@@ -211,7 +211,6 @@ class EngineMotion:
         radius: of the crank, m.
         crank_deg: shape (angles,).
         omega, xi: crank speed, rad/s, and acceleration, rad2/s2, shape (angles,).
-        lam, eps: shape (cylinders, 1).
         pin_deg: of the crank pins from x, shape (cylinders, angles).
         psi: of the crank pins from their cylinders' axes, rad, shape (cylinders, angles).
         axis: directions of the cylinders, shape (cylinders, 1).
@@ -224,15 +223,13 @@ class EngineMotion:
         self.radius = float(np.ravel(c.radius)[0])
         self.crank_deg = crank_deg
         self.omega, self.xi = find_crank_speed(engine, crank_deg)
-        self.lam = np.broadcast_to(as_rows(c.lam), (c.count, 1))
-        self.eps = np.broadcast_to(as_rows(c.eps), (c.count, 1))
         axes = as_rows(c.axis_of_each_deg)
         self.axis = unit(axes)
         self.pin_deg = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + as_rows(c.pin_deg)
         self.psi = np.radians(np.remainder(self.pin_deg - axes + 180, 360) - 180)
         self.mass = np.zeros((1, 1)) if c.linkage is None else as_rows(c.linkage.mass)
         self.moved: Motion = (
-            sc.SliderCrank(self.psi, self.lam, self.eps)
+            sc.SliderCrank(self.psi, as_rows(c.lam), as_rows(c.eps))
             if c.linkage is None
             else c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
         )
@@ -241,7 +238,7 @@ class EngineMotion:
         """Of the pistons, from their top dead centres, in crank radii."""
         c = self.cylinders
         if c.linkage is None:
-            return sc.displacement(self.psi, self.lam, self.eps)
+            return sc.displacement(self.psi, as_rows(c.lam), as_rows(c.eps))
         top = np.radians(find_travel(c).top_deg).reshape(-1, 1)
         highest = c.linkage.motion(top, np.ravel(c.lam), np.ravel(c.eps)).place
         return np.asarray(highest - self.moved.place)
@@ -284,7 +281,7 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
     -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
-    pull = as_rows(c.reciprocating) * (motion.eps * r / motion.lam) * r
+    pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
     on_curve, couple = motion.mass * r**2, as_rows(c.couple)
     h = as_rows(c.rotating) * r**2 - pull * m.velocity - couple * m.spin + on_curve * m.swirl
     slope = on_curve * m.swirl_rate - pull * m.acceleration - couple * m.spin_rate

@@ -145,7 +145,7 @@ def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[
         piston, *knuckle = (follow(point, throw) for point in m.points)
         still = _Course(r * throw, np.zeros_like(throw))
         return piston, (knuckle or [still])[0]
-    place = m.place + 1j * motion.eps / motion.lam
+    place = m.place + 1j * as_rows(engine.cylinders.offset) / r
     rates = (np.asarray(rate, complex) for rate in (m.velocity, m.acceleration))
     return follow(PointMass(place, *rates)), follow(m.pin)
 
