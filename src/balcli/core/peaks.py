@@ -158,24 +158,15 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real
         some = parts[start : start + step]
         size = np.sum(np.abs(some), axis=(1, 2))
         scaled = some / np.where(size > 0, size, 1)[:, None, None]
-        top, angle = _find_first_peaks(harmonics, scaled, squared)
-        found.append(np.stack([(np.sqrt(top) if squared else top) * size, angle * 2 / common]))
+        curve, values, angles, at_zero = _find_tops(harmonics, scaled, squared)
+        starts = np.searchsorted(curve, np.arange(len(some)))
+        top = np.maximum.reduceat(values, starts)
+        among = values >= (top - _EQUAL)[curve]
+        first = np.minimum.reduceat(np.where(among, angles, _TURN), starts)
+        first[at_zero >= top - _EQUAL] = 0.0
+        found.append(np.stack([(np.sqrt(top) if squared else top) * size, first * 2 / common]))
     value, angle = np.concatenate(found, axis=1)
     return value.reshape(shape), angle.reshape(shape)
-
-
-def _find_first_peaks(
-    harmonics: NDArray[np.int64], parts: Complex, squared: bool
-) -> tuple[Real, Real]:
-    """Return the highest value of each curve, shape (curves,), and its first angle in [0, 2 pi);
-    arguments as for `_find_tops`.
-    """
-    curve, value, angle, at_zero = _find_tops(harmonics, parts, squared)
-    starts = np.searchsorted(curve, np.arange(len(parts)))
-    best = np.maximum.reduceat(value, starts)
-    among = value >= (best - _EQUAL)[curve]
-    first = np.minimum.reduceat(np.where(among, angle, _TURN), starts)
-    return best, np.where(at_zero >= best - _EQUAL, 0.0, first)
 
 
 def _find_tops(
