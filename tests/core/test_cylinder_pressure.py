@@ -118,7 +118,7 @@ def test_a_constant_pressure_has_the_harmonics_of_the_piston(offset):
     found = PressureOnPiston(piston, steady(7e5), crankcase=1e5).harmonics(HALVES)
     n = np.arange(1, 25)
     mechanism = harmonics.find_harmonics(n, np.array([radius / rod]), np.array([offset / rod]))
-    turned = mechanism.piston.c[:, 0] / (1j * n) * np.exp(1j * n * piston.top)
+    turned = mechanism["piston"].c[:, 0] / (1j * n) * np.exp(1j * n * piston.top)
     expected = 6e5 * np.pi / 4 * bore**2 * radius * turned
     assert np.abs(found[2::2] - expected).max() <= OF_THE_LARGEST * np.abs(expected).max()
     assert np.abs(found[1::2]).max() <= OF_THE_LARGEST * np.abs(expected).max()

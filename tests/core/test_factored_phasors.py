@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.factored_phasors import FactoredPhasors, Product
-from balcli.core.phasors import EPS, Phasors
+from balcli.core.phasors import EPS, FactoredPhasors, Phasors
 
 ORDERS = np.array([1.0, 2.0, 4.0])
 RNG = np.random.default_rng(5)
@@ -17,12 +16,12 @@ def random_vectors(*shape: int) -> np.ndarray:
 
 
 SIDES = (
-    Product(RNG.normal(size=(3, 1, 5)), random_vectors(3, 4, 1)),
-    Product(random_vectors(3, 1, 5), random_vectors(3, 4, 1)),
+    (RNG.normal(size=(3, 1, 5)), random_vectors(3, 4, 1)),
+    (random_vectors(3, 1, 5), random_vectors(3, 4, 1)),
 )
 NOISE = np.abs(RNG.normal(size=(3, 1, 5)))  # as large as what it is compared with
 FACTORED = FactoredPhasors(ORDERS, SIDES, NOISE)
-PLAIN = Phasors.of(ORDERS, *(side.factor * side.vector for side in SIDES), NOISE)
+PLAIN = Phasors.of(ORDERS, *(factor * vector for factor, vector in SIDES), NOISE)
 
 
 def compare(one: Phasors, other: Phasors) -> None:
@@ -50,9 +49,3 @@ def test_what_lies_within_the_noise_is_zero_in_one_row_as_in_all() -> None:
     for row in range(len(ORDERS)):
         compare(settled.select_row(row), plain.select_row(row))
     compare(settled.select_orders([2, 4]), plain.select_orders([2, 4]))
-
-
-def test_products_are_narrow_where_parts_vary_along_other_axes() -> None:
-    along_both = Product(random_vectors(3, 4, 5), random_vectors(3, 4, 1))
-    assert FACTORED.narrow
-    assert not FactoredPhasors(ORDERS, (SIDES[0], along_both), NOISE).narrow

@@ -9,7 +9,7 @@ import pytest
 from support.engines import alone, build_text, engine, engine_text
 
 from balcli.core.loads import Loads
-from balcli.core.mechanisms.fourier import SERIES, Series
+from balcli.core.mechanisms.fourier import SERIES, Series, select_cylinders
 from balcli.core.phases import Phases
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
@@ -163,15 +163,13 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
     built = engine(**ENGINES[name])
     c = built.cylinders
     few, which = c.linkage.find_distinct_harmonics(LOW, c.lam, c.eps, SERIES)
-    exact = few.select_cylinders(which)._replace(piston=Series(0 * few.select_cylinders(which).piston.c))
+    exact = select_cylinders(few, which)
+    exact["piston"] = Series(0 * exact["piston"].c)
+    along, across = exact["along"].c, exact["across"].c
+    curve = {"along": Series(along, size * np.ones(1)), "across": Series(across, 3 * size)}
     for turn in (1, -1, 1j, -1j):
-        curve = exact.curve._replace(
-            along=Series(exact.curve.along.c, size * np.ones(1)), across=Series(exact.curve.across.c, 3 * size)
-        )
-        off = curve._replace(along=Series(curve.along.c + size), across=Series(curve.across.c + 3 * turn * size))
-        here, there = (
-            Loads(c, (), 0j, 0.0, Phases(c, LOW), exact._replace(curve=it), 1.0).force for it in (curve, off)
-        )
+        off = {"along": Series(along + size), "across": Series(across + 3 * turn * size)}
+        here, there = (Loads(c, (), 0j, 0.0, Phases(c, LOW), exact | it, 1.0).force for it in (curve, off))
         assert np.all(here.noise >= EPS * here.major)
         assert np.all(np.abs(there.forward - here.forward) <= here.noise)
         assert np.all(np.abs(there.backward - here.backward) <= here.noise)

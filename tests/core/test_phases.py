@@ -88,10 +88,3 @@ def test_what_is_not_summed_are_the_terms_of_the_sum(columns, arms):
     assert each.backward.sum(axis=1) == pytest.approx(whole.backward, abs=ROUNDING)
     noise = np.broadcast_to(each.noise, (len(ORDERS), 5)).sum(axis=1)
     assert noise == pytest.approx(whole.noise)
-
-
-def test_nothing_adds_up_to_nothing():
-    for phases, shape in ((Phases, (4,)), (SeparatePhases, (4, 5))):
-        nothing = phases(cylinders(), ORDERS).nothing()
-        assert nothing.balanced.all()
-        assert nothing.forward.shape == shape

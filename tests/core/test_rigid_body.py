@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support import high_precision
+from support.rigid_bodies import press_mounts, respond_body
 
 from balcli.core.peaks import find_longest, largest_of_ellipse
 from balcli.core.rigid_body import (
@@ -21,8 +22,6 @@ from balcli.core.rigid_body import (
     find_screw,
     load_at_centre,
     mass_matrix,
-    press_mounts,
-    respond_body,
     roll_axis,
     settle_body,
     share_energy,

@@ -151,7 +151,7 @@ def test_constant_pressure_has_the_harmonics_of_the_travel(tmp_path):
     path = write(tmp_path / "single.toml", single + '[gas]\nindicator = "p.csv"\ncrankcase = 2\n')
     found = load(path)
     torque = scalar(compute_spectra(found, ORDERS, ["gas"])["gas"])
-    series = find_harmonics(ORDERS, found.cylinders.lam, ["piston"]).piston.c[:, 0]
+    series = find_harmonics(ORDERS, found.cylinders.lam, ["piston"])["piston"].c[:, 0]
     n = np.where(ORDERS, ORDERS, 1)
     want = -1j * 4e5 * np.pi / 4 * 0.086**2 * 0.045 * series / n
     assert torque == pytest.approx(np.where(ORDERS, want, 0), abs=1e-12 * np.abs(want).max())

@@ -162,7 +162,7 @@ def test_shafts_at_different_heights_take_the_roll():
     Inertia torque of order 2 of one cylinder: `1/2 m r^2 K_2 2 sin 2 theta` with K_2 the
     coefficient of (s'/r)^2; four of them.
     """
-    inertia_torque = 4 * M * R**2 * abs(float(closed_form.kinetic([2], LAM)[0]))  # per omega^2
+    inertia_torque = 4 * M * R**2 * abs(float(closed_form.find_harmonics([2], LAM)["kinetic"].c[0]))  # per omega^2
     height = inertia_torque / (4 * A2 * M * R / 2)  # force of one shaft
     remedy = size_scheme(INLINE_4, "two-shaft", roll="zero")
     place = {s.ratio: complex(*s.at) / 1e3 for s in remedy.shafts}

@@ -2,9 +2,8 @@
 
 The curve is a force seen from the turning crank, `f = F e^{-i theta}`. An exchange: the smallest
 circle of a few of its points, which can only be too small, then the peaks of the difference
-between curve and centre, until both agree. Newton's method on the two or three angles that fix the
-circle gives the centre to rounding even where the radius is flat. Weights w >= 0 of points with sum
-1 bound the radius from below, `R^2 >= sum w |f|^2 - |sum w f|^2`: the error is known.
+between curve and centre, which become points as well, until both radii agree. The smaller radius
+bounds the larger one: the error is known.
 """
 
 from __future__ import annotations
@@ -22,15 +21,14 @@ _SAME = 8 * EPS  # points no farther outside than this, relative, are on the cir
 _TOUCHING = 1e-11  # the same for the angles that are reported
 _APART = 1e-3  # rad; angles nearer than this are one peak
 _ROUNDS = 60
-_NEWTON_STEPS = 4  # from points that nearly fix the circle, to rounding
-_STEP = 1e-6  # rad, of differences that stand for derivatives
-_FLAT = 1e-9  # singular values of the slopes below this share of the largest: a flat radius
 
 
 class Circle(NamedTuple):
     """Smallest circle around a curve.
 
     Attributes:
+        centre: complex, in the unit of the curve.
+        radius: largest distance of the curve from the centre.
         theta: angles (rad, ascending) at which the curve touches it.
         excess: bound by which the radius may be too large; 0 if that is no more than `noise`.
         noise: rounding error of the radius.
@@ -44,8 +42,10 @@ class Circle(NamedTuple):
 
 
 def enclose_curve(curve: Phasors) -> Circle:
-    """Return the smallest circle around `F e^{-i theta}` for phasors of whole orders, 1 among them,
-    without trailing axes.
+    """Return the smallest circle around `F e^{-i theta}`.
+
+    Args:
+        curve: phasors of whole orders, 1 among them, without trailing axes.
     """
     there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
     if not np.any(curve.major):
@@ -57,18 +57,17 @@ def enclose_curve(curve: Phasors) -> Circle:
     for _ in range(_ROUNDS):
         points = _seen(curve, theta)
         centre, fixing = enclose_points(points)
-        theta = theta[fixing]
-        lower = max(lower, _lower_bound(points[fixing], centre))
-        trials = [_reach(curve, c) for c in (centre, _newton(curve, theta, centre))]
-        best = min(best, *trials, key=lambda circle: circle.radius)
+        lower = max(lower, float(np.abs(points[fixing] - centre).max()))
+        trial = _reach(curve, centre)
+        best = min(best, trial, key=lambda circle: circle.radius)
         if best.radius - lower <= noise:
             break
-        theta = np.concatenate([theta, *(circle.theta for circle in trials)])
-    fine = _reach(curve, _newton(curve, best.theta if len(theta) < 2 else theta, best.centre))
-    best = fine if fine.radius <= best.radius + noise else best
+        theta = np.concatenate([theta[fixing], trial.theta])
     on = np.abs(_seen(curve, best.theta) - best.centre) >= best.radius * (1 - _TOUCHING) - noise
     excess = best.radius - lower
-    return Circle(best.centre, best.radius, best.theta[on], excess * (excess > noise), noise)
+    return Circle(
+        best.centre, best.radius, best.theta[on], max(excess, 0.0) * (excess > noise), noise
+    )
 
 
 def enclose_points(points: Complex) -> tuple[complex, list[int]]:
@@ -82,39 +81,22 @@ def enclose_points(points: Complex) -> tuple[complex, list[int]]:
         if distance[farthest] <= radius * (1 + _SAME) or farthest in fixing:
             break
         few = [*fixing, farthest]
-        circles = [
-            (float(np.abs(points[list(some)] - middle).max()), middle, list(some))
-            for count in (2, 3)
-            for some in combinations(few, count)
-            if (middle := _find_middle(points[list(some)])) is not None
-        ]
-        holding = [
-            one for one in circles if np.abs(points[few] - one[1]).max() <= one[0] * (1 + _TOUCHING)
-        ]
-        radius, centre, fixing = min(holding or circles, key=lambda one: one[0])
+        circles = []
+        for some in (list(some) for k in (2, 3) for some in combinations(few, k)):
+            middle = _find_middle(points[some])
+            circles.append((float(np.abs(points[few] - middle).max()), middle, some))
+        radius, centre, fixing = min(circles, key=lambda circle: circle[0])
     return centre, fixing
 
 
-def _find_middle(points: Complex) -> complex | None:
-    """Return the centre of the circle through two points (as diameter) or three; None: in line."""
+def _find_middle(points: Complex) -> complex:
+    """Return the centre of the circle through two points (as diameter) or three; inf: in line."""
     a, b = complex(points[0]), complex(points[1] - points[0])
     if len(points) == 2:
         return a + b / 2
     c = complex(points[2]) - a
     across = 2 * (b.conjugate() * c).imag
-    return a + 1j * (b * abs(c) ** 2 - c * abs(b) ** 2) / across if across else None
-
-
-def _lower_bound(points: Complex, centre: complex) -> float:
-    """Return a lower bound of the radius, by weights with which the points balance about the
-    centre.
-    """
-    arms = points - centre
-    size = np.abs(arms).max() or 1.0
-    rows = np.stack([arms.real / size, arms.imag / size, np.ones(len(arms))])
-    weights = np.clip(np.linalg.lstsq(rows, np.array([0, 0, 1.0]), rcond=None)[0], 0, None)
-    weights /= weights.sum()
-    return float(np.sqrt(max(weights @ np.abs(arms) ** 2 - abs(weights @ arms) ** 2, 0.0)))
+    return a + 1j * (b * abs(c) ** 2 - c * abs(b) ** 2) / across if across else complex(np.inf)
 
 
 def _reach(curve: Phasors, centre: complex) -> Circle:
@@ -129,33 +111,6 @@ def _reach(curve: Phasors, centre: complex) -> Circle:
     return Circle(centre, float(np.abs(difference.values(theta)).max()), theta, np.inf)
 
 
-def _newton(curve: Phasors, theta: Real, centre: complex) -> complex:
-    """Return the centre of the circle through two or three points of the curve once each is where
-    the curve is farthest from that centre.
-    """
-    if not 2 <= len(theta) <= 3:
-        return centre
-
-    def slopes(theta: Real) -> tuple[Real, complex]:
-        seen = _seen(curve, theta)
-        middle = _find_middle(seen)
-        middle = centre if middle is None else middle
-        return (np.conj(seen - middle) * _seen(curve, theta, 1)).real, middle
-
-    for _ in range(_NEWTON_STEPS):
-        columns = [
-            (slopes(theta + h)[0] - slopes(theta - h)[0]) / (2 * _STEP)
-            for h in _STEP * np.eye(len(theta))
-        ]
-        inverse = np.linalg.pinv(np.stack(columns, axis=1), rcond=_FLAT)
-        theta = theta - inverse @ slopes(theta)[0]
-    return slopes(theta)[1]
-
-
-def _seen(curve: Phasors, theta: Real, times: int = 0) -> Complex:
-    """Return the curve seen from the crank, differentiated so many times, at angles (rad)."""
-    ahead, against = 1j * (curve.orders - 1), -1j * (curve.orders + 1)
-    return np.asarray(
-        np.exp(np.multiply.outer(theta, ahead)) @ (ahead**times * curve.forward)
-        + np.exp(np.multiply.outer(theta, against)) @ (against**times * curve.backward)
-    )
+def _seen(curve: Phasors, theta: Real) -> Complex:
+    """Return the curve seen from the crank, at angles (rad)."""
+    return curve.values(theta) * np.exp(-1j * theta)

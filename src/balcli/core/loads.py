@@ -9,12 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import reduce
+from functools import cached_property, reduce
 from operator import add
 
 import numpy as np
 
-from .cached_property import cached_property
 from .cylinders import Cylinders, Device
 from .mechanisms.fourier import Harmonics, Series
 from .phases import SUM, Phases, Vectors
@@ -59,8 +58,8 @@ class Loads:
     def couple(self) -> Phasors:
         """Free transverse couple about z, N m: the cylinders' own, and the forces' arms."""
         own = find_couples(self.cylinders, self.harmonics, self.square)
-        parts = [self.phases.add_scalars(series) for series in own]
-        total = reduce(add, parts) if parts else self.phases.nothing()
+        series = list(own) or [Series(np.zeros_like(self.phases.n))]
+        total = reduce(add, map(self.phases.add_scalars, series))
         if np.count_nonzero(self.place):
             total += self.phases.add_vectors(self._pulls).about(-self.place)
         for device, force in zip(self.devices, self._of_devices, strict=True):
@@ -154,16 +153,16 @@ def find_pulls(
     """
     c, rounding = cylinders, phases.rounding
     if _has_pistons(c):
-        along = (c.reciprocating * c.radius * square / 2) * harmonics.piston
+        along = (c.reciprocating * c.radius * square / 2) * harmonics["piston"]
     else:
         along = Series(np.zeros_like(phases.n))
     turning = (phases.n == 1) * (c.rotating * (c.radius * square))
     forward: Array | Complex = along.c + turning
     mirrored = along.c
     error = rounding * (np.abs(along.c) + turning) + along.noise
-    if harmonics.curve is not None:
-        half = _weigh_on_curve(c, square) / 2
-        x, y = half * harmonics.curve.along, half * harmonics.curve.across
+    if c.linkage is not None:
+        half = c.linkage.mass * c.radius * square / 2
+        x, y = half * harmonics["along"], half * harmonics["across"]
         across: Complex = np.asarray(1j * y.c, np.complex128)
         forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
         error = error + rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
@@ -176,11 +175,11 @@ def find_couples(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     """
     c = cylinders
     if np.count_nonzero(c.couple):
-        yield (c.couple * square) * harmonics.rod
+        yield (c.couple * square) * harmonics["rod"]
     if np.count_nonzero(c.eps) and _has_pistons(c):
-        yield -(c.reciprocating * c.offset * c.radius * square) * harmonics.piston
-    if harmonics.curve is not None:
-        yield (_weigh_on_curve(c, square) * c.radius) * harmonics.curve.couple
+        yield -(c.reciprocating * c.offset * c.radius * square) * harmonics["piston"]
+    if c.linkage is not None:
+        yield (c.linkage.mass * c.radius**2 * square) * harmonics["couple"]
 
 
 def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Series:
@@ -190,11 +189,11 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     c = cylinders
     parts = []
     if _has_pistons(c):
-        parts.append((c.reciprocating * c.radius**2 * square) * harmonics.kinetic)
-    if harmonics.curve is not None:
-        parts.append((_weigh_on_curve(c, square) * c.radius) * harmonics.curve.energy)
+        parts.append((c.reciprocating * c.radius**2 * square) * harmonics["kinetic"])
+    if c.linkage is not None:
+        parts.append((c.linkage.mass * c.radius**2 * square) * harmonics["energy"])
     if np.count_nonzero(c.couple):
-        parts.append(-(c.couple * square) * harmonics.rod_kinetic)
+        parts.append(-(c.couple * square) * harmonics["rod_kinetic"])
     return reduce(add, parts)
 
 
@@ -204,16 +203,9 @@ def find_mean_momentum(cylinders: Cylinders, harmonics: Harmonics, square: Figur
     *trailing).
     """
     c = cylinders
-    mean = (c.rotating * c.radius**2 - c.couple * harmonics.turns) * square
-    if harmonics.curve is None:
+    linkage = c.linkage
+    turns = 1.0 if linkage is not None and linkage.turning else 0.0  # of the rods
+    mean = (c.rotating * c.radius**2 - turns * c.couple) * square
+    if linkage is None:
         return mean
-    return mean + _weigh_on_curve(c, square) * c.radius * harmonics.curve.swirl.c[0].real
-
-
-def _weigh_on_curve(cylinders: Cylinders, square: Figure) -> Array:
-    """What a linkage's masses on their curves weigh in forces: mass x radius x square of the speed,
-    N; of cylinders that have one.
-    """
-    if cylinders.linkage is None:
-        return np.zeros(1)
-    return cylinders.linkage.mass * cylinders.radius * square
+    return mean + linkage.mass * c.radius**2 * square * harmonics["swirl"].c[0].real

@@ -64,39 +64,6 @@ class Swing(NamedTuple):
         return (self.highest.value - self.lowest.value) / 2
 
 
-class _Curves(NamedTuple):
-    """Real curves, vectors of one or more components.
-
-    Attributes:
-        harmonics: whole numbers, shape (orders,).
-        parts: phasors, shape (curves, components, orders).
-        squared: whether the square of the length is measured, not the value of the one component.
-    """
-
-    harmonics: NDArray[np.int64]
-    parts: Complex
-    squared: bool
-
-    def sample(self) -> Real:
-        """Return values at equal distances over a cycle, shape (curves, samples)."""
-        top = int(self.harmonics.max(initial=1))
-        spectrum = np.zeros((*self.parts.shape[:-1], top + 1), complex)
-        spectrum[..., self.harmonics] = np.where(self.harmonics, self.parts / 2, self.parts.real)
-        values = np.fft.irfft(spectrum, _SAMPLES * max(top, 1), axis=-1, norm="forward")
-        return np.sum(values**2, axis=1) if self.squared else values[:, 0]
-
-    def differentiate(self, which: NDArray[np.intp], angle: Real) -> tuple[Real, Real, Real]:
-        """Return values and two derivatives of some curves, each at one angle, shape (some,)."""
-        turned = self.parts[which] * np.exp(1j * angle[:, None] * self.harmonics)[:, None]
-        rates = np.vander(self.harmonics.astype(float), 3, increasing=True)
-        sums = turned @ rates.astype(complex)
-        x, x1, x2 = sums[..., 0].real, -sums[..., 1].imag, -sums[..., 2].real
-        if not self.squared:
-            return x[:, 0], x1[:, 0], x2[:, 0]
-        slope, bend = 2 * np.sum(x * x1, axis=1), 2 * np.sum(x1 * x1 + x * x2, axis=1)
-        return np.sum(x * x, axis=1), slope, bend
-
-
 # ------------------------------------------------------------------ curves by their phasors
 def find_peak(curve: Phasors) -> Peak:
     """Return the largest |F| over a revolution of phasors without trailing axes."""
@@ -116,8 +83,8 @@ def find_near_peaks(curve: Phasors) -> Real:
     revolution, for phasors of whole orders without trailing axes; several may be the same top.
     """
     parts = _list_components(curve).T[None]
-    curves = _Curves(curve.orders.astype(np.int64), parts / np.abs(parts).sum(), squared=True)
-    return np.sort(_find_tops(curves, curves.sample())[2])
+    scaled = parts / np.abs(parts).sum()
+    return np.sort(_find_tops(curve.orders.astype(np.int64), scaled, squared=True)[2])
 
 
 def _list_components(curves: Phasors) -> Complex:
@@ -174,85 +141,77 @@ def largest_of_ellipse(phasors: Complex) -> Real:
 
 
 def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real, Real]:
-    """Return the highest values, or lengths, and their angles, shape (*curves)."""
-    harmonics, unit, phasors = _common_harmonics(orders, phasors)
-    shape, parts = phasors.shape[1:-1], phasors.reshape(len(harmonics), -1, phasors.shape[-1])
-    count = _SAMPLES * int(harmonics.max(initial=1)) * parts.shape[-1]
-    step = max(_AT_ONCE // max(count, 1), 1)
+    """Return the highest values, or lengths, and their first angles, shape (*curves)."""
+    halves = 2 * np.asarray(orders, float)
+    there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
+    there |= not np.any(there)
+    harmonics = np.rint(halves).astype(np.int64)
+    if np.any(harmonics != halves) or np.any(harmonics < 0) or len(set(halves)) < len(halves):
+        raise ValueError("orders have to be different multiples of 1/2, none below 0")
+    common = max(int(np.gcd.reduce(harmonics[there])), 1)  # makes the cycle as short as can be
+    harmonics = harmonics[there] // common
+    shape, components = phasors.shape[1:-1], phasors.shape[-1]
+    parts = phasors[there].reshape(len(harmonics), -1, components).transpose(1, 2, 0)
+    step = max(_AT_ONCE // (_SAMPLES * int(harmonics.max(initial=1)) * components), 1)
     found = [np.zeros((2, 0))]
-    for start in range(0, parts.shape[1], step):
-        some = np.ascontiguousarray(np.moveaxis(parts[:, start : start + step], 0, -1))
+    for start in range(0, len(parts), step):
+        some = parts[start : start + step]
         size = np.sum(np.abs(some), axis=(1, 2))
-        some = some / np.where(size > 0, size, 1)[:, None, None]
-        top, angle = _find_first_peaks(_Curves(harmonics, some, squared))
-        found.append(np.stack([(np.sqrt(top) if squared else top) * size, angle / unit]))
+        scaled = some / np.where(size > 0, size, 1)[:, None, None]
+        curve, values, angles, at_zero = _find_tops(harmonics, scaled, squared)
+        starts = np.searchsorted(curve, np.arange(len(some)))
+        top = np.maximum.reduceat(values, starts)
+        among = values >= (top - _EQUAL)[curve]
+        first = np.minimum.reduceat(np.where(among, angles, _TURN), starts)
+        first[at_zero >= top - _EQUAL] = 0.0
+        found.append(np.stack([(np.sqrt(top) if squared else top) * size, first * 2 / common]))
     value, angle = np.concatenate(found, axis=1)
     return value.reshape(shape), angle.reshape(shape)
 
 
-def _common_harmonics(
-    orders: ArrayLike, phasors: Complex
-) -> tuple[NDArray[np.int64], float, Complex]:
-    """Return the whole harmonics of the shortest common cycle, how many of these cycles make a turn
-    of 2 pi, and the phasors of the harmonics; orders without any phasor are left out.
+def _find_tops(
+    harmonics: NDArray[np.int64], parts: Complex, squared: bool
+) -> tuple[NDArray[np.intp], Real, Real, Real]:
+    """Return the tops that may be the highest of their curves: numbers of the curves, ascending,
+    values, and angles in [0, 2 pi), each of shape (tops,); and the values at 0, shape (curves,).
+
+    Args:
+        harmonics: whole numbers, shape (orders,).
+        parts: phasors of which the sum of all sizes is 1, shape (curves, components, orders).
+        squared: whether the square of the length is wanted, or the value of the one component.
     """
-    halves = 2 * np.asarray(orders, float)
-    harmonics = np.rint(halves).astype(np.int64)
-    once = len(np.unique(harmonics)) == len(harmonics)
-    if not once or np.any(harmonics != halves) or np.any(harmonics < 0):
-        raise ValueError("orders have to be different multiples of 1/2, none below 0")
-    there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
-    there |= not np.any(there)
-    common = max(int(np.gcd.reduce(harmonics[there])), 1)
-    return harmonics[there] // common, common / 2, phasors[there]
-
-
-def _find_first_peaks(curves: _Curves) -> tuple[Real, Real]:
-    """Return the highest value of each curve, shape (curves,), and its first angle in [0, 2 pi)."""
-    samples = curves.sample()
-    curve, value, angle = _find_tops(curves, samples)
-    starts = np.searchsorted(curve, np.arange(len(samples)))
-    best = np.maximum.reduceat(value, starts)
-    among = value >= (best - _EQUAL)[curve]
-    first = np.minimum.reduceat(np.where(among, angle, _TURN), starts)
-    return best, np.where(samples[:, 0] >= best - _EQUAL, 0.0, first)
-
-
-def _find_tops(curves: _Curves, samples: Real) -> tuple[NDArray[np.intp], Real, Real]:
-    """Return the tops beside samples that may be the highest of their curves: numbers of the
-    curves, ascending, values, and angles in [0, 2 pi); each of shape (tops,).
-    """
-    highest = np.argmax(samples, axis=-1)
-    low, high, near = samples.min(axis=-1), samples.max(axis=-1), np.cos(np.pi / _SAMPLES)
-    slack = high * (1 - near**2) if curves.squared else (high - low) / 2 * (1 / near - 1)
-    curve, at = np.nonzero(samples >= (high - slack)[:, None])
-    here, before = samples[curve, at], samples[curve, at - 1]
-    after = samples[curve, (at + 1) % samples.shape[-1]]
-    top = (here > before) & (here >= after)
-    top |= at == highest[curve]
-    curve, at, before, here, after = (column[top] for column in (curve, at, before, here, after))
-    step = _TURN / samples.shape[-1]
-    bend = before - 2 * here + after  # of the parabola through the three
-    start = at + (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
-    terms = curves.parts.shape[1] * curves.parts.shape[2]
-    block = max(_AT_ONCE // max(terms, 1), 1)
-    climbed = [
-        _climb(curves, curve[k : k + block], step * start[k : k + block], step)
-        for k in range(0, len(curve), block)
-    ]
-    value, angle = np.concatenate(climbed, axis=1)
+    highest = int(harmonics.max(initial=1))
+    spectrum = np.zeros((*parts.shape[:-1], highest + 1), complex)
+    spectrum[..., harmonics] = np.where(harmonics, parts / 2, parts.real)
+    waves = np.fft.irfft(spectrum, _SAMPLES * max(highest, 1), axis=-1, norm="forward")
+    samples = np.sum(waves**2, axis=1) if squared else waves[:, 0]
+    high = samples.max(axis=1, keepdims=True)
+    swing = high - (0 if squared else samples.min(axis=1, keepdims=True))
+    here = samples >= high - (1 - np.cos(np.pi / _SAMPLES) ** 2) * swing
+    here &= (samples > np.roll(samples, 1, axis=1)) & (samples >= np.roll(samples, -1, axis=1))
+    here[np.arange(len(parts)), samples.argmax(axis=1)] = True
+    curve, at = np.nonzero(here)
+    step = _TURN / samples.shape[1]
+    value, angle = _climb(harmonics, parts[curve], squared, step * at, step)
     angle = angle % _TURN
-    return curve, value, np.where(angle > _TURN - _ZERO, 0.0, angle)
+    return curve, value, np.where(angle > _TURN - _ZERO, 0.0, angle), samples[:, 0]
 
 
-def _climb(curves: _Curves, curve: NDArray[np.intp], angle: Real, step: float) -> Real:
-    """Return the tops beside these angles of some curves, by Newton's method in steps of at most
-    `step`: values and angles, shape (2, angles).
+def _climb(
+    harmonics: NDArray[np.int64], parts: Complex, squared: bool, start: Real, step: float
+) -> tuple[Real, Real]:
+    """Return the values and angles of the tops next to these angles, one for each curve, by
+    Newton's method in steps of at most `step`; arguments as for `_find_tops`.
     """
-    value, angle = np.empty(len(angle)), angle.copy()
-    moving = np.arange(len(angle))
+    value, angle, moving = np.empty(len(start)), start.copy(), np.arange(len(start))
+    rates = np.vander(harmonics.astype(complex), 3, increasing=True)
     for _ in range(_ROUNDS):
-        x, slope, bend = curves.differentiate(curve[moving], angle[moving])
+        turned = parts[moving] * np.exp(1j * angle[moving, None] * harmonics)[:, None]
+        sums = turned @ rates
+        x, slope, bend = sums[..., 0].real, -sums[..., 1].imag, -sums[..., 2].real
+        if squared:
+            x, slope, bend = x * x, 2 * x * slope, 2 * (slope * slope + x * bend)
+        x, slope, bend = x.sum(axis=1), slope.sum(axis=1), bend.sum(axis=1)
         uphill = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step)
         move = np.clip(uphill, -step, step)
         gain = slope * move / 2  # of a parabola
@@ -261,4 +220,4 @@ def _climb(curves: _Curves, curve: NDArray[np.intp], angle: Real, step: float) -
         moving = moving[(np.abs(move) > _SHORT * step) & (2 * np.abs(gain) > _SETTLED)]
         if not len(moving):
             break
-    return np.stack([value, angle])
+    return value, angle

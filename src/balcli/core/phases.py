@@ -14,17 +14,16 @@ any trailing axes; an axis along which nothing varies has length 1.
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import groupby
 from typing import NamedTuple
 
 import numpy as np
 
-from .cached_property import cached_property
 from .cylinders import Cylinders
-from .factored_phasors import FactoredPhasors, Product
 from .mechanisms.fourier import Series
 from .mechanisms.harmonics import narrow
-from .phasors import EPS, Array, Complex, Phasors, unit
+from .phasors import EPS, Array, Complex, FactoredPhasors, Phasors, unit
 
 TURN = 360  # deg
 SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
@@ -94,11 +93,10 @@ class Phases:
         """
         sides, error = vectors
         noise = self.add_figures(error, sizes)
-        if self._of_variants and _are_equal(sides):
-            ahead, astern = self._add_turned(self._planar, _as_factors(arms))
-            ahead_side = Product(sides[0, :, 0], ahead)
-            astern_side = Product(sides[1, :, 0].conj(), astern.conj())
-            return FactoredPhasors(self.orders, (ahead_side, astern_side), noise)
+        if self.n.ndim > 2 and sides.shape[2] == 1:  # of variants
+            ahead, astern = self._add_turned(self._planar, None if arms is None else arms[None])
+            both = (sides[0, :, 0], ahead), (sides[1, :, 0].conj(), astern.conj())
+            return FactoredPhasors(self.orders, both, noise)
         sums = self._add(self._planar, sides, arms)
         np.conjugate(sums[1], out=sums[1])
         return Phasors(self.orders, sums, noise)
@@ -106,10 +104,10 @@ class Phases:
     def add_scalars(self, series: Series) -> Phasors:
         """Sum of what the cylinders do about z."""
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
-        if self._of_variants and len(series.c[0]) == 1 and np.all(self.orders):
+        if self.n.ndim > 2 and len(series.c[0]) == 1 and np.all(self.orders):
             (turned,) = self._add_turned(self._scalar, None)
             half = series.c[:, 0] / 2
-            sides = Product(half, turned), Product(half.conj(), turned.conj())
+            sides = (half, turned), (half.conj(), turned.conj())
             return FactoredPhasors(self.orders, sides, noise)
         (total,) = self._add(self._scalar, series.c[None], None)
         return Phasors.from_scalar(self.orders, total, noise)
@@ -125,15 +123,6 @@ class Phases:
             return np.add.reduce(values if sizes is None else values * sizes, axis=1)
         return values[:, 0] * (self.count if sizes is None else np.add.reduce(sizes, axis=0))
 
-    def nothing(self) -> Phasors:
-        """A sum of nothing."""
-        zero: Complex = np.zeros((2, *self._sum_shape), np.complex128)
-        return Phasors(self.orders, zero, zero[0].real)
-
-    @property
-    def _sum_shape(self) -> tuple[int, ...]:
-        return self.n.shape[:1] + self.n.shape[2:]
-
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
         """`sum over banks of turns * sum over its cylinders of arms * vectors * e^{i n pin}`.
 
@@ -143,8 +132,10 @@ class Phases:
 
         Returns: shape (sides, orders, *trailing).
         """
-        if _are_equal(sides):
-            return np.asarray(sides[:, :, 0] * self._add_turned(turns, _as_factors(arms)))
+        if sides.shape[2] == 1:
+            return np.asarray(
+                sides[:, :, 0] * self._add_turned(turns, None if arms is None else arms[None])
+            )
         each = (side if arms is None else arms * side for side in sides)
         own = [self._add_turned(turns[k : k + 1], factors) for k, factors in enumerate(each)]
         return np.concatenate(own)
@@ -158,10 +149,6 @@ class Phases:
             moving = sum(phase if factors is None else factors[:, k] * phase for k, phase in phases)
             total = total + turns[:, :, bank] * moving
         return total
-
-    @property
-    def _of_variants(self) -> bool:
-        return self.n.ndim > 2
 
     @cached_property
     def _of_banks(self) -> Complex:
@@ -202,10 +189,6 @@ class SeparatePhases(Phases):
         """The terms of this sum."""
         return values * (self._ones if sizes is None else sizes)
 
-    @property
-    def _sum_shape(self) -> tuple[int, ...]:
-        return len(self.orders), self.count
-
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
         """The terms of this sum, shape (sides, orders, cylinders)."""
         counts = np.diff([*self._starts, self.count])
@@ -216,13 +199,3 @@ class SeparatePhases(Phases):
     def _ones(self) -> Array:
         """A 1 for each cylinder, shape (cylinders,)."""
         return np.ones(self.count)
-
-
-def _are_equal(sides: Array | Complex) -> bool:
-    """Whether one vector stands for those of all cylinders, which is taken out of their sum."""
-    return sides.shape[2] == 1
-
-
-def _as_factors(arms: Array | None) -> Array | None:
-    """Factors of equal vectors, shape (1, cylinders, *trailing)."""
-    return None if arms is None else arms[None]

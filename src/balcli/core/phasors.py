@@ -10,16 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .cached_property import cached_property
-
 Array: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]
 Figure: TypeAlias = float | Array  # a number, or an array of variants
+Side: TypeAlias = tuple[Array | Complex, Complex]  # a factor and a vector
 
 EPS = float(np.finfo(float).eps)
 # As arrays without axes, which numpy takes up quicker than Python's numbers.
@@ -47,17 +47,12 @@ def unit(degrees: ArrayLike) -> Complex:
     """
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
-    rest = x - _STEP * steps
+    rest: Array = x - _STEP * steps
     turned: Complex = _UNITS.take(steps.astype(np.intp) % _STEPS_A_TURN)
-    return turned * _turn(rest * _RADIANS_A_DEGREE) if np.count_nonzero(rest) else turned
-
-
-def _turn(radians: Array) -> Complex:
-    """e^{i x}: cosine and sine of real numbers are quicker than the complex exponential."""
-    result = np.empty(radians.shape, complex)
-    np.cos(radians, out=result.real)
-    np.sin(radians, out=result.imag)
-    return result
+    if not np.count_nonzero(rest):
+        return turned
+    rest = rest * _RADIANS_A_DEGREE
+    return turned * compose(np.cos(rest), np.sin(rest))
 
 
 def compose(real: Array, imaginary: Array) -> Complex:
@@ -209,17 +204,19 @@ class Phasors:
     @property
     def x(self) -> Complex:
         """Components along x as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
-        mean = _column(self.orders, self.forward) == 0
-        x = np.where(mean, self.forward.real, self.forward + np.conj(self.backward))
-        return _settle(x, 2 * self.noise)
+        return self._project(1.0)
 
     @property
     def y(self) -> Complex:
         """Components along y as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
-        mean = _column(self.orders, self.forward) == 0
-        across = -1j * (self.forward - np.conj(self.backward))
-        y = np.where(mean, self.forward.imag, across)
-        return _settle(y, 2 * self.noise)
+        return self._project(-1j)
+
+    def _project(self, turn: complex) -> Complex:
+        """Components along the axis that this factor turns onto x."""
+        ahead, against = turn * self.forward, turn * self.backward
+        mean = _column(self.orders, ahead) == 0
+        c = np.where(mean, ahead.real, ahead + np.conj(against))
+        return np.where(np.abs(c) <= 2 * self.noise, 0, c)
 
     def values(self, theta: ArrayLike) -> Complex:
         """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors
@@ -231,6 +228,58 @@ class Phasors:
         return curve
 
 
+class FactoredPhasors(Phasors):
+    """Phasors whose vectors are products of what varies along some axes (what each of equal
+    cylinders does) and what varies along others (where they point).
+
+    The size of a product is the product of the sizes, so that amplitudes of many variants need no
+    complex number for each of them; vectors are multiplied where somebody reads them.
+
+    Args:
+        orders: shape (orders,).
+        sides: a factor and a vector, each of shape (orders, *trailing), of the vectors with the
+            crank, and of those against it.
+        noise: bound of the rounding error of either, shape (orders, *trailing).
+        settled: whether a product within the noise is exactly 0.
+    """
+
+    _sides: tuple[Side, Side]
+    _settled: bool
+
+    def __init__(
+        self, orders: Array, sides: tuple[Side, Side], noise: Array, *, settled: bool = False
+    ) -> None:
+        vars(self).update(orders=orders, noise=noise, _sides=sides, _settled=settled)
+
+    @cached_property
+    def vectors(self) -> Complex:
+        products = np.array([factor * vector for factor, vector in self._sides], complex)
+        return np.where(self._sizes == 0, 0, products) if self._settled else products
+
+    @cached_property
+    def _sizes(self) -> Array:
+        (factor, vector), _ = self._sides
+        sizes = np.empty((2, *np.broadcast_shapes(factor.shape, vector.shape)))
+        for size, (factor, vector) in zip(sizes, self._sides, strict=True):
+            np.multiply(np.abs(factor), np.abs(vector), out=size)
+        if self._settled:
+            sizes[sizes <= self.noise] = 0
+        return sizes
+
+    def __rmul__(self, factor: complex | Figure | Complex) -> FactoredPhasors:
+        ahead, astern = ((own, factor * vector) for own, vector in self._sides)
+        return FactoredPhasors(self.orders, (ahead, astern), np.abs(factor) * self.noise)
+
+    def drop_noise(self) -> FactoredPhasors:
+        return FactoredPhasors(self.orders, self._sides, self.noise, settled=True)
+
+    def select_row(self, row: int) -> FactoredPhasors:
+        only = slice(row, row + 1)
+        ahead, astern = ((own[only], vector[only]) for own, vector in self._sides)
+        noise, settled = self.noise[only], self._settled
+        return FactoredPhasors(self.orders[only], (ahead, astern), noise, settled=settled)
+
+
 def join_orders(parts: Sequence[Phasors]) -> Phasors:
     """One run of orders from several, in their order."""
     noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]
@@ -239,12 +288,6 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
         np.concatenate([p.vectors for p in parts], axis=1),
         np.concatenate(noises),
     )
-
-
-def _settle(vectors: Complex, noise: Array) -> Complex:
-    """Vectors with those within the noise set to 0."""
-    nothing = np.abs(vectors) <= noise
-    return np.where(nothing, 0, vectors) if np.count_nonzero(nothing) else vectors
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .vibration import Complex, Modes, Real, find_modes, solve_response
+from .vibration import Complex, Modes, Real, find_modes
 
 _NO_SHARE = 1e-14  # of a mode's energy, which is 1
 _FREE = 1e-9  # singular values below this share of the largest mean a motion that nothing holds
@@ -91,18 +91,6 @@ class Settled(NamedTuple):
     travel: Real
 
 
-class BodyResponse(NamedTuple):
-    """Forced vibration.
-
-    Attributes:
-        motion: (*frequency, 6) of the centre of gravity.
-        forces: (*frequency, mounts, 3) of the body on its mounts, N, along the engine's axes.
-    """
-
-    motion: Complex
-    forces: Complex
-
-
 # ------------------------------------------------------------------ geometry
 def cross_matrix(vectors: ArrayLike) -> Real:
     """(..., 3, 3) with `cross_matrix(a) @ b = a x b`, of vectors (..., 3)."""
@@ -121,12 +109,8 @@ def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
     """(3, 3), columns: axes turned by these angles (rad) about x, then y, then z: `Rz Ry Rx`."""
 
     def turn(angle: float, axis: int) -> Real:
-        one, two = (axis + 1) % 3, (axis + 2) % 3
-        result = np.eye(3)
-        result[one, one] = result[two, two] = np.cos(angle)
-        result[two, one] = np.sin(angle)
-        result[one, two] = -np.sin(angle)
-        return result
+        c, s = np.cos(angle), np.sin(angle)
+        return np.roll([[1, 0, 0], [0, c, -s], [0, s, c]], (axis, axis), (0, 1))
 
     return turn(about_z, 2) @ turn(about_y, 1) @ turn(about_x, 0)
 
@@ -258,32 +242,6 @@ def settle_body(body: Body, mounts: Mounts, load: Real) -> Settled:
     own = mounts.stiffness * (travel @ motion)
     forces = (mounts.axes @ own[..., None])[..., 0]
     return Settled(motion, forces, carry_points(mounts.at, body.centre) @ motion)
-
-
-def respond_body(body: Body, mounts: Mounts, frequency: ArrayLike, load: Complex) -> BodyResponse:
-    """Steady vibration of a body under harmonic loads.
-
-    Args:
-        frequency: w (rad/s), any shape, commonly (orders, speeds).
-        load: that broadcasts to (*frequency, 6).
-
-    Raises:
-        UndampedResonanceError: a load drives an undamped mode at its own frequency.
-    """
-    w = np.asarray(frequency, float)
-    stiffness, damping = stiffness_matrix(body, mounts), damping_matrix(body, mounts)
-    motion = solve_response(stiffness, damping, mass_matrix(body), w, load)
-    return BodyResponse(motion, press_mounts(body, mounts, w, motion))
-
-
-def press_mounts(body: Body, mounts: Mounts, frequency: ArrayLike, motion: Complex) -> Complex:
-    """Return the forces (*frequency, mounts, 3) of a body that moves by (*frequency, 6) on its
-    mounts, along the engine's axes.
-    """
-    w, (springs, dashpots) = np.asarray(frequency, float), couple_mounts(body, mounts)
-    return apply_couplings(springs, motion) + 1j * w[..., None, None] * apply_couplings(
-        dashpots, motion
-    )
 
 
 def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:

@@ -75,32 +75,20 @@ def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = 
         rigid: (count, dof), all independent motions that stretch no spring; left out: none.
     """
     rigid = np.zeros((0, springs.shape[1])) if rigid is None else rigid
-    scaled = np.sqrt(stiffness)[:, None] * _over_root(mass, springs)
+    root = np.diag(np.sqrt(mass)) if mass.ndim == 1 else np.linalg.cholesky(mass)  # L: M = L L^T
+    scaled = np.sqrt(stiffness)[:, None] * np.linalg.solve(root, springs.T).T
     _, falling, turned = np.linalg.svd(scaled, full_matrices=False)
     elastic = slice(springs.shape[1] - len(rigid))
     omega, turned = falling[elastic][::-1], turned[elastic][::-1]
-    still = _normalise_rigid(rigid, mass)
-    shapes = np.concatenate([still, _from_root(mass, turned)])
+    still = _normalise_rigid(rigid, root)
+    shapes = np.concatenate([still, np.linalg.solve(root.T, turned.T).T])
     return Modes(np.concatenate([np.zeros(len(still)), omega]), shapes, len(still))
 
 
-def _over_root(mass: Real, rows: Real) -> Real:
-    """`rows L^-T` with M = L L^T."""
-    if mass.ndim == 1:
-        return rows / np.sqrt(mass)
-    return np.linalg.solve(np.linalg.cholesky(mass), rows.T).T
-
-
-def _from_root(mass: Real, rows: Real) -> Real:
-    """`rows L^-1`: shapes of unit modal mass from orthogonal unit vectors."""
-    if mass.ndim == 1:
-        return rows / np.sqrt(mass)
-    return np.linalg.solve(np.linalg.cholesky(mass).T, rows.T).T
-
-
-def _normalise_rigid(rigid: Real, mass: Real) -> Real:
-    """The same motions, each of unit modal mass and orthogonal to the others."""
-    root = np.diag(np.sqrt(mass)) if mass.ndim == 1 else np.linalg.cholesky(mass)
+def _normalise_rigid(rigid: Real, root: Real) -> Real:
+    """Return the same motions, each of unit modal mass and orthogonal to the others; `root` is L of
+    the mass M = L L^T.
+    """
     mixed = np.linalg.qr((rigid @ root).T, mode="r")
     signed = mixed * np.copysign(1, np.diag(mixed))[:, None]
     return np.linalg.solve(signed.T, rigid)
@@ -162,14 +150,8 @@ def _drives(modes: Modes, mode: np.intp, order: float, speeds: Real, load: Compl
     after = int(np.clip(np.searchsorted(speeds, speed), 1, max(len(speeds) - 1, 1)))
     beside = load[after - 1 : after + 1]
     work = np.abs(beside @ modes.shapes[mode])
-    return bool(np.any(work > _UNMOVED * (np.abs(beside) @ _largest_motion(modes.shapes))))
-
-
-def _largest_motion(shapes: Real) -> Real:
-    """(dof,) of each coordinate the most that any mode (modes, dof) moves it: beside this, what
-    rounding makes of a coordinate that a mode leaves at rest is nothing.
-    """
-    return np.asarray(np.abs(shapes).max(axis=0))
+    most = np.abs(modes.shapes).max(axis=0)  # that any mode moves each coordinate
+    return bool(np.any(work > _UNMOVED * (np.abs(beside) @ most)))
 
 
 def solve_response(
@@ -191,25 +173,9 @@ def solve_response(
     """
     frequency = np.asarray(frequency, float)
     load = np.broadcast_to(load, (*frequency.shape, len(mass)))
-    if stiffness.ndim == 2 and not (np.any(np.imag(stiffness)) or np.any(damping)):
-        return _respond_by_modes(np.real(stiffness), mass, frequency, load)
     w = frequency[..., None, None]
     dynamic = np.asarray(stiffness + 1j * w * damping - w * w * mass, complex)
     return solve_equations(dynamic, load, frequency, np.zeros(frequency.shape, bool))
-
-
-def _respond_by_modes(stiffness: Real, mass: Real, frequency: Real, load: Complex) -> Complex:
-    """The same without damping, as a sum over modes."""
-    half = _over_root(mass, stiffness)
-    squares, turned = np.linalg.eigh(_over_root(mass, half.T))
-    shapes = _from_root(mass, turned.T)
-    drive = load @ shapes.T
-    distance = squares - frequency[..., None] ** 2
-    at_rest = np.abs(drive) <= _UNMOVED * (np.abs(load) @ _largest_motion(shapes))[..., None]
-    resonant = np.abs(distance) <= ROUNDING * np.maximum(np.abs(squares), frequency[..., None] ** 2)
-    _refuse(np.any(resonant & ~at_rest, axis=-1), frequency)
-    amplitude = np.where(resonant, 0, drive / np.where(resonant, 1, distance))
-    return np.asarray(amplitude @ shapes, complex)
 
 
 def solve_equations(

@@ -4,15 +4,15 @@ what does not fit together in [articulation].
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, cast
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.linkage import STEPS, Linkage, revolution
+from ..core.mechanisms.motion import Motion
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Array, Figure, unit
 from ..enginefile.articulation_tables import Articulation
@@ -23,91 +23,70 @@ from ..limits import NEAREST_TO_LOCK
 from .arrays import column
 from .layout import Plan
 
-_AT_ONCE = 1 << 17  # rods x crank angles that are looked at together
+if TYPE_CHECKING:
+    from .assembly import Assembly
 
 
-class KnucklePins(NamedTuple):
-    """Knuckle pins of the articulated cylinders.
-
-    Attributes:
-        ratio: knuckle radius over crank radius.
-        angles_deg: of the knuckle pin, from the master rod's axis, by number of the cylinder.
-        master: number of the cylinder with the master rod, by number of the articulated one.
-    """
-
-    ratio: Figure
-    angles_deg: Mapping[int, Figure]
-    master: Mapping[int, int]
-
-
-def find_masters(articulation: Articulation, plan: Plan) -> dict[int, int]:
-    """Number of the cylinder with the master rod, by number of each articulated cylinder."""
-    of_throw = {c.throw: c.number for c in plan.cells if c.bank == articulation.master - 1}
-    on_throw = [(c.number, of_throw.get(c.throw, c.number)) for c in plan.cells]
-    return {number: master for number, master in on_throw if number != master}
-
-
-def build_linkage(
-    knuckles: KnucklePins,
-    numbers: Sequence[int],
-    axes_deg: Mapping[int, Figure],
-    on_knuckle: Sequence[Figure],
-    sense: int,
-    rank: int,
-) -> Articulated:
-    """The mechanism of master and articulated rods.
+def build_linkage(parts: Assembly, at_pistons: Array) -> Linkage:
+    """Return the mechanism of an engine with articulated rods, or whose cylinders turn.
 
     Args:
-        knuckles: where the rods hang.
-        numbers: cylinder of each row.
-        axes_deg: of each cylinder, from x.
-        on_knuckle: what the lower end of each row's rod weighs, kg.
-        sense: -1 seen from turning cylinders, where all angles are in the mirror (core.rotary).
-        rank: trailing axes, as in `engine.build`.
+        parts: the engine as far as it is put together.
+        at_pistons: masses at the piston pins, kg, one row a cylinder or one for all.
     """
-    master = knuckles.master
-    hung = [n in master for n in numbers]
-    pins_deg = column([sense * knuckles.angles_deg.get(n, 0.0) for n in numbers], rank)
-    ratio = column([knuckles.ratio if here else 0.0 for here in hung], rank)
-    leads_deg = [sense * (axes_deg[n] - axes_deg[master.get(n, n)]) for n in numbers]
+    hung = None if parts.model.articulation is None else _hang_rods(parts, parts.model.articulation)
+    if not parts.model.layout.rotary:
+        return cast(Linkage, hung)
+    if hung is None:
+        return Rotary(at_pistons)
+    both = at_pistons + hung.mass
+    return Rotary(both, hung, hung.mass / np.where(both == 0, 1.0, both))
+
+
+def _hang_rods(parts: Assembly, table: Articulation) -> Articulated:
+    """Return the mechanism of master and articulated rods. Seen from turning cylinders all angles
+    are in the mirror (core.rotary).
+    """
+    numbers, masters, axes, rank = parts.numbers, parts.masters, parts.axes_deg, parts.rank
+    angles = {n: axes[n] - axes[master] for n, master in masters.items()}
+    if (given := parts.knuckle_angles_deg) is not None:
+        angles = {c.number: given[c.bank] for c in parts.plan.cells if c.number in masters}
+    radius_mm = parts.figures.take("articulation.knuckle_radius", table.knuckle_radius)
+    stroke_mm = parts.figures.take("crank.stroke", parts.model.crank.stroke)
+    ratio = radius_mm / (stroke_mm / 2)
+    pins_deg = column([parts.sense * angles.get(n, 0.0) for n in numbers], rank)
+    of_master = [masters.get(n, n) for n in numbers]
+    leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
+    masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
+    ratios = column([ratio if n in masters else 0.0 for n in numbers], rank)
     return Articulated(
-        mass=column([m if here else 0.0 for here, m in zip(hung, on_knuckle, strict=True)], rank),
-        master=np.array([numbers.index(master.get(n, n)) for n in numbers]),
-        knuckle=ratio * unit(pins_deg),
-        lead_deg=column(leads_deg, rank),
+        mass=column(masses, rank),
+        master=np.array([numbers.index(master) for master in of_master]),
+        knuckle=ratios * unit(pins_deg),
+        lead_deg=column(leads, rank),
     )
 
 
 # ------------------------------------------------------------------ what does not fit together
-def check_articulation(
-    articulation: Articulation,
-    plan: Plan,
-    angles_deg: Sequence[Figure] | None,
-    splay_deg: Figure,
-    with_own_throw: Collection[int],
-) -> Iterator[Problem]:
-    """What contradicts [articulation].
-
-    Args:
-        articulation: the table; its knuckle angles are in `angles_deg`.
-        plan: the cylinders.
-        splay_deg: lead of split pins.
-        with_own_throw: cylinders that have a crank pin of their own.
+def check_articulation(parts: Assembly, articulation: Articulation) -> Iterator[Problem]:
+    """Find what contradicts [articulation]: a master rod without a place, knuckle angles that do
+    not fit, crank pins of articulated rods.
     """
-    fault = _find_no_place(articulation.master, plan)
-    if fault:
+    if fault := _find_no_place(articulation.master, parts.plan):
         yield fault
         return
-    if angles_deg is not None:
-        yield from _check_angles(angles_deg, articulation.master - 1, plan.banks)
-    if np.any(np.asarray(splay_deg) != 0):
+    if parts.knuckle_angles_deg is not None:
+        yield from _check_angles(
+            parts.knuckle_angles_deg, articulation.master - 1, parts.plan.banks
+        )
+    if np.any(np.asarray(parts.splay_deg) != 0):
         yield Problem(
             "crank.splay",
             "articulated rods hang on the master rod and have no crank pins to split: "
             "leave splay out, or [articulation]",
         )
-    for number in find_masters(articulation, plan):
-        if number in with_own_throw:
+    for number in parts.masters:
+        if parts.own_of(number).throw_deg is not None:
             yield Problem(
                 f"cylinder.{number}.throw",
                 f"cylinder {number} has an articulated rod, which hangs on the "
@@ -170,25 +149,19 @@ def check_knuckles(
 
 
 def _sample_leans(hung: Articulated, lam: Array, eps: Array) -> Array:
-    """The largest |sine| of each rod's angle to its cylinder's axis, of all variants that might
-    lock, over a revolution: shape (cylinders, STEPS).
+    """Return the largest |sine| of each rod's angle to its cylinder's axis, of all variants, over a
+    revolution: shape (cylinders, STEPS); 0 if no rod can come near its lock.
     """
     count = len(hung.master)
-    given = hung.figures(lam, eps)
-    _, *variants_shape = np.broadcast_shapes(*(np.shape(f) for f in given))
-    doubtful = np.any(hung.bound_lean(lam, eps) > 1 - NEAREST_TO_LOCK, axis=0)
-    variants = np.flatnonzero(np.broadcast_to(doubtful, variants_shape))
-    figures: list[NDArray[Any]] = [
-        np.broadcast_to(f, (count, *variants_shape)).reshape(count, -1) for f in given
-    ]
-    leans = np.zeros((count, STEPS))
-    step = max(_AT_ONCE // leans.size, 1)
-    for k in range(0, len(variants), step):
-        some = [values[:, variants[k : k + step], None] for values in figures]
-        with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
-            found = np.abs(hung.move(revolution(STEPS), *some).lean).max(axis=1)
-        leans = np.maximum(leans, found)
-    return leans
+    if np.all(hung.bound_lean(lam, eps) <= 1 - NEAREST_TO_LOCK):
+        return np.zeros((count, STEPS))
+
+    def find_largest(motion: Motion) -> Array:
+        lean = np.abs(motion.lean)
+        return lean.reshape(count, -1, lean.shape[-1]).max(axis=1)
+
+    with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
+        return hung.sample(find_largest, revolution(STEPS), lam, eps)
 
 
 def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Problem:

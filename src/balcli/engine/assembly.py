@@ -6,12 +6,12 @@ Everything is worked out where it is first asked for, by a rule or by the engine
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine
@@ -20,12 +20,11 @@ from . import firing
 from .arrays import column, shared_column
 from .figures import NOTHING, FileFigures, OwnFigures, RodFigures, either, own_figures, rod_figures
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
-from .rods import RodPlace, RunningGear, weigh_rod
+from .rods import RodPlace, RunningGear, Weighed, weigh_rod
 
 # Few engines have rods on rods, turn, or say of gas: those that do import what it takes.
 if TYPE_CHECKING:
-    from ..core.mechanisms.articulated import Articulated
-    from ..core.mechanisms.rotary import Rotary
+    from ..core.mechanisms.linkage import Linkage
     from .gas import EngineGas
 
 # What a file without mistakes has that can be relied on (`enginefile.read.Draft`).
@@ -65,15 +64,9 @@ class Assembly:
         self._gears: dict[tuple[int, bool], RunningGear] = {}
         # Beside given throws a firing order would have to fit every variant, and adds nothing, but
         # to the gas of a single one.
-        self.order = model.layout.firing_order
+        given = "crank.throws" in self.legible and model.crank.throws is not None
         needed = model.gas is not None and not self.rank
-        if (
-            varied
-            and not needed
-            and "crank.throws" in self.legible
-            and model.crank.throws is not None
-        ):
-            self.order = None
+        self.order = None if varied and given and not needed else model.layout.firing_order
         # In which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1
 
@@ -85,7 +78,7 @@ class Assembly:
 
     @cached_property
     def own(self) -> dict[int, OwnFigures]:
-        """What is said of single cylinders."""
+        """Overrides of single cylinders, by number."""
         tables = self.figures.cylinder_tables(self.model)
         return {number: own_figures(self.figures, number, own) for number, own in tables.items()}
 
@@ -96,13 +89,14 @@ class Assembly:
     def axes_deg(self) -> dict[int, Figure]:
         """Axis of each cylinder."""
         banks = bank_angles(self.model.layout, self.figures)
-        general = {c.number: banks[c.bank] for c in self.plan.cells}
-        return {n: either(self.own_of(n).bank_deg, axis) for n, axis in general.items()}
+        return {
+            c.number: either(self.own_of(c.number).bank_deg, banks[c.bank]) for c in self.plan.cells
+        }
 
     # ------------------------------------------------------------------ pistons and rods
     @cached_property
     def radius(self) -> Figure:
-        """Of the crank, m."""
+        """Crank radius, m."""
         return self.figures.take("crank.stroke", self.model.crank.stroke) / 2e3
 
     @cached_property
@@ -111,26 +105,21 @@ class Assembly:
         table = self.model.articulation
         if table is None:
             return {}
-        from .articulation import find_masters
-
-        return find_masters(table, self.plan)
-
-    @cached_property
-    def rod(self) -> RodFigures:
-        """What holds for all rods on crank pins."""
-        return rod_figures(self.figures, self.model.rod)
+        on_throw = {c.throw: c.number for c in self.plan.cells if c.bank == table.master - 1}
+        each = ((c.number, on_throw.get(c.throw, c.number)) for c in self.plan.cells)
+        return {number: master for number, master in each if number != master}
 
     @cached_property
-    def articulated_rod(self) -> RodFigures:
-        """What holds for all articulated rods; nothing where there are none."""
-        table = self.model.articulation
+    def _general_rods(self) -> tuple[RodFigures, RodFigures]:
+        """Figures that hold for all rods on crank pins, and for all articulated ones."""
+        rod, table = rod_figures(self.figures, self.model.rod), self.model.articulation
         if table is None:
-            return RodFigures()
-        return rod_figures(self.figures, table.rod, "articulation.rod")
+            return rod, RodFigures()
+        return rod, rod_figures(self.figures, table.rod, "articulation.rod")
 
     def rod_place(self, number: int, articulated: bool = False) -> RodPlace:
         """The figures of a cylinder's rod; number 0 stands for what holds for all."""
-        own, general = self.own_of(number).rod, self.articulated_rod if articulated else self.rod
+        own, general = self.own_of(number).rod, self._general_rods[articulated]
         return RodPlace(number, articulated, general.with_own(own), own, general)
 
     @cached_property
@@ -138,46 +127,50 @@ class Assembly:
         """Masses of the parts that all pistons are made of, kg, by their keys; of a piston weighed
         as a whole that of `mass`.
         """
-        table = self.model.piston
-        given = {
-            key: self.figures.take_optional(f"piston.{key}", getattr(table, key))
-            for key in PISTON_PARTS
-        }
+        table, take = self.model.piston, self.figures.take_optional
+        given = {key: take(f"piston.{key}", getattr(table, key)) for key in PISTON_PARTS}
         return {key: mass for key, mass in given.items() if mass is not None}
-
-    def piston_parts_of(self, number: int) -> tuple[tuple[str, Figure], ...]:
-        """What one cylinder's piston was weighed in, by the keys of [piston]."""
-        own = self.own_of(number).piston_mass
-        return tuple(self.piston_parts.items()) if own is None else (("mass", own),)
-
-    @cached_property
-    def piston_mass(self) -> Figure:
-        """Of all pistons of which nothing else is said, kg."""
-        return sum(self.piston_parts.values())
-
-    def piston_offset(self, number: int) -> Figure:
-        """Of the path of a cylinder's piston pin, m."""
-        general = self.figures.take("piston.offset", self.model.piston.offset) / 1e3
-        return either(self.own_of(number).piston_offset, general)
 
     @cached_property
     def gears(self) -> dict[int, RunningGear]:
         """Piston and rod of each cylinder."""
-        masters = self.masters
-        places = {number: self.rod_place(number, number in masters) for number in self.plan.numbers}
-        return {number: self.gear_of(place) for number, place in places.items()}
+        return {n: self.gear_of(self.rod_place(n, n in self.masters)) for n in self.plan.numbers}
 
     def gear_of(self, place: RodPlace) -> RunningGear:
-        """Piston and rod of one cylinder; those of which nothing is said alone are one for all."""
+        """Piston and rod of one cylinder; cylinders without overrides share one."""
         key = (place.number if place.number in self.own else 0, place.articulated)
         if key not in self._gears:
+            own = self.own_of(place.number)
+            offset = self.figures.take("piston.offset", self.model.piston.offset) / 1e3
             self._gears[key] = weigh_rod(
                 place.rod,
                 place.rod.length_for(self.radius),
-                self.piston_offset(place.number),
-                either(self.own_of(place.number).piston_mass, self.piston_mass),
+                either(own.piston_offset, offset),
+                either(own.piston_mass, sum(self.piston_parts.values())),
             )
         return self._gears[key]
+
+    @cached_property
+    def weighed(self) -> dict[int, Weighed]:
+        """Masses of each cylinder as a shop weighs them, by number."""
+        take, crank, bobweight = self.figures.take, self.model.crank, self.model.bobweight
+        share = take("crank.throw_mass", crank.throw_mass) / self.plan.rods_on_throw
+        rod_bearing = take("bobweight.rod_bearing", bobweight.rod_bearing)
+        oil, found = take("bobweight.oil", bobweight.oil), {}
+        for cell in self.plan.cells:
+            number, gear = cell.number, self.gears[cell.number]
+            own, hung = self.own_of(number).piston_mass, number in self.masters
+            found[number] = Weighed(
+                cell.throw,
+                piston=gear.piston,
+                piston_parts=tuple(self.piston_parts.items()) if own is None else (("mass", own),),
+                small_end=gear.small_end,
+                big_end=gear.big_end,
+                share=share,
+                rod_bearing=0.0 if hung else rod_bearing,
+                oil=0.0 if hung else oil,
+            )
+        return found
 
     # ------------------------------------------------------------------ crank pins and firing
     @cached_property
@@ -203,11 +196,8 @@ class Assembly:
             return self.tops_deg
         from ..core.strokes import find_travel
 
-        tops = find_travel(self.cylinders).top_deg
-        return {
-            n: self.axes_deg[n] + self.sense * float(top)
-            for n, top in zip(self.numbers, tops, strict=True)
-        }
+        tops = zip(self.numbers, find_travel(self.cylinders).top_deg, strict=True)
+        return {n: self.axes_deg[n] + self.sense * float(top) for n, top in tops}
 
     @cached_property
     def splay_deg(self) -> Figure:
@@ -222,44 +212,23 @@ class Assembly:
         return self.model.crank.throws is not None or (self.plan.throws == 1 and not self.rank)
 
     @cached_property
-    def _given_fires_deg(self) -> dict[int, Figure]:
-        """Firing angles as far as they do not follow from the throws."""
-        intervals = self.model.layout.firing_intervals
-        if self.order is None or (intervals is None and self.throws_given):
-            return {}
-        return firing.find_instants(self.order, intervals, cycle_deg(self.model.layout))
-
-    @cached_property
     def throws_deg(self) -> Mapping[int, Figure]:
         """Angle of each throw (from 0): as given, or as the firing order needs it."""
         throws = self.model.crank.throws
         if not self.throws_given and self.order is not None:
-            wanted = firing.find_pins(self._given_fires_deg, self.tops_deg, self.sense)
+            wanted = firing.find_pins(self.fires_deg, self.tops_deg, self.sense)
             cells = reversed(self.plan.cells)
             return {c.throw: wanted[c.number] - c.bank * self.splay_deg for c in cells}
         return dict(enumerate(self.figures.take_each("crank.throws", throws or (0.0,))))
 
     @cached_property
-    def pins_deg(self) -> dict[int, Figure]:
-        """Crank pin of each cylinder."""
-        on_throws = {
-            c.number: self.throws_deg[c.throw] + c.bank * self.splay_deg for c in self.plan.cells
-        }
-        return {n: either(self.own_of(n).throw_deg, pin) for n, pin in on_throws.items()}
-
-    @cached_property
     def leads_deg(self) -> dict[int, Figure]:
         """Crank pin of each cylinder, from cylinder 1's."""
-        return {number: pin - self.pins_deg[1] for number, pin in self.pins_deg.items()}
-
-    @cached_property
-    def dead_centres_deg(self) -> dict[int, float]:
-        """Where the crank stands at each top dead centre, in [0, 360) after cylinder 1's; at the
-        true ones where rods are articulated.
-        """
-        pins = {number: float(lead) for number, lead in self.leads_deg.items()}
-        tops = {number: float(top) for number, top in self.true_tops_deg.items()}
-        return firing.find_dead_centres(pins, tops, self.sense)
+        pins = {}
+        for c in self.plan.cells:
+            on_throw = self.throws_deg[c.throw] + c.bank * self.splay_deg
+            pins[c.number] = either(self.own_of(c.number).throw_deg, on_throw)
+        return {number: pin - pins[1] for number, pin in pins.items()}
 
     @cached_property
     def fires_deg(self) -> dict[int, Figure]:
@@ -268,16 +237,21 @@ class Assembly:
         Raises:
             InputError: the order takes more than a cycle.
         """
-        if self.order is None or self._given_fires_deg:
-            return self._given_fires_deg
-        cycle = cycle_deg(self.model.layout)
-        intervals = firing.find_intervals(self.order, self.dead_centres_deg, cycle)
+        layout = self.model.layout
+        if self.order is None:
+            return {}
+        intervals, cycle = layout.firing_intervals, cycle_deg(layout)
+        if intervals is None and self.throws_given:
+            pins = {number: float(lead) for number, lead in self.leads_deg.items()}
+            tops = {number: float(top) for number, top in self.true_tops_deg.items()}
+            ready = firing.find_dead_centres(pins, tops, self.sense)
+            intervals = tuple(firing.find_intervals(self.order, ready, cycle))
         return firing.find_instants(self.order, intervals, cycle)
 
     # ------------------------------------------------------------------ places along the crank
     @cached_property
     def _leans_mm(self) -> dict[int, Figure]:
-        """How far each rod stands behind the middle of its throw."""
+        """Axial offset of each rod from the middle of its throw (stagger)."""
         on_throw = self.plan.rods_on_throw
         if on_throw == 1:
             return dict.fromkeys(self.plan.numbers, 0.0)
@@ -319,75 +293,66 @@ class Assembly:
     @cached_property
     def ripple(self) -> tuple[RippleLine, ...]:
         """Lines of the uneven speed; empty for a steady one."""
-        take, path = self.figures.take, "operation.speed_ripple"
-        return tuple(
-            RippleLine(
-                line.order,
-                take(f"{path}.{k}.amplitude", line.amplitude),
-                take(f"{path}.{k}.angle", line.angle),
-            )
-            for k, line in enumerate(self.model.operation.speed_ripple, 1)
-        )
+        take, lines = self.figures.take, []
+        for k, line in enumerate(self.model.operation.speed_ripple, 1):
+            path = f"operation.speed_ripple.{k}"
+            amplitude = take(f"{path}.amplitude", line.amplitude)
+            lines.append(RippleLine(line.order, amplitude, take(f"{path}.angle", line.angle)))
+        return tuple(lines)
 
     # ------------------------------------------------------------------ mechanisms
     @cached_property
-    def share_of_throw(self) -> Figure:
-        """Mass of a throw that one of its pins has, kg."""
-        mass = self.figures.take("crank.throw_mass", self.model.crank.throw_mass)
-        return mass / self.plan.rods_on_throw
-
-    @cached_property
-    def rod_bearing(self) -> Figure:
-        """Bearing shells of one rod, kg."""
-        return self.figures.take("bobweight.rod_bearing", self.model.bobweight.rod_bearing)
-
-    @cached_property
-    def oil(self) -> Figure:
-        """Oil that turns with a pin, for one rod, kg."""
-        return self.figures.take("bobweight.oil", self.model.bobweight.oil)
+    def _banks(self) -> list[list[int]]:
+        """Numbers of the cylinders that have the same axis, by value, at every variant, bank by
+        bank: all in the order of the plan. Of a rotary engine, of pins that stand still.
+        """
+        banks: dict[bytes, list[int]] = {}
+        for number, axis in self._turned_deg[0].items():
+            value = np.asarray(axis, float) + 0.0  # which makes 0.0 of -0.0
+            banks.setdefault(value.tobytes(), []).append(number)
+        return list(banks.values())
 
     @cached_property
     def _turned_deg(self) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
         """Axes of the cylinders, and their crank pins from cylinder 1's; where the cylinders turn
         about pins that stand still, the other way round (core.rotary).
         """
-        if not self.model.layout.rotary:
-            return self.axes_deg, self.leads_deg
         axes = self.axes_deg
+        if not self.model.layout.rotary:
+            return axes, self.leads_deg
         still = {n: axes[1] + lead for n, lead in self.leads_deg.items()}
         return still, {n: axis - axes[1] for n, axis in axes.items()}
 
     @cached_property
-    def banks(self) -> list[list[int]]:
-        """Numbers of the cylinders that have the same axis, bank by bank."""
-        return _share_axes(self._turned_deg[0])
-
-    @cached_property
     def numbers(self) -> tuple[int, ...]:
         """Cylinder of each row of `cylinders`."""
-        return tuple(chain.from_iterable(self.banks))
+        return tuple(chain.from_iterable(self._banks))
 
     @cached_property
     def cylinders(self) -> Cylinders:
         """All cylinders, sorted by bank."""
         axes, pins = self._turned_deg
-        gears, radius, rank = self.gears, self.radius, self.rank
-        rotary = self.model.layout.rotary
-        at_pistons = self._of_each(lambda n: gears[n].piston + gears[n].small_end)
-        hung = self._hung
+        gears, weighed, radius, rank = self.gears, self.weighed, self.radius, self.rank
+        at_pistons = self._of_each(lambda n: weighed[n].reciprocating)
+        linkage: Linkage | None = None
+        if self.model.articulation is not None or self.model.layout.rotary:
+            from .articulation import build_linkage
+
+            linkage = build_linkage(self, at_pistons)
+        turning = linkage is not None and linkage.turning
         return Cylinders(
-            axis_deg=column([axes[bank[0]] for bank in self.banks], rank),
+            axis_deg=column([axes[bank[0]] for bank in self._banks], rank),
             pin_deg=column([pins[n] for n in self.numbers], rank),
-            starts=np.cumsum([0, *map(len, self.banks[:-1])]),
-            first=next(k for k, bank in enumerate(self.banks) if 1 in bank),
+            starts=np.cumsum([0, *map(len, self._banks[:-1])]),
+            first=next(k for k, bank in enumerate(self._banks) if 1 in bank),
             z=column([self.places[n] for n in self.numbers], rank),
             radius=column([radius], rank)[0],
             lam=self._of_each(lambda n: radius / gears[n].length),
             eps=self._of_each(lambda n: gears[n].offset / gears[n].length),
-            reciprocating=0 * at_pistons if rotary else at_pistons,
-            rotating=self._of_each(self._at_pin),
+            reciprocating=0 * at_pistons if turning else at_pistons,
+            rotating=self._of_each(lambda n: 0.0 if turning else self._at_pin(n)),
             couple=self._of_each(lambda n: gears[n].couple),
-            linkage=_turn_cylinders(at_pistons, hung) if rotary else hung,
+            linkage=linkage,
         )
 
     def _of_each(self, find: Callable[[int], Figure]) -> Array:
@@ -398,12 +363,9 @@ class Assembly:
         return shared_column([find(n) for n in numbers], self.rank)
 
     def _at_pin(self, number: int) -> Figure:
-        """What turns with a crank pin because of one cylinder, kg; pins of a rotary stand still."""
-        if self.model.layout.rotary:
-            return 0.0
-        if number in self.masters:
-            return self.share_of_throw
-        return self.gears[number].big_end + self.share_of_throw + self.rod_bearing + self.oil
+        """What turns with a crank pin because of one cylinder, kg."""
+        weighed = self.weighed[number]
+        return weighed.share + (0.0 if number in self.masters else weighed.rotating)
 
     @cached_property
     def knuckle_angles_deg(self) -> tuple[Figure, ...] | None:
@@ -412,23 +374,6 @@ class Assembly:
         if table is None or table.knuckle_angles is None:
             return None
         return self.figures.take_each("articulation.knuckle_angles", table.knuckle_angles)
-
-    @cached_property
-    def _hung(self) -> Articulated | None:
-        """Master and articulated rods."""
-        table, masters, axes = self.model.articulation, self.masters, self.axes_deg
-        if table is None:
-            return None
-        from .articulation import KnucklePins, build_linkage
-
-        angles = {n: axes[n] - axes[master] for n, master in masters.items()}
-        if (given := self.knuckle_angles_deg) is not None:
-            angles = {c.number: given[c.bank] for c in self.plan.cells if c.number in masters}
-        radius_mm = self.figures.take("articulation.knuckle_radius", table.knuckle_radius)
-        stroke_mm = self.figures.take("crank.stroke", self.model.crank.stroke)
-        knuckles = KnucklePins(radius_mm / (stroke_mm / 2), angles, masters)
-        big_ends = [self.gears[n].big_end for n in self.numbers]
-        return build_linkage(knuckles, self.numbers, axes, big_ends, self.sense, self.rank)
 
     # ------------------------------------------------------------------ gas
     @cached_property
@@ -439,25 +384,3 @@ class Assembly:
         from .build_gas import build_gas  # files without [gas] do not pay for it
 
         return build_gas(self)
-
-
-def _share_axes(axes_deg: Mapping[int, Figure]) -> list[list[int]]:
-    """The banks: numbers of the cylinders that have the same axis, by value, at every variant.
-
-    Banks, and the cylinders of each, stand in the order in which `axes_deg` names them.
-    """
-    banks: dict[bytes, list[int]] = {}
-    for number, axis in axes_deg.items():
-        value = np.asarray(axis, float) + 0.0  # which makes 0.0 of -0.0
-        banks.setdefault(value.tobytes(), []).append(number)
-    return list(banks.values())
-
-
-def _turn_cylinders(at_pistons: Array, hung: Articulated | None) -> Rotary:
-    """The mechanism of cylinders that turn, with the masses at their piston pins, kg."""
-    from ..core.mechanisms.rotary import Rotary
-
-    if hung is None:
-        return Rotary(at_pistons)
-    both = at_pistons + hung.mass
-    return Rotary(both, hung, hung.mass / np.where(both == 0, 1.0, both))

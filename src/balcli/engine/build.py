@@ -19,6 +19,7 @@ from .assembly import Assembly
 from .devices import build_devices
 from .numbering import doubt_firing, find_fitting_splay, list_inferred
 from .positions import MOMENTS_UNKNOWN, are_places_known
+from .rods import Weighed
 from .rules import find_contradictions
 
 if TYPE_CHECKING:
@@ -29,39 +30,6 @@ NO_GAS = (
     'has no [gas]; give a diagram, a cycle or harmonics, such as cycle = "wiebe", '
     "compression_ratio = 10.5, imep = 10"
 )
-
-
-class Weighed(NamedTuple):
-    """Masses of one cylinder as a shop weighs them, kg.
-
-    Attributes:
-        throw: on which its rod runs (from 0).
-        piston: with pin, rings and locks.
-        piston_parts: what the piston was weighed in, by the keys of [piston]: `mass` alone, or
-            piston, pin, rings and locks as far as they are given.
-        small_end, big_end: of the rod, without shells.
-        share: of the throw's unbalanced mass, for this cylinder's pin.
-        rod_bearing, oil: what turns with the pin besides, for this rod.
-    """
-
-    throw: int
-    piston: Figure
-    piston_parts: tuple[tuple[str, Figure], ...]
-    small_end: Figure
-    big_end: Figure
-    share: Figure
-    rod_bearing: Figure
-    oil: Figure
-
-    @property
-    def reciprocating(self) -> Figure:
-        """What goes to and fro, kg."""
-        return self.piston + self.small_end
-
-    @property
-    def rotating(self) -> Figure:
-        """What turns with the pin besides the throw, kg."""
-        return self.big_end + self.rod_bearing + self.oil
 
 
 class Bearings(NamedTuple):
@@ -346,7 +314,7 @@ def build(
         ripple=parts.ripple,
         reference_m=parts.reference_m,
         devices=tuple(build_devices(model, parts.figures, parts.axes_deg[1])),
-        weighed=_weigh_cylinders(parts),
+        weighed=tuple(parts.weighed[number] for number in parts.numbers),
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
         crank_inertia=_in_si(parts.figures.take_optional("crank.inertia", model.crank.inertia)),
@@ -429,20 +397,3 @@ def _find_flywheel(parts: Assembly, table: Flywheel) -> Figure | None:
 def _find_bearings(table: Bearing) -> Bearings:
     pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
     return Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
-
-
-def _weigh_cylinders(parts: Assembly) -> tuple[Weighed, ...]:
-    throws = {cell.number: cell.throw for cell in parts.plan.cells}
-    return tuple(
-        Weighed(
-            throws[number],
-            piston=parts.gears[number].piston,
-            piston_parts=parts.piston_parts_of(number),
-            small_end=parts.gears[number].small_end,
-            big_end=parts.gears[number].big_end,
-            share=parts.share_of_throw,
-            rod_bearing=0.0 if number in parts.masters else parts.rod_bearing,
-            oil=0.0 if number in parts.masters else parts.oil,
-        )
-        for number in parts.numbers
-    )

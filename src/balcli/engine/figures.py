@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, cast
 
 from ..core.phasors import Figure
-from ..enginefile.model import EngineFile, FileTable, Override, Pendulum, Rod
+from ..enginefile.model import EngineFile, FileTable, Override, Rod
 from ..errors import BalcliError
 
 
@@ -151,6 +151,7 @@ class OwnFigures(NamedTuple):
 
 
 NOTHING = OwnFigures()
+_SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors of keys of [rod]
 
 
 def either(own: Figure | None, general: Figure) -> Figure:
@@ -178,16 +179,14 @@ def rod_figures(
     def take(key: str) -> Figure | None:
         return figures.take_optional(f"{path}.{prefix}{key}", getattr(table, prefix + key))
 
-    return RodFigures(
-        length=over(take("length"), 1e3),
-        ratio=take("ratio"),
-        mass=take("mass"),
-        cg=over(take("cg"), 1e3),
-        small_end=take("small_end"),
-        big_end=take("big_end"),
-        inertia=over(take("inertia"), 1e6),
-        pendulum=_swing(figures, f"{path}.{prefix}pendulum", getattr(table, f"{prefix}pendulum")),
-    )
+    given: dict[str, Any] = {
+        key: over(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]
+    }
+    pendulum = getattr(table, f"{prefix}pendulum")
+    if pendulum is not None and not figures.is_displaced(f"{path}.{prefix}pendulum"):
+        period = figures.take(f"{path}.{prefix}pendulum.period", pendulum.period)
+        given["pendulum"] = PendulumTest(pendulum.pivot, period)
+    return RodFigures(**given)
 
 
 def own_figures(figures: FileFigures, number: int, own: Override) -> OwnFigures:
@@ -201,9 +200,3 @@ def own_figures(figures: FileFigures, number: int, own: Override) -> OwnFigures:
         throw_deg=take(f"{path}.throw", own.throw),
         position_mm=take(f"{path}.position", own.position),
     )
-
-
-def _swing(figures: FileFigures, path: str, pendulum: Pendulum | None) -> PendulumTest | None:
-    if pendulum is None or figures.is_displaced(path):
-        return None
-    return PendulumTest(pendulum.pivot, figures.take(f"{path}.period", pendulum.period))

@@ -10,8 +10,8 @@ tau_i`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import accumulate, pairwise
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import accumulate
 
 import numpy as np
 
@@ -41,19 +41,6 @@ def find_pins(
         i: np.remainder((tops[i] - tops[1]) - sense * (f - fires[1]), 360.0)
         for i, f in fires.items()
     }
-
-
-def find_splay(pins: Iterable[Sequence[Figure]]) -> float | None:
-    """By which angle each further bank's pin leads the one before it on every throw, in [-180, 180)
-    deg; None where throws differ, or carry one rod each.
-
-    Args:
-        pins: crank pin of each cylinder on a throw, bank by bank, for every throw; deg.
-    """
-    leads = [float(_centred(b - a)) for throw in pins for a, b in pairwise(throw)]
-    if not leads or any(abs(float(_centred(x - leads[0]))) > TOLERANCE_DEG for x in leads):
-        return None
-    return round(leads[0], 3) + 0.0
 
 
 def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: float) -> list[float]:

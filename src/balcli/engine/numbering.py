@@ -19,22 +19,24 @@ A numbering that the file gives is not doubted; if it does not fit, other keys a
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import accumulate, groupby, pairwise
-from typing import NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import groupby, pairwise
 
 import numpy as np
 
-from ..core.cached_property import cached_property
 from ..core.loads import Loads, find_needed_series
+from ..core.mechanisms.fourier import select_cylinders
 from ..core.phases import TURN, Phases
+from ..core.phasors import Phasors
 from ..core.speeds import RPM
 from ..enginefile.model import EngineFile
 from ..errors import InputError, Problem
 from .arrays import place_in_plane
 from .assembly import Assembly
 from .devices import build_devices
-from .firing import TOLERANCE_DEG, check_firing, find_instants, find_pins, find_splay
-from .layout import Plan, bank_angles, cycle_deg
+from .firing import TOLERANCE_DEG, check_firing, find_instants, find_pins
+from .layout import Cell, Plan, bank_angles, cycle_deg
 
 LIST_LENGTH = 3  # engines among which a user is asked to choose
 FREE_END = (
@@ -52,40 +54,30 @@ def list_tiers(plan: Plan, *, radial: bool) -> Iterator[list[Rows]]:
         plan: banks and throws.
         radial: whether the banks stand evenly round the crank.
     """
-    by_bank = [
-        [(c.throw, c.bank) for c in plan.cells if c.bank == bank] for bank in range(plan.banks)
-    ]
-    sizes = [len(row) for row in by_bank]
-    ends = list(accumulate(sizes))
-    bank_by_bank: Rows = tuple(
-        tuple(range(end - size + 1, end + 1)) for size, end in zip(sizes, ends, strict=True)
-    )
+    bank_by_bank = _number_rows(plan, plan.cells)
     if radial:
         yield _distinct([bank_by_bank, (bank_by_bank[0], *reversed(bank_by_bank[1:]))])
-    elif plan.banks > 2:
-        leftwards = [_count_along(by_bank, sense) for sense in (1, -1)]
-        yield _distinct([bank_by_bank, *leftwards])
-    else:
-        yield from _list_tiers_of_two(bank_by_bank, _count_along(by_bank, 1), plan)
-
-
-def _count_along(by_bank: Sequence[Sequence[tuple[int, int]]], sense: int) -> Rows:
-    """Number the places (throw, bank) along the crank, from the first bank or from the last."""
-    places = sorted((p for row in by_bank for p in row), key=lambda p: (p[0], sense * p[1]))
-    numbers = {place: number for number, place in enumerate(places, 1)}
-    return tuple(tuple(numbers[place] for place in row) for row in by_bank)
-
-
-def _list_tiers_of_two(bank_by_bank: Rows, odd_and_even: Rows, plan: Plan) -> Iterator[list[Rows]]:
-    usual = [bank_by_bank, odd_and_even]
-    equal = len(bank_by_bank[0]) == len(bank_by_bank[1])
-    exchanged = [(b, a) for a, b in usual] if equal else []
-    shared = plan.rods_on_throw > 1
+        return
+    along = _number_rows(plan, sorted(plan.cells, key=lambda c: (c.throw, c.bank)))
+    if plan.banks > 2:
+        from_last_bank = _number_rows(plan, sorted(plan.cells, key=lambda c: (c.throw, -c.bank)))
+        yield _distinct([bank_by_bank, along, from_last_bank])
+        return
+    usual, shared = [bank_by_bank, along], plan.rods_on_throw > 1
+    equal = usual if len(bank_by_bank[0]) == len(bank_by_bank[1]) else []
+    exchanged = [(b, a) for a, b in equal]
     second_backwards = [(a, b[::-1]) for a, b in usual]
-    either_first = [(b, a) for a, b in second_backwards] if equal else []
+    either_first = [(b[::-1], a) for a, b in equal]
     yield _distinct([*usual, *(exchanged if shared else ())])
     yield _distinct([*second_backwards, *either_first, *(() if shared else exchanged)])
     yield _distinct([(a[::-1], b[::-1]) for a, b in (*usual, *exchanged)])
+
+
+def _number_rows(plan: Plan, cells: Sequence[Cell]) -> Rows:
+    """Return the numbering that counts the cells in this order."""
+    numbers = {cell: number for number, cell in enumerate(cells, 1)}
+    banks = range(plan.banks)
+    return tuple(tuple(numbers[c] for c in plan.cells if c.bank == bank) for bank in banks)
 
 
 def _distinct(numberings: Iterable[Rows]) -> list[Rows]:
@@ -93,41 +85,22 @@ def _distinct(numberings: Iterable[Rows]) -> list[Rows]:
 
 
 # ------------------------------------------------------------------ engines that a file may mean
-class FreeLoads(NamedTuple):
-    """Free force (N) and moment (N m), largest values of orders 1 and 2, and what counterweights
-    leave of both orders together.
-    """
-
-    force: tuple[float, float]
-    moment: tuple[float, float]
-    force_left: float
-    moment_left: float
-
-
+@dataclass
 class Candidate:
-    """An engine that a file may mean: the file with `layout.numbering` and, where these make it
-    fit, other firing intervals or another splay.
+    """An engine that a file may mean.
 
     Attributes:
-        model: the file with these keys.
+        model: the file with `layout.numbering` and, where these make it fit, other firing
+            intervals or another splay.
         numberings: numberings of this engine; the first one is that of `model`.
-        intervals, splay: what the candidate changes besides, deg; None: nothing.
+        change: the other key that makes it fit, with its value; may be empty.
+        splay: the other splay, deg; 0 without.
     """
 
-    def __init__(
-        self,
-        model: EngineFile,
-        rows: Rows,
-        intervals: tuple[float, ...] | None = None,
-        splay: float | None = None,
-    ) -> None:
-        changed = model.with_table("layout", numbering=rows)
-        if intervals is not None:
-            changed = changed.with_table("layout", firing_intervals=intervals)
-        if splay is not None:
-            changed = changed.with_table("crank", splay=splay)
-        self.model, self.numberings = changed, [rows]
-        self.intervals, self.splay = intervals, splay
+    model: EngineFile
+    numberings: list[Rows]
+    change: str = ""
+    splay: float = 0.0
 
     @cached_property
     def parts(self) -> Assembly:
@@ -140,78 +113,59 @@ class Candidate:
         """
         if find_missed(self.parts):
             return False
-        times = [*map(float, self.parts.fires_deg.values()), cycle_deg(self.model.layout)]
-        return min(b - a for a, b in pairwise(times)) >= least_interval - TOLERANCE_DEG
+        return min(_list_gaps(self.parts)) >= least_interval - TOLERANCE_DEG
 
     def is_same(self, other: Candidate) -> bool:
         """Return whether every place fires at the same angle in both engines, but for one shift;
         modulo the cycle if the file has gas, else modulo 360 deg.
         """
         turn = TURN if self.model.gas is None else cycle_deg(self.model.layout)
-        mine, theirs = self._fires_at_places(), other._fires_at_places()
-        shifts = np.array([theirs[place] - at for place, at in mine.items()])
+        mine, theirs = (
+            np.array([float(one.parts.fires_deg[c.number]) for c in one.parts.plan.cells])
+            for one in (self, other)
+        )
+        shifts = theirs - mine
         off = np.remainder(shifts - shifts[0] + turn / 2, turn) - turn / 2
         return bool(np.all(np.abs(off) <= TOLERANCE_DEG))
 
-    def _fires_at_places(self) -> dict[tuple[int, int], float]:
-        fires = self.parts.fires_deg
-        return {(c.throw, c.bank): float(fires[c.number]) for c in self.parts.plan.cells}
-
     @cached_property
-    def balance(self) -> FreeLoads:
-        """Free forces and moments at the speed of the file; where the file does not say how far
-        apart the throws are, moments are those of throws 0.1 m apart.
+    def balance(self) -> tuple[Phasors, Phasors]:
+        """Free force (N) and moment (N m) of orders 1 and 2 at the speed of the file; where it does
+        not say how far apart the throws are, moments are those of throws 0.1 m apart.
         """
-        model = self.model
-        if model.crank.spacing is None and model.crank.positions is None:
+        model, orders = self.model, np.array([1.0, 2.0])
+        if not self._knows_places:
             model = model.with_table("crank", spacing=100.0)
-        parts, orders = Assembly(model), np.array([1.0, 2.0])
+        parts = Assembly(model)
         c, (x, y, z) = parts.cylinders, parts.reference_m
-        few, which = c.find_distinct_harmonics(
-            orders, find_needed_series(c, {"force", "moment"}, uneven=False)
-        )
+        needed = find_needed_series(c, {"force", "moment"}, uneven=False)
+        few, which = c.find_distinct_harmonics(orders, needed)
         devices = tuple(build_devices(model, parts.figures, parts.axes_deg[1]))
         square = (model.operation.speed * RPM) ** 2
-        place, own = place_in_plane(x, y), few.select_cylinders(which)
+        place, own = place_in_plane(x, y), select_cylinders(few, which)
         loads = Loads(c, devices, place, z, Phases(c, orders), own, square)
-        force, moment = loads.force.drop_noise(), loads.moment.drop_noise()
-        left = [float(abs(p.backward[0]) + p.major[1]) for p in (force, moment)]
-        first, second = ((float(p.major[0]), float(p.major[1])) for p in (force, moment))
-        return FreeLoads(first, second, *left)
+        return loads.force.drop_noise(), loads.moment.drop_noise()
+
+    @property
+    def _knows_places(self) -> bool:
+        crank = self.model.crank
+        return crank.spacing is not None or crank.positions is not None
 
     def describe(self) -> str:
         """Return the line of this engine in a list: keys to copy, throws, balance."""
-        keys = [f"layout.numbering = {write_rows(self.numberings[0])}"]
-        if self.intervals is not None:
-            keys.append(f"layout.firing_intervals = [{_join(self.intervals)}]")
-        if self.splay is not None:
-            keys.append(f"crank.splay = {self.splay:g}")
+        keys = f"layout.numbering = {write_rows(self.numberings[0])}"
         force, moment = (
-            " and ".join(f"{value if value > 1e-9 * scale else 0:.4g}" for value in values)
-            for values, scale in zip(self.balance[:2], self._scales, strict=True)
+            " and ".join(f"{v:.4g}" for v in sizes) for sizes in (p.major for p in self.balance)
         )
-        crank = self.model.crank
-        known = crank.spacing is not None or crank.positions is not None
-        told = f"{moment} N m" if known or self.parts.plan.throws == 1 else "not known"
+        known = self._knows_places or self.parts.plan.throws == 1
+        told = f"{moment} N m" if known else "not known"
         same = " or ".join(map(write_rows, self.numberings[1:]))
         return (
-            f"{', '.join(keys)}: throws {_join(self.throws_deg)}; cylinder 1 {self._place_first()};"
+            f"{keys}{self.change and ', '}{self.change}: throws "
+            f"{_join(_count_throws_from_first(self.parts))}; cylinder 1 {self._place_first()};"
             f" orders 1 and 2: force {force} N, moment {told}"
             + (f"; the same engine: {same}" if same else "")
         )
-
-    @property
-    def throws_deg(self) -> list[float]:
-        """Angle of each throw after the first one, deg, in [0, 360)."""
-        return _count_throws_from_first(self.parts)
-
-    @property
-    def _scales(self) -> tuple[float, float]:
-        """Force and moment of one cylinder beside which rounding errors count as 0."""
-        c = self.parts.cylinders
-        mass = float(np.max(c.reciprocating) + np.max(c.rotating)) or 1.0
-        force = mass * float(c.radius.flat[0]) * (self.model.operation.speed * RPM) ** 2
-        return force, force * (float(np.ptp(self.parts.throws_m)) or 1.0)
 
     def _place_first(self) -> str:
         cell = next(c for c in self.parts.plan.cells if c.number == 1)
@@ -222,19 +176,14 @@ class Candidate:
             bank = f"the {'left' if side < 0 else 'right'} bank seen from the free end"
         return f"on {bank}, throw {cell.throw + 1}"
 
-    def rank(self, position: int) -> tuple[float, float, float, float]:
+    def rank(self, position: int) -> tuple[float, ...]:
         """Return the key to sort lines by: less of what counterweights leave, less splay, and the
         position in the tier; with one rod a throw, odd and even numbers before bank by bank.
         """
-        force, moment = self._scales
         if self.parts.plan.rods_on_throw == 1:
             position = {0: 1, 1: 0}.get(position, position)
-        return (
-            round(self.balance.force_left / force, 6),
-            round(self.balance.moment_left / moment, 6),
-            abs(self.splay or 0.0),
-            position,
-        )
+        left = (float(abs(p.backward[0]) + p.major[1]) for p in self.balance)
+        return *(float(f"{size:.6g}") for size in left), abs(self.splay), position
 
 
 def find_missed(parts: Assembly) -> list[Problem]:
@@ -261,14 +210,18 @@ def find_fitting_splay(model: EngineFile) -> float | None:
         return None
     fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
     wanted = find_pins(fires, parts.tops_deg, parts.sense)
-    cells = sorted(parts.plan.cells, key=lambda cell: (cell.throw, cell.bank))
-    by_throw = groupby(cells, key=lambda cell: cell.throw)
-    splay = find_splay([wanted[cell.number] for cell in on_throw] for _, on_throw in by_throw)
-    if splay is None:
-        return None
+    first, second = (c.number for c in parts.plan.cells if c.throw == 0 and c.bank < 2)
+    lead = np.remainder(wanted[second] - wanted[first] + 180, 360) - 180
+    splay = round(float(lead), 3) + 0.0
     split = Assembly(model.with_table("crank", splay=splay))
     missed = any(check_firing(fires, split.leads_deg, split.tops_deg, split.sense))
     return None if missed else splay
+
+
+def _list_gaps(parts: Assembly) -> list[float]:
+    """Return the intervals from each firing to the next, deg, through one cycle."""
+    times = [*map(float, parts.fires_deg.values()), cycle_deg(parts.model.layout)]
+    return [b - a for a, b in pairwise(times)]
 
 
 # ------------------------------------------------------------------ the rules
@@ -323,15 +276,12 @@ def check_numbering(parts: Assembly) -> Iterator[Problem]:
     else:
         yield from (
             p._replace(message=f"{p.message}, or give layout.numbering" + _suggest(parts))
-            for p in missed or _miss_everywhere(order)
+            for p in missed
+            or [Problem("layout.firing_order", f"{order} fits no usual numbering of the cylinders")]
         )
         return
     lines = [engine.describe() for engine in engines[:LIST_LENGTH]]
     yield Problem("layout.numbering", "\n    ".join([f"{told}:", *lines, FREE_END]))
-
-
-def _miss_everywhere(order: str) -> list[Problem]:
-    return [Problem("layout.firing_order", f"{order} fits no usual numbering of the cylinders")]
 
 
 def find_engines_meant(parts: Assembly) -> tuple[list[Candidate], int]:
@@ -346,10 +296,22 @@ def find_engines_meant(parts: Assembly) -> tuple[list[Candidate], int]:
         least = cycle_deg(layout) / len(parts.plan.cells) / 2
     tiers = list_tiers(parts.plan, radial=layout.radial is not None)
     for number, tier in enumerate(tiers, 1):
-        fitting = [one for rows in tier if (one := Candidate(parts.model, rows)).fits(least)]
+        fitting = [one for one in _number(parts.model, tier) if one.fits(least)]
         if fitting:
             return _sort(fitting, tier), number
     return [], 0
+
+
+def _number(model: EngineFile, tier: Iterable[Rows]) -> list[Candidate]:
+    return [Candidate(model.with_table("layout", numbering=rows), [rows]) for rows in tier]
+
+
+def _split_pins(one: Candidate) -> Iterator[Candidate]:
+    """Yield the engine with the splay that makes it fit, if there is one."""
+    splay = find_fitting_splay(one.model)
+    if splay is not None:
+        split = one.model.with_table("crank", splay=splay)
+        yield Candidate(split, one.numberings, f"crank.splay = {splay:g}", splay)
 
 
 def _find_remedies(parts: Assembly) -> list[Candidate]:
@@ -362,12 +324,16 @@ def _find_remedies(parts: Assembly) -> list[Candidate]:
         return []
     tier = next(list_tiers(plan, radial=model.layout.radial is not None))
     uneven = [] if model.layout.firing_intervals else list(_list_shared_intervals(parts))
-    by_intervals = [Candidate(model, rows, intervals) for rows in tier for intervals in uneven]
-    by_splay = []
-    for rows in tier:
-        splay = find_fitting_splay(model.with_table("layout", numbering=rows))
-        if splay is not None:
-            by_splay.append(Candidate(model, rows, splay=splay))
+    by_intervals = [
+        Candidate(
+            model.with_table("layout", numbering=rows, firing_intervals=intervals),
+            [rows],
+            f"layout.firing_intervals = [{_join(intervals)}]",
+        )
+        for rows in tier
+        for intervals in uneven
+    ]
+    by_splay = [split for one in _number(model, tier) for split in _split_pins(one)]
     common = _sort([one for one in by_intervals if one.fits()], tier)
     split = [one for one in _sort(by_splay, tier) if not any(map(one.is_same, common))]
     return [*common[: LIST_LENGTH - bool(split)], *split]
@@ -407,25 +373,22 @@ def _suggest(parts: Assembly) -> str:
     if parts.varies:
         return ""
     model, intervals = parts.model, parts.model.layout.firing_intervals
-    ways: list[tuple[str, EngineFile]] = []
+    ways: list[Candidate] = []
     if intervals is not None:
         later = (*intervals[1:], intervals[0])
         keys = f"layout.firing_intervals = [{_join(later)}]"
-        ways.append((keys, model.with_table("layout", firing_intervals=later)))
+        ways.append(Candidate(model.with_table("layout", firing_intervals=later), [], keys))
     if model.crank.throws is not None:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
         keys = f"crank.throws = [{_join(throws)}], which count in the sense of rotation"
-        ways.append((keys, model.with_table("crank", throws=throws)))
+        ways.append(Candidate(model.with_table("crank", throws=throws), [], keys))
         if len(throws) > 1:
             free = model.with_table("crank", throws=None)
             listed = _join(_count_throws_from_first(Assembly(free)))
-            ways.append((f"crank.throws = [{listed}]", free))
+            ways.append(Candidate(free, [], f"crank.throws = [{listed}]"))
     if "splay" not in model.crank.model_fields_set:
-        splay = find_fitting_splay(model)
-        if splay is not None:
-            keys = f"crank.splay = {splay:g}"
-            ways.append((keys, model.with_table("crank", splay=splay)))
-    fitting = (keys for keys, changed in ways if not find_missed(Assembly(changed)))
+        ways += _split_pins(Candidate(model, []))
+    fitting = (way.change for way in ways if not find_missed(way.parts))
     return next((f". It fits with {keys}" for keys in fitting), "")
 
 
@@ -445,8 +408,7 @@ def list_inferred(parts: Assembly) -> Iterator[str]:
     if inferred:
         yield f"crank.throws = [{_join(_count_throws_from_first(parts))}]"
         if layout.firing_intervals is None:
-            times = [*map(float, parts.fires_deg.values()), cycle_deg(layout)]
-            yield f"layout.firing_intervals = [{_join(b - a for a, b in pairwise(times))}]"
+            yield f"layout.firing_intervals = [{_join(_list_gaps(parts))}]"
     if "strokes" not in given and (inferred or model.gas is not None):
         yield f"layout.strokes = {layout.strokes}"
 
@@ -487,19 +449,14 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
             )
     order = "-".join(map(str, parts.order))
     if parts.throws_given:
-        times = [*map(float, parts.fires_deg.values()), cycle_deg(layout)]
-        gaps = [b - a for a, b in pairwise(times)]
+        gaps = _list_gaps(parts)
         if layout.firing_intervals is None and len(gaps) > 2 and max(gaps) > TURN + TOLERANCE_DEG:
             yield (
                 f"layout.firing_order: {order} fires after {_join(gaps)} deg with these throws; "
                 f"if it is so, say layout.firing_intervals = [{_join(gaps)}]"
             )
     elif layout.firing_intervals is None and layout.strokes == 4:
-        usual = ""
-        if plan.banks == 1 and not _is_usual(parts.order):
-            usual = USUAL_ORDERS.get(len(parts.order), "")
-        elif plan.banks == 2 and plan.rods_on_throw == 1 and not _has_opposite_pins(parts):
-            usual = USUAL_FLAT_ORDERS.get(len(parts.order), "")
+        usual = _find_usual_orders(parts)
         if usual:
             listed = _join(_count_throws_from_first(parts))
             yield (
@@ -508,28 +465,28 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
             )
 
 
-def _is_usual(order: Sequence[int]) -> bool:
-    """Return whether an in-line engine is built with this order: its crank is its own mirror image
-    end for end, or that of a usual five.
+def _find_usual_orders(parts: Assembly) -> str:
+    """Return usual firing orders if nobody builds the crank of this one, else an empty text. The
+    usual crank of an engine in line is its own mirror image end for end, or that of a usual five;
+    pins of neighbouring cylinders of a flat engine stand 180 deg apart.
     """
-    count, begin = len(order), order.index(1)
-    turned = (*order[begin:], *order[:begin])
-    if count % 2:
-        return count != 5 or "-".join(map(str, turned)) in USUAL_ORDERS[5].split(" or ")
-    pairs = zip(turned[: count // 2], turned[count // 2 :], strict=True)
-    return all(a + b == count + 1 for a, b in pairs)
+    throws, plan = _count_throws_from_first(parts), parts.plan
+    angles = [*map(float, bank_angles(parts.model.layout, parts.figures))]
+    if plan.banks == 1:
+        order = parts.order or ()
+        turned = "-".join(map(str, order[order.index(1) :] + order[: order.index(1)]))
+        built = len(throws) % 2 or throws == throws[::-1]
+        if len(throws) == 5:
+            built = turned in USUAL_ORDERS[5]
+        return "" if built else USUAL_ORDERS.get(len(throws), "")
+    if plan.banks > 2 or plan.rods_on_throw > 1 or not _are_opposite(*angles):
+        return ""
+    built = all(map(_are_opposite, throws[::2], throws[1::2]))
+    return "" if built else USUAL_FLAT_ORDERS.get(len(throws), "")
 
 
-def _has_opposite_pins(parts: Assembly) -> bool:
-    """Return whether the pins of neighbouring cylinders of a flat engine stand 180 deg apart; true
-    for other engines.
-    """
-    first, second = map(float, bank_angles(parts.model.layout, parts.figures))
-    if abs((second - first) % TURN - 180) > TOLERANCE_DEG:
-        return True
-    throws = [float(parts.throws_deg[t]) for t in range(parts.plan.throws)]
-    pairs = zip(throws[::2], throws[1::2], strict=False)
-    return all(abs((b - a) % TURN - 180) <= TOLERANCE_DEG for a, b in pairs)
+def _are_opposite(first: float, second: float) -> bool:
+    return abs((second - first) % TURN - 180) <= TOLERANCE_DEG
 
 
 def write_rows(rows: Sequence[Sequence[int]]) -> str:

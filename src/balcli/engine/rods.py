@@ -46,6 +46,39 @@ class RunningGear(NamedTuple):
         return np.degrees(np.arcsin(self.offset / (radius + self.length)))
 
 
+class Weighed(NamedTuple):
+    """Masses of one cylinder as a shop weighs them, kg.
+
+    Attributes:
+        throw: on which its rod runs (from 0).
+        piston: with pin, rings and locks.
+        piston_parts: what the piston was weighed in, by the keys of [piston]: `mass` alone, or
+            piston, pin, rings and locks as far as they are given.
+        small_end, big_end: of the rod, without shells.
+        share: of the throw's unbalanced mass, for this cylinder's pin.
+        rod_bearing, oil: what turns with the pin besides, for this rod.
+    """
+
+    throw: int
+    piston: Figure
+    piston_parts: tuple[tuple[str, Figure], ...]
+    small_end: Figure
+    big_end: Figure
+    share: Figure
+    rod_bearing: Figure
+    oil: Figure
+
+    @property
+    def reciprocating(self) -> Figure:
+        """What goes to and fro, kg."""
+        return self.piston + self.small_end
+
+    @property
+    def rotating(self) -> Figure:
+        """What turns with the pin besides the throw, kg."""
+        return self.big_end + self.rod_bearing + self.oil
+
+
 def weigh_rod(
     rod: RodFigures, length: Figure, offset: Figure = 0.0, piston: Figure = 0.0
 ) -> RunningGear:

@@ -70,18 +70,10 @@ def check_cylinders(parts: Assembly) -> Iterator[Problem]:
 
 def check_masters(parts: Assembly) -> Iterator[Problem]:
     """Articulated rods have a master rod on their throw, and knuckle pins that fit."""
-    if parts.model.articulation is None:
-        return
-    from .articulation import check_articulation  # for the few engines that have rods on rods
+    if parts.model.articulation is not None:
+        from .articulation import check_articulation  # for the few engines that have rods on rods
 
-    with_own_throw = {number for number, own in parts.own.items() if own.throw_deg is not None}
-    yield from check_articulation(
-        parts.model.articulation,
-        parts.plan,
-        parts.knuckle_angles_deg,
-        parts.splay_deg,
-        with_own_throw,
-    )
+        yield from check_articulation(parts, parts.model.articulation)
 
 
 def check_rods(parts: Assembly) -> Iterator[Problem]:

@@ -7,6 +7,7 @@ from typing import Generic, TypeVar
 
 from ..enginefile.model import EngineFile
 from .build import Engine, build
+from .gas import EngineGas
 from .gas_figures import concerns_gas
 
 Key = TypeVar("Key")
@@ -27,7 +28,7 @@ class EngineVariants:
     def __init__(self, model: EngineFile) -> None:
         self._model = model
         self._engines: dict[Values, Engine] = {}
-        self._by_gas: dict[Values, Engine] = {}
+        self._gas: dict[Values, EngineGas | None] = {}
 
     def build(self, values: Mapping[str, float]) -> Engine:
         """The engine with these figures, by dotted name, in place of the file's.
@@ -35,15 +36,14 @@ class EngineVariants:
         Raises:
             InputError, BalcliError: it cannot be.
         """
-        return remember(self._engines, tuple(values.items()), lambda: self._build(values))
-
-    def _build(self, values: Mapping[str, float]) -> Engine:
-        if self._model.gas is None:
-            return build(self._model, values)
         of_gas = tuple((path, value) for path, value in values.items() if concerns_gas(path))
-        alike = self._by_gas.get(of_gas)
-        engine = build(self._model, values, gas=None if alike is None else alike.gas)
-        return remember(self._by_gas, of_gas, lambda: engine) if alike is None else engine
+
+        def make() -> Engine:
+            engine = build(self._model, values, gas=self._gas.get(of_gas))
+            remember(self._gas, of_gas, lambda: engine.gas)
+            return engine
+
+        return remember(self._engines, tuple(values.items()), make)
 
 
 class FiguresOfVariants(Generic[Asked]):

@@ -134,15 +134,11 @@ def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """
     counterweights = [device for device in engine.devices if is_counterweight(device)]
     refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
-    forces = [compute_each_cylinder(engine, orders, ["force"])["force"]]
-    forces += [compute_device_force(engine, device, orders) for device in counterweights]
-    noises = [np.broadcast_to(force.noise, force.forward.shape) for force in forces]
-    together = Phasors.of(
-        orders,
-        np.column_stack([force.forward for force in forces]),
-        np.column_stack([force.backward for force in forces]),
-        np.column_stack(noises),
-    )
+    each = compute_each_cylinder(engine, orders, ["force"])["force"]
+    more = [compute_device_force(engine, device, orders) for device in counterweights]
+    vectors = np.concatenate([each.vectors, *(force.vectors[..., None] for force in more)], axis=2)
+    noises = [np.broadcast_to(force.noise, force.forward.shape) for force in (each, *more)]
+    together = Phasors(orders, vectors, np.column_stack(noises))
     places = [*np.ravel(engine.cylinders.z), *(device.z for device in counterweights)]
     return together, np.array(places, float)
 

@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
@@ -25,8 +26,8 @@ from ..limits import FINEST_STEP_DEG
 from ..result import Result
 from .kinds import COUPLE, FORCE, MOMENT, ROLL, TORQUE
 
+Number = TypeVar("Number", np.float64, np.complex128)
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
-_PLAIN = 10**6  # largest denominator of a step that is taken for a fraction
 _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
@@ -74,10 +75,7 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
             "degrees"
         )
     steps = np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9))
-    plain = Fraction(step).limit_denominator(_PLAIN)
-    if float(plain) != step:
-        return steps * step
-    return steps * plain.numerator / plain.denominator  # 3 steps of 0.1 are 0.3
+    return np.round(steps * step, 12)  # 3 steps of 0.1 are 0.3
 
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
@@ -153,9 +151,9 @@ def _sum_parts(
 
 
 def compute_piecemeal(
-    engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
-) -> dict[str, Array]:
-    """Curves by name, each of shape (angles,), computed at so many angles at a time that memory
+    engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, NDArray[Number]]]
+) -> dict[str, NDArray[Number]]:
+    """Curves by name, each of shape (..., angles), computed at so many angles at a time that memory
     does not grow with both cylinders and angles.
 
     Args:
@@ -164,7 +162,7 @@ def compute_piecemeal(
     step = max(AT_ONCE // engine.cylinders.count, 1)
     starts = range(0, max(len(crank_deg), 1), step)
     pieces = [compute(crank_deg[start : start + step]) for start in starts]
-    return {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+    return {name: np.concatenate([piece[name] for piece in pieces], axis=-1) for name in pieces[0]}
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
@@ -194,12 +192,14 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
     """Parts of the motion of the cylinder in this row, shape (parts, angles)."""
     motion = EngineMotion(engine, crank_deg)
-    r, v, a = motion.radius, motion.v[row], motion.a[row]
+    m, r = motion.moved, motion.radius
+    v, a = -m.velocity[row], -m.acceleration[row]
+    angles = np.broadcast_to(np.arctan2(m.lean, m.cosine), motion.psi.shape)
     return {
         "travel_m": r * motion.travel()[row : row + 1],
         "velocity_m_per_s": (r * motion.omega * v)[None],
         "acceleration_m_per_s2": r * np.array([motion.omega**2 * a, motion.xi * v]),
-        "rod_angle_deg": np.degrees(motion.rod_angle()[row : row + 1]),
+        "rod_angle_deg": np.degrees(angles[row : row + 1]),
     }
 
 
@@ -211,14 +211,11 @@ class EngineMotion:
         radius: of the crank, m.
         crank_deg: shape (angles,).
         omega, xi: crank speed, rad/s, and acceleration, rad2/s2, shape (angles,).
-        lam, eps: shape (cylinders, 1).
         pin_deg: of the crank pins from x, shape (cylinders, angles).
         psi: of the crank pins from their cylinders' axes, rad, shape (cylinders, angles).
         axis: directions of the cylinders, shape (cylinders, 1).
-        v, a: first and second derivative of the pistons' travel with respect to the crank angle, in
-            crank radii, shape (cylinders, angles).
-        spin, spin_rate: those of the rods' angles, in the crank's sense.
-        linked: motion of a linkage with its masses on curves, `mass`, kg, shape (cylinders, 1).
+        moved: pistons and rods in motion, in crank radii, shape (cylinders, angles).
+        mass: on curves of a linkage, kg, shape (cylinders, 1) or (1, 1).
     """
 
     def __init__(self, engine: Engine, crank_deg: Array) -> None:
@@ -226,34 +223,25 @@ class EngineMotion:
         self.radius = float(np.ravel(c.radius)[0])
         self.crank_deg = crank_deg
         self.omega, self.xi = find_crank_speed(engine, crank_deg)
-        self.lam = np.broadcast_to(as_rows(c.lam), (c.count, 1))
-        self.eps = np.broadcast_to(as_rows(c.eps), (c.count, 1))
         axes = as_rows(c.axis_of_each_deg)
         self.axis = unit(axes)
         self.pin_deg = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + as_rows(c.pin_deg)
         self.psi = np.radians(np.remainder(self.pin_deg - axes + 180, 360) - 180)
-        self.linked = None
-        if c.linkage is not None:
-            self.linked = c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
-            self.mass = as_rows(c.linkage.mass)
-        m: Motion = self.linked or sc.SliderCrank(self.psi, self.lam, self.eps)
-        self.v, self.a = -m.velocity, -m.acceleration
-        self.spin, self.spin_rate = m.spin, m.spin_rate
+        self.mass = np.zeros((1, 1)) if c.linkage is None else as_rows(c.linkage.mass)
+        self.moved: Motion = (
+            sc.SliderCrank(self.psi, as_rows(c.lam), as_rows(c.eps))
+            if c.linkage is None
+            else c.linkage.motion(self.psi, np.ravel(c.lam), np.ravel(c.eps))
+        )
 
     def travel(self) -> Array:
         """Of the pistons, from their top dead centres, in crank radii."""
         c = self.cylinders
-        if c.linkage is None or self.linked is None:
-            return sc.displacement(self.psi, self.lam, self.eps)
+        if c.linkage is None:
+            return sc.displacement(self.psi, as_rows(c.lam), as_rows(c.eps))
         top = np.radians(find_travel(c).top_deg).reshape(-1, 1)
         highest = c.linkage.motion(top, np.ravel(c.lam), np.ravel(c.eps)).place
-        return np.asarray(highest - self.linked.place)
-
-    def rod_angle(self) -> Array:
-        """Of the rods to their cylinders' axes, rad."""
-        if self.linked is None:
-            return np.asarray(np.arctan2(*sc.rod_angle(self.psi, self.lam, self.eps)))
-        return np.asarray(np.arcsin(self.linked.lean))
+        return np.asarray(highest - self.moved.place)
 
 
 def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
@@ -268,10 +256,10 @@ def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
 def _force_of_cylinders(motion: EngineMotion) -> Complex:
     """N, shape (cylinders, angles)."""
     c, r, w2, xi = motion.cylinders, motion.radius, motion.omega**2, motion.xi
-    piston: Complex = as_rows(c.reciprocating) * r * (w2 * motion.a + xi * motion.v) * motion.axis
-    if (m := motion.linked) is not None:
-        away = w2 * m.acceleration_of_mass + xi * m.velocity_of_mass
-        piston = piston - motion.mass * r * away * motion.axis
+    m = motion.moved
+    on_axis = -as_rows(c.reciprocating) * r * (w2 * m.acceleration + xi * m.velocity)
+    on_curve = motion.mass * r * (w2 * m.acceleration_of_mass + xi * m.velocity_of_mass)
+    piston = (on_axis - on_curve) * motion.axis
     pins = as_rows(c.rotating) * r * (w2 - 1j * xi) * unit(motion.pin_deg)
     return piston + pins
 
@@ -292,13 +280,11 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
     """Free couple of each cylinder about the crank's axis, N m, shape (cylinders, angles): h =
     -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
     """
-    c, r = motion.cylinders, motion.radius
-    pull = as_rows(c.reciprocating) * (motion.eps * r / motion.lam) * r
-    h = pull * motion.v + as_rows(c.rotating) * r**2 - as_rows(c.couple) * motion.spin
-    slope = pull * motion.a - as_rows(c.couple) * motion.spin_rate
-    if (m := motion.linked) is not None:
-        h = h + motion.mass * r**2 * m.swirl
-        slope = slope + motion.mass * r**2 * m.swirl_rate
+    c, r, m = motion.cylinders, motion.radius, motion.moved
+    pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
+    on_curve, couple = motion.mass * r**2, as_rows(c.couple)
+    h = as_rows(c.rotating) * r**2 - pull * m.velocity - couple * m.spin + on_curve * m.swirl
+    slope = on_curve * m.swirl_rate - pull * m.acceleration - couple * m.spin_rate
     return np.asarray(-(motion.omega**2 * slope + motion.xi * h))
 
 
@@ -306,23 +292,19 @@ def _torque_of_cylinders(motion: EngineMotion) -> Array:
     """Inertia torque of each cylinder on the crank, N m, shape (cylinders, angles): I = m_rec s'^2
     + m_rot r^2 - H spin^2 (+ the masses on curves).
     """
-    c, r = motion.cylinders, motion.radius
-    mass, couple = as_rows(c.reciprocating) * r**2, as_rows(c.couple)
-    half_slope = mass * motion.v * motion.a - couple * motion.spin * motion.spin_rate
-    if (m := motion.linked) is not None:
-        half_slope = half_slope + motion.mass * r**2 * m.power
+    c, r, m = motion.cylinders, motion.radius, motion.moved
+    on_axis = as_rows(c.reciprocating) * r**2 * m.velocity * m.acceleration
+    half_slope = on_axis + motion.mass * r**2 * m.power - as_rows(c.couple) * m.spin * m.spin_rate
     inertia = _inertia_of_cylinders(motion)
     return np.asarray(-(half_slope * motion.omega**2 + motion.xi * inertia))
 
 
 def _inertia_of_cylinders(motion: EngineMotion) -> Array:
     """I of each cylinder, kg m2, shape (cylinders, angles)."""
-    c, r = motion.cylinders, motion.radius
-    mass, couple = as_rows(c.reciprocating) * r**2, as_rows(c.couple)
-    inertia = mass * motion.v**2 + as_rows(c.rotating) * r**2 - couple * motion.spin**2
-    if (m := motion.linked) is not None:
-        inertia = inertia + motion.mass * r**2 * m.energy
-    return np.asarray(inertia)
+    c, r, m = motion.cylinders, motion.radius, motion.moved
+    on_axis = as_rows(c.reciprocating) * m.velocity**2 + motion.mass * m.energy
+    inertia = r**2 * (on_axis + as_rows(c.rotating)) - as_rows(c.couple) * m.spin**2
+    return np.asarray(np.broadcast_to(inertia, motion.psi.shape))
 
 
 def as_rows(values: Array) -> Array:

@@ -10,22 +10,22 @@ the block's own devices add. Sections count as there, from the free end.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
+from ..core.levers import find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import merged_breaks
-from ..core.vectors_over_cycle import Panels, Vectors, find_panels
+from ..core.vectors_over_cycle import Vectors, find_panels
 from ..engine.build import Engine
 from ..errors import BalcliError
 from ..limits import MOST_FORCES_OVER_CYCLE
 from .crankshaft import AlongCrank, InnerLoads, is_counterweight, place_bearings
-from .curves import AT_ONCE, compute_device_forces, find_crank_speed
+from .curves import compute_device_forces, compute_piecemeal, find_crank_speed
 from .gas import take_gas
 from .orders import list_gas_orders, mark_considerable
 from .rod_forces import compute_rod_forces, list_hung_rows
@@ -56,17 +56,6 @@ class ForcesAlongCrank(NamedTuple):
 
     on_shaft: Complex
     on_block: Complex
-
-
-class _Sums(NamedTuple):
-    """Sums of all forces at places along the crank, and the sizes that they are made of, each of
-    shape (places, forces); `factor` is i for moments.
-    """
-
-    z: Array
-    weights: Array
-    sizes: Array
-    factor: complex = 1.0
 
 
 class BearingsUnknownError(BalcliError):
@@ -116,12 +105,34 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
     sections = np.unique(np.concatenate([on_shaft, on_block, span]))
-    every = (
-        *_cut_shaft(sections, on_shaft, len(on_block), span, shares),
-        _load_bearings(span, shares, len(on_block)),
-        *_cut_block(sections, on_block, span, shares),
+    reach = 2 * float(np.abs(sections).max())  # bounds what arms are differences of
+
+    largest = float(np.abs(samples).max(axis=1).sum())
+
+    def follow(z: Array, weights: Array, factor: complex = 1.0, size: float = 1.0) -> AlongCrank:
+        """Orders and largest values of the sums at some places; what is rounding error is 0."""
+        values, least = factor * (weights @ samples), NOTHING * size * largest
+        forward, backward = panels.find_orders(values, shown)
+        phasors = Phasors.of(shown, forward, backward, np.full(forward.shape, least))
+        peaks = map(panels.find_largest, values)
+        felt = tuple(peak if peak.value > least else Peak(0.0, 0.0) for peak in peaks)
+        return AlongCrank(z, phasors.drop_noise(), felt)
+
+    def cut(weigh: Callable[[Array, Array], Array]) -> tuple[Array, Array]:
+        """Weights of all forces in the sum at each section, of the shaft and of the block."""
+        borne = weigh(span, sections) @ shares
+        own, of_block = weigh(on_shaft, sections), weigh(on_block, sections)
+        return np.hstack([own - borne, 0 * of_block]), np.hstack([borne, of_block])
+
+    shear, block_shear = cut(find_ahead)
+    bending, block_bending = cut(find_arms)
+    found = LoadsWithGas(
+        follow(sections, shear),
+        follow(sections, bending, 1j, reach),
+        follow(span, np.pad(shares, ((0, 0), (0, len(on_block))))),
+        follow(sections, block_shear),
+        follow(sections, block_bending, 1j, reach),
     )
-    found = LoadsWithGas(*(_follow(sums, samples, panels, shown) for sums in every))
     if orders is not None:
         return found
     bent = found.bending.phasors, found.block_bending.phasors
@@ -208,51 +219,4 @@ def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Comple
             f"loads with gas of {engine.cylinders.count} cylinders are {count * len(angles)} "
             f"forces over the cycle, and at most {MOST_FORCES_OVER_CYCLE} are kept"
         )
-    step, degrees = max(AT_ONCE // count, 1), np.degrees(angles)
-    parts = [compute(degrees[k : k + step]) for k in range(0, len(degrees), step)]
-    return np.concatenate(parts, axis=1)
-
-
-# ------------------------------------------------------------------ sums along the crank
-# Of shear force and bending moment: how much a force adds at a section, a bound of that, and what
-# the sum is multiplied by.
-_CUTS = ((find_ahead, find_ahead, 1.0), (find_arms, bound_arms, 1j))
-
-
-def _beside(weights: Array, more: int) -> Array:
-    """Weights of the forces on the shaft, and none of so many on the block."""
-    return np.pad(weights, ((0, 0), (0, more)))
-
-
-def _load_bearings(span: Array, shares: Array, more: int) -> _Sums:
-    """Loads of the bearings."""
-    return _Sums(span, _beside(shares, more), _beside(np.abs(shares), more))
-
-
-def _cut_shaft(sections: Array, z: Array, more: int, span: Array, shares: Array) -> Iterator[_Sums]:
-    """Shear behind, and bending moment at, each section: of its own forces less the bearings'."""
-    for weigh, bound, factor in _CUTS:
-        weights = weigh(z, sections) - weigh(span, sections) @ shares
-        sizes = bound(z, sections) + bound(span, sections) @ np.abs(shares)
-        yield _Sums(sections, _beside(weights, more), _beside(sizes, more), factor)
-
-
-def _cut_block(sections: Array, z: Array, span: Array, shares: Array) -> Iterator[_Sums]:
-    """Shear behind, and bending moment at, each section: of the bearings' forces and its own."""
-    for weigh, bound, factor in _CUTS:
-        weights = np.hstack([weigh(span, sections) @ shares, weigh(z, sections)])
-        sizes = np.hstack([bound(span, sections) @ np.abs(shares), bound(z, sections)])
-        yield _Sums(sections, weights, sizes, factor)
-
-
-def _follow(sums: _Sums, samples: Complex, panels: Panels, orders: Array) -> AlongCrank:
-    """Orders and largest values of sums of forces; what is rounding error is 0."""
-    values = sums.factor * (sums.weights @ samples)
-    noise = NOTHING * (sums.sizes @ np.abs(samples).max(axis=1))
-    forward, backward = panels.find_orders(values, orders)
-    phasors = Phasors.of(orders, forward, backward, np.broadcast_to(noise, forward.shape))
-    peaks = (
-        peak if peak.value > least else Peak(0.0, 0.0)
-        for peak, least in zip(map(panels.find_largest, values), noise, strict=True)
-    )
-    return AlongCrank(sums.z, phasors.drop_noise(), tuple(peaks))
+    return compute_piecemeal(engine, np.degrees(angles), lambda some: {"": compute(some)})[""]

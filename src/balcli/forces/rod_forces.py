@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from ..core.cylinder_pressure import PressureOnPiston
+from ..core.mechanisms.motion import PointMass
 from ..core.phasors import Array, Complex, unit
 from ..engine.build import Engine
 from ..errors import BalcliError
@@ -32,7 +33,6 @@ from .gas import take_gas
 
 if TYPE_CHECKING:
     from ..core.mechanisms.articulated import Articulated
-    from ..core.mechanisms.motion import PointMass
     from ..core.mechanisms.rotary import Rotary
 
 
@@ -89,7 +89,7 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     d = piston.at - foot.at
     up, aside = piston.acceleration.real, piston.acceleration.imag
     along = heads * up + gas
-    spin_rate = motion.spin_rate * motion.omega**2 + motion.spin * motion.xi
+    spin_rate = motion.moved.spin_rate * motion.omega**2 + motion.moved.spin * motion.xi
     moment = d.imag * (along + small * up) + as_rows(engine.cylinders.couple) * spin_rate
     across = moment / d.real - small * aside
     pin = -(small * piston.acceleration + big * foot.acceleration + along + 1j * across)
@@ -134,28 +134,20 @@ def _find_directions(engine: Engine, motion: EngineMotion) -> tuple[Complex, Com
 
 def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[_Course, _Course]:
     """Piston pins and lower ends of the rods, in each cylinder's frame."""
-    r, linked = motion.radius, motion.linked
+    r, m = motion.radius, motion.moved
 
-    def follow(z: Complex, z1: Complex | Array, z2: Complex | Array) -> _Course:
+    def follow(point: PointMass, turned: Complex | float = 1.0) -> _Course:
         """A point by its place and derivatives by the crank angle, in crank radii."""
-        acceleration = r * (z2 * motion.omega**2 + z1 * motion.xi)
-        return _Course(r * z, np.asarray(acceleration, complex))
+        acceleration = r * turned * (point.z2 * motion.omega**2 + point.z1 * motion.xi)
+        return _Course(r * turned * point.z, np.asarray(acceleration, complex))
 
-    def follow_point(point: PointMass, turned: Complex | float = 1.0) -> _Course:
-        return follow(turned * point.z, turned * point.z1, turned * point.z2)
-
-    if linked is not None and engine.rotary:  # its points are seen from the direction of the pin
-        piston, *knuckle = (follow_point(point, throw) for point in linked.points)
+    if engine.rotary:  # its points are seen from the direction of the pin
+        piston, *knuckle = (follow(point, throw) for point in m.points)
         still = _Course(r * throw, np.zeros_like(throw))
         return piston, (knuckle or [still])[0]
-    offset = motion.eps / motion.lam
-    if linked is None:
-        place = np.cos(motion.rod_angle()) / motion.lam + throw.real
-        foot = follow(throw, 1j * throw, -throw)
-    else:
-        place = linked.place
-        foot = follow_point(linked.points[0])
-    return follow(place + 1j * offset, -motion.v, -motion.a), foot
+    place = m.place + 1j * as_rows(engine.cylinders.offset) / r
+    rates = (np.asarray(rate, complex) for rate in (m.velocity, m.acceleration))
+    return follow(PointMass(place, *rates)), follow(m.pin)
 
 
 def _find_gas_forces(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:

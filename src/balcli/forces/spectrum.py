@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
+from operator import add, sub
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +13,7 @@ from numpy.typing import ArrayLike
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
+from ..core.mechanisms.fourier import select_cylinders, select_orders
 from ..core.phases import Phases, SeparatePhases
 from ..core.phasors import Array, Complex, Phasors, join_orders
 from ..engine.arrays import place_in_plane
@@ -181,15 +184,8 @@ def _compute_gas(engine: Engine, orders: Array, *, apart: bool) -> Phasors:
 
 def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
     """Phasors of a kind by those of its parts (`Kind.parts`), which are given by name."""
-    if not kind.plus:
-        return parts[kind.name]
-    first, *others = kind.plus
-    total = parts[first]
-    for name in others:
-        total = total + parts[name]
-    for name in kind.minus:
-        total = total - parts[name]
-    return total
+    plus = reduce(add, (parts[name] for name in kind.plus or (kind.name,)))
+    return reduce(sub, (parts[name] for name in kind.minus), plus)
 
 
 def with_only(engine: Engine, moving: ArrayLike) -> Engine:
@@ -221,21 +217,21 @@ def _compute_steady(
     most = max(_AT_ONCE // c.count, 1)
 
     def make_loads(block: slice) -> Loads:
-        own = few if len(orders) <= most else few.select_orders(block)
-        own = own.select_cylinders(which)
+        own = few if len(orders) <= most else select_orders(few, block)
+        own = select_cylinders(own, which)
         phases = (SeparatePhases if apart else Phases)(c, orders[block])
         return Loads(c, engine.devices, place_in_plane(x, y), z, phases, own, engine.omega**2)
 
-    lowest = make_loads(slice(most))
-    found = {name: [getattr(lowest, name)] for name in names}
-    for start in range(most, len(orders), most):
-        loads = make_loads(slice(start, start + most))
-        for name in names:
-            found[name].append(getattr(loads, name))
-    return {name: _join(blocks) for name, blocks in found.items()}, lowest
+    lowest, blocks = make_loads(slice(most)), []
+    for start in range(0, max(len(orders), 1), most):
+        loads = make_loads(slice(start, start + most)) if start else lowest
+        blocks.append([getattr(loads, name) for name in names])
+    return {
+        name: _join(own) for name, own in zip(names, zip(*blocks, strict=True), strict=False)
+    }, lowest
 
 
-def _join(blocks: list[Phasors]) -> Phasors:
+def _join(blocks: Sequence[Phasors]) -> Phasors:
     return blocks[0] if len(blocks) == 1 else join_orders(blocks)
 
 

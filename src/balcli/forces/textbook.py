@@ -106,7 +106,7 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
         return values[row : row + 1] if len(values) > 1 else values
 
     lam, eps = of_this_one(c.lam), of_this_one(c.eps)
-    series = harmonics.find_harmonics(orders, lam, eps, {"piston"}).piston
+    series = harmonics.find_harmonics(orders, lam, eps, {"piston"})["piston"]
     mass = float(of_this_one(c.reciprocating)[0])
     gaps = np.diff(np.unique(np.round(engine.throws_m, 9)))
     return TextbookUnits(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..documents.records import to_document
 from .csv import Columns, Rows
 from .devices import device_entries, device_rows, number_devices
 from .figures import (
@@ -68,9 +69,7 @@ def document(result: Analysis) -> dict[str, Any]:
 
         found["travel"] = strokes.document(result.travel, result.engine.numbers)
     if result.why is not None:
-        from . import symmetry
-
-        found["why"] = symmetry.document(result.why)
+        found["why"] = to_document(result.why)
     return found
 
 

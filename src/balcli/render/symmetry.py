@@ -1,10 +1,9 @@
-"""Why each order is balanced or is not: as sentences, in JSON and as rows."""
+"""Why each order is balanced or is not: as sentences and as rows."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .figures import FigureRow, clean
 from .sheet import Text
@@ -23,12 +22,6 @@ def sheet_parts(why: Symmetry) -> Iterator[Text]:
     """One paragraph a reason and the orders that have it; then what its units mean."""
     units = (UNITS,) if any(reason.unit for reason in why.reasons) else ()
     yield Text("Why", (*why.sentences, *units))
-
-
-def document(why: Symmetry) -> dict[str, Any]:
-    """`why` in `balcli.analysis/1`."""
-    scope = {"scope": why.scope} if why.scope else {}
-    return {"reasons": [asdict(reason) for reason in why.reasons], "firing": why.firing, **scope}
 
 
 def rows(why: Symmetry) -> Iterator[FigureRow]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..engine.build import Engine, Weighed
+from ..engine.build import Engine
+from ..engine.rods import Weighed
 from .scheme_figures import Bobweight, CardLine
 
 DEFINITION = (

@@ -8,20 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ..core.cached_property import cached_property
 from ..core.cylinders import Cylinders
 from ..core.phasors import Array, Phasors
 from ..engine.assembly import PISTON_PARTS
-from ..engine.build import Engine, Weighed, assemble, build
+from ..engine.build import Engine, assemble, build
 from ..engine.build_gas import build_gas
 from ..engine.figures import RodFigures
 from ..engine.gas import EngineGas
 from ..engine.layout import plan_cylinders
-from ..engine.rods import weigh_rod
+from ..engine.rods import Weighed, weigh_rod
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError, InputError
 from ..forces.quantity import Quantity

@@ -12,13 +12,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.cached_property import cached_property
 from ..core.phasors import Array
 from ..engine.build import Engine, build
 from ..engine.gas_figures import concerns_gas
@@ -29,7 +28,6 @@ from ..errors import BalcliError, InputError, naming_file
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
 from ..forces.quantity import (
     Quantity,
-    are_products,
     evaluate_quantities,
     find_orders,
     leave_out_unknown,
@@ -53,8 +51,8 @@ from .threads import ALONE_S, share_work
 from .varied_gas import attach_gas_torque
 
 ALONE = 64  # variants at a time where each is computed by itself
-CHUNK = 32_768  # variants at a time, at most: enough for what they share
 PRODUCTS = 8  # times as many where each is but a product of what is computed for fewer
+CHUNK = 32_768  # variants at a time, at most: enough for what they share
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 _BOXES = 8  # in a block, each with a tenth of a second's work
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
@@ -311,8 +309,9 @@ def size_boxes(sweep: Sweep) -> BoxSize:
     alone = bool(sweep.of_chapters) or _has_many_cycles(sweep)
     most = ALONE if alone else CHUNK
     side = max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
-    products = not alone and not _asks_for_gas(sweep) and are_products(engine, sweep.of_engine)
-    return BoxSize(PRODUCTS * side if products else side, side)
+    peaks = any(q.part == "peak" for q in sweep.of_engine)
+    products = engine.equal and not (alone or peaks or _asks_for_gas(sweep))
+    return BoxSize(PRODUCTS * side if products and len(sweep.shape) > 1 else side, side)
 
 
 def _has_many_cycles(sweep: Sweep) -> bool:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.loads import find_inertia, find_needed_series
+from ..core.mechanisms.fourier import select_cylinders
 from ..core.speeds import RPM
 from ..core.torsional_chain import ChainShaft
 from ..core.vibration import Real
@@ -159,7 +160,7 @@ def weigh_running_gear(engine: Engine) -> Real:
     mean_only = np.zeros(1)
     series = find_needed_series(c, {"torque"}, uneven=False)
     few, which = c.find_distinct_harmonics(mean_only, series)
-    moving = find_inertia(c, few.select_cylinders(which), 1.0).c[0].real
+    moving = find_inertia(c, select_cylinders(few, which), 1.0).c[0].real
     own = np.array([float(weighed.share) for weighed in engine.weighed])
     turning = (c.rotating - own) * c.radius**2
     return np.broadcast_to(moving, own.shape) + np.broadcast_to(turning, own.shape)

@@ -83,7 +83,6 @@ def test_only_what_is_wanted_and_there_is_sampled():
     figures = [np.array([0.3]), np.array([0.01])]
     found = sampled.sample_mechanisms([1], SERIES, SliderCrank, figures, np.array([FEW]), 1)
     assert found.series.keys() == {"piston", "rod", "kinetic", "rod_kinetic"}
-    assert found.as_harmonics().curve is None
     first = np.full(len(random_rods()[0]), FEW)
     found = sampled.sample_mechanisms([1], {"along"}, hang, random_rods(), first, 1)
     assert found.series.keys() == {"along"}

@@ -14,100 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cached_property import cached_property
 from ..phasors import EPS, Array, Complex, compose, unit
-from . import slidercrank
 from .linkage import Linkage
 from .motion import Motion, PointMass
-
-
-class KnucklePin(PointMass):
-    """K in the cylinder's frame, by the motion of its master rod.
-
-    Args:
-        psi: crank angles of the cylinder (rad) or e^{i psi}.
-        knuckle, lead_deg: as in `Articulated`.
-        lam, eps: of the master.
-    """
-
-    def __init__(
-        self, psi: Array | Complex, knuckle: Complex, lead_deg: Array, lam: Array, eps: Array
-    ) -> None:
-        lead = unit(lead_deg)
-        self._crank = slidercrank.on_circle(psi)  # e^{i psi_m} turned back by the lead
-        self._master = slidercrank.SliderCrank(self._crank * lead, lam, eps)
-        self._knuckle = np.conj(lead) * knuckle
-
-    @cached_property
-    def _arm(self) -> Complex:
-        sine, cosine = self._master.angle
-        return np.asarray(self._knuckle * compose(cosine, -sine))
-
-    @cached_property
-    def z(self) -> Complex:
-        return self._crank + self._arm
-
-    @cached_property
-    def z1(self) -> Complex:
-        spin = self._master.spin
-        return 1j * (self._crank + compose(spin * self._arm.real, spin * self._arm.imag))
-
-    @cached_property
-    def z2(self) -> Complex:
-        bend = compose(self._master.spin**2, -self._master.spin_rate)
-        return np.asarray(-self._crank - bend * self._arm)
-
-
-class HungMotion(Motion):
-    """Articulated rods in motion, which hang on their knuckle pins as plain ones on the crank pin.
-
-    Args:
-        pin: the knuckle pin.
-        lam, eps: of the articulated rod.
-    """
-
-    def __init__(self, pin: KnucklePin, lam: Array, eps: Array) -> None:
-        self._pin, self._lam, self._eps = pin, lam, eps
-        self.points = (pin,)
-
-    @cached_property
-    def lean(self) -> Array:
-        return self._lam * self._pin.z.imag - self._eps
-
-    @cached_property
-    def condition(self) -> Array:
-        return np.asarray(1 / (1 - np.minimum(np.abs(self.lean), 1 - EPS)))
-
-    @cached_property
-    def _cosine(self) -> Array:
-        return np.asarray(np.sqrt((1 - self.lean) * (1 + self.lean)))
-
-    @cached_property
-    def _tangent(self) -> Array:
-        return self.lean / self._cosine
-
-    @cached_property
-    def place(self) -> Array:
-        return self._pin.z.real + self._cosine / self._lam
-
-    @cached_property
-    def velocity(self) -> Array:
-        return self._pin.z1.real - self._tangent * self._pin.z1.imag
-
-    @cached_property
-    def acceleration(self) -> Array:
-        k1, k2 = self._pin.z1, self._pin.z2
-        straight = k2.real - self._tangent * k2.imag
-        return np.asarray(straight + self.spin * k1.imag / self._cosine**2)
-
-    @cached_property
-    def spin(self) -> Array:
-        return -(self._lam * self._pin.z1.imag / self._cosine)
-
-    @cached_property
-    def spin_rate(self) -> Array:
-        bend = self._lam * self._pin.z2.imag / self._cosine
-        return np.asarray(-(bend + self.spin**2 * self._tangent))
+from .slidercrank import SliderCrank, on_circle
 
 
 @dataclass(frozen=True)
@@ -130,7 +40,7 @@ class Articulated(Linkage):
         each = [np.broadcast_to(a, (len(self.master), *a.shape[1:])) for a in (lam, eps)]
         return *each, self.knuckle, self.lead_deg, *(a[self.master] for a in each)
 
-    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> HungMotion:
+    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
         return hang(psi, *figures)
 
     def bound_lean(self, lam: Array, eps: Array) -> Array:
@@ -140,7 +50,37 @@ class Articulated(Linkage):
         return np.asarray(lam * (1 + np.abs(self.knuckle)) + np.abs(eps))
 
 
-def hang(psi: Array | Complex, *figures: NDArray[Any]) -> HungMotion:
-    """Rods in motion, by the figures of `Articulated`."""
-    lam, eps, knuckle, lead_deg, *of_master = figures
-    return HungMotion(KnucklePin(psi, knuckle, lead_deg, *of_master), lam, eps)
+def hang(
+    psi: Array | Complex,
+    lam: Array,
+    eps: Array,
+    knuckle: Complex,
+    lead_deg: Array,
+    master_lam: Array,
+    master_eps: Array,
+) -> Motion:
+    """Return articulated rods in motion, which hang on their knuckle pins as plain ones on the
+    crank pin.
+
+    Args:
+        psi: crank angles of the cylinders (rad) or e^{i psi}.
+        lam, eps, knuckle, lead_deg: of the articulated rods, as in `Articulated`.
+        master_lam, master_eps: of the master rods.
+    """
+    pin = follow_knuckle(on_circle(psi), knuckle, lead_deg, master_lam, master_eps)
+    lean = lam * pin.z.imag - eps
+    condition = 1 / (1 - np.minimum(np.abs(lean), 1 - EPS))
+    return Motion(pin, lam, lean, np.sqrt((1 - lean) * (1 + lean)), (pin,), condition)
+
+
+def follow_knuckle(
+    crank: Complex, knuckle: Complex, lead_deg: Array, lam: Array, eps: Array
+) -> PointMass:
+    """Return the knuckle pins K in the cylinders' frames by the motion of their master rods;
+    `crank` is e^{i psi}, lam and eps are those of the masters.
+    """
+    lead = unit(lead_deg)
+    master = SliderCrank(crank * lead, lam, eps)  # e^{i psi_m}, turned back by the lead
+    arm = np.conj(lead) * knuckle * compose(master.cosine, -master.lean)
+    bend = compose(master.spin**2, -master.spin_rate)
+    return PointMass(crank + arm, 1j * (crank + master.spin * arm), -crank - bend * arm)

@@ -26,58 +26,44 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..phasors import EPS, Array
-from .fourier import NONE, SERIES, Harmonics, Series
+from ..phasors import EPS, Array, Complex
+from .fourier import SERIES, Harmonics, Series
 
 
-class ClosedForm:
-    """Fourier coefficients of centred slider-cranks, each of shape (orders, *lam.shape).
+def find_harmonics(
+    orders: ArrayLike, lam: ArrayLike, wanted: Collection[str] = SERIES
+) -> Harmonics:
+    """Return Fourier series of centred slider-cranks, coefficients of shape (orders, *lam.shape).
 
     Args:
         orders: shape (orders,), not negative, at most 4096 or so; orders that are not whole have
             coefficients 0.
         lam: crank radius over rod length, between 0 and 1, any shape.
+        wanted: names of series: piston (A_n), rod (D_n, as -i D_n), kinetic (K_n), rod_kinetic
+            (lam^2 S_n).
     """
+    lam = np.asarray(lam, float)
+    n = np.asarray(orders, float).reshape(-1, *(1,) * lam.ndim)
+    w = np.sqrt((1 - lam) * (1 + lam))
+    x = lam / (1 + w)
+    cosine = _expand_cosine(int(n.max(initial=0)) // 2 + 2, x)
 
-    def __init__(self, orders: ArrayLike, lam: ArrayLike) -> None:
-        self._lam = np.asarray(lam, float)
-        self._n = np.asarray(orders, float).reshape(-1, *(1,) * self._lam.ndim)
-        self._w = np.sqrt((1 - self._lam) * (1 + self._lam))
-        self._x = self._lam / (1 + self._w)
-        self._cosine = _expand_cosine(int(self._n.max(initial=0)) // 2 + 2, self._x)
-
-    def piston(self) -> Array:
-        """Coefficients A_n of the piston acceleration, `-s''/r = sum A_n cos n psi`."""
-        return (self._n == 1) + self._n**2 * self._c(0) / self._x
-
-    def rod(self) -> Array:
-        """Coefficients D_n of the rod's angular acceleration, `-beta'' = sum D_n sin n psi`."""
-        n = self._n
-        difference = (n + 2) * self._c(1) - (n - 2) * self._c(-1)
-        return n * self._lam * (1 + self._w) / 2 * difference
-
-    def kinetic(self) -> Array:
-        """Coefficients K_n of the squared piston velocity, `(s'/r)^2 = sum K_n cos n psi`."""
-        n = self._n
-        odd = ((n + 1) * self._c(1) - (n - 1) * self._c(-1)) / self._x
-        return odd + self._square() - (n == 2)
-
-    def rod_kinetic(self) -> Array:
-        """Coefficients B_n of the squared rod speed, `beta'^2 = sum B_n cos n psi`."""
-        return self._lam**2 * self._square()
-
-    def _c(self, step: int) -> Array:
+    def take(step: int) -> Array:
         """Return c_{(n + step)/2}, 0 where its index is not whole."""
-        m = (self._n.ravel() + step) / 2
-        whole = m % 1 == 0
-        rows = np.where(whole, m, -1).astype(np.intp)  # the last row holds zeros
-        return self._cosine[rows]
+        m = (n.ravel() + step) / 2
+        return cosine[np.where(m % 1 == 0, m, -1).astype(np.intp)]  # the last row holds zeros
 
-    def _square(self) -> Array:
-        """Return S_n."""
-        n, w = self._n, self._w
-        even = np.where(n % 4 == 2, 2.0, -2.0) * w / (1 + w) ** 2 * self._x ** np.maximum(n - 2, 0)
-        return np.where(n == 0, 1 / (1 + w), np.where(n % 2 == 0, even, 0.0))
+    even = np.where(n % 4 == 2, 2.0, -2.0) * w / (1 + w) ** 2 * x ** np.maximum(n - 2, 0)
+    square = np.where(n == 0, 1 / (1 + w), np.where(n % 2 == 0, even, 0.0))  # S_n
+    found: dict[str, Array | Complex] = {"rod_kinetic": lam**2 * square}
+    if "piston" in wanted:
+        found["piston"] = (n == 1) + n**2 * take(0) / x
+    if "rod" in wanted:
+        found["rod"] = -0.5j * n * lam * (1 + w) * ((n + 2) * take(1) - (n - 2) * take(-1))
+    if "kinetic" in wanted:
+        odd = ((n + 1) * take(1) - (n - 1) * take(-1)) / x
+        found["kinetic"] = odd + square - (n == 2)
+    return {name: Series(c) for name, c in found.items() if name in wanted}
 
 
 def _expand_cosine(count: int, x: Array) -> Array:
@@ -86,46 +72,21 @@ def _expand_cosine(count: int, x: Array) -> Array:
     binomials = np.cumprod(np.where(m == 0, 1.0, 1.5 / np.maximum(m, 1) - 1), axis=0)
     z = x**4
     gauss = np.ones((count, *x.shape))
-    for j in range(_count_terms(z), 0, -1):  # Horner's rule
+    terms = 1 + int(np.log(EPS / 64) / np.log(z.max(initial=1e-99)))  # the next is below rounding
+    for j in range(terms, 0, -1):  # Horner's rule
         gauss *= (m + (j - 1.5)) / (m + j) * ((j - 1.5) / j * z)
         gauss += 1
     gauss *= binomials * x ** (2 * m)
     return np.concatenate([gauss, np.zeros((1, *x.shape))])
 
 
-def _count_terms(z: Array) -> int:
-    """Return after how many powers of z < 1 the next is below rounding."""
-    return 1 + int(np.log(EPS / 64) / np.log(z.max(initial=1e-99)))
-
-
 def piston(orders: ArrayLike, lam: ArrayLike) -> Array:
-    """Return A_n (`ClosedForm.piston`)."""
-    return ClosedForm(orders, lam).piston()
+    """Return the coefficients A_n of the piston acceleration, `-s''/r = sum A_n cos n psi`."""
+    return np.asarray(find_harmonics(orders, lam, ["piston"])["piston"].c, float)
 
 
 def rod(orders: ArrayLike, lam: ArrayLike) -> Array:
-    """Return D_n (`ClosedForm.rod`)."""
-    return ClosedForm(orders, lam).rod()
-
-
-def kinetic(orders: ArrayLike, lam: ArrayLike) -> Array:
-    """Return K_n (`ClosedForm.kinetic`)."""
-    return ClosedForm(orders, lam).kinetic()
-
-
-def rod_kinetic(orders: ArrayLike, lam: ArrayLike) -> Array:
-    """Return B_n (`ClosedForm.rod_kinetic`)."""
-    return ClosedForm(orders, lam).rod_kinetic()
-
-
-def find_harmonics(
-    orders: ArrayLike, lam: ArrayLike, wanted: Collection[str] = SERIES
-) -> Harmonics:
-    """Return the series in `wanted` (names of `fourier.SERIES`)."""
-    of = ClosedForm(orders, lam)
-    return Harmonics(
-        piston=Series(of.piston()) if "piston" in wanted else NONE,
-        rod=Series(np.asarray(-1j * of.rod(), complex)) if "rod" in wanted else NONE,
-        kinetic=Series(of.kinetic()) if "kinetic" in wanted else NONE,
-        rod_kinetic=Series(of.rod_kinetic()) if "rod_kinetic" in wanted else NONE,
-    )
+    """Return the coefficients D_n of the rod's angular acceleration, `-beta''` = sum D_n sin n
+    psi.
+    """
+    return -find_harmonics(orders, lam, ["rod"])["rod"].c.imag

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..phasors import EPS, Array
 from . import closed_form
-from .fourier import SERIES, Harmonics, Rows
+from .fourier import SERIES, Harmonics, Rows, select_cylinders
 
 HARDEST = 1 << 16  # samples of a revolution that a mechanism takes at 1 - 1e-6 of its lock
 CLOSED_FORM = 4096  # highest order of closed forms; only mechanisms near their lock have more
@@ -81,7 +81,7 @@ def find_harmonics(
         wanted: names of series (`fourier.SERIES`).
     """
     few, which = find_distinct_harmonics(orders, lam, eps, wanted)
-    return few.select_cylinders(which)
+    return select_cylinders(few, which)
 
 
 def find_distinct_harmonics(
@@ -150,5 +150,4 @@ def sample_harmonics(
     from .slidercrank import SliderCrank
 
     counts = count_samples(lam, eps, highest)
-    found = sample_mechanisms(orders, wanted, SliderCrank, (lam, eps), counts, highest)
-    return found.as_harmonics()
+    return sample_mechanisms(orders, wanted, SliderCrank, (lam, eps), counts, highest).series

@@ -65,10 +65,6 @@ class Linkage(ABC):
         """
         return self.move(psi, *(values[..., None] for values in self.figures(lam, eps)))
 
-    def find_distinct(self, lam: Array, eps: Array) -> Distinct:
-        """The mechanisms that differ, and which of them each cylinder has."""
-        return find_distinct(*self.figures(lam, eps))
-
     def find_distinct_harmonics(
         self, orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
@@ -79,9 +75,9 @@ class Linkage(ABC):
             lam, eps: shape (cylinders or 1, *trailing).
             wanted: names of series (`fourier.SERIES`).
         """
-        few = self.find_distinct(lam, eps)
-        found = self._sample(few, orders, wanted, float(np.max(orders, initial=0)))
-        return found.as_harmonics(float(self.turning)), few.which
+        few = find_distinct(*self.figures(lam, eps))
+        highest = float(np.max(orders, initial=0))
+        return self._sample(few, orders, wanted, highest).series, few.which
 
     def sample(
         self, figure: Callable[[Motion], Array], psi: Array, lam: Array, eps: Array
@@ -98,18 +94,13 @@ class Linkage(ABC):
 
     def count_all_samples(self, lam: Array, eps: Array) -> tuple[int, int]:
         """How many mechanisms differ, and about how many samples of a revolution all take."""
-        few = self.find_distinct(lam, eps)
-        figures = [values[:, None] for values in few.figures]
-        step = max(_AT_ONCE // len(figures[0]), 1)
-        steepest = max(
-            float(np.abs(self.move(revolution(STEPS)[k : k + step], *figures).lean).max())
-            for k in range(0, STEPS, step)
-        )
-        return len(figures[0]), len(figures[0]) * int(count_samples(steepest, 0.0))
+        count = len(find_distinct(*self.figures(lam, eps)).figures[0])
+        leans = self.sample(lambda motion: motion.lean, revolution(STEPS), lam, eps)
+        return count, count * int(count_samples(float(np.abs(leans).max()), 0.0))
 
     def find_highest_order(self, lam: Array, eps: Array) -> int:
         """The order beyond which nothing exceeds rounding errors."""
-        found = self._sample(self.find_distinct(lam, eps), [], _SHARPEST, np.inf)
+        found = self._sample(find_distinct(*self.figures(lam, eps)), [], _SHARPEST, np.inf)
         return int(found.counts.max()) // 2
 
     def _sample(

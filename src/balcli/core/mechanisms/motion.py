@@ -1,123 +1,132 @@
-"""Mechanisms in motion: what moves in a cylinder along the crank angle, each figure worked out when
-it is first asked for.
+"""Mechanisms in motion: a rod with its piston on a pin that moves, each figure worked out when it
+is first asked for.
 
 All figures have the shape (*mechanisms, samples), lengths are in crank radii; rates are derivatives
-with respect to the crank angle.
+with respect to the crank angle. With the rod's lower end at z (complex, x along the cylinder's
+axis), `sin beta = lam Im z - eps`, and
+
+    s = Re z + cos beta/lam
+    s' = Re z' - tan beta Im z'
+    beta' = lam Im z'/cos beta
+    s'' = Re z'' - tan beta Im z'' - beta' Im z'/cos^2 beta
+    beta'' = lam Im z''/cos beta + beta'^2 tan beta
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
-from functools import reduce
-from operator import add
-from typing import TypeAlias
+from functools import cached_property
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..cached_property import cached_property
 from ..phasors import Array, Complex, Figure
 
+# Of mechanisms without masses on curves.
+_NONE = np.zeros(())
+_NO_VECTOR = np.zeros((), complex)
 
-class PointMass(ABC):
-    """A mass on a closed curve `z(psi)`, complex, x along the cylinder's axis.
+
+class PointMass(NamedTuple):
+    """A mass on a closed curve, complex, x along the cylinder's axis.
 
     Attributes:
+        z, z1, z2: the curve and its two derivatives.
         share: of the mass on curves that moves on this one.
     """
 
+    z: Complex
+    z1: Complex
+    z2: Complex
     share: Figure = 1.0
 
-    @property
-    @abstractmethod
-    def z(self) -> Complex:
-        """The curve."""
 
-    @property
-    @abstractmethod
-    def z1(self) -> Complex:
-        """Its derivative."""
-
-    @property
-    @abstractmethod
-    def z2(self) -> Complex:
-        """Its second derivative."""
-
-
-class Motion(ABC):
+class Motion:
     """Pistons, rods and masses on curves of mechanisms in motion.
 
-    Attributes:
-        points: where the masses on curves are; none in a plain slider-crank.
+    Args:
+        pin: lower ends of the rods.
+        lam: crank radius over rod length.
+        lean: sine of the rods' angle beta to the cylinders' axes.
+        cosine: its cosine.
+        points: where masses on curves are; none in a plain slider-crank.
+        condition: relative error of piston and rod, in roundings: large near a lock.
     """
 
-    points: tuple[PointMass, ...] = ()
+    def __init__(
+        self,
+        pin: PointMass,
+        lam: Array,
+        lean: Array,
+        cosine: Array,
+        points: tuple[PointMass, ...] = (),
+        condition: Array | float = 1.0,
+    ) -> None:
+        self.pin, self._lam, self.cosine, self._tangent = pin, lam, cosine, lean / cosine
+        self.lean, self.points, self.condition = lean, points, condition
 
-    @property
-    @abstractmethod
-    def lean(self) -> Array:
-        """Sine of the rod's angle beta to the cylinder's axis."""
-
-    @property
-    @abstractmethod
+    @cached_property
     def place(self) -> Array:
         """s of the piston along its axis, from the crank's axis."""
+        return np.asarray(self.pin.z.real + self.cosine / self._lam)
 
-    @property
-    @abstractmethod
+    @cached_property
     def velocity(self) -> Array:
         """s'"""
+        return np.asarray(self.pin.z1.real - self._tangent * self.pin.z1.imag)
 
-    @property
-    @abstractmethod
+    @cached_property
     def acceleration(self) -> Array:
         """s''"""
+        straight = self.pin.z2.real - self._tangent * self.pin.z2.imag
+        return np.asarray(straight - self._rate * self.pin.z1.imag / self.cosine**2)
+
+    @cached_property
+    def _rate(self) -> Array:
+        """beta'"""
+        return np.asarray(self._lam * self.pin.z1.imag / self.cosine)
 
     @property
-    @abstractmethod
     def spin(self) -> Array:
         """Angular velocity of the rod, in the crank's sense."""
+        return -self._rate
 
     @property
-    @abstractmethod
     def spin_rate(self) -> Array:
         """Derivative of `spin`."""
-
-    @property
-    def condition(self) -> Array | float:
-        """Relative error of piston and rod, in roundings: large near a lock."""
-        return 1.0
+        bend = self._lam * self.pin.z2.imag / self.cosine
+        return np.asarray(-(bend + self._rate**2 * self._tangent))
 
     # -------------------------------------------------------------- unit mass on its points
     @property
     def velocity_of_mass(self) -> Complex:
-        """Of unit mass on its points, likewise all that follows."""
-        return reduce(add, (p.share * p.z1 for p in self.points))
+        """Velocity of unit mass on its points, likewise all that follows."""
+        return sum((p.share * p.z1 for p in self.points), _NO_VECTOR)
 
     @cached_property
     def acceleration_of_mass(self) -> Complex:
         """Derivative of `velocity_of_mass`."""
-        return reduce(add, (p.share * p.z2 for p in self.points))
+        return sum((p.share * p.z2 for p in self.points), _NO_VECTOR)
 
     @property
     def swirl(self) -> Array:
         """Moment of momentum."""
-        return reduce(add, (p.share * (np.conj(p.z) * p.z1).imag for p in self.points))
+        return sum((p.share * (np.conj(p.z) * p.z1).imag for p in self.points), _NONE)
 
     @property
     def swirl_rate(self) -> Array:
         """Derivative of `swirl`."""
-        return reduce(add, (p.share * (np.conj(p.z) * p.z2).imag for p in self.points))
+        return sum((p.share * (np.conj(p.z) * p.z2).imag for p in self.points), _NONE)
 
     @property
     def energy(self) -> Array:
         """Twice the kinetic energy."""
-        return reduce(add, (p.share * np.abs(p.z1) ** 2 for p in self.points))
+        return sum((p.share * np.abs(p.z1) ** 2 for p in self.points), _NONE)
 
     @property
     def power(self) -> Array:
         """Half the derivative of `energy`."""
-        return reduce(add, (p.share * (np.conj(p.z1) * p.z2).real for p in self.points))
+        return sum((p.share * (np.conj(p.z1) * p.z2).real for p in self.points), _NONE)
 
 
 Move: TypeAlias = Callable[..., Motion]  # of e^{i psi} and figures that tell mechanisms apart

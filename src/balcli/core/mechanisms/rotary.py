@@ -16,12 +16,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cached_property import cached_property
 from ..phasors import Array, Complex, Figure, compose
-from . import slidercrank
 from .articulated import Articulated, hang
 from .linkage import Linkage
 from .motion import Motion, PointMass
+from .slidercrank import SliderCrank, on_circle
 
 
 @dataclass(frozen=True)
@@ -47,49 +46,9 @@ class Rotary(Linkage):
     def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
         lam, eps, *hung = figures
         if not hung:
-            return TurningMotion(psi, slidercrank.SliderCrank(psi, lam, eps), eps / lam)
+            return TurningMotion(psi, SliderCrank(psi, lam, eps), eps / lam)
         *of_knuckle, share = hung
         return TurningMotion(psi, hang(psi, lam, eps, *of_knuckle), eps / lam, share)
-
-
-class _Seen(PointMass):
-    """A point of the mechanism from the direction of the pin; `turned` is e^{i psi}."""
-
-    def __init__(self, turned: Complex, point: PointMass, share: Figure = 1.0) -> None:
-        self._turned, self._point, self.share = turned, point, share
-
-    @cached_property
-    def z(self) -> Complex:
-        return self._turned * np.conj(self._point.z)
-
-    @cached_property
-    def z1(self) -> Complex:
-        w, w1 = np.conj(self._point.z), np.conj(self._point.z1)
-        return np.asarray(self._turned * (w1 + 1j * w))
-
-    @cached_property
-    def z2(self) -> Complex:
-        w, w1, w2 = np.conj(self._point.z), np.conj(self._point.z1), np.conj(self._point.z2)
-        return np.asarray(self._turned * (w2 + 2j * w1 - w))
-
-
-class _Piston(PointMass):
-    """The piston on its cylinder's axis, at its offset in crank radii."""
-
-    def __init__(self, motion: Motion, offset: Array) -> None:
-        self._motion, self._offset = motion, offset
-
-    @cached_property
-    def z(self) -> Complex:
-        return compose(self._motion.place, np.asarray(self._offset))
-
-    @property
-    def z1(self) -> Complex:
-        return np.asarray(self._motion.velocity, complex)
-
-    @property
-    def z2(self) -> Complex:
-        return np.asarray(self._motion.acceleration, complex)
 
 
 class TurningMotion(Motion):
@@ -105,29 +64,24 @@ class TurningMotion(Motion):
     def __init__(
         self, psi: Array | Complex, inside: Motion, offset: Array, on_knuckle: Figure | None = None
     ) -> None:
-        self._inside = inside
-        turned, piston = slidercrank.on_circle(psi), _Piston(inside, offset)
+        vars(self).update(vars(inside))
+        self._inside, self._turned = inside, on_circle(psi)
+        velocity, acceleration = (
+            np.asarray(figure, complex) for figure in (inside.velocity, inside.acceleration)
+        )
+        place = compose(inside.place, np.asarray(offset))
+        piston = PointMass(place, velocity, acceleration)
         if on_knuckle is None:
-            self.points = (_Seen(turned, piston),)
+            self.points = (self._see(piston, 1.0),)
         else:
-            (knuckle,) = inside.points
-            self.points = _Seen(turned, piston, 1 - on_knuckle), _Seen(turned, knuckle, on_knuckle)
+            knuckle = self._see(inside.points[0], on_knuckle)
+            self.points = self._see(piston, 1 - on_knuckle), knuckle
 
-    @property
-    def lean(self) -> Array:
-        return self._inside.lean
-
-    @property
-    def place(self) -> Array:
-        return self._inside.place
-
-    @property
-    def velocity(self) -> Array:
-        return self._inside.velocity
-
-    @property
-    def acceleration(self) -> Array:
-        return self._inside.acceleration
+    def _see(self, point: PointMass, share: Figure) -> PointMass:
+        """Return a point of the mechanism as seen from the direction of the pin."""
+        w, w1, w2 = map(np.conj, point[:3])
+        first, second = w1 + 1j * w, w2 + 2j * w1 - w
+        return PointMass(self._turned * w, self._turned * first, self._turned * second, share)
 
     @property
     def spin(self) -> Array:
@@ -136,7 +90,3 @@ class TurningMotion(Motion):
     @property
     def spin_rate(self) -> Array:
         return -self._inside.spin_rate
-
-    @property
-    def condition(self) -> Array | float:
-        return self._inside.condition

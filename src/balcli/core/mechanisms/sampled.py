@@ -5,15 +5,14 @@ Accelerations are sampled as such, not differentiated, so that no order's error 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..phasors import EPS, Array, Complex, unit
-from .fourier import NONE, Curve, Harmonics, Series
+from .fourier import Harmonics, Series
 from .motion import Motion, Move
 
 SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
@@ -21,23 +20,18 @@ MOST_SAMPLES = 1 << 18
 _AT_ONCE = 1 << 16  # samples of all mechanisms together that stay in the processor's cache
 _LIMIT = SAMPLING / 16  # of the aliases of an order that is wanted
 
-_OF_ROD: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
-    {
-        "piston": lambda m: -m.acceleration,
-        "rod": lambda m: m.spin_rate,
-        "kinetic": lambda m: m.velocity**2,
-        "rod_kinetic": lambda m: m.spin**2,
-    }
-)
-_OF_MASS: Mapping[str, Callable[[Motion], Array]] = MappingProxyType(
-    {
-        "along": lambda m: -m.acceleration_of_mass.real,
-        "across": lambda m: -m.acceleration_of_mass.imag,
-        "couple": lambda m: -m.swirl_rate,
-        "energy": lambda m: m.energy,
-        "swirl": lambda m: m.swirl,
-    }
-)
+_SAMPLED: dict[str, Callable[[Motion], Array]] = {
+    "piston": lambda m: -m.acceleration,
+    "rod": lambda m: m.spin_rate,
+    "kinetic": lambda m: m.velocity**2,
+    "rod_kinetic": lambda m: m.spin**2,
+    "along": lambda m: -m.acceleration_of_mass.real,
+    "across": lambda m: -m.acceleration_of_mass.imag,
+    "couple": lambda m: -m.swirl_rate,
+    "energy": lambda m: m.energy,
+    "swirl": lambda m: m.swirl,
+}
+_OF_ROD = frozenset({"piston", "rod", "kinetic", "rod_kinetic"})
 
 
 class Sampled(NamedTuple):
@@ -45,15 +39,8 @@ class Sampled(NamedTuple):
     of each mechanism, shape (mechanisms,).
     """
 
-    series: dict[str, Series]
+    series: Harmonics
     counts: NDArray[np.intp]
-
-    def as_harmonics(self, turns: float = 0.0) -> Harmonics:
-        """Return the series as `Harmonics`, with its `turns`."""
-        of_rod = {name: self.series.get(name, NONE) for name in _OF_ROD}
-        of_mass = {name: self.series.get(name, NONE) for name in _OF_MASS}
-        on_curve = bool(self.series.keys() & of_mass.keys())
-        return Harmonics(**of_rod, curve=Curve(**of_mass) if on_curve else None, turns=turns)
 
 
 def sample_mechanisms(
@@ -78,7 +65,7 @@ def sample_mechanisms(
     """
     n = np.asarray(orders)
     taken = counts.copy()
-    series: dict[str, Series] = {}
+    series: Harmonics = {}
     waiting = [(count, np.flatnonzero(counts == count)) for count in set(counts.tolist())]
     while waiting:
         count, rows = waiting.pop()
@@ -88,10 +75,8 @@ def sample_mechanisms(
             rows = rows[:most]
         motion = move(unit_circle(count)[:, None], *(values[rows] for values in figures))
         enough = np.ones(len(rows), bool)
-        for name, find in {**_OF_ROD, **(_OF_MASS if motion.points else {})}.items():
-            if name not in wanted:
-                continue
-            samples = find(motion)
+        for name in _OF_ROD.union(_SAMPLED if motion.points else ()).intersection(wanted):
+            samples = _SAMPLED[name](motion)
             rounding = _amplify_rounding(samples, motion.condition if name in _OF_ROD else 1.0)
             spectrum = np.fft.rfft(samples, axis=0, norm="forward")
             if name not in series:

@@ -13,14 +13,13 @@ revolution, however near the lock: differences that vanish there are factorized.
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..phasors import Array, Complex
-from .motion import Motion
+from .motion import Motion, PointMass
 
 
 class Fastest(NamedTuple):
@@ -31,86 +30,20 @@ class Fastest(NamedTuple):
 
 
 class SliderCrank(Motion):
-    """Slider-cranks in motion; arguments as everywhere in this module."""
+    """Slider-cranks in motion; arguments as everywhere in this module.
+
+    With h = |sin psi| and e = +-eps by the sign of sin psi, cos^2 beta = (1 - lam + e + lam (1 -
+    h))(1 - e + lam h), and 1 - h = cos^2 psi/(1 + h): nothing cancels near the lock.
+    """
 
     def __init__(self, psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> None:
-        at = on_circle(psi)
-        self._sine, self._cosine = at.imag, at.real
-        self._lam, self._eps = np.asarray(lam, float), np.asarray(eps, float)
-
-    @cached_property
-    def angle(self) -> tuple[Array, Array]:
-        """(sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's
-        axis.
-
-        sin beta = lam sin psi - eps. With h = |sin psi| and e = +-eps by the sign of sin psi,
-        cos^2 beta = (1 - lam + e + lam (1 - h))(1 - e + lam h), and 1 - h = cos^2 psi/(1 + h).
-        """
-        near = self._clearance + self._lam * self._one_minus_height
-        far = (1 - self._signed_eps) + self._lam * self._height
-        return self._lam * self._sine - self._eps, np.sqrt(near * far)
-
-    @property
-    def lean(self) -> Array:
-        return self.angle[0]
-
-    @cached_property
-    def place(self) -> Array:
-        return np.asarray(self._cosine + self.angle[1] / self._lam)
-
-    @cached_property
-    def velocity(self) -> Array:
-        """-(sin psi + cos psi tan beta)"""
-        return np.asarray(-(self._sine + self._cosine * self._tangent))
-
-    @cached_property
-    def acceleration(self) -> Array:
-        """sin psi tan beta - cos psi - lam cos^2 psi/cos^3 beta"""
-        rod = self._lam * self._cosine**2 / self.angle[1] ** 3
-        return np.asarray(self._sine * self._tangent - self._cosine - rod)
-
-    @cached_property
-    def spin(self) -> Array:
-        """-lam cos psi/cos beta"""
-        return np.asarray(-(self._lam * self._cosine / self.angle[1]))
-
-    @cached_property
-    def spin_rate(self) -> Array:
-        """lam ((w^2 - eps^2) sin psi + eps lam (1 + sin^2 psi))/cos^3 beta, w^2 = (1 - lam)(1 +
-        lam).
-
-        The bracket is +-[h (1 - lam + e)(1 + lam - e) + e lam (1 - h)^2] with h and e as in
-        `angle`, in which nothing cancels near the lock.
-        """
-        bracket = self._height * self._clearance * ((1 - self._signed_eps) + self._lam)
-        bracket = bracket + self._signed_eps * self._lam * self._one_minus_height**2
-        sign = np.where(self._sine < 0, -1.0, 1.0)
-        return np.asarray(self._lam * sign * bracket / self.angle[1] ** 3)
-
-    @cached_property
-    def _tangent(self) -> Array:
-        sine, cosine = self.angle
-        return sine / cosine
-
-    @cached_property
-    def _height(self) -> Array:
-        """|sin psi|"""
-        return np.abs(self._sine)
-
-    @cached_property
-    def _one_minus_height(self) -> Array:
-        return np.asarray(self._cosine**2 / (1 + self._height))
-
-    @cached_property
-    def _signed_eps(self) -> Array:
-        """The offset, negative where the crank leans to its side."""
-        return np.where(self._sine < 0, -self._eps, self._eps)
-
-    @cached_property
-    def _clearance(self) -> Array:
-        """1 - lam + signed eps, rounded once."""
-        most = 1 - self._lam
-        return (most + self._signed_eps) + ((1 - most) - self._lam)
+        z, lam, eps = on_circle(psi), np.asarray(lam, float), np.asarray(eps, float)
+        height, signed = np.abs(z.imag), np.where(z.imag < 0, -eps, eps)
+        most = 1 - lam
+        clearance = (most + signed) + ((1 - most) - lam)  # 1 - lam + e, rounded once
+        near = clearance + lam * (z.real**2 / (1 + height))
+        cosine = np.sqrt(near * ((1 - signed) + lam * height))
+        super().__init__(PointMass(z, 1j * z, -z), lam, lam * z.imag - eps, cosine)
 
 
 def on_circle(psi: ArrayLike) -> Complex:
@@ -120,8 +53,11 @@ def on_circle(psi: ArrayLike) -> Complex:
 
 
 def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Array, Array]:
-    """Return (sin beta, cos beta) of the rod's angle (`SliderCrank.angle`)."""
-    return SliderCrank(psi, lam, eps).angle
+    """Return (sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's
+    axis, sin beta = lam sin psi - eps.
+    """
+    motion = SliderCrank(psi, lam, eps)
+    return motion.lean, motion.cosine
 
 
 def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:

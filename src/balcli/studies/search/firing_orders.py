@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice
 
 import numpy as np
 
-from ...core.cached_property import cached_property
 from ...core.phasors import Array
 from ...engine.build import assemble
 from ...engine.firing import TOLERANCE_DEG

@@ -11,14 +11,13 @@ import math
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from itertools import permutations
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.cached_property import cached_property
 from ...core.phases import TURN
 from ...core.phasors import Array, Complex, Phasors
 from ...core.telling import Tell, tell_nobody
