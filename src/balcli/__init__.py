@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from .studies.search.search import Search
     from .studies.swept import Swept
     from .studies.tolerances import Scatter
-    from .torque.analysis import TorqueAnalysis
+    from .torque.answer import TorqueAnalysis
     from .torsion.analysis import TorsionAnalysis
 
 __version__ = "0.1.0"
@@ -119,7 +119,7 @@ _ROOMS = {
     "Table": "printed_tables.recomputed",
     "tables": "library.tables",
     "Tools": "sizing.workshop",
-    "TorqueAnalysis": "torque.analysis",
+    "TorqueAnalysis": "torque.answer",
     "analyze_torque": "library.torque",
     "TorsionAnalysis": "torsion.analysis",
     "analyze_torsion": "library.torsion",

@@ -21,8 +21,7 @@ class CylinderGas(NamedTuple):
 
     Attributes:
         piston: its mechanism, with the area of the bore.
-        torque: by cycle angle, without the share; a `PressureOnPiston` unless only its harmonics
-            are known.
+        torque: by cycle angle, without the share.
         nominal_deg: crank angle, in [0, 720) or [0, 360), at which its crank pin stands along its
             axis when it fires.
         share: by which the gas force is multiplied; 0 is a misfire.

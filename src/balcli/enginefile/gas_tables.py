@@ -15,6 +15,7 @@ from .model import Angle, FileTable, GivenInertia, Heat, Mass, Size, TableRule
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
+IntakePressure = Annotated[float, Number(PRESSURE, above=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
 Ratio = Annotated[float, Number(PLAIN, above=1, most=1000)]
 Index = Annotated[float, Number(PLAIN, least=1, most=5)]
@@ -68,7 +69,7 @@ class Gas(FileTable):
     expansion_index: ExpansionIndex = Field(
         1.28, description="n of p V^n = const, and while it burns", examples=[1.27]
     )
-    intake: Pressure = Field(1.0, description="absolute, while it is filled", examples=[1.8])
+    intake: IntakePressure = Field(1.0, description="absolute, while it is filled", examples=[1.8])
     exhaust: Pressure = Field(
         1.05, description="absolute, while it empties; four-stroke", examples=[1.3]
     )

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..forces.curves import Curves, compute_cylinder_torque, compute_piecemeal
@@ -40,7 +39,7 @@ def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
 def _find_gas_torques(engine: Engine, crank_deg: Array) -> Array:
     """Of each cylinder, N m, shape (cylinders, angles)."""
     at = np.radians(crank_deg)
-    return np.stack([c.share * c.torque.at(at - c.fires) for c in take_gas(engine).cylinders])
+    return np.stack([c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders])
 
 
 def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
@@ -65,14 +64,14 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
     gas = take_gas(engine)
     cylinder = gas.cylinders[row]
     at = np.radians(crank_deg) - cylinder.fires
-    if isinstance(cylinder.torque, PressureOnPiston):
-        found["pressure_Pa"] = cylinder.torque.pressure.at(at)
+    if cylinder.torque.pressure is not None:
+        found["pressure_Pa"] = pressure = cylinder.torque.pressure.at(at)
         if gas.compression_ratio is not None:
             found["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)
-        found["gas_force_N"] = cylinder.share * cylinder.torque.force(at)
+        found["gas_force_N"] = cylinder.share * cylinder.torque.force_under(pressure)
         found |= _find_rod_forces(engine, row, crank_deg)
     inertia = compute_cylinder_torque(engine, row, crank_deg)
-    found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.at(at)
+    found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.curve.at(at)
     return found
 
 

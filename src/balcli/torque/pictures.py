@@ -7,7 +7,6 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array, Complex, unit
 from ..core.speed_variation import Surplus, surplus
 from ..engine.build import Engine
@@ -15,7 +14,7 @@ from ..errors import BalcliError
 from ..forces.gas import take_gas
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 from .course import find_torque_curves
-from .find_loads import find_bearing_loads
+from .loads import find_bearing_loads
 
 PAGES = ("pressure", "p-v", "torque", "pin", "main")
 _STEP = 0.5  # deg
@@ -100,8 +99,7 @@ def compute_running(engine: Engine) -> Running:
     """
     steady = replace(engine, ripple=())
     cylinder = take_gas(engine).cylinders[engine.numbers.index(1)]
-    known = isinstance(cylinder.torque, PressureOnPiston)
-    pressures = _find_pressures(steady) if known else None
+    pressures = None if cylinder.torque.pressure is None else _find_pressures(steady)
     return Running(_find_torques(steady), pressures, float(np.degrees(cylinder.fires)))
 
 
@@ -122,7 +120,7 @@ def compute_picture(engine: Engine, what: str) -> GasPicture:
 def _find_pressures(engine: Engine) -> Pressures:
     gas = take_gas(engine)
     cylinder = gas.cylinders[engine.numbers.index(1)]
-    if not isinstance(cylinder.torque, PressureOnPiston):
+    if cylinder.torque.pressure is None:
         raise BalcliError("the file has harmonics of the torque, and no pressures")
     half = gas.cycle_deg / 2
     angle = _divide(-half, half, np.degrees(cylinder.torque.breaks), gas.cycle_deg)

@@ -80,6 +80,6 @@ Variants = partial(FiguresOfVariants, evaluate_engine)
 
 def _find_fluctuation(engine: Engine) -> float:
     flywheel = analyze_torque(engine, [1]).flywheel
-    if flywheel is None or flywheel.speed is None:
-        raise BalcliError(flywheel.stall if flywheel is not None else NO_INERTIA)
-    return flywheel.speed.fluctuation
+    if flywheel is None or flywheel.fluctuation is None:
+        raise BalcliError(flywheel.stall or NO_INERTIA if flywheel is not None else NO_INERTIA)
+    return flywheel.fluctuation
