@@ -4,11 +4,11 @@ Textbook Companions. Ideal cycles: nothing is lost while the valves are open.
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from support.pistons import slider_crank_piston
 
-from balcli.core.combustion import Dual, Otto
-from balcli.core.gas_cycle import Goal, Process, gas_cycle
+from balcli.core.gas_cycle import Dual, Goal, Otto, Process, gas_cycle
 
 PISTON = slider_crank_piston(0.1875, 0.7, 0.25)
 AIR = {"compression_index": 1.4, "expansion_index": 1.4, "intake": 1e5, "exhaust": 1e5}
@@ -33,7 +33,7 @@ def test_example_3_26():
     cut_off = 1.154367434
     process = Process(9.0, **AIR)
     cycle = gas_cycle(PISTON, process, Dual(68e5), Goal("cut_off", cut_off))
-    compressed, expanded = cycle.at(0.0, before=True), cycle.at(PISTON.bottom, before=True)
+    compressed, expanded = cycle.pressure.at(np.array([0.0, PISTON.bottom]) - 1e-10)
     assert round(float(compressed) / 1e5, 2) == 21.67
     assert compressed / 1e5 == pytest.approx(21.67402217, rel=1e-9)
     assert round(float(expanded) / 1e5, 2) == 3.84

@@ -305,7 +305,7 @@ class _Cycle:
             raise self._miss(imep, "least", lowest)
         highest = math.inf if self.most == math.inf else self.find_imep(self.most)
         guess = min((imep - lowest) * self.piston.swept, self.most - self.least)
-        if imep > highest or guess and self.find_imep(self.least + guess) <= lowest:
+        if imep > highest or (guess and self.find_imep(self.least + guess) <= lowest):
             raise self._miss(imep, "most", highest)
         if not guess:
             return self.least

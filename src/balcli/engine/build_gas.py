@@ -219,8 +219,8 @@ class _Builder:
         return found
 
     def _read_harmonics(self, name: str, piston: GasPiston) -> GasTorque:
-        """Return the torque of a builders' table: T/(A r) = a cos n c + b sin n c, c from the firing
-        dead centre.
+        """Return the torque of a builders' table: T/(A r) = a cos n c + b sin n c, c from the
+        firing dead centre.
         """
         columns = self._columns(name, (("order",), ("cos",), ("sin",)))
         orders, cosines, sines = (np.array(columns.column(k)) for k in range(3))

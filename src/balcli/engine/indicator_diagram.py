@@ -154,10 +154,9 @@ def list_doubts(
             f"{path}: the lowest pressure is {lowest:.4g} bar absolute, where at least "
             f"{LOW_PRESSURE:g} is usual{ASK_GAUGE}"
         )
-    stated, measured = gas.imep, found.imep / BAR
-    if stated is not None and path == "gas.indicator":
-        if abs(measured - stated) > SAME_IMEP * abs(stated):
-            yield (
-                f"gas.imep is {stated:g} bar, and the diagram has {measured:.4g} bar; a phase of "
-                "one degree makes 3 to 7 %: is gas.phase right?"
-            )
+    stated, measured = gas.imep if path == "gas.indicator" else None, found.imep / BAR
+    if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
+        yield (
+            f"gas.imep is {stated:g} bar, and the diagram has {measured:.4g} bar; a phase of one "
+            "degree makes 3 to 7 %: is gas.phase right?"
+        )

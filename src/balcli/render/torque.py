@@ -124,8 +124,8 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         if engine.mechanical_efficiency is not None:
             kinds[" brake"] = engine.mechanical_efficiency
         imep = result.imep_Pa or 0.0
-        mean = (_size(imep * share, system.pressure) + kind for kind, share in kinds.items())
-        yield "mean pressure", ", ".join(mean)
+        each = (_size(imep * share, system.pressure) + kind for kind, share in kinds.items())
+        yield "mean pressure", ", ".join(each)
     if result.max_pressure_Pa is not None:
         at = degrees(result.max_pressure_deg or 0.0)
         yield (
