@@ -12,7 +12,7 @@ from support.pistons import slider_crank_piston
 
 from balcli import load
 from balcli.core.cylinder_pressure import crank_torque, find_highest, pistons, press
-from balcli.core.gas_cycle import Goal, Process, Wiebe, gas_cycle
+from balcli.core.gas_cycle import Goal, Process, gas_cycle
 from balcli.core.mechanisms import harmonics
 from balcli.core.piecewise import PiecewiseCurve, polyline
 from balcli.engine.indicator_diagram import draw_diagram, find_diagram_mistakes
@@ -122,7 +122,7 @@ def test_a_constant_pressure_has_the_harmonics_of_the_piston(offset):
     assert np.abs(found[1::2]).max() <= OF_THE_LARGEST * np.abs(expected).max()
 
 
-CYCLE = gas_cycle(slider_crank_piston(*LENGTHS), Process(10.5), Wiebe(-15, 50), Goal("imep", 10e5))
+CYCLE = gas_cycle(slider_crank_piston(*LENGTHS), Process(10.5, "wiebe"), Goal("imep", 10e5))
 TORQUE = press(slider_crank_piston(*LENGTHS), CYCLE.pressure, CYCLE.breaks)
 
 

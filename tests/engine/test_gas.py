@@ -244,13 +244,13 @@ def test_a_diagram_may_have_so_many_rows(beside):
             FOUR + WIEBE + "exhaust_opens = 30\n",
             "gas.burn_duration: a burn over 50° from -15° ends at 35°, past 30°, where the exhaust opens",
         ),
-        (FOUR + WIEBE.replace("imep = 9", "imep = -50"), "gas.imep: is -50 bar: with the least heat the cycle has "),
-        (FOUR + WIEBE.replace("imep = 9", "max_pressure = 5"), "gas.max_pressure: is 5 bar, below the "),
-        (FOUR + WIEBE.replace("imep = 9", "max_pressure = 0"), "gas.max_pressure: is 0 bar, below the "),
-        (FOUR + WIEBE.replace("wiebe", "dual") + "max_pressure = 0\n", "gas.max_pressure: is 0 bar, below the "),
+        (FOUR + WIEBE.replace("imep = 9", "imep = -50"), "gas.imep: is -50 bar: this cycle has at least "),
+        (FOUR + WIEBE.replace("imep = 9", "max_pressure = 5"), "gas.max_pressure: is 5 bar: this cycle has at least "),
+        (FOUR + WIEBE.replace("imep = 9", "max_pressure = 0"), "gas.max_pressure: is 0 bar: this cycle has at least "),
+        (FOUR + WIEBE.replace("wiebe", "dual") + "max_pressure = 0\n", "gas.max_pressure: is 0 bar: this cycle has at least "),
         (
             FOUR + WIEBE.replace("wiebe", "diesel").replace("imep = 9", "cut_off = 40"),
-            "gas.cut_off: is 40: with more than ",
+            "gas.cut_off: is 40: this cycle has at most ",
         ),
         (
             FOUR + WIEBE.replace("wiebe", "otto") + "burn_start = 3\n",

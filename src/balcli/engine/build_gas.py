@@ -4,25 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, pistons, press
-from ..core.gas_cycle import (
-    Burn,
-    Diesel,
-    Dual,
-    GasCycle,
-    Goal,
-    Otto,
-    Process,
-    Wiebe,
-    find_cycle_mistakes,
-    gas_cycle,
-)
+from ..core.gas_cycle import GasCycle, Goal, Process, find_cycle_mistakes, gas_cycle
 from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..enginefile.csv_columns import NumberColumns, locate_beside, read_columns
@@ -250,15 +239,15 @@ class _Builder:
         return GasTorque(piston, breaks, resolved(torque, breaks))
 
     def _compute_cycle(self, row: int, piston: GasPiston) -> GasCycle | None:
-        heat, process, burn, goal = self.own[row].heat, self._process(), self._burn(), self._goal()
+        heat, process, goal = self.own[row].heat, self._find_process(), self._find_goal()
         if heat is not None:
             goal = Goal("heat", heat)
         if heat == 0:  # it expands as it was compressed
-            burn, process = Otto(), replace(process, expansion_index=process.compression_index)
-        wrong = list(find_cycle_mistakes(piston, process, burn, goal))
+            process = replace(process, cycle="otto", expansion_index=process.compression_index)
+        wrong = list(find_cycle_mistakes(piston, process, goal))
         try:
             if not wrong:
-                cycle = gas_cycle(piston, process, burn, goal)
+                cycle = gas_cycle(piston, process, goal)
                 self.doubts += self._doubt_heat(row, cycle, piston, goal)
                 return cycle
         except GasError as error:
@@ -295,28 +284,14 @@ class _Builder:
         return Problem(f"gas.{error.field}", str(error))
 
     # -------------------------------------------------------------- computed cycles
-    def _process(self) -> Process:
-        g = self.gas
-        return Process(
-            compression_ratio=g.compression_ratio or math.nan,
-            strokes=self.strokes,
-            compression_index=g.compression_index,
-            expansion_index=g.expansion_index,
-            intake=g.intake * BAR,
-            exhaust=g.exhaust * BAR,
-            exhaust_opens_deg=g.exhaust_opens,
-            intake_closes_deg=g.intake_closes,
-        )
+    def _find_process(self) -> Process:
+        keys = [field.name for field in fields(Process) if field.name != "strokes"]
+        given: dict[str, Any] = {key: getattr(self.gas, key) for key in keys}
+        for key in ("intake", "exhaust", "max_pressure"):
+            given[key] = given[key] and given[key] * BAR
+        return Process(strokes=self.strokes, **given)
 
-    def _burn(self) -> Burn:
-        g = self.gas
-        if g.cycle == "wiebe":
-            return Wiebe(g.burn_start, g.burn_duration, g.burn_shape)
-        if g.cycle == "dual":
-            return Dual((g.max_pressure or 0.0) * BAR)
-        return Diesel() if g.cycle == "diesel" else Otto()
-
-    def _goal(self) -> Goal:
+    def _find_goal(self) -> Goal:
         """Return what a computed cycle is to have."""
         g = self.gas
         if g.heat is not None:
