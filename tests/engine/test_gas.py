@@ -247,7 +247,10 @@ def test_a_diagram_may_have_so_many_rows(beside):
         (FOUR + WIEBE.replace("imep = 9", "imep = -50"), "gas.imep: is -50 bar: this cycle has at least "),
         (FOUR + WIEBE.replace("imep = 9", "max_pressure = 5"), "gas.max_pressure: is 5 bar: this cycle has at least "),
         (FOUR + WIEBE.replace("imep = 9", "max_pressure = 0"), "gas.max_pressure: is 0 bar: this cycle has at least "),
-        (FOUR + WIEBE.replace("wiebe", "dual") + "max_pressure = 0\n", "gas.max_pressure: is 0 bar: this cycle has at least "),
+        (
+            FOUR + WIEBE.replace("wiebe", "dual") + "max_pressure = 0\n",
+            "gas.max_pressure: is 0 bar: this cycle has at least ",
+        ),
         (
             FOUR + WIEBE.replace("wiebe", "diesel").replace("imep = 9", "cut_off = 40"),
             "gas.cut_off: is 40: this cycle has at most ",

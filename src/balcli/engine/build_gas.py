@@ -51,15 +51,15 @@ class _Own(NamedTuple):
     Attributes:
         path: Key of its diagram.
         indicator: Name of the file with its diagram; None where it has none.
-        own_heat: Heat of this cylinder in [cylinder.N], J.
         heat: Heat supplied in a computed cycle, J, where the file says so.
+        heat_path: Key of this heat.
         share: Factor of the gas force.
     """
 
     path: str
     indicator: str | None
-    own_heat: float | None
     heat: float | None
+    heat_path: str
     share: float
 
 
@@ -124,16 +124,16 @@ class _Builder:
 
     def _find_own(self, number: int) -> _Own:
         table, path = self.model.cylinder.get(number), f"cylinder.{number}"
-        own_heat = self._take(f"{path}.heat", None if table is None else table.heat)
+        heat = self._take(f"{path}.heat", None if table is None else table.heat)
+        heat_path = "gas.heat" if heat is None else f"{path}.heat"
         share = self._take(f"{path}.gas", None if table is None else table.gas)
         share = 1.0 if share is None else share
         if table is not None and table.indicator is not None:
-            return _Own(f"{path}.indicator", table.indicator, own_heat, None, share)
+            return _Own(f"{path}.indicator", table.indicator, None, heat_path, share)
+        heat = self.gas.heat if heat is None else heat
         indicator = self.gas.indicator
-        heat = self.gas.heat if own_heat is None else own_heat
-        return _Own(
-            "gas.indicator", indicator, own_heat, heat if indicator is None else None, share
-        )
+        heat = heat if indicator is None else None
+        return _Own("gas.indicator", indicator, heat, heat_path, share)
 
     def _columns(self, name: str, wanted: tuple[tuple[str, ...], ...]) -> NumberColumns:
         if name not in self._read:
@@ -274,8 +274,8 @@ class _Builder:
     def _locate(self, error: GasError, row: int) -> Problem:
         """Return a mistake of a cylinder's cycle by its path in the file."""
         number, own = self.parts.numbers[row], self.own[row]
-        if error.field == "heat" and own.own_heat is not None:
-            return Problem(f"cylinder.{number}.heat", str(error))
+        if error.field == "heat":
+            return Problem(own.heat_path, str(error))
         if error.field == "expansion_index" and own.heat == 0:
             what = f"where cylinder {number} burns nothing, it expands as it was compressed"
             return Problem("gas.compression_index", f"{error}; {what}")

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.cylinder_pressure import GasPiston, GasTorque
 from ..core.phasors import Array
+from ..errors import BalcliError
 
 
 class CylinderGas(NamedTuple):
@@ -41,6 +42,18 @@ class CylinderGas(NamedTuple):
     def fires(self) -> float:
         """Crank angle of its firing dead centre, rad: cycle angle = crank angle - `fires`."""
         return math.radians(self.nominal_deg) + self.piston.top
+
+    def find_pressure(self, angle: Array) -> Array:
+        """Return the pressure that counts at cycle angles (rad), Pa: that under the piston, and the
+        share of what is above it.
+
+        Raises:
+            BalcliError: The file has harmonics of the torque.
+        """
+        if self.torque.pressure is None:
+            raise BalcliError("the file has harmonics of the torque, and no pressures")
+        under = self.torque.crankcase
+        return under + self.share * (self.torque.pressure.at(angle) - under)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..documents.records import Figure, find_unit, list_figures, remove_unit
+from ..documents.records import find_unit, list_figures, remove_unit
 from ..documents.records import to_document as document
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..torque.answer import Harmonic, TorqueAnalysis, write_whole
 from ..torque.flywheel import Flywheel
-from ..torque.loads import MainLoad, PinLoad
+from ..torque.loads import CycleLoad
 from .csv import Rows
 from .engine_facts import list_silent, tell_speed, tell_strokes
 from .figures import FigureRow, order_rows
@@ -48,41 +48,42 @@ def rows(result: TorqueAnalysis, system: System) -> Rows:
 def _list_rows(
     result: TorqueAnalysis, found: dict[str, Any], system: System
 ) -> Iterator[FigureRow]:
-    def write(
-        quantity: str, figures: Iterable[Figure], cylinder: int = 0, order: int | None = None
-    ) -> Iterator[FigureRow]:
-        for name, value, _ in figures:
-            unit = system.instead_of(find_unit(name))
-            name = name if unit.name in ("deg", "rpm") else remove_unit(name)
-            value = unit.of(value) if isinstance(value, float) else value
-            yield FigureRow(cylinder, quantity, order, name, value, unit.name)
-
     # Torque by order of an engine is that of inertia here, as in `analyze`.
-    is_curve = result.engine is None
     names = {kind.key: kind.name for kind in (TORQUE, GAS, TORQUE_TOTAL)}
-    names |= {TORQUE_TOTAL.key: TORQUE.name} if is_curve else {}
+    places = [(0, found["orders"])]
+    if result.engine is None:
+        names[TORQUE_TOTAL.key] = TORQUE.name
+    else:
+        places.append((result.cylinder, [entry["one_cylinder"] for entry in found["orders"]]))
     head = {key: value for key, value in found.items() if key not in ("format", *_PARTS)}
-    for key in ("no_gas_in", "no_burning_in"):
-        head |= {key: " ".join(map(str, head[key]))} if key in head else {}
-    yield from write("engine", list_figures(head))
-    yield from write(names[TORQUE_TOTAL.key], list_figures(found["torque"]))
-    yield from write("energy", list_figures(found["energy"]))
-    yield from write("flywheel", list_figures(found.get("flywheel", {})))
+    for key in {"no_gas_in", "no_burning_in"} & head.keys():
+        head[key] = " ".join(map(str, head[key]))
+    yield from _write("engine", head, system)
+    yield from _write(names[TORQUE_TOTAL.key], found["torque"], system)
+    yield from _write("energy", found["energy"], system)
+    yield from _write("flywheel", found.get("flywheel", {}), system)
     for kind, loads in found.get("loads", {}).items():
+        for load in loads if kind != "obstacle" else ():
+            yield from _write(kind, load, system)
         if kind == "obstacle":
             yield FigureRow(0, "main", None, kind, loads, "")
-            continue
-        for load in loads:  # pins by cylinder; bearings by their number, in place of an order
-            figures = list_figures(load, ("cylinder", "bearing", "position_mm"))
-            yield from write(kind, figures, load.get("cylinder", 0), load.get("bearing"))
-    places = [(0, found["orders"])]
-    if not is_curve:
-        places.append((result.cylinder, [entry["one_cylinder"] for entry in found["orders"]]))
     for cylinder, entries in places:
         for key, name in names.items():
             for row, entry in zip(found["orders"], entries, strict=True):
                 if key in entry:
                     yield from order_rows(name, row["order"], entry[key], system.moment, cylinder)
+
+
+def _write(quantity: str, part: Mapping[str, Any], system: System) -> Iterator[FigureRow]:
+    """Yield a line for every figure: pins by their cylinder, bearings by their number in place of
+    an order.
+    """
+    cylinder, order = part.get("cylinder", 0), part.get("bearing")
+    for name, value, _ in list_figures(part, ("cylinder", "bearing", "position_mm")):
+        unit = system.instead_of(find_unit(name))
+        name = name if unit.name in ("deg", "rpm") else remove_unit(name)
+        value = unit.of(value) if isinstance(value, float) else value
+        yield FigureRow(cylinder, quantity, order, name, value, unit.name)
 
 
 # ------------------------------------------------------------------ for people
@@ -209,15 +210,13 @@ def _make_load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid |
         yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
 
 
-def _make_load_table(
-    title: str, word: str, loads: Sequence[PinLoad | MainLoad], system: System
-) -> Grid:
+def _make_load_table(title: str, word: str, loads: Sequence[CycleLoad], system: System) -> Grid:
     unit = system.force.fit(max(load.max_N for load in loads))
     pressures = [load.pressure_Pa for load in loads if load.pressure_Pa is not None]
     pressed = len(pressures) == len(loads)
     stress = system.stress.fit(max(pressures, default=0.0))
 
-    def row(load: PinLoad | MainLoad) -> Iterator[str]:
+    def row(load: CycleLoad) -> Iterator[str]:
         yield str(getattr(load, word))
         yield number(unit.of(load.max_N))
         yield tenths(load.max_deg)

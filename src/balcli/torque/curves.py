@@ -14,7 +14,6 @@ from ..forces.kinds import GAS, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
 from ..forces.rod_forces import compute_rod_forces
 
 _ROUNDING = 1e-14
-_APART = 15.0  # deg, of the angles where the size of the torque is taken
 
 
 def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
@@ -23,23 +22,20 @@ def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
     Args:
         curves: of the engine, from `forces.curves.compute_engine_curves`.
     """
-    everywhere = np.arange(0.0, take_gas(engine).cycle_deg, _APART)
-    size = np.abs(_find_gas_torques(engine, everywhere)).sum(axis=0).max()
     gas = compute_piecemeal(
-        engine,
-        curves.crank_deg,
-        lambda angles: {GAS.key: _find_gas_torques(engine, angles).sum(axis=0)},
+        engine, curves.crank_deg, lambda angles: {GAS.key: _find_gas_torque(engine, angles)}
     )[GAS.key]
-    gas = np.where(np.abs(gas) <= _ROUNDING * size, 0.0, gas)
+    gas = _settle(gas)
     inertia, roll = curves.values[TORQUE.key], curves.values[ROLL.key]
     added = {GAS.key: gas, TORQUE_TOTAL.key: inertia + gas, ROLL_TOTAL.key: roll - gas}
     return replace(curves, values={**curves.values, **added})
 
 
-def _find_gas_torques(engine: Engine, crank_deg: Array) -> Array:
-    """Of each cylinder, N m, shape (cylinders, angles)."""
+def _find_gas_torque(engine: Engine, crank_deg: Array) -> Array:
+    """Return the torque of all cylinders' gas, N m, shape (angles,)."""
     at = np.radians(crank_deg)
-    return np.stack([c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders])
+    each = (c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders)
+    return sum(each, np.zeros(at.shape))
 
 
 def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:

@@ -14,7 +14,7 @@ from ..core.speed_variation import StallError, needed_inertia, small_fluctuation
 from ..core.speeds import RPM
 from ..documents.records import HIDDEN
 from ..errors import BalcliError
-from ..limits import HIGHEST_RIPPLE_ORDER, MOST_RIPPLES
+from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 
 _WORTH = 1e-4  # share of the largest line of the speed below which one is left out
 
@@ -68,10 +68,13 @@ def find_flywheel(
         fluctuation: The largest that is allowed; None: not asked for.
 
     Raises:
-        BalcliError: A fluctuation is asked for without a mean speed.
+        BalcliError: A fluctuation is asked for that is not between 1e-9 and 2, or without a mean
+            speed.
     """
     if constant is None and fluctuation is None:
         return None
+    if fluctuation is not None and not SMALLEST_FLUCTUATION <= fluctuation < 2:
+        raise BalcliError(f"--fluctuation {fluctuation:g}: {FLUCTUATION}")
     if fluctuation is not None and mean_speed is None:
         raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
     course = resolved(moving or np.zeros_like, torque.breaks)  # quicker than the mechanism

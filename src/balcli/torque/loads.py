@@ -24,11 +24,13 @@ KINDS_OF_LOAD = ("pin", "main")
 
 
 @dataclass(frozen=True, kw_only=True)
-class PinLoad:
-    """Load of a crank pin or knuckle pin over the cycle.
+class CycleLoad:
+    """Load of a crank pin, knuckle pin or main bearing over the cycle.
 
     Attributes:
         cylinder: Number of the cylinder whose rod turns on the pin.
+        bearing: Number of the main bearing from the free end.
+        position_mm: Place of the main bearing along the crank.
         max_N: Largest load.
         max_deg: Crank angle at which it is reached.
         mean_N: Mean load.
@@ -36,29 +38,9 @@ class PinLoad:
             these.
     """
 
-    cylinder: int
-    max_N: float
-    max_deg: float
-    mean_N: float
-    pressure_Pa: float | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class MainLoad:
-    """Load of a main bearing over the cycle.
-
-    Attributes:
-        bearing: Number from the free end.
-        position_mm: Place along the crank.
-        max_N: Largest load.
-        max_deg: Crank angle at which it is reached.
-        mean_N: Mean load.
-        pressure_Pa: Largest load over diameter times width; left out where the file does not say
-            these.
-    """
-
-    bearing: int
-    position_mm: float
+    cylinder: int | None = None
+    bearing: int | None = None
+    position_mm: float | None = None
     max_N: float
     max_deg: float
     mean_N: float
@@ -76,9 +58,9 @@ class CycleLoads:
         obstacle: Why these are not known, though asked for with others.
     """
 
-    pin: tuple[PinLoad, ...] | None = None
-    knuckle: tuple[PinLoad, ...] | None = None
-    main: tuple[MainLoad, ...] | None = None
+    pin: tuple[CycleLoad, ...] | None = None
+    knuckle: tuple[CycleLoad, ...] | None = None
+    main: tuple[CycleLoad, ...] | None = None
     obstacle: str | None = None
 
 
@@ -99,16 +81,14 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
     steady, sizes = replace(engine, ripple=()), engine.bearings
     pin = knuckle = main = obstacle = None
     if "pin" in asked:
-        area = None if sizes is None else sizes.pin_m2
-        found = _measure(steady, find_pin_loads(steady), area)
-        loads = [PinLoad(cylinder=n, **f) for n, f in zip(engine.numbers, found, strict=True)]
-        loads.sort(key=lambda load: load.cylinder)
+        found = _measure(steady, find_pin_loads(steady), sizes and sizes.pin_m2)
+        loads = [replace(f, cylinder=n) for n, f in zip(engine.numbers, found, strict=True)]
+        loads.sort(key=lambda load: load.cylinder or 0)
         hung = {engine.numbers[row] for rows in list_hung_rows(engine).values() for row in rows}
         pin = tuple(load for load in loads if load.cylinder not in hung)
         others = [replace(load, pressure_Pa=None) for load in loads if load.cylinder in hung]
         knuckle = tuple(others) or None
     if "main" in asked:
-        area = None if sizes is None else sizes.main_m2
         try:
             places, vectors = find_bearing_loads(steady)
         except BearingsUnknownError as error:
@@ -116,8 +96,9 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
                 raise
             obstacle = error.reason
         else:
-            each = enumerate(zip(places.tolist(), _measure(steady, vectors, area), strict=True), 1)
-            main = tuple(MainLoad(bearing=k, position_mm=z * 1e3, **f) for k, (z, f) in each)
+            found = _measure(steady, vectors, sizes and sizes.main_m2)
+            each = enumerate(zip(places.tolist(), found, strict=True), 1)
+            main = tuple(replace(f, bearing=k, position_mm=z * 1e3) for k, (z, f) in each)
     return CycleLoads(pin=pin, knuckle=knuckle, main=main, obstacle=obstacle)
 
 
@@ -137,8 +118,8 @@ def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
     return span, lambda degrees: compute_bearing_loads(engine, degrees)
 
 
-def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[dict[str, float]]:
-    """Yield the figures of each vector over the cycle; 0 where it is rounding beside others."""
+def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:
+    """Yield the load of each vector over the cycle; 0 where it is rounding beside others."""
 
     def compute(angles: Array) -> Complex:
         return compute_in_pieces(engine, vectors, angles)
@@ -149,6 +130,9 @@ def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[d
     every[np.abs(every).max(axis=1) <= NOTHING * np.abs(every).max()] = 0.0
     for samples in every:
         size, angle, _ = panels.find_largest(samples)
-        at = float(np.degrees(angle)) % float(np.degrees(breaks[-1]))
-        found = {"max_N": size, "max_deg": at, "mean_N": panels.find_mean_size(samples)}
-        yield found if area is None else found | {"pressure_Pa": size / area}
+        yield CycleLoad(
+            max_N=size,
+            max_deg=float(np.degrees(angle)) % float(np.degrees(breaks[-1])),
+            mean_N=panels.find_mean_size(samples),
+            pressure_Pa=None if area is None else size / area,
+        )
