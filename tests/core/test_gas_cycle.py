@@ -203,21 +203,8 @@ def refused(burn, *goal, **process):
     [
         ({"expansion_index": 1.0}, "expansion_index: is 1: give more than 1"),
         (
-            {"exhaust_opens": 400.0},
-            "exhaust_opens: is 400°: give a cycle angle above 0° and up to 360°, the gas-exchange dead centre",
-        ),
-        (
             {"exhaust_opens": 190.0, "strokes": 2},
-            "exhaust_opens: is 190°: give a cycle angle above 0° and up to 180°, the lower dead centre",
-        ),
-        (
-            {"intake_closes": 220.0},
-            "intake_closes: is 220°: give a cycle angle from 360°, the gas-exchange dead centre, to below 720°",
-        ),
-        (
-            {"intake_closes": 240.0, "strokes": 2},
-            "intake_closes: has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
-            "leave it out",
+            "exhaust_opens: is 190°: give up to 180°, the lower dead centre",
         ),
     ],
 )
@@ -292,11 +279,6 @@ def test_a_burn_at_constant_pressure_that_lasts_too_long(goal, value, told):
 
 
 def test_all_mistakes_at_once():
-    process = Process(9.0, expansion_index=0.9, exhaust_opens=-3.0, intake_closes=900.0)
+    process = Process(9.0, strokes=2, expansion_index=0.9, exhaust_opens=300.0)
     found = find_cycle_mistakes(PISTON, process, Goal("cut_off", 2.0))
-    assert [mistake.field for mistake in found] == [
-        "cut_off",
-        "expansion_index",
-        "exhaust_opens",
-        "intake_closes",
-    ]
+    assert [mistake.field for mistake in found] == ["cut_off", "expansion_index", "exhaust_opens"]

@@ -16,6 +16,7 @@ from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..enginefile.csv_columns import NumberColumns, locate_beside, read_columns
 from ..enginefile.gas_tables import DIAGRAM_KEYS, Gas
+from ..enginefile.model import Override
 from ..enginefile.units import BAR
 from ..errors import BalcliError, InputError, Problem
 from ..limits import HIGHEST_TABLE_ORDER
@@ -123,12 +124,14 @@ class _Builder:
         return None if found is None else float(found)
 
     def _find_own(self, number: int) -> _Own:
-        table, path = self.model.cylinder.get(number), f"cylinder.{number}"
-        heat = self._take(f"{path}.heat", None if table is None else table.heat)
+        table, path = (
+            self.model.cylinder.get(number, Override.model_construct()),
+            f"cylinder.{number}",
+        )
+        heat = self._take(f"{path}.heat", table.heat)
         heat_path = "gas.heat" if heat is None else f"{path}.heat"
-        share = self._take(f"{path}.gas", None if table is None else table.gas)
-        share = 1.0 if share is None else share
-        if table is not None and table.indicator is not None:
+        share = self._take(f"{path}.gas", 1.0 if table.gas is None else table.gas) or 0.0
+        if table.indicator is not None:
             return _Own(f"{path}.indicator", table.indicator, None, heat_path, share)
         heat = self.gas.heat if heat is None else heat
         indicator = self.gas.indicator
@@ -162,6 +165,12 @@ class _Builder:
         for key in () if self._is_measured else DIAGRAM_KEYS:
             if key in gas.model_fields_set:
                 yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
+        if self.strokes == 2 and gas.intake_closes is not None:
+            yield Problem(
+                "gas.intake_closes",
+                "has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
+                "leave it out",
+            )
         if self.strokes == 2 and gas.zero == "gas-exchange":
             yield Problem(
                 "gas.zero", 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'

@@ -55,17 +55,27 @@ def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """What `add_cylinder_gas` adds, of the cylinder in a row, each of shape (angles,)."""
+    """Return what `add_cylinder_gas` adds for the cylinder in a row, each of shape (angles,).
+
+    Forces across count to the side to which the crank pin moves after top dead centre, which seen
+    from a cylinder that turns lies behind it.
+    """
     found: dict[str, Array] = {}
     gas = take_gas(engine)
     cylinder = gas.cylinders[row]
     at = np.radians(crank_deg) - cylinder.fires
     if cylinder.torque.pressure is not None:
-        found["pressure_Pa"] = pressure = cylinder.torque.pressure.at(at)
+        forces, side = compute_rod_forces(engine, crank_deg), -1 if engine.rotary else 1
+        found["pressure_Pa"] = forces.pressure[row]
         if gas.compression_ratio is not None:
             found["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)
-        found["gas_force_N"] = cylinder.share * cylinder.torque.force_under(pressure)
-        found |= _find_rod_forces(engine, row, crank_deg)
+        found |= {
+            "gas_force_N": forces.gas[row],
+            "side_thrust_N": side * forces.thrust[row],
+            "rod_force_N": forces.rod[row],
+            "pin_x_N": forces.pin[row].real,
+            "pin_y_N": side * forces.pin[row].imag,
+        }
     inertia = compute_cylinder_torque(engine, row, crank_deg)
     found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.curve.at(at)
     return found
@@ -74,17 +84,3 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
 def _settle(values: Array) -> Array:
     """What is rounding error beside the largest value is 0."""
     return np.where(np.abs(values) <= _ROUNDING * np.abs(values).max(initial=0), 0.0, values)
-
-
-def _find_rod_forces(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """Those across count to the side to which the crank pin moves after top dead centre, which seen
-    from a cylinder that turns lies behind it.
-    """
-    found = compute_rod_forces(engine, crank_deg)
-    side = -1 if engine.rotary else 1
-    return {
-        "side_thrust_N": side * found.thrust[row],
-        "rod_force_N": found.rod[row],
-        "pin_x_N": found.pin[row].real,
-        "pin_y_N": side * found.pin[row].imag,
-    }
