@@ -74,18 +74,18 @@ class GasPiston:
         """Return the distance from the upper dead centre at cycle angles, m."""
         if self.linkage is None:
             return self.radius * slidercrank.displacement(angle + self.top, self.lam, self.eps)
-        place, highest = (self._move(at).place[0] for at in (angle, np.zeros(1)))
-        return np.asarray(self.radius * (highest - place).reshape(angle.shape))
+        place = self._move(self.linkage, np.append(0.0, angle)).place[0]
+        return np.asarray(self.radius * (place[0] - place[1:]).reshape(angle.shape))
 
     def rate(self, angle: Array) -> Array:
         """Return the derivative of the travel by the angle, m/rad."""
         if self.linkage is None:
             return self.radius * slidercrank.velocity(angle + self.top, self.lam, self.eps)
-        return np.asarray(-self.radius * self._move(angle).velocity[0].reshape(angle.shape))
+        velocity = self._move(self.linkage, angle.reshape(-1)).velocity[0]
+        return np.asarray(-self.radius * velocity.reshape(angle.shape))
 
-    def _move(self, angle: Array) -> Motion:
-        assert self.linkage is not None
-        return self.linkage.motion((angle + self.top).reshape(-1), self.lam, self.eps)
+    def _move(self, linkage: Articulated, angle: Array) -> Motion:
+        return linkage.motion(angle + self.top, self.lam, self.eps)
 
     def clearance(self, compression_ratio: float) -> float:
         """Return the volume at the upper dead centre, m3."""

@@ -68,13 +68,13 @@ class _Builder:
     """The gas of an engine while it is put together."""
 
     def __init__(self, parts: Assembly, cylinders: Cylinders) -> None:
-        assert parts.model.gas is not None
         self.parts, self.model, self.cylinders = parts, parts.model, cylinders
-        self.gas = self._vary(parts.model.gas)
+        self.gas = self._vary(parts.model.gas or Gas.model_construct())
         self.strokes = parts.model.layout.strokes
         self.problems: list[Problem] = []
         self.doubts: list[str] = []
         self.own = [self._find_own(number) for number in parts.numbers]
+        self.measured = any(own.indicator is not None for own in self.own)
         self._overfed = False
         self._read: dict[str, NumberColumns] = {}
 
@@ -124,10 +124,8 @@ class _Builder:
         return None if found is None else float(found)
 
     def _find_own(self, number: int) -> _Own:
-        table, path = (
-            self.model.cylinder.get(number, Override.model_construct()),
-            f"cylinder.{number}",
-        )
+        path = f"cylinder.{number}"
+        table = self.model.cylinder.get(number, Override.model_construct())
         heat = self._take(f"{path}.heat", table.heat)
         heat_path = "gas.heat" if heat is None else f"{path}.heat"
         share = self._take(f"{path}.gas", 1.0 if table.gas is None else table.gas) or 0.0
@@ -145,53 +143,46 @@ class _Builder:
 
     # -------------------------------------------------------------- what does not fit together
     def _list_contradictions(self, bore: float | None) -> Iterator[Problem]:
-        gas = self.gas
+        gas, two_stroke = self.gas, self.strokes == 2
         yield from (Problem("gas", fault) for fault in gas.contradictions())  # of what varies
         if bore is None:
             yield Problem.of_missing("piston.bore", "gas presses on its area, such as bore = 86")
-        if self.strokes == 4 and self.parts.order is None and len(self.parts.numbers) > 1:
+        if not two_stroke and self.parts.order is None and len(self.parts.numbers) > 1:
             yield Problem.of_missing(
                 "layout.firing_order",
                 "a four-stroke cylinder fires in every second revolution, and only "
                 "the firing order says in which, such as firing_order = [1, 3, 4, 2]",
             )
+        own_heat = (
+            "belongs to a computed cycle, and [gas] has none; give the cylinder a diagram of its "
+            "own (indicator)"
+        )
+        ports = (
+            "has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
+            "leave it out"
+        )
+        zero = 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
         for number, table in self.model.cylinder.items():
             if gas.cycle is None and table.heat is not None:
-                yield Problem(
-                    f"cylinder.{number}.heat",
-                    "belongs to a computed cycle, and [gas] has none; give the cylinder a "
-                    "diagram of its own (indicator)",
-                )
-        for key in () if self._is_measured else DIAGRAM_KEYS:
+                yield Problem(f"cylinder.{number}.heat", own_heat)
+        for key in () if self.measured else DIAGRAM_KEYS:
             if key in gas.model_fields_set:
                 yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
-        if self.strokes == 2 and gas.intake_closes is not None:
-            yield Problem(
-                "gas.intake_closes",
-                "has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
-                "leave it out",
-            )
-        if self.strokes == 2 and gas.zero == "gas-exchange":
-            yield Problem(
-                "gas.zero", 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
-            )
+        if two_stroke and gas.intake_closes is not None:
+            yield Problem("gas.intake_closes", ports)
+        if two_stroke and gas.zero == "gas-exchange":
+            yield Problem("gas.zero", zero)
 
     def _list_idle(self) -> Iterator[str]:
         """Yield the keys of [gas] that change nothing of this engine, each with the reason."""
         given = self.gas.model_fields_set
-        if self.gas.harmonics and not self._is_measured and "crankcase" in given:
+        if self.gas.harmonics and not self.measured and "crankcase" in given:
             yield "gas.crankcase changes nothing beside harmonics, which are of the torque"
         if self.strokes == 2 and "exhaust" in given:
             yield (
                 "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the "
                 "pressure is that of intake"
             )
-
-    @property
-    def _is_measured(self) -> bool:
-        """Whether any cylinder has an indicator diagram."""
-        tables = self.model.cylinder.values()
-        return bool(self.gas.indicator) or any(table.indicator is not None for table in tables)
 
     # -------------------------------------------------------------- one cylinder
     def _find_torque(self, row: int, piston: GasPiston) -> GasTorque | None:
@@ -213,7 +204,7 @@ class _Builder:
             self.problems.append(Problem(path, str(error)))
             return None
         found = press(piston, pressure, pressure.breaks, gas.crankcase * BAR)
-        self.doubts += diagrams.list_doubts(gas, own.path, name, columns, found)
+        self.doubts += diagrams.list_doubts(gas, own.path, name, columns, pressure, found.imep)
         return found
 
     def _read_harmonics(self, name: str, piston: GasPiston) -> GasTorque:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.cylinder_pressure import GasTorque, find_highest
+from ..core.cylinder_pressure import find_highest
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline
 from ..enginefile.csv_columns import NumberColumns
@@ -125,18 +125,25 @@ def find_diagram_mistakes(
 
 
 def list_doubts(
-    gas: Gas, path: str, name: str, columns: NumberColumns, found: GasTorque
+    gas: Gas, path: str, name: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
 ) -> Iterator[str]:
-    """Yield what is suspicious of a diagram, each with its path in the engine file."""
-    assert found.pressure is not None
+    """Yield what is suspicious of a diagram, each with its path in the engine file.
+
+    Args:
+        gas: The table of the file.
+        path, name: Key and name of the diagram's file.
+        columns: Columns of this file.
+        found: Pressure at cycle angles, Pa.
+        imep: Indicated mean effective pressure, Pa.
+    """
     angle, pressure = _read(gas, columns)
     first, last = pressure[0] / BAR, pressure[-1] / BAR
-    if first != last and _is_closed(angle, math.degrees(found.pressure.period)):
+    if first != last and _is_closed(angle, math.degrees(found.period)):
         yield (
             f"{path}: {name}: the last row closes the cycle with {last:.4g} bar, the first has "
             f"{first:.4g} bar; the first is taken"
         )
-    top, value = find_highest(found.pressure)
+    top, value = find_highest(found)
     if abs(math.degrees(top)) > NEAR_DEG:
         yield (
             f"{path}: the highest pressure, {value / BAR:.4g} bar, stands at "
@@ -148,13 +155,13 @@ def list_doubts(
             f"{path}: the highest pressure is {value / BAR:.4g} bar, where at most "
             f"{MAX_PRESSURE:g} is usual; does the heading of its column name the right unit?"
         )
-    lowest = found.pressure.extremes()[0].value / BAR
+    lowest = found.extremes()[0].value / BAR
     if lowest < LOW_PRESSURE:
         yield (
             f"{path}: the lowest pressure is {lowest:.4g} bar absolute, where at least "
             f"{LOW_PRESSURE:g} is usual{ASK_GAUGE}"
         )
-    stated, measured = gas.imep if path == "gas.indicator" else None, found.imep / BAR
+    stated, measured = gas.imep if path == "gas.indicator" else None, imep / BAR
     if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
         yield (
             f"gas.imep is {stated:g} bar, and the diagram has {measured:.4g} bar; a phase of one "
