@@ -40,7 +40,7 @@ class CylinderGas(NamedTuple):
 
     @property
     def fires(self) -> float:
-        """Crank angle of its firing dead centre, rad: cycle angle = crank angle - `fires`."""
+        """Crank angle of the firing dead centre, rad: cycle angle = crank angle - `fires`."""
         return math.radians(self.nominal_deg) + self.piston.top
 
     def find_pressure(self, angle: Array) -> Array:
@@ -76,7 +76,7 @@ class EngineGas:
 
     @property
     def cycle(self) -> float:
-        """Rad."""
+        """Length of a cycle, rad."""
         return math.radians(self.cycle_deg)
 
     @property
@@ -90,14 +90,14 @@ class EngineGas:
         return np.array([cylinder.share for cylinder in self.cylinders])
 
     def group_equal(self) -> list[tuple[GasTorque, list[int]]]:
-        """Each torque, with the rows of the equal cylinders that have it."""
+        """Return each torque with the rows of the equal cylinders that have it."""
         rows: dict[int, list[int]] = {}
         for row, cylinder in enumerate(self.cylinders):
             rows.setdefault(cylinder.like, []).append(row)
         return [(self.cylinders[first].torque, own) for first, own in rows.items()]
 
     def without_share_of(self, row: int) -> EngineGas:
-        """The same where the gas of the cylinder in one row does nothing."""
+        """Return the gas of the engine where that of the cylinder in one row does nothing."""
         changed = list(self.cylinders)
         changed[row] = changed[row]._replace(share=0.0)
         return replace(self, cylinders=tuple(changed))

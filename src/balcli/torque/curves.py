@@ -17,7 +17,7 @@ _ROUNDING = 1e-14
 
 
 def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
-    """The curves of a whole engine, with gas torque, total torque and total roll (N m).
+    """Return the curves of a whole engine, with gas torque, total torque and total roll (N m).
 
     Args:
         curves: of the engine, from `forces.curves.compute_engine_curves`.
@@ -39,8 +39,8 @@ def _find_gas_torque(engine: Engine, crank_deg: Array) -> Array:
 
 
 def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
-    """The motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust, force
-    along the rod, force on its crank or knuckle pin along and across the cylinder (N), and the
+    """Return the motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust,
+    force along the rod, force on its crank or knuckle pin along and across the cylinder (N), and the
     cylinder's torque of gas and inertia (N m); as far as they are known.
 
     Args:
@@ -82,5 +82,5 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
 
 
 def _settle(values: Array) -> Array:
-    """What is rounding error beside the largest value is 0."""
+    """Return values in which rounding errors next to the largest value are 0."""
     return np.where(np.abs(values) <= _ROUNDING * np.abs(values).max(initial=0), 0.0, values)

@@ -39,11 +39,11 @@ _WHOLE = 1e-4  # of itself, by which a period in a file may be rounded: 102.86 d
 
 
 def read_curve(path: Path) -> PiecewiseCurve:
-    """A torque from CSV headed angle_deg,torque_Nm: straight lines between rows, the last of which
-    closes the period.
+    """Return a torque from CSV headed angle_deg,torque_Nm: straight lines between rows, the last of
+    which closes the period.
 
     Raises:
-        BalcliError: it is no such file, or angles do not rise.
+        BalcliError: The file is none of that kind, or angles do not rise.
     """
     columns = read_columns(path, (("angle_deg",), ("torque_Nm",)))
     angle, torque = np.array(columns.column(0)), np.array(columns.column(1))
@@ -61,7 +61,7 @@ def read_curve(path: Path) -> PiecewiseCurve:
 
 
 def doubt_period(curve: PiecewiseCurve) -> Iterator[str]:
-    """A warning where a period is neither whole turns nor an even share of two, as of a curve
+    """Yield a warning where a period is neither whole turns nor an even share of two, as of a curve
     sampled from 0 to 359 degrees.
     """
     turns = curve.period / (2 * np.pi)
