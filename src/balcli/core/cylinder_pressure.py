@@ -117,28 +117,23 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
         area: Area of the bores, m2, one or one each.
     """
     linkage = _find_articulation(cylinders.linkage)
-    c = replace(cylinders, linkage=linkage)
-    columns = (area, *find_travel(c))
-    sizes = np.stack([np.broadcast_to(column, c.count) for column in columns], axis=1).tolist()
-    found = []
-    for row, (size, stroke, top, bottom) in enumerate(sizes):
-        master = row if linkage is None else int(linkage.master[row])
-        pair = np.array([row, master])
-        lam, eps = (np.broadcast_to(each, c.count)[pair] for each in (c.lam, c.eps))
-        own = None
-        if linkage is not None and master != row:
+    c, found = replace(cylinders, linkage=linkage), []
+    lam, eps, *sizes = (np.broadcast_to(v, c.count) for v in (c.lam, c.eps, area, *find_travel(c)))
+    for row in range(c.count):
+        rows, own = np.array(row), None
+        if linkage is not None and linkage.master[row] != row:
+            rows = np.array([row, linkage.master[row]])
             own = replace(
                 linkage,
                 mass=np.zeros(1),
                 master=np.array([1, 1]),
-                knuckle=linkage.knuckle[pair],
-                lead_deg=linkage.lead_deg[pair],
+                knuckle=linkage.knuckle[rows],
+                lead_deg=linkage.lead_deg[rows],
             )
-        else:
-            lam, eps = lam[0], eps[0]
-        lower = math.radians(bottom + 180 - top)
-        radius = float(c.radius)
-        found.append(GasPiston(size, stroke, math.radians(top), lower, radius, lam, eps, own))
+        bore, stroke, top, bottom = (float(size[row]) for size in sizes)
+        lower, upper = math.radians(bottom + 180 - top), math.radians(top)
+        piston = GasPiston(bore, stroke, upper, lower, float(c.radius), lam[rows], eps[rows], own)
+        found.append(piston)
     return found
 
 

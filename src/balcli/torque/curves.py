@@ -40,8 +40,8 @@ def _find_gas_torque(engine: Engine, crank_deg: Array) -> Array:
 
 def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
     """Return the motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust,
-    force along the rod, force on its crank or knuckle pin along and across the cylinder (N), and the
-    cylinder's torque of gas and inertia (N m); as far as they are known.
+    force along the rod, force on its crank or knuckle pin along and across the cylinder (N), and
+    the cylinder's torque of gas and inertia (N m); as far as they are known.
 
     Args:
         curves: of that cylinder, from `forces.curves.compute_cylinder_curves`.
