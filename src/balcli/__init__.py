@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from .studies.search.search import Search
     from .studies.swept import Swept
     from .studies.tolerances import Scatter
-    from .torque.analysis import TorqueAnalysis
+    from .torque.answer import TorqueAnalysis
     from .torsion.analysis import TorsionAnalysis
 
 __all__ = [
@@ -120,7 +120,7 @@ _ROOMS = {
     "Table": "printed_tables.recomputed",
     "tables": "library.tables",
     "Tools": "sizing.workshop",
-    "TorqueAnalysis": "torque.analysis",
+    "TorqueAnalysis": "torque.answer",
     "analyze_torque": "library.torque",
     "TorsionAnalysis": "torsion.analysis",
     "analyze_torsion": "library.torsion",

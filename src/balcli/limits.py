@@ -50,6 +50,7 @@ FINEST_STEP_DEG = 1e-3  # of the crank angle: 360 000 angles
 FARTHEST_DEG = 1e6  # phase and turn of a second engine, torque curves: angles keep 10 digits
 FARTHEST_M = 1e6  # place of a second engine
 SMALLEST_FLUCTUATION = 1e-9  # of the speed, asked for: less is lost in rounding
+FLUCTUATION = "give (highest - lowest)/mean speed, such as 1/200 or 0.5%"
 FARTHEST_DEVICE_M = 50.0  # place of a shaft or plane: the longest engines have 30
 LARGEST_FACTOR = 2  # share of the reciprocating mass, either way: shops take 0 to 1
 MOST_HOLES = 50  # in one counterweight: none has room for more

@@ -11,16 +11,14 @@ from oracle import gas
 from support.pistons import slider_crank_piston
 
 from balcli import load
-from balcli.core.combustion import Wiebe
-from balcli.core.cylinder_pressure import CylinderPressure, GasError, PressureOnPiston, crank_torque, pistons
+from balcli.core.cylinder_pressure import crank_torque, find_highest, pistons, press
 from balcli.core.gas_cycle import Goal, Process, gas_cycle
 from balcli.core.mechanisms import harmonics
-from balcli.core.piecewise import polyline
-from balcli.core.pressure_diagram import PressureDiagram, find_diagram_mistakes, pressure_diagram
-from balcli.core.tangential_force import tangential_torque
+from balcli.core.piecewise import PiecewiseCurve, polyline
+from balcli.engine.indicator_diagram import draw_diagram, find_diagram_mistakes
 
 ENGINES = Path(__file__).parents[2] / "engines"
-OF_THE_LARGEST = 1e-13
+OF_THE_LARGEST = 1e-12
 HALVES = np.arange(49)
 LENGTHS = 0.045, 0.15, 0.086  # radius, rod, bore
 
@@ -107,7 +105,7 @@ def test_pistons_of_unlike_cylinders_have_their_own_bores():
 
 # ---------------------------------------------------------------- closed forms
 def steady(pressure, strokes=4):
-    return PressureDiagram(polyline([0, strokes * np.pi], [pressure, pressure]))
+    return polyline([0, strokes * np.pi], [pressure, pressure])
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.03])
@@ -115,7 +113,7 @@ def test_a_constant_pressure_has_the_harmonics_of_the_piston(offset):
     """-s''/r is Re sum c_n e^{i n psi}, so -s' is r Re sum c_n/(i n) e^{i n psi}."""
     radius, rod, bore = LENGTHS
     piston = slider_crank_piston(*LENGTHS, offset)
-    found = PressureOnPiston(piston, steady(7e5), crankcase=1e5).harmonics(HALVES)
+    found = press(piston, steady(7e5), np.array([0, 4 * np.pi])).harmonics(HALVES)
     n = np.arange(1, 25)
     mechanism = harmonics.find_harmonics(n, np.array([radius / rod]), np.array([offset / rod]))
     turned = mechanism["piston"].c[:, 0] / (1j * n) * np.exp(1j * n * piston.top)
@@ -124,8 +122,8 @@ def test_a_constant_pressure_has_the_harmonics_of_the_piston(offset):
     assert np.abs(found[1::2]).max() <= OF_THE_LARGEST * np.abs(expected).max()
 
 
-CYCLE = gas_cycle(slider_crank_piston(*LENGTHS), Process(10.5), Wiebe(-15, 50), Goal("imep", 10e5))
-TORQUE = PressureOnPiston(slider_crank_piston(*LENGTHS), CYCLE)
+CYCLE = gas_cycle(slider_crank_piston(*LENGTHS), Process(10.5, "wiebe"), Goal("imep", 10e5))
+TORQUE = press(slider_crank_piston(*LENGTHS), CYCLE.pressure, CYCLE.breaks)
 
 
 @pytest.mark.parametrize("fires", [0.3, 5.0, -2.0, 30.0])
@@ -146,7 +144,7 @@ def test_a_cylinder_counts_by_its_share():
     parts = [(TORQUE, np.pi * k, share) for k, share in enumerate((1.0, 0.0, 0.5, 1.0))]
     total = crank_torque(parts)
     angle = np.linspace(0.001, 12.5, 400)
-    expected = sum(share * TORQUE.at(angle - fires) for _, fires, share in parts)
+    expected = sum(share * TORQUE.curve.at(angle - fires) for _, fires, share in parts)
     np.testing.assert_allclose(total.at(angle), expected, rtol=0, atol=1e-10)
     assert total.integral == pytest.approx(2.5 * TORQUE.work, rel=1e-12)
 
@@ -154,26 +152,18 @@ def test_a_cylinder_counts_by_its_share():
 def test_force_and_torque_of_both_sides_of_a_jump():
     opens = np.radians(360.0)
     area = TORQUE.piston.area
-    assert TORQUE.force(opens, before=True) == pytest.approx(0.05e5 * area, rel=1e-9)
-    assert TORQUE.force(opens) == pytest.approx(0, abs=1e-9)
+    assert TORQUE.force_under(CYCLE.pressure.at(opens - 1e-9)) == pytest.approx(0.05e5 * area, rel=1e-9)
+    assert TORQUE.force_under(CYCLE.pressure.at(opens)) == pytest.approx(0, abs=1e-9)
     angle = np.radians([20.0, 90.0, 450.0])
-    psi = angle
-    lean = np.arcsin(0.3 * np.sin(psi))
-    tangential = np.sin(psi + lean) / np.cos(lean) * 0.045
-    assert TORQUE.at(angle) == pytest.approx(TORQUE.force(angle) * tangential, rel=1e-12)
-
-
-class Rounded(CylinderPressure):
-    """A pressure whose top lies before a corner by a rounding error."""
-
-    breaks = np.array([-np.pi, 0.0, np.pi])
-
-    def at(self, angle, *, before=False):
-        return 1e5 * np.cos(np.asarray(angle) + 1e-10)
+    lean = np.arcsin(0.3 * np.sin(angle))
+    tangential = np.sin(angle + lean) / np.cos(lean) * 0.045
+    force = TORQUE.force_under(CYCLE.pressure.at(angle))
+    assert TORQUE.curve.at(angle) == pytest.approx(force * tangential, rel=1e-11)
 
 
 def test_the_highest_pressure_beside_a_corner_is_at_the_corner():
-    assert Rounded().highest() == (0.0, 1e5)
+    peak = PiecewiseCurve(np.array([-np.pi, 0.0, np.pi]), np.array([[0.0, 1], [1, -1], [0, 0]]) * 1e5)
+    assert find_highest(peak) == (0.0, 2e5)
 
 
 # ---------------------------------------------------------------- measured diagrams
@@ -185,8 +175,8 @@ BAR = np.array([1.1, 1.9, 6.4, 22.7, 34.9, 51.3, 47.0, 20.2, 6.1, 3.9, 2.2, 1.3,
 @pytest.mark.parametrize("strokes", [4, 2])
 def test_harmonics_of_a_measured_diagram(strokes, offset):
     rows, bar = (ROWS, BAR) if strokes == 4 else (ROWS[:11], BAR[:11])
-    diagram = pressure_diagram(rows, bar * 1e5, strokes=strokes)
-    found = PressureOnPiston(slider_crank_piston(*LENGTHS, offset), diagram).harmonics(HALVES)
+    diagram = draw_diagram(rows, bar * 1e5, strokes=strokes)
+    found = press(slider_crank_piston(*LENGTHS, offset), diagram, diagram.breaks).harmonics(HALVES)
     halves = HALVES[:: 4 if strokes == 4 else 8]
     with mp.workdps(gas.DIGITS):
         corners = [mp.radians(mp.mpf(int(a))) for a in (*rows, rows[0] + 180 * strokes)]
@@ -203,39 +193,36 @@ def test_harmonics_of_a_measured_diagram(strokes, offset):
 def test_a_fine_diagram_of_a_known_pressure():
     """A tenth of a degree from row to row; straight lines for the curve err by their sagitta."""
     rows = np.arange(0, 720, 0.1)
-    diagram = pressure_diagram(rows, CYCLE.at(np.radians(rows)))
-    found = PressureOnPiston(TORQUE.piston, diagram)
+    diagram = draw_diagram(rows, CYCLE.pressure.at(np.radians(rows)))
+    found = press(TORQUE.piston, diagram, diagram.breaks)
     error = np.abs(found.harmonics(HALVES) - TORQUE.harmonics(HALVES)).max()
     assert error < 3e-4 * np.abs(TORQUE.harmonics(HALVES)).max()
     assert found.harmonics([0])[0].real == pytest.approx(found.imep * found.piston.swept / (4 * np.pi))
-    highest = CYCLE.at(np.radians(rows)).max()
-    assert found.pressure.highest().value == pytest.approx(highest, rel=1e-14)
+    highest = CYCLE.pressure.at(np.radians(rows)).max()
+    assert find_highest(found.pressure).value == pytest.approx(highest, rel=1e-14)
 
 
 def test_where_a_diagram_begins_does_not_matter():
     rising = np.argsort(ROWS % 720)
-    turned = pressure_diagram((ROWS % 720)[rising], BAR[rising] * 1e5)
-    first = pressure_diagram(ROWS, BAR * 1e5)
+    turned = draw_diagram((ROWS % 720)[rising], BAR[rising] * 1e5)
+    first = draw_diagram(ROWS, BAR * 1e5)
     angle = np.radians(np.linspace(-800, 800, 333))
     np.testing.assert_allclose(turned.at(angle), first.at(angle), rtol=1e-12)
 
 
 @pytest.mark.parametrize("firing", [360.0, -3.0])
 def test_a_diagram_that_counts_from_elsewhere(firing):
-    shifted = pressure_diagram(ROWS + firing, BAR * 1e5, firing_deg=firing)
-    first = pressure_diagram(ROWS, BAR * 1e5)
+    shifted = draw_diagram(ROWS + firing, BAR * 1e5, firing_deg=firing)
+    first = draw_diagram(ROWS, BAR * 1e5)
     assert shifted.breaks == pytest.approx(first.breaks)
-    assert shifted.highest() == (pytest.approx(np.radians(7)), 51.3e5)
+    assert find_highest(shifted) == (pytest.approx(np.radians(7)), 51.3e5)
 
 
 def test_the_first_of_two_rows_at_the_ends_of_the_period_holds():
-    diagram = pressure_diagram([*ROWS, 540], [*BAR * 1e5, 1.5e5])
-    assert diagram.closing_step == pytest.approx(0.4e5)
-    np.testing.assert_array_equal(diagram.breaks, pressure_diagram(ROWS, BAR * 1e5).breaks)
+    diagram = draw_diagram([*ROWS, 540], [*BAR * 1e5, 1.5e5])
+    np.testing.assert_array_equal(diagram.breaks, draw_diagram(ROWS, BAR * 1e5).breaks)
     assert diagram.at(np.radians([540.0, -180.0])).tolist() == [1.1e5, 1.1e5]
-    before = float(diagram.at(np.radians(540.0), before=True))
-    assert before == 1.1e5
-    assert pressure_diagram(ROWS, BAR).closing_step == 0
+    assert float(diagram.at(np.radians(539.999999))) == pytest.approx(1.1e5, rel=1e-6)
 
 
 WRONG = {
@@ -264,39 +251,10 @@ WRONG = {
 @pytest.mark.parametrize("case", WRONG)
 def test_mistakes_of_a_diagram(case):
     angle, pressure, expected = WRONG[case]
-    found = [tuple(mistake) for mistake in find_diagram_mistakes(angle, pressure)]
+    found = [*find_diagram_mistakes(angle, pressure)]
     if case == "pressure":
         found = [mistake for mistake in found if "apart" not in mistake[1]]
     assert found == expected
-
-
-# ---------------------------------------------------------------- builders' tables
-def test_a_table_of_tangential_pressures():
-    given = tangential_torque([0, 0.5, 1, 4], [2e5, 1e5, -3e4, 0], [7.0, 2e5, 1e4, 5e3], area=0.005, radius=0.04)
-    assert given.harmonics([0, 1, 2, 3, 8]) == pytest.approx(
-        0.005 * 0.04 * np.array([2e5, 1e5 - 2e5j, -3e4 - 1e4j, 0, -5e3j])
-    )
-    angle = np.linspace(0, 12, 31)
-    table = 2e5 + 1e5 * np.cos(angle / 2) + 2e5 * np.sin(angle / 2)
-    table += -3e4 * np.cos(angle) + 1e4 * np.sin(angle) + 5e3 * np.sin(4 * angle)
-    np.testing.assert_allclose(given.at(angle), 2e-4 * table, rtol=1e-12)
-    assert given.work == pytest.approx(2e-4 * 2e5 * 4 * np.pi)
-    assert given.curve.integral == pytest.approx(given.work)
-    np.testing.assert_allclose(given.curve.harmonics(np.arange(9)), given.harmonics(np.arange(9)), atol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("order", "strokes", "text"),
-    [
-        (0.3, 4, "has order 0.3: a cycle of 4 strokes has multiples of 0.5"),
-        (1.5, 2, "has order 1.5: a cycle of 2 strokes has multiples of 1"),
-        (-1.0, 4, "has order -1: a cycle of 4 strokes has multiples of 0.5"),
-    ],
-)
-def test_orders_that_a_cycle_does_not_have(order, strokes, text):
-    with pytest.raises(GasError, match=f"^{text}$") as refused:
-        tangential_torque([0, order], [1, 1], [0, 0], area=1, radius=1, strokes=strokes)
-    assert refused.value.field == "harmonics"
 
 
 def test_a_gap_may_be_wider_where_the_pressure_hardly_changes():
@@ -307,7 +265,7 @@ def test_a_gap_may_be_wider_where_the_pressure_hardly_changes():
     assert list(find_diagram_mistakes(angle, values)) == []
     values[-1] = 4e5
     (wrong,) = find_diagram_mistakes(angle, values)
-    assert wrong.row == len(angle) - 1
-    assert wrong.message.startswith("lies 34° after the row before it")
+    assert wrong[0] == len(angle) - 1
+    assert wrong[1].startswith("lies 34° after the row before it")
     assert list(find_diagram_mistakes(angle[:-1], values[:-1])) == []
-    assert [m.row for m in find_diagram_mistakes(angle[:-2], values[:-2])] == [None]
+    assert [row for row, _ in find_diagram_mistakes(angle[:-2], values[:-2])] == [None]

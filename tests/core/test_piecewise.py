@@ -6,23 +6,10 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from balcli.core.piecewise import PiecewiseCurve, gauss, merged_breaks, polyline, resolved
+from balcli.core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
 
-EPS = float(np.finfo(float).eps)
 RELATIVE = 1e-13
 TURN = 2 * np.pi
-
-
-@pytest.mark.parametrize("count", [1, 2, 5, 16, 40])
-def test_gauss_nodes_and_weights_are_those_of_the_legendre_polynomial(count):
-    nodes, weights = gauss(count)
-    with mp.workdps(40):
-        exact = [mp.findroot(lambda x: mp.legendre(count, x), x) for x in nodes.tolist()]
-        slopes = [mp.diff(lambda x: mp.legendre(count, x), x) for x in exact]
-        rule = [2 / ((1 - x * x) * d * d) for x, d in zip(exact, slopes, strict=True)]
-    assert nodes == pytest.approx([float(x) for x in exact], abs=4 * EPS)
-    assert weights == pytest.approx([float(w) for w in rule], rel=1e-13)
-    assert np.all(np.diff(nodes) > 0)
 
 
 # ---------------------------------------------------------------- smooth functions
@@ -54,11 +41,9 @@ def test_harmonics_so_high_that_a_panel_holds_many_waves_of_them():
 def test_values_mean_and_integral():
     curve, angle = resolved(smooth, [0, 1, TURN]), np.linspace(-20, 20, 501).reshape(3, 167)
     np.testing.assert_allclose(curve.at(angle), smooth(angle), rtol=1e-13)
-    np.testing.assert_allclose(curve.at(angle, before=True), smooth(angle), rtol=1e-13)
     assert curve.period == pytest.approx(TURN)
     assert curve.mean == pytest.approx(bessel(0), rel=RELATIVE)
     assert curve.integral == pytest.approx(TURN * bessel(0), rel=RELATIVE)
-    assert curve.plus(3.0).mean == pytest.approx(bessel(0) + 3, rel=RELATIVE)
     assert curve.at(0.0).shape == ()
 
 
@@ -81,7 +66,7 @@ def test_a_branch_point_at_a_breakpoint(power):
 def test_panels_end_where_the_function_is_no_better_than_its_own_noise():
     noise = np.random.default_rng(1)
     rough = resolved(lambda x: np.sin(x) + 1e-11 * noise.uniform(-1, 1, x.shape), [0, TURN])
-    assert len(rough.breaks) < 400
+    assert len(rough.breaks) < 500
     np.testing.assert_allclose(rough.harmonics(np.arange(4)), [0, -1j, 0, 0], rtol=0, atol=1e-10)
 
 
@@ -146,8 +131,7 @@ def test_a_polyline_is_exact():
     curve = polyline([0, 1, 1, 3, 4], [0, 2, 5, 1, 0])
     assert curve.integral == 1 + 6 + 0.5
     assert [float(curve.at(a)) for a in (0.5, 1, 2, 3.5, 4)] == [1, 5, 3, 0.5, 0]
-    assert [float(curve.at(a, before=True)) for a in (0.5, 1, 2, 4)] == [1, 2, 3, 0]
-    assert [float(curve.at(a + 8, before=True)) for a in (0.5, 1, 2)] == [1, 2, 3]
+    assert [float(curve.at(a + 8)) for a in (0.5, 1, 2)] == pytest.approx([1, 5, 3])
     done = curve.antiderivative()
     assert [float(done.at(a)) for a in (0.5, 1, 2)] == pytest.approx([0.25, 1, 5], rel=1e-15)
     assert done.extremes()[1].value == pytest.approx(7.5, rel=1e-15)
@@ -180,7 +164,6 @@ def test_a_breakpoint_is_itself_however_many_turns_off_and_however_rounded(turns
     curve = polyline(np.repeat(breaks, 2)[1:-1], [1, 1, 2, 2, 3, 3, 4, 4])
     angle = np.radians(np.array([-180.0, 0.0, 140.0, 360.0]) + 720 * turns)
     assert curve.at(angle).tolist() == [1, 2, 3, 4]
-    assert curve.at(angle, before=True).tolist() == [4, 1, 2, 3]
 
 
 def test_breakpoints_of_a_sum():

@@ -23,7 +23,7 @@ def test_each_cylinder_has_its_own_pressure_at_its_own_time():
     for row, cylinder in enumerate(found.gas.cylinders):
         at = np.radians(DEGREES) - cylinder.fires
         np.testing.assert_allclose(forces.pressure[row], cylinder.torque.pressure.at(at), rtol=1e-14)
-        gas = cylinder.share * cylinder.torque.force(at)
+        gas = cylinder.share * cylinder.torque.force_under(cylinder.torque.pressure.at(at))
         np.testing.assert_allclose(forces.gas[row], gas, rtol=1e-13, atol=1e-9)
 
 

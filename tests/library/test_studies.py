@@ -531,7 +531,7 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
         *(
             (
                 lambda share=share: balcli.analyze_torque(GAS, fluctuation=share),
-                f"fluctuation {share:g}: give (highest - lowest)/mean speed, such as 1 / 200",
+                f"fluctuation {share:g}: give (highest - lowest)/mean speed, such as 1/200",
             )
             for share in (0, -0.01, float("nan"), 2)
         ),

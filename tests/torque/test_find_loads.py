@@ -15,7 +15,7 @@ from balcli.errors import BalcliError
 from balcli.forces.curves import compute_engine_curves
 from balcli.forces.rod_forces import compute_rod_forces, list_hung_rows
 from balcli.torque.course import find_torque_curves
-from balcli.torque.find_loads import analyze_loads, find_bearing_loads, find_pin_loads
+from balcli.torque.loads import analyze_loads, find_bearing_loads, find_pin_loads
 
 ANGLES = np.arange(0.0, 720.0, 7.0)
 
@@ -62,10 +62,10 @@ def test_the_largest_load_is_on_the_curve():
     fine = np.arange(0.0, 720.0, 0.25)
     sizes = np.abs(find_pin_loads(found)(fine))
     for load in analyze_loads(found, ("pin",)).pin:
-        row = found.numbers.index(load.name)
-        assert load.largest.value >= sizes[row].max() * (1 - 1e-12)
-        assert load.largest.value == pytest.approx(sizes[row].max(), rel=5e-3)
-        assert load.mean == pytest.approx(sizes[row].mean(), rel=2e-3)
+        row = found.numbers.index(load.cylinder)
+        assert load.max_N >= sizes[row].max() * (1 - 1e-12)
+        assert load.max_N == pytest.approx(sizes[row].max(), rel=5e-3)
+        assert load.mean_N == pytest.approx(sizes[row].mean(), rel=2e-3)
 
 
 def test_bearings_carry_what_the_throws_carry():
@@ -89,8 +89,8 @@ def test_a_bearing_whose_loads_cancel_bears_nothing():
         'banks = [-90, 90]\nrods = "alternating"\nstrokes = 2\nfiring_order = [1, 2]\nfiring_intervals = [0, 360]',
     )
     outer, middle, _ = analyze_loads(build_text(text + WIEBE), ("main",)).main
-    assert (middle.largest.value, middle.largest.angle, middle.mean) == (0, 0, 0)
-    assert outer.largest.value > outer.mean > 1000
+    assert (middle.max_N, middle.max_deg, middle.mean_N) == (0, 0, 0)
+    assert outer.max_N > outer.mean_N > 1000
 
 
 BASE = """\

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from support.pistons import slider_crank_piston
 
-from balcli.core.cylinder_pressure import PressureOnPiston
+from balcli.core.cylinder_pressure import press
 from balcli.core.piecewise import polyline
-from balcli.core.pressure_diagram import PressureDiagram
 
 # fmt: off
 ROWS = [  # angle in 25/41 deg, pressure in 2/517 MPa: the digitiser's steps
@@ -57,9 +56,9 @@ HALF_COEFFICIENTS = [  # c_n of `sum c_n e^{i n theta} + conjugate`, n = 0.5, 1,
 def test_harmonics_of_the_gas_torque():
     angle, pressure = np.array(ROWS).T * [[25 / 41], [2e6 / 517]]
     angle, pressure = [*angle, 720], [*pressure, pressure[0]]
-    diagram = PressureDiagram(polyline(np.radians(angle), pressure))
+    diagram = polyline(np.radians(angle), pressure)
     piston = slider_crank_piston(0.137 / 2, 0.207, 0.105)
-    found = PressureOnPiston(piston, diagram, crankcase=0.0)
+    found = press(piston, diagram, diagram.breaks, crankcase=0.0)
     assert found.imep == pytest.approx(1894412.561, rel=1e-9)
     coefficients = found.harmonics(np.arange(25)) / 2
     coefficients[0] *= 2
@@ -70,6 +69,6 @@ def test_harmonics_of_the_gas_torque():
 
 def test_the_crankcase_does_no_work():
     angle, pressure = np.array(ROWS).T * [[25 / 41], [2e6 / 517]]
-    diagram = PressureDiagram(polyline(np.radians([*angle, 720]), [*pressure, pressure[0]]))
+    diagram = polyline(np.radians([*angle, 720]), [*pressure, pressure[0]])
     piston = slider_crank_piston(0.137 / 2, 0.207, 0.105)
-    assert PressureOnPiston(piston, diagram, 2e5).imep == pytest.approx(1894412.561, rel=1e-9)
+    assert press(piston, diagram, diagram.breaks, 2e5).imep == pytest.approx(1894412.561, rel=1e-9)

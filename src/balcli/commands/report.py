@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from ..enginefile.model import EngineFile
     from ..mounting.report import MountReport
     from ..sizing.options import SchemeOptions
-    from ..torque.pictures import Running
     from ..torsion.analysis import TorsionAnalysis
 
 Page = Annotated[
@@ -73,17 +72,10 @@ def report(
         fitted = scheme if balanced.remedy.reasons else None  # without devices nothing is compared
         mounted = _put_on_mounts(model, engine, fitted, options, name_file(path))
     twisted = _twist(model, engine, name_file(path)) if model.torsion else None
-    turning = None if engine.gas is None else _turn_gas(engine)
+    turning = None if engine.gas is None else engine
     with reporting("pictures") as tell:
         text = page(result, balanced, SYSTEMS[units], mounted, twisted, turning, tell)
     emit(text, output)
-
-
-def _turn_gas(engine: Engine) -> Running:
-    """What runs with the crank."""
-    from ..torque.pictures import compute_running
-
-    return compute_running(engine)
 
 
 def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:

@@ -1,57 +1,73 @@
-"""Computed cycles.
+"""Computed cycles: Otto, Diesel, dual (limited pressure), Wiebe.
 
 Four-stroke: expansion from the firing dead centre to `exhaust_opens`, the exhaust pressure to the
-gas-exchange dead centre, the intake pressure to `intake_closes`, compression `p V^nc`, and the burn
-(`combustion`). Two-stroke: expansion, from `exhaust_opens` the intake (scavenge) pressure until the
-piston stands there again on its way up, compression.
+gas-exchange dead centre, the intake pressure to `intake_closes`, compression `p V^nc`, and the
+burn. Two-stroke: expansion, from `exhaust_opens` the intake (scavenge) pressure until the piston
+stands there again on its way up, compression.
 
-The one unknown of a cycle is its heat Q. Burn and expansion together do the work `X Q - [p V]/(n -
+Heat Q acts by `d(p V^n) = (n - 1) V^(n-1) dQ`, n the index of expansion. So `p V^n` after the burn
+follows from the heat alone, and the pressure under way is a quadrature: nothing is stepped in time.
+The one unknown of a cycle is its heat. Burn and expansion together do the work `X Q - [p V]/(n -
 1)`, the released heat less what the gas gains; with the polytrope of compression and constant
 pressures while the valves are open, imep is known in closed form.
+
+Sources: the ideal cycles are those of every textbook (Heywood, Internal Combustion Engine
+Fundamentals, 1988, 5.4); Wiebe's law is `x = 1 - exp(-6.908 xi^(m+1))` (1956), by which 99.9 % of
+the heat are released within the duration.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .combustion import (
-    Burn,
-    Charge,
-    Combustion,
-    PressureLaw,
-    Wiebe,
-    combustion,
-    constant,
-    polytrope,
-)
-from .cylinder_pressure import CylinderPressure, GasError, GasPiston
+from .cylinder_pressure import GasError, GasPiston
 from .phasors import Array
-from .piecewise import Function, piece_of, wrapped
+from .piecewise import Function, PiecewiseCurve, find_zero, join, resolved
+
+_BURNT = 6.908  # -ln 0.001
+
+# What each kind of cycle can be asked to have.
+GOALS = {
+    "otto": ("imep", "heat", "max_pressure"),
+    "diesel": ("imep", "heat", "cut_off"),
+    "dual": ("imep", "heat", "cut_off"),
+    "wiebe": ("imep", "heat", "max_pressure"),
+}
 
 
+# ---------------------------------------------------------------- what is given
 @dataclass(frozen=True)
 class Process:
-    """All of a cycle but its burn: absolute pressures in Pa, cycle angles in deg.
+    """All of a cycle but its heat: absolute pressures in Pa, cycle angles in deg.
 
     Attributes:
-        exhaust_opens_deg, intake_closes_deg: None: at the lower dead centre. In a two-stroke cycle
-            the ports close where the exhaust opened.
+        cycle: How it burns: "otto", all heat at the dead centre; "diesel", at the constant pressure
+            that compression reaches; "dual", at the dead centre up to `max_pressure`, then at that
+            pressure; "wiebe", by Wiebe's law.
+        exhaust_opens, intake_closes: None: at the lower dead centre. In a two-stroke cycle the
+            ports close where the exhaust opened.
+        burn_start, burn_duration, burn_shape: Of Wiebe's law; the shape is its exponent m >= 0.
+        max_pressure: Pressure of a dual cycle.
     """
 
     compression_ratio: float
+    cycle: str = "otto"
     strokes: int = 4
     compression_index: float = 1.32
     expansion_index: float = 1.28
     intake: float = 1.0e5
     exhaust: float = 1.05e5
-    exhaust_opens_deg: float | None = None
-    intake_closes_deg: float | None = None
+    exhaust_opens: float | None = None
+    intake_closes: float | None = None
+    burn_start: float = -15.0
+    burn_duration: float = 50.0
+    burn_shape: float = 2.0
+    max_pressure: float | None = None
 
 
 class Goal(NamedTuple):
@@ -63,137 +79,72 @@ class Goal(NamedTuple):
     value: float
 
 
-@dataclass(frozen=True)
-class GasCycle(CylinderPressure):
+class GasCycle(NamedTuple):
     """A computed cycle.
 
     Attributes:
-        corners: breakpoints, rad, shape (pieces + 1,).
-        laws: pressure (Pa) at cycle angles within each piece.
-        heat: supplied in a cycle, J.
-        imep: indicated mean effective pressure, Pa, pumping included.
-        asked: what `gas_cycle` made it of, and makes it of again where it was pickled.
+        pressure: Absolute pressure at cycle angles, Pa.
+        breaks: Cycle angles between which the pressure is smooth, rad.
+        heat: Heat supplied in a cycle, J.
+        imep: Indicated mean effective pressure, Pa, pumping included.
     """
 
-    corners: Array
-    laws: tuple[Function, ...]
+    pressure: PiecewiseCurve
+    breaks: Array
     heat: float
     imep: float
-    asked: tuple[GasPiston, Process, Burn, Goal]
-
-    def __reduce__(self) -> tuple[Callable[..., GasCycle], tuple[GasPiston, Process, Burn, Goal]]:
-        return gas_cycle, self.asked
-
-    @property
-    def breaks(self) -> Array:
-        return self.corners
-
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
-        angles = wrapped(angle, self.corners, before=before)
-        piece = piece_of(angles, self.corners, before=before)
-        found = np.empty(angles.shape)
-        for number in np.flatnonzero(np.bincount(piece.reshape(-1))):
-            own = piece == number
-            found[own] = self.laws[number](angles[own])
-        return found
 
 
-def gas_cycle(piston: GasPiston, process: Process, burn: Burn, goal: Goal) -> GasCycle:
-    """The cycle that has what `goal` asks for.
+def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
+    """Return the cycle that has what `goal` asks for.
 
     Raises:
-        GasError: the first that `find_cycle_mistakes` finds, or a goal that no heat can reach.
+        GasError: The first that `find_cycle_mistakes` finds, or a goal that no heat can reach.
     """
-    for mistake in find_cycle_mistakes(piston, process, burn, goal):
+    for mistake in find_cycle_mistakes(piston, process, goal):
         raise mistake
-    cycle = _Cycle(piston, process, getattr(burn, "start_deg", 0.0))
-    burning = combustion(cycle.charge, burn)
-    heat = _heat(cycle, burning, goal)
-    corners, laws = [cycle.closes], []
-    for end, law in cycle.pieces(burning, heat):
-        if end > corners[-1]:
-            corners.append(end)
-            laws.append(law)
-    imep = cycle.imep(burning, heat)
-    return GasCycle(np.array(corners), tuple(laws), heat, imep, (piston, process, burn, goal))
+    cycle = _Cycle(piston, process)
+    heat = cycle.find_heat(goal)
+    breaks, curves = [cycle.closes], []
+    for end, law in cycle.list_laws(heat):
+        if end > breaks[-1]:
+            curves.append(resolved(law, [breaks[-1], end]))
+            breaks.append(end)
+    return GasCycle(join(curves), np.array(breaks), heat, cycle.find_imep(heat))
 
 
 # ---------------------------------------------------------------- what is wrong
-def find_cycle_mistakes(
-    piston: GasPiston, process: Process, burn: Burn, goal: Goal
-) -> Iterator[GasError]:
-    """All that is wrong with a cycle before it is computed."""
-    p = process
-    if goal.name not in burn.goals:
-        *most, last = burn.goals
-        kind = type(burn).__name__.lower()
-        hint = f"give {', '.join(most)} or {last}"
-        yield GasError(goal.name, f"does not make the {kind} cycle: {hint}")
-    if not p.compression_ratio > 1:
-        yield GasError("compression_ratio", f"is {p.compression_ratio:g}: give more than 1")
-    if not p.intake > 0:
-        yield GasError("intake", f"is {p.intake / 1e5:g} bar: give more, for it is compressed")
-    if not p.compression_index >= 1:
-        yield GasError("compression_index", f"is {p.compression_index:g}: give 1 or more")
+def find_cycle_mistakes(piston: GasPiston, process: Process, goal: Goal) -> Iterator[GasError]:
+    """Yield all that is wrong with a cycle before it is computed."""
+    p, goals = process, GOALS[process.cycle]
+    if goal.name not in goals:
+        hint = f"give {', '.join(goals[:-1])} or {goals[-1]}"
+        yield GasError(goal.name, f"does not make the {p.cycle} cycle: {hint}")
     if not p.expansion_index > 1:
         yield GasError("expansion_index", f"is {p.expansion_index:g}: give more than 1")
-    valves = list(_wrong_valves(piston, p))
-    yield from valves
-    if isinstance(burn, Wiebe) and not valves:
-        yield from _wrong_burn(piston, p, burn)
+    lowest = math.degrees(piston.bottom)
+    if p.strokes == 2 and p.exhaust_opens is not None and p.exhaust_opens > lowest:
+        message = f"is {p.exhaust_opens:g}°: give up to {lowest:g}°, the lower dead centre"
+        yield GasError("exhaust_opens", message)
+    elif p.cycle == "wiebe":
+        opens, closes = (math.degrees(angle) for angle in _find_valves(piston, process))
+        end = p.burn_start + p.burn_duration
+        if end > opens:
+            yield GasError(
+                "burn_duration",
+                f"a burn over {p.burn_duration:g}° from {p.burn_start:g}° ends at {end:g}°, past "
+                f"{opens:g}°, where the exhaust opens",
+            )
+        if p.burn_start <= closes:
+            message = f"is {p.burn_start:g}°, before {closes:g}°, where compression begins"
+            yield GasError("burn_start", message)
 
 
-def _wrong_valves(piston: GasPiston, process: Process) -> Iterator[GasError]:
-    opens, closes = process.exhaust_opens_deg, process.intake_closes_deg
-    latest, dead_centre = 360.0, "gas-exchange"
-    if process.strokes == 2:
-        latest, dead_centre = math.degrees(piston.bottom), "lower"
-    if opens is not None and not 0 < opens <= latest:
-        yield GasError(
-            "exhaust_opens",
-            f"is {opens:g}°: give a cycle angle above 0° and up to {latest:g}°, "
-            f"the {dead_centre} dead centre",
-        )
-    if closes is not None and process.strokes == 2:
-        yield GasError(
-            "intake_closes",
-            "has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
-            "leave it out",
-        )
-    elif closes is not None and not 360 <= closes < 720:
-        yield GasError(
-            "intake_closes",
-            f"is {closes:g}°: give a cycle angle from 360°, the gas-exchange dead centre, to below "
-            "720°",
-        )
-
-
-def _wrong_burn(piston: GasPiston, process: Process, burn: Wiebe) -> Iterator[GasError]:
-    if not burn.shape >= 0:
-        yield GasError("burn_shape", f"is {burn.shape:g}: give 0 or more")
-    if not burn.duration_deg > 0:
-        yield GasError("burn_duration", f"is {burn.duration_deg:g}°: give more than 0°")
-        return
-    opens, closes = (math.degrees(angle) for angle in _valves(piston, process))
-    end = burn.start_deg + burn.duration_deg
-    if end > opens:
-        yield GasError(
-            "burn_duration",
-            f"a burn over {burn.duration_deg:g}° from {burn.start_deg:g}° ends at {end:g}°, past "
-            f"{opens:g}°, where the exhaust opens",
-        )
-    if burn.start_deg <= closes:
-        yield GasError(
-            "burn_start", f"is {burn.start_deg:g}°, before {closes:g}°, where compression begins"
-        )
-
-
-# ---------------------------------------------------------------- what is known before the heat
-def _valves(piston: GasPiston, process: Process) -> tuple[float, float]:
-    """Cycle angles (rad) at which the exhaust opens, and at which, before the firing dead centre,
-    compression begins.
+def _find_valves(piston: GasPiston, process: Process) -> tuple[float, float]:
+    """Return the cycle angles (rad) at which the exhaust opens, and at which, before the firing
+    dead centre, compression begins.
     """
-    opens_deg, closes_deg = process.exhaust_opens_deg, process.intake_closes_deg
+    opens_deg, closes_deg = process.exhaust_opens, process.intake_closes
     opens = piston.bottom if opens_deg is None else math.radians(opens_deg)
     if process.strokes == 2:
         down = float(piston.travel(np.array(opens)))
@@ -202,112 +153,156 @@ def _valves(piston: GasPiston, process: Process) -> tuple[float, float]:
     return opens, closes
 
 
+# ---------------------------------------------------------------- cycles
 class _Cycle:
-    """A cycle without its heat."""
+    """A cycle whose heat is not known yet."""
 
-    def __init__(self, piston: GasPiston, process: Process, start_deg: float) -> None:
-        self.piston, self.process = piston, process
-        self.opens, self.closes = _valves(piston, process)
-        begins = min(math.radians(start_deg), 0.0)
-        closed, charge, opened = map(self._volume, (self.closes, begins, self.opens))
-        self.compression = process.intake * closed**process.compression_index
-        self.begins = begins
-        self.charge = Charge(
-            pressure=self.compression / charge**process.compression_index,
-            volume=charge,
-            exponent=process.expansion_index,
-            final=opened,
-            piston=piston,
-            volume_at=self.volume_at,
-        )
-        self.fixed_work = self._compression_work(closed) + self._pumping_work(closed)
+    def __init__(self, piston: GasPiston, process: Process) -> None:
+        p = process
+        self.piston, self.process, self.index = piston, process, process.expansion_index
+        self.start = math.radians(p.burn_start) if p.cycle == "wiebe" else 0.0
+        self.opens, self.closes = _find_valves(piston, process)
+        self.begins = min(self.start, 0.0)
+        places = np.array([self.closes, self.begins, self.opens])
+        self.closed, self.charge, self.opened = self.find_volume(places).tolist()
+        self.pressure = p.intake * (self.closed / self.charge) ** p.compression_index
+        self.constant = self.pressure * self.charge**self.index  # p V^n of the charge
+        self.least, self.most, self.released = 0.0, math.inf, 1.0  # heat, J; share of it
+        self.grown = self.charge ** (self.index - 1)  # integral of V^(n-1) dx
+        self.limit = self.pressure if p.cycle == "diesel" else None
+        if p.cycle == "dual":
+            self.limit = p.max_pressure or 0.0
+            self._refuse_beyond("max_pressure", self.limit, self.pressure, math.inf)
+        if self.limit is not None:
+            self.least = (self.limit - self.pressure) * self.charge / (self.index - 1)
+            self.share = self.index / (self.index - 1) * self.limit  # J that widen it by 1 m3
+            self.most = self.least + self.share * (self.opened - self.charge)
+        if p.cycle == "wiebe":
+            self.end = self.start + math.radians(p.burn_duration)
+            self.released = -math.expm1(-_BURNT)
+            self.lost = resolved(self._widen, [self.start, self.end]).antiderivative()
+            self.grown = float(self._grow(np.array(self.end)))
 
-    def volume_at(self, angle: Array) -> Array:
-        """Volume (m3) at cycle angles."""
+    def find_volume(self, angle: Array) -> Array:
+        """Return the volume (m3) at cycle angles."""
         return self.piston.volume(angle, self.process.compression_ratio)
 
-    def _volume(self, angle: float) -> float:
-        return float(self.volume_at(np.array(angle)))
+    # ------------------------------------------------------------ the burn
+    def burn(self, heat: float) -> float:
+        """Return p V^n after the burn."""
+        if self.limit is not None:
+            return float(self.limit * self._find_last(heat) ** self.index)
+        return self.constant + (self.index - 1) * self.grown * heat
 
-    def imep(self, burning: Combustion, heat: float) -> float:
-        """Indicated mean effective pressure with this heat, Pa."""
-        n, c = self.charge.exponent, self.charge
-        gained = burning.after(heat)[0] * c.final ** (1 - n) - c.pressure * c.volume
-        work = burning.released * heat - gained / (n - 1)
-        return (self.fixed_work + work) / self.piston.swept
-
-    def imep_rate(self, burning: Combustion, heat: float) -> float:
-        """Its derivative by the heat, Pa/J."""
-        n, c = self.charge.exponent, self.charge
-        gained = burning.after(heat)[1] * c.final ** (1 - n)
-        return (burning.released - gained / (n - 1)) / self.piston.swept
-
-    def pieces(self, burning: Combustion, heat: float) -> list[PressureLaw]:
-        """The laws of pressure from the begin of compression on; some may be of no length."""
-        p, period = self.process, self.process.strokes * math.pi
-        expansion = polytrope(self.volume_at, burning.after(heat)[0], p.expansion_index)
-        compression = polytrope(self.volume_at, self.compression, p.compression_index)
-        opened = [PressureLaw(2 * math.pi, constant(p.exhaust))] if p.strokes == 4 else []
+    def list_burning(self, heat: float) -> list[tuple[float, Function]]:
+        """Return the laws of pressure from the charge to the end of the burn, as `list_laws`."""
+        if self.limit is not None:
+            travel = (self._find_last(heat) - self.charge) / self.piston.area
+            return [(self.piston.angle_of(travel), _hold(self.limit))]
+        if self.process.cycle != "wiebe":
+            return []
+        before = self._expand(self.constant)
         return [
-            PressureLaw(self.begins, compression),
-            *burning.pieces(heat),
-            PressureLaw(self.opens, expansion),
-            *opened,
-            PressureLaw(self.closes + period, constant(p.intake)),
+            (self.start, before),
+            (self.end, lambda angle: before(angle) + heat * self._rise(angle)),
         ]
 
-    def _compression_work(self, closed: float) -> float:
-        """From the intake to the charge, J: negative. -p V (y^(n-1) - 1)/(n - 1), y = V/V'."""
-        over = self.process.compression_index - 1
-        steps = math.log(closed / self.charge.volume)
-        grown = math.expm1(over * steps) / over if over else steps
-        return -self.process.intake * closed * grown
+    def _find_last(self, heat: float) -> float:
+        """Return the volume at the end of constant pressure, m3."""
+        return self.charge + (heat - self.least) / self.share
 
-    def _pumping_work(self, closed: float) -> float:
-        """While the valves are open, J; the ports of a two-stroke close at the same volume."""
-        p, clearance = self.process, self.piston.clearance(self.process.compression_ratio)
-        if p.strokes == 2:
-            return 0.0
-        return p.intake * (closed - clearance) - p.exhaust * (self.charge.final - clearance)
+    def _rise(self, angle: Array) -> Array:
+        """Return the pressure that one unit of heat adds by Wiebe's law."""
+        return (self.index - 1) * self._grow(angle) / self.find_volume(angle) ** self.index
 
+    def _find_burnt(self, angle: Array) -> Array:
+        xi = np.clip((angle - self.start) / (self.end - self.start), 0, 1)
+        return -np.expm1(-_BURNT * xi ** (self.process.burn_shape + 1))
 
-# ---------------------------------------------------------------- the heat
-def _heat(cycle: _Cycle, burning: Combustion, goal: Goal) -> float:
-    """Heat (J) with which the cycle has what is asked for."""
-    if goal.name == "imep":
-        return _heat_for_imep(cycle, burning, goal.value)
-    heat = goal.value if goal.name == "heat" else burning.heat_for(goal.value)
-    if heat < burning.least:
-        least = 1 if goal.name == "cut_off" else burning.least
-        raise GasError(goal.name, f"is {goal.value:g}: this cycle needs {least:.4g} or more")
-    if heat > burning.most:
-        most = cycle.charge.final / cycle.charge.volume
-        most = most if goal.name == "cut_off" else burning.most
-        raise GasError(
-            goal.name,
-            f"is {goal.value:g}: with more than {most:.4g} the exhaust opens during the burn",
+    def _widen(self, angle: Array) -> Array:
+        rate = self.piston.area * self.piston.rate(angle)
+        power = self.find_volume(angle) ** (self.index - 2)
+        return (self.index - 1) * self._find_burnt(angle) * power * rate
+
+    def _grow(self, angle: Array) -> Array:
+        """Return the integral of V^(n-1) dx from the start on. By parts it is `x V^(n-1) - (n-1)
+        integral of x V^(n-2) dV`: x is smoother than its rate, whatever the exponent.
+        """
+        at = np.clip(angle, self.start, self.end)
+        power = self.find_volume(at) ** (self.index - 1)
+        return self._find_burnt(at) * power - self.lost.within(at)
+
+    # ------------------------------------------------------------ the whole cycle
+    def list_laws(self, heat: float) -> list[tuple[float, Function]]:
+        """Return the laws of pressure (Pa at cycle angles, rad) from the begin of compression on,
+        each with the angle where it ends; some may have no length.
+        """
+        p, period = self.process, self.process.strokes * math.pi
+        closed = p.intake * self.closed**p.compression_index
+        return [
+            (self.begins, self._expand(closed, p.compression_index)),
+            *self.list_burning(heat),
+            (self.opens, self._expand(self.burn(heat))),
+            *([(2 * math.pi, _hold(p.exhaust))] if p.strokes == 4 else []),
+            (self.closes + period, _hold(p.intake)),
+        ]
+
+    def _expand(self, constant: float, index: float | None = None) -> Function:
+        """Return the law p V^n = const."""
+        return lambda angle: constant / self.find_volume(angle) ** (index or self.index)
+
+    def find_imep(self, heat: float) -> float:
+        """Return the indicated mean effective pressure with this heat, Pa."""
+        p, n = self.process, self.index
+        gained = self.burn(heat) * self.opened ** (1 - n) - self.pressure * self.charge
+        work = self.released * heat - gained / (n - 1)
+        over, steps = p.compression_index - 1, math.log(self.closed / self.charge)
+        work -= p.intake * self.closed * (math.expm1(over * steps) / over if over else steps)
+        if p.strokes == 4:  # the ports of a two-stroke close at the volume at which they opened
+            clearance = self.piston.clearance(p.compression_ratio)
+            work += p.intake * (self.closed - clearance) - p.exhaust * (self.opened - clearance)
+        return work / self.piston.swept
+
+    def find_goal(self, name: str, heat: float) -> float:
+        """Return what a goal may ask for, of the cycle with this heat."""
+        if name == "heat":
+            return heat
+        if name == "imep":
+            return self.find_imep(heat)
+        if name == "cut_off":
+            return self._find_last(heat) / self.charge
+        if self.process.cycle == "otto":
+            return self.burn(heat) / self.charge**self.index
+        burning = self._expand(self.burn(heat)) if self.end < 0 else self.list_burning(heat)[1][1]
+        breaks = [self.start, self.end] if self.end >= 0 else [self.end, 0.0]
+        return max(self.pressure, resolved(burning, breaks).extremes()[1].value)
+
+    def find_heat(self, goal: Goal) -> float:
+        """Return the heat (J) with which the cycle has what is asked for."""
+        name, value = goal
+        lowest, highest = self.find_goal(name, self.least), math.inf
+        if self.most < math.inf:
+            highest = self.find_goal(name, self.most)
+        guess = min(self.constant * self.charge ** (1 - self.index), self.most - self.least)
+        if name == "imep" and self.find_imep(self.least + guess) <= lowest:
+            highest = lowest  # where all heat goes into expansion
+        self._refuse_beyond(name, value, lowest, highest)
+        if value in (lowest, highest):
+            return self.least if value == lowest else self.most
+        return self.least + find_zero(
+            lambda above: self.find_goal(name, self.least + above) - value, guess, lowest - value
         )
-    return heat
+
+    def _refuse_beyond(self, name: str, value: float, lowest: float, highest: float) -> None:
+        """Raise GasError if a value is not between the least and the most that the cycle has."""
+        size, unit = (1e5, " bar") if name in ("imep", "max_pressure") else (1.0, "")
+        told = f"is {value / size:g}{unit}: this cycle has"
+        if value < lowest:
+            raise GasError(name, f"{told} at least {lowest / size:.4g}{unit}")
+        if value > highest:
+            raise GasError(name, f"{told} at most {highest / size:.4g}{unit}")
 
 
-def _heat_for_imep(cycle: _Cycle, burning: Combustion, imep: float) -> float:
-    """By Newton's method from the least heat on: imep is concave in it, no step leads too far."""
-    heat = burning.least
-    lowest = cycle.imep(burning, heat)
-    if imep < lowest:
-        raise GasError(
-            "imep",
-            f"is {imep / 1e5:g} bar: with the least heat the cycle has {lowest / 1e5:.4g} bar",
-        )
-    highest = cycle.imep(burning, burning.most) if burning.most < math.inf else math.inf
-    if imep > highest or cycle.imep_rate(burning, heat) <= 0:
-        raise GasError(
-            "imep",
-            f"is {imep / 1e5:g} bar: with the most heat the cycle has {highest / 1e5:.4g} bar",
-        )
-    for _ in range(100):
-        step = (imep - cycle.imep(burning, heat)) / cycle.imep_rate(burning, heat)
-        heat += step
-        if step <= 1e-15 * heat:
-            break
-    return heat
+def _hold(pressure: float) -> Function:
+    """Return the law p = const."""
+    return lambda angle: np.full(angle.shape, pressure)

@@ -10,7 +10,7 @@ jump.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple, TypeAlias
@@ -23,17 +23,17 @@ from .phasors import Array, Complex
 
 Function: TypeAlias = Callable[[Array], Array]  # value at angles (rad), of their shape
 
+gauss = lru_cache(legendre.leggauss)  # nodes (rising) and weights of the quadrature on [-1, 1]
+
 _WIDEST = 0.5  # rad, of a panel before any is halved
 _TERMS = 16
 _RESOLVED = 1e-12  # last terms of a series, relative to the largest value of the function
-_NOISE = 1e-5  # last terms below this share that halving hardly lowers are rounding errors
-_HARDLY = 0.75
 _HALVINGS = 48
-_EVERYWHERE = 256  # times as many panels: what these do not show is nothing but noise
+_EVERYWHERE = 16  # times as many panels: what these do not show is rounding error
 _REACH = 16.0  # rad, of the waves on a panel that this many nodes integrate
 _NODES = 32
 _SAME = 1e-11  # rad; an angle so near to a breakpoint is the breakpoint
-_NEWTON_STEPS = 12
+_NEWTON_STEPS = 6
 _NO_SIGN = 1e-9  # values below this share of the largest have no sign
 _ROUNDING = 1e-14  # a smaller share of the largest value, or of what is added up, is 0
 _TIE = 1e-11  # extremes that differ by a smaller share of the range are equal
@@ -44,15 +44,6 @@ class Extreme(NamedTuple):
 
     angle: float
     value: float
-
-
-@lru_cache
-def gauss(count: int) -> tuple[Array, Array]:
-    """Return nodes (rising) and weights of the Gauss-Legendre quadrature on [-1, 1], each of shape
-    (count,).
-    """
-    nodes, weights = legendre.leggauss(count)
-    return nodes, weights
 
 
 @lru_cache
@@ -69,7 +60,7 @@ class PiecewiseCurve:
     """A periodic function, a polynomial on each panel.
 
     Attributes:
-        breaks: rising angles between which the panels lie, rad, shape (panels + 1,); the last is a
+        breaks: Rising angles between which the panels lie, rad, shape (panels + 1,); the last is a
             period after the first.
         series: Legendre coefficients on each panel, shape (terms, panels).
     """
@@ -94,31 +85,24 @@ class PiecewiseCurve:
         """Mean value over one period."""
         return self.integral / self.period
 
-    def at(self, angle: ArrayLike, *, before: bool = False) -> Array:
-        """Return values at any angles (rad), of their shape; at a jump the value after it, or
-        `before` it.
-        """
-        return self.within(wrapped(angle, self.breaks, before=before), before=before)
+    def at(self, angle: ArrayLike) -> Array:
+        """Return values at any angles (rad), of their shape; at a jump the value after it."""
+        start = self.breaks[0]
+        turned = np.remainder(np.asarray(angle, float) + _SAME - start, self.period)
+        return self.within(start + turned - _SAME)
 
-    def within(self, angle: Array, *, before: bool = False) -> Array:
+    def within(self, angle: Array) -> Array:
         """Return values at angles between the first and the last breakpoint."""
-        panel = piece_of(angle, self.breaks, before=before)
-        middle, half = _panels(self.breaks)
+        panel = np.searchsorted(self.breaks, angle + _SAME, side="right") - 1
+        panel = np.clip(panel, 0, len(self.breaks) - 2)
+        middle, half = _find_middles(self.breaks)
         x = np.clip((angle - middle[panel]) / half[panel], -1, 1)
         return np.asarray(legendre.legval(x, self.series[:, panel], tensor=False))
 
-    def plus(self, constant: float) -> PiecewiseCurve:
-        """Return the curve raised by a constant."""
-        series = self.series.copy()
-        series[0] += constant
-        return PiecewiseCurve(self.breaks, series)
-
     def repeated(self, times: int) -> PiecewiseCurve:
         """Return the same curve over a period so many times as long."""
-        start = self.period * np.arange(times)[:, None]
-        inner = (self.breaks[:-1] + start).reshape(-1)
-        end = self.breaks[0] + self.period * times
-        return PiecewiseCurve(np.append(inner, end), np.tile(self.series, (1, times)))
+        parts = [PiecewiseCurve(self.breaks + k * self.period, self.series) for k in range(times)]
+        return join(parts)
 
     def harmonics(self, wanted: ArrayLike) -> Complex:
         """Return coefficients c_k of `Re sum c_k e^{2 pi i k angle/period}` for the wanted whole
@@ -134,15 +118,18 @@ class PiecewiseCurve:
 
         # e^(-i k angle) of k = high * stride + low is a product: few waves of each make all
         stride = math.isqrt(top) + 1
-        low, high = np.arange(stride), np.arange(top // stride + 1)
-        every = turn(low) @ (turn(high * stride) * shares).T
+        every = turn(np.arange(stride)) @ (turn(np.arange(0, top + 1, stride)) * shares).T
         return np.where(numbers == 0, self.mean, every[numbers % stride, numbers // stride])
 
-    def antiderivative(self) -> PiecewiseCurve:
-        """Return the integral from the first breakpoint on; periodic if the mean is 0."""
+    def antiderivative(self, constant: float = 0.0) -> PiecewiseCurve:
+        """Return the integral of the curve less a constant, from the first breakpoint on; it is
+        periodic if the constant is the mean.
+        """
         half = np.diff(self.breaks) / 2
-        series = legendre.legint(self.series, lbnd=-1) * half
-        area = 2 * half * self.series[0]
+        series = self.series.copy()
+        series[0] -= constant
+        area = 2 * half * series[0]
+        series = legendre.legint(series, lbnd=-1) * half
         series[0] += np.cumsum(area) - area
         return PiecewiseCurve(self.breaks, series)
 
@@ -150,14 +137,7 @@ class PiecewiseCurve:
         """Return the lowest and the highest value, each at the first of its angles; at a jump both
         sides count. A value that is rounding error next to the larger one is 0.
         """
-        points, values = self._sample()
-        size, tie = float(np.abs(values).max()), _TIE * float(np.ptp(values))
-        low, high = (self._find_top(sign, points, values, tie) for sign in (-1, 1))
-        least, most = (
-            one._replace(value=0.0 if abs(one.value) <= _ROUNDING * size else one.value)
-            for one in (low, high)
-        )
-        return least, most
+        return self._find_top(-1), self._find_top(1)
 
     def reversals(self) -> int:
         """Return how often the sign changes in a period; a value within 1e-9 of the largest has no
@@ -174,117 +154,90 @@ class PiecewiseCurve:
         points = np.concatenate([[-1.0], gauss(max(len(self.series), 2))[0], [1.0]])
         return points, legendre.legvander(points, len(self.series) - 1) @ self.series
 
-    def _find_top(self, sign: int, points: Array, values: Array, tie: float) -> Extreme:
-        """Return the lowest (sign -1) or highest (1) value: from the best point of every panel that
-        can reach it, Newton's method follows the series. No series exceeds the sum of the sizes of
-        its coefficients.
+    def _find_top(self, sign: int) -> Extreme:
+        """Return the lowest (sign -1) or highest (1) value: from the best point of every panel
+        Newton's method follows the series.
         """
-        able = sign * self.series[0] + np.abs(self.series[1:]).sum(axis=0)
-        panels = np.flatnonzero(able >= (sign * values).max() - 2 * tie)
-        heights = sign * values[:, panels]
-        start = points[np.argmax(heights >= heights.max(axis=0) - tie, axis=0)]
-        rate = legendre.legder(self.series[:, panels])
-        bend, x = legendre.legder(rate), start
+        points, values = self._sample()
+        tie, noise = _TIE * float(np.ptp(values)), _ROUNDING * np.abs(values).max()
+        heights = sign * values
+        start = x = points[np.argmax(heights >= heights.max(axis=0) - tie, axis=0)]
+        rate = legendre.legder(self.series)
+        bend = legendre.legder(rate)
         for _ in range(_NEWTON_STEPS):
             slope, curved = (legendre.legval(x, each, tensor=False) for each in (rate, bend))
             x = np.clip(x - slope / np.where(sign * curved < 0, curved, np.inf), -1, 1)
-        before, value = (
-            legendre.legval(each, self.series[:, panels], tensor=False) for each in (start, x)
-        )
-        higher = sign * (value - before) > _ROUNDING * np.abs(values).max()
-        x, value = np.where(higher, x, start), np.where(higher, value, before)
-        first = int(np.argmax(sign * value >= (sign * value).max() - tie))
-        middle, half = _panels(self.breaks)
-        angle = middle[panels] + half[panels] * x
-        return Extreme(float(angle[first]), float(sign * (sign * value).max()))
+        low, high = (sign * legendre.legval(p, self.series, tensor=False) for p in (start, x))
+        x, height = np.where(high > low + noise, x, start), np.maximum(low, high)
+        first, top = int(np.argmax(height >= height.max() - tie)), float(height.max())
+        middle, half = _find_middles(self.breaks)
+        angle = middle[first] + half[first] * x[first]
+        return Extreme(float(angle), sign * top if abs(top) > noise else 0.0)
+
+
+def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
+    """Return curves that follow each other as one."""
+    breaks = [curve.breaks[:-1] for curve in curves]
+    series = np.concatenate([curve.series for curve in curves], axis=1)
+    return PiecewiseCurve(np.concatenate([*breaks, curves[-1].breaks[-1:]]), series)
 
 
 def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
     """Return the curve of a function that is smooth between the given breakpoints.
 
     A panel is halved until its last two coefficients are below 1e-12 of the function's largest
-    value, or until halving hardly lowers them because they are rounding errors of the function.
+    value, or until there are so many panels that they show rounding errors alone.
 
     Args:
-        function: values at angles strictly between breakpoints, of the shape of the angles.
-        breaks: rising, rad; the last a period after the first.
+        function: Values at angles strictly between breakpoints, of the shape of the angles.
+        breaks: Rising, rad; the last a period after the first.
     """
     edges = cut(np.asarray(breaks, float), _WIDEST)
-    low, high, above = edges[:-1], edges[1:], np.full(len(edges) - 1, np.inf)
-    nodes, _ = gauss(_TERMS)
+    low, high = edges[:-1], edges[1:]
     size, starts, found = 0.0, [], []
     for halvings in range(_HALVINGS + 1):
         middle = (low + high) / 2
-        values = function(middle + (high - low) / 2 * nodes[:, None])
+        values = function(middle + (high - low) / 2 * gauss(_TERMS)[0][:, None])
         series = values_to_series(_TERMS) @ values
         size = max(size, float(np.abs(values).max()))
-        tail = np.abs(series[-2:]).max(axis=0)
-        noise = (tail < _NOISE * size) & (tail > _HARDLY * above)
-        halve = (tail > _RESOLVED * size) & ~noise & (halvings < _HALVINGS)
-        halve &= len(low) < _EVERYWHERE * len(edges)
+        halve = np.abs(series[-2:]).max(axis=0) > _RESOLVED * size
+        halve &= halvings < _HALVINGS and len(low) < _EVERYWHERE * len(edges)
         starts.append(low[~halve])
         found.append(series[:, ~halve])
         if not halve.any():
             break
         low, middle, high = low[halve], middle[halve], high[halve]
         low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
-        above = np.tile(tail[halve], 2)
     start = np.concatenate(starts)
     rising = np.argsort(start)
-    return PiecewiseCurve(
-        np.append(start[rising], edges[-1]), np.concatenate(found, axis=1)[:, rising]
-    )
+    series = np.concatenate(found, axis=1)[:, rising]
+    return PiecewiseCurve(np.append(start[rising], edges[-1]), series)
 
 
+def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
+    """Return straight lines between points whose angles (rad) rise; two points at one angle are a
+    jump. The last point closes the period, and if it differs from the first, there is a jump.
+    """
+    angles, values = np.asarray(angle, float), np.asarray(value, float)
+    wide = np.diff(angles) > 0
+    first, last = values[:-1][wide], values[1:][wide]
+    breaks = np.append(angles[:-1][wide], angles[-1])
+    return PiecewiseCurve(breaks, np.stack([first + last, last - first]) / 2)
+
+
+# ---------------------------------------------------------------- breakpoints
 def quadrature(breaks: Array, nodes: int = _TERMS) -> tuple[Array, Array]:
     """Return angles within panels, rad, and their weights in a mean over the period, each of shape
     (nodes, panels).
     """
     x, weights = gauss(nodes)
-    middle, half = _panels(breaks)
+    middle, half = _find_middles(breaks)
     return middle + half * x[:, None], half * weights[:, None] / (breaks[-1] - breaks[0])
 
 
-def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
-    """Straight lines between points whose angles (rad) rise; two points at one angle are a jump.
-    The last point closes the period, and if it differs from the first, there is a jump.
-    """
-    angles, values = np.asarray(angle, float), np.asarray(value, float)
-    wide = np.diff(angles) > 0
-    first, last = values[:-1][wide], values[1:][wide]
-    return PiecewiseCurve(
-        np.append(angles[:-1][wide], angles[-1]), np.stack([first + last, last - first]) / 2
-    )
-
-
-# ---------------------------------------------------------------- angles and breakpoints
-def wrapped(angle: ArrayLike, breaks: Array, *, before: bool = False) -> Array:
-    """The same angles within the period that the breakpoints span: in [first, last), or `before` a
-    jump in (first, last].
-    """
-    start, period = breaks[0], breaks[-1] - breaks[0]
-    angles = np.asarray(angle, float)
-    if before:
-        return breaks[-1] - np.remainder(breaks[-1] + _SAME - angles, period) + _SAME
-    return start + np.remainder(angles + _SAME - start, period) - _SAME
-
-
-def piece_of(angle: Array, breaks: Array, *, before: bool = False) -> NDArray[np.intp]:
-    """Between which breakpoints wrapped angles lie: 0 for the first two; on a breakpoint after it,
-    or `before` it.
-    """
-    shift = -_SAME if before else _SAME
-    return np.clip(np.searchsorted(breaks, angle + shift, side="right") - 1, 0, len(breaks) - 2)
-
-
-def with_break(breaks: Array, angle: float) -> Array:
-    """Return the breakpoints with one more, unless it is among them."""
-    return np.unique(np.append(breaks, angle))
-
-
 def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
-    """Breakpoints in [0, period] of a sum of functions, each given by its breakpoints and the angle
-    (rad) by which it is shifted to the right.
+    """Return breakpoints in [0, period] of a sum of functions, each given by its breakpoints and
+    the angle (rad) by which it is shifted to the right.
     """
     inside = [np.remainder(breaks + shift, period) for breaks, shift in parts]
     rising = np.sort(np.concatenate([np.zeros(1), *inside, np.full(1, period)]))
@@ -293,18 +246,44 @@ def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
     return kept
 
 
-def _panels(breaks: Array) -> tuple[Array, Array]:
-    """Middle and half width of every panel."""
+def cut(breaks: Array, widest: float) -> Array:
+    """Return breakpoints with pieces wider than so much (rad) cut into equal panels."""
+    counts = np.maximum(np.ceil(np.diff(breaks) / widest), 1)
+    places = np.append(0, np.cumsum(counts))
+    return np.interp(np.arange(places[-1] + 1), places, breaks)
+
+
+def _find_middles(breaks: Array) -> tuple[Array, Array]:
+    """Return middle and half width of every panel."""
     return (breaks[1:] + breaks[:-1]) / 2, np.diff(breaks) / 2
 
 
-def cut(breaks: Array, widest: float) -> Array:
-    """Breakpoints with pieces wider than so much (rad) cut into equal panels."""
-    wide = np.ceil(np.diff(breaks) / widest).astype(int)
-    if wide.max() <= 1:
-        return breaks
-    parts = [
-        np.linspace(low, high, count, endpoint=False)
-        for low, high, count in zip(breaks[:-1], breaks[1:], wide, strict=True)
-    ]
-    return np.append(np.concatenate(parts), breaks[-1])
+# ---------------------------------------------------------------- zeros
+_ROUNDS = 100
+_ENOUGH = 1e-13  # relative, where a secant has arrived
+
+
+def find_zero(rising: Callable[[float], float], guess: float, at_zero: float) -> float:
+    """Return where a rising function of a positive number is 0, by false position.
+
+    Args:
+        rising: The function; where it becomes infinite, the result is below the jump.
+        guess: A positive number to begin with.
+        at_zero: Value of the function at 0, negative.
+    """
+    low, below, high = 0.0, at_zero, guess
+    while (above := rising(high)) < 0:
+        low, below, high = high, above, 2 * high
+    tried, was_below = high, False
+    for _ in range(_ROUNDS):
+        share = 0.5 if above == math.inf else below / (below - above)
+        last, tried = tried, low + (high - low) * share
+        value = rising(tried)
+        if value == 0 or abs(tried - last) <= _ENOUGH * tried:
+            break
+        if value < 0:
+            low, below, above = tried, value, above / 2 if was_below else above
+        else:
+            high, above, below = tried, value, below if was_below else below / 2
+        was_below = value < 0
+    return low if above == math.inf else tried

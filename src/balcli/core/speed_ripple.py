@@ -10,7 +10,7 @@ speed that repeats itself after two revolutions.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -148,27 +148,21 @@ def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
 
     Returns: for the same orders, correct up to n - 2k.
     """
-
-    def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
-        return -_convolved(rate * _convolved(momentum, w), w)
-
-    return _transformed(steady, w, mean, shake)
+    return _apply(steady, w, mean, rate_last=False)
 
 
 def apply_to_torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
     """Inertia torque under W, as `apply_to_force`; `mean` is the mean inertia times the square of
     the mean speed, N m.
     """
+    return _apply(steady, w, mean / 2, rate_last=True)
 
+
+def _apply(steady: Phasors, w: Complex, mean: Figure, *, rate_last: bool) -> Phasors:
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
-        return -rate * _convolved(_convolved(momentum, w), w)
+        once = _convolved(momentum, w)
+        return -rate * _convolved(once, w) if rate_last else -_convolved(rate * once, w)
 
-    return _transformed(steady, w, mean / 2, shake)
-
-
-def _transformed(
-    steady: Phasors, w: Complex, mean: Figure, shake: Callable[[Complex, Complex, Complex], Complex]
-) -> Phasors:
     n = len(steady.orders) - 1
     forces = _two_sided(steady.backward, steady.forward)
     both = np.broadcast_to(steady.noise, steady.forward.shape)

@@ -19,6 +19,6 @@ DOCUMENTS = {
     "sum": "analysis",
     "sweep": "studies",
     "table": "studies",
-    "torque": "torque",
+    "torque": "torque.answer:TorqueAnalysis",
     "torsion": "vibration",
 }

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.cylinder_pressure import GasPiston, GasTorque
 from ..core.phasors import Array
+from ..errors import BalcliError
 
 
 class CylinderGas(NamedTuple):
@@ -21,8 +22,7 @@ class CylinderGas(NamedTuple):
 
     Attributes:
         piston: its mechanism, with the area of the bore.
-        torque: by cycle angle, without the share; a `PressureOnPiston` unless only its harmonics
-            are known.
+        torque: by cycle angle, without the share.
         nominal_deg: crank angle, in [0, 720) or [0, 360), at which its crank pin stands along its
             axis when it fires.
         share: by which the gas force is multiplied; 0 is a misfire.
@@ -40,8 +40,20 @@ class CylinderGas(NamedTuple):
 
     @property
     def fires(self) -> float:
-        """Crank angle of its firing dead centre, rad: cycle angle = crank angle - `fires`."""
+        """Crank angle of the firing dead centre, rad: cycle angle = crank angle - `fires`."""
         return math.radians(self.nominal_deg) + self.piston.top
+
+    def find_pressure(self, angle: Array) -> Array:
+        """Return the pressure that counts at cycle angles (rad), Pa: that under the piston, and the
+        share of what is above it.
+
+        Raises:
+            BalcliError: The file has harmonics of the torque.
+        """
+        if self.torque.pressure is None:
+            raise BalcliError("the file has harmonics of the torque, and no pressures")
+        under = self.torque.crankcase
+        return under + self.share * (self.torque.pressure.at(angle) - under)
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +76,7 @@ class EngineGas:
 
     @property
     def cycle(self) -> float:
-        """Rad."""
+        """Length of a cycle, rad."""
         return math.radians(self.cycle_deg)
 
     @property
@@ -78,14 +90,14 @@ class EngineGas:
         return np.array([cylinder.share for cylinder in self.cylinders])
 
     def group_equal(self) -> list[tuple[GasTorque, list[int]]]:
-        """Each torque, with the rows of the equal cylinders that have it."""
+        """Return each torque with the rows of the equal cylinders that have it."""
         rows: dict[int, list[int]] = {}
         for row, cylinder in enumerate(self.cylinders):
             rows.setdefault(cylinder.like, []).append(row)
         return [(self.cylinders[first].torque, own) for first, own in rows.items()]
 
     def without_share_of(self, row: int) -> EngineGas:
-        """The same where the gas of the cylinder in one row does nothing."""
+        """Return the gas of the engine where that of the cylinder in one row does nothing."""
         changed = list(self.cylinders)
         changed[row] = changed[row]._replace(share=0.0)
         return replace(self, cylinders=tuple(changed))

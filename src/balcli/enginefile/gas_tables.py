@@ -15,12 +15,15 @@ from .model import Angle, FileTable, GivenInertia, Heat, Mass, Size, TableRule
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
+IntakePressure = Annotated[float, Number(PRESSURE, above=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
 Ratio = Annotated[float, Number(PLAIN, above=1, most=1000)]
 Index = Annotated[float, Number(PLAIN, least=1, most=5)]
 ExpansionIndex = Annotated[float, Number(PLAIN, above=1, most=5)]
 CutOff = Annotated[float, Number(PLAIN, least=1, most=1000)]
 Efficiency = Annotated[float, Number(PLAIN, above=0, most=1)]
+ExhaustAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
+IntakeAngle = Annotated[float, Number(ANGLE, least=360, below=720)]
 Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
 Exponent = Annotated[float, Number(PLAIN, least=0, most=100)]
 
@@ -68,7 +71,7 @@ class Gas(FileTable):
     expansion_index: ExpansionIndex = Field(
         1.28, description="n of p V^n = const, and while it burns", examples=[1.27]
     )
-    intake: Pressure = Field(1.0, description="absolute, while it is filled", examples=[1.8])
+    intake: IntakePressure = Field(1.0, description="absolute, while it is filled", examples=[1.8])
     exhaust: Pressure = Field(
         1.05, description="absolute, while it empties; four-stroke", examples=[1.3]
     )
@@ -98,10 +101,10 @@ class Gas(FileTable):
     burn_start: Angle = Field(-15.0, description="wiebe: cycle angle", examples=[-10])
     burn_duration: Duration = Field(50.0, description="wiebe: crank angle", examples=[60])
     burn_shape: Exponent = Field(2.0, description="wiebe: exponent m", examples=[1.5])
-    exhaust_opens: Angle | None = Field(
+    exhaust_opens: ExhaustAngle | None = Field(
         None, description="cycle angle; left out: lower dead centre", examples=[140]
     )
-    intake_closes: Angle | None = Field(
+    intake_closes: IntakeAngle | None = Field(
         None, description="cycle angle, four-stroke; left out: lower dead centre", examples=[580]
     )
     harmonics: Annotated[str, FileName()] | None = Field(

@@ -20,10 +20,10 @@ _QUADRATURE = 8 * EPS  # error of a coefficient, of the largest
 
 
 def take_gas(engine: Engine) -> EngineGas:
-    """The gas of an engine.
+    """Return the gas of an engine.
 
     Raises:
-        BalcliError: it has none.
+        BalcliError: The engine has none.
     """
     if engine.gas is None:
         raise BalcliError(f"{engine.name or 'the engine'}: {NO_GAS}")
@@ -31,7 +31,7 @@ def take_gas(engine: Engine) -> EngineGas:
 
 
 def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
-    """Torque of all cylinders' gas on the crank, N m, noise included.
+    """Return the torque of all cylinders' gas on the crank, N m, noise included.
 
     Args:
         engine: without trailing axes, or variants whose gas may be asked for.
@@ -50,8 +50,8 @@ def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
 
 
 def compute_gas_torque_of_each(engine: Engine, orders: Array) -> Phasors:
-    """Torque of each cylinder's gas on the crank, N m, shape (orders, cylinders), the cylinders in
-    the order of `engine.numbers`; arguments and errors as of `compute_gas_torque`.
+    """Return the torque of each cylinder's gas on the crank, N m, shape (orders, cylinders), the
+    cylinders in the order of `engine.numbers`; arguments and errors as of `compute_gas_torque`.
     """
     gas = take_gas(engine)
     courses, errors = find_courses(gas, orders)
@@ -60,8 +60,8 @@ def compute_gas_torque_of_each(engine: Engine, orders: Array) -> Phasors:
 
 
 def find_courses(gas: EngineGas, orders: Array) -> tuple[Complex, Array]:
-    """Torque of each cylinder's gas by its own cycle angle, N m, shape (orders, cylinders):
-    `Re sum c_n e^{i n theta}`; and its error, likewise.
+    """Return the torque of each cylinder's gas by its own cycle angle, N m, shape (orders,
+    cylinders): `Re sum c_n e^{i n theta}`; and its error, likewise.
     """
     halves = np.rint(2 * orders).astype(np.intp)
     courses = np.empty((len(orders), len(gas.cylinders)), complex)

@@ -23,7 +23,6 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from ..core.cylinder_pressure import PressureOnPiston
 from ..core.mechanisms.motion import PointMass
 from ..core.phasors import Array, Complex, unit
 from ..engine.build import Engine
@@ -156,7 +155,7 @@ def _find_gas_forces(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     angles = np.radians(crank_deg) - as_rows(gas.fires)
     pressures, forces = np.empty_like(angles), np.empty_like(angles)
     for torque, rows in gas.group_equal():
-        if not isinstance(torque, PressureOnPiston):
+        if torque.pressure is None:
             raise BalcliError("loads of pins need pressures; harmonics of the torque have none")
         pressures[rows] = torque.pressure.at(angles[rows])
         forces[rows] = torque.force_under(pressures[rows])

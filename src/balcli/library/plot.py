@@ -26,7 +26,7 @@ from ..results.analysis import Analysis
 from ..results.balance import Balance
 from ..studies.pictures import Study, compute_study
 from ..studies.swept import Swept
-from ..torque.analysis import TorqueAnalysis
+from ..torque.answer import TorqueAnalysis
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_torsion_speeds
@@ -88,9 +88,9 @@ def plot(
             page = _choose(what or "overview", PAGES[:6])
             study = Study(shown.after, shown.before, shown.remedy)
             return make_page(PageSubject(study), page)
-        case TorqueAnalysis():
+        case TorqueAnalysis(engine=Engine() as engine):
             page = _choose(what or "torque", OF_GAS)
-            return _plot_engine(shown.engine, page, None, None, None)
+            return _plot_engine(engine, page, None, None, None)
         case TorsionAnalysis():
             return _plot_torsion(shown, what or "all")
     _choose(what or "all", ("all",))

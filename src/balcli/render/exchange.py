@@ -26,7 +26,6 @@ RENDERERS = {
     "Balance": "balance",
     "Combined": "two_engines",
     "Comparison": "comparison",
-    "CurveAnalysis": "torque",
     "Curves": "curves",
     "FieldBalance": "field_balancing",
     "MountReport": "mounts",

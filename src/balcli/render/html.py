@@ -25,8 +25,8 @@ from .view import ON_A_PAGE
 if TYPE_CHECKING:
     from markupsafe import Markup
 
+    from ..engine.build import Engine
     from ..mounting.report import MountReport
-    from ..torque.pictures import Running
     from ..torsion.analysis import TorsionAnalysis
 
 FOLDER = Path(__file__).with_name("page")
@@ -49,7 +49,7 @@ def page(
     system: System,
     mounted: MountReport | None = None,
     twisted: TorsionAnalysis | None = None,
-    turning: Running | None = None,
+    turning: Engine | None = None,
     tell: Tell = tell_nobody,
 ) -> str:
     """The report of an engine, of a remedy for it, of what it does on its mounts, of how its
@@ -90,7 +90,7 @@ def page(
 def _gather_chapters(
     mounted: MountReport | None,
     twisted: TorsionAnalysis | None,
-    turning: Running | None,
+    turning: Engine | None,
     system: System,
 ) -> dict[str, Any]:
     """What the template takes of mounts, torsion and gas; None of a chapter that is not there."""

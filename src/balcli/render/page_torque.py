@@ -2,45 +2,41 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ..core.phasors import Array
-from ..torque.pictures import Running
+from ..engine.build import Engine
+from ..forces.gas import take_gas
+from ..torque.course import find_torque_curves
 from .units import System
 
 _STEP = 2.0  # deg
 
 
-def running(found: Running, system: System) -> dict[str, Any]:
-    """Curves over one cycle at even crank angles, each with its name and unit."""
-    torques = found.torques
-    cycle = round(float(torques.crank_deg[-1]))
-    angle = np.arange(0.0, cycle + _STEP / 2, _STEP)
-    unit = system.moment.fit(float(np.abs(torques.total).max()))
-
-    def of_torque(values: Array) -> list[float]:
-        return _rounded(np.interp(angle, torques.crank_deg, values) / unit.size)
-
-    curves = [
+def running(engine: Engine, system: System) -> dict[str, Any]:
+    """Return curves over one cycle at even crank angles, each with its name and unit."""
+    gas, curves = take_gas(engine), find_torque_curves(replace(engine, ripple=()))
+    at = np.radians(np.arange(0.0, gas.cycle_deg + _STEP / 2, _STEP))
+    total = curves.total.at(at)
+    unit = system.moment.fit(float(np.abs(total).max()))
+    shown: list[dict[str, Any]] = [
         {
             "id": "torque",
             "unit": unit.name,
-            "total": of_torque(torques.total),
-            "gas": of_torque(torques.gas),
-            "mean": float(f"{torques.mean / unit.size:.5g}"),
+            "total": _rounded(total / unit.size),
+            "gas": _rounded(curves.gas.at(at) / unit.size),
+            "mean": float(f"{curves.total.mean / unit.size:.5g}"),
         }
     ]
-    if found.pressures is not None:
-        own = np.interp(
-            np.remainder(angle - found.fires_deg + cycle / 2, cycle) - cycle / 2,
-            found.pressures.cycle_deg,
-            found.pressures.pressure,
-        )
+    first = gas.cylinders[engine.numbers.index(1)]
+    if first.torque.pressure is not None:
+        own = first.find_pressure(at - first.fires)
         unit = system.pressure.fit(float(own.max()))
-        curves.append({"id": "pressure", "unit": unit.name, "total": _rounded(own / unit.size)})
-    return {"cycle": cycle, "step": _STEP, "curves": curves}
+        shown.append({"id": "pressure", "unit": unit.name, "total": _rounded(own / unit.size)})
+    return {"cycle": gas.cycle_deg, "step": _STEP, "curves": shown}
 
 
 def _rounded(values: Array) -> list[float]:

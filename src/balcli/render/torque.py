@@ -1,268 +1,269 @@
-"""What a person reads of the torque on the crank: of an engine, or of a given curve."""
+"""The torque on the crank, of an engine or of a given curve: for people, as JSON and as CSV."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
-import numpy as np
-
-from ..core.piecewise import PiecewiseCurve
-from ..core.speed_variation import Surplus
-from ..core.speeds import RPM
+from ..documents.records import find_unit, list_figures, remove_unit
+from ..documents.records import to_document as document
+from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
-from ..torque.analysis import KINDS_OF_TORQUE, TorqueAnalysis, degrees_in_cycle
-from ..torque.flywheel import Flywheel, Speed
-from ..torque.given_curve import CurveAnalysis
+from ..torque.answer import Harmonic, TorqueAnalysis, write_whole
+from ..torque.flywheel import Flywheel
 from ..torque.loads import CycleLoad
+from .csv import Rows
 from .engine_facts import list_silent, tell_speed, tell_strokes
-from .figures import size_or_mean
-from .order_tables import show_peak_deg
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, given, number, order_name, size_text
-from .torque_document import Result, document, round_angle, rows
+from .figures import FigureRow, order_rows
+from .sheet import (
+    NAMELESS,
+    UNKNOWN,
+    Facts,
+    Grid,
+    Sheet,
+    Text,
+    degrees,
+    given,
+    number,
+    order_name,
+    size_text,
+)
 from .units import ShownUnit, System
 
 __all__ = ["document", "rows", "sheet"]
 
-SAME_MEAN = 1e-6  # of the largest torque: figures of files are rounded
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
+_PARTS = ("torque", "energy", "flywheel", "loads", "orders")
 
 
-def sheet(result: Result, system: System) -> Sheet:
-    """Work, torque over the cycle, flywheel, and torque by order."""
-    if isinstance(result, CurveAnalysis):
-        return _curve_sheet(result, system)
-    name = result.engine.name or NAMELESS
-    parts: list[Grid | Facts | Text] = [_work_facts(result, system)]
-    parts.append(_course_facts(result.curves.total, result.surplus, result.cycle_deg, system))
-    if result.flywheel is None:
+# ------------------------------------------------------------------ CSV
+def rows(result: TorqueAnalysis, system: System) -> Rows:
+    """Return a figure a line, as of `analyze`; cylinder 0 is the engine, an empty order the
+    cycle.
+    """
+    header = ("cylinder", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _list_rows(result, document(result), system))
+
+
+def _list_rows(
+    result: TorqueAnalysis, found: dict[str, Any], system: System
+) -> Iterator[FigureRow]:
+    # Torque by order of an engine is that of inertia here, as in `analyze`.
+    names = {kind.key: kind.name for kind in (TORQUE, GAS, TORQUE_TOTAL)}
+    places = [(0, found["orders"])]
+    if result.engine is None:
+        names[TORQUE_TOTAL.key] = TORQUE.name
+    else:
+        places.append((result.cylinder, [entry["one_cylinder"] for entry in found["orders"]]))
+    head = {key: value for key, value in found.items() if key not in ("format", *_PARTS)}
+    for key in {"no_gas_in", "no_burning_in"} & head.keys():
+        head[key] = " ".join(map(str, head[key]))
+    yield from _write("engine", head, system)
+    yield from _write(names[TORQUE_TOTAL.key], found["torque"], system)
+    yield from _write("energy", found["energy"], system)
+    yield from _write("flywheel", found.get("flywheel", {}), system)
+    for kind, loads in found.get("loads", {}).items():
+        for load in loads if kind != "obstacle" else ():
+            yield from _write(kind, load, system)
+        if kind == "obstacle":
+            yield FigureRow(0, "main", None, kind, loads, "")
+    for cylinder, entries in places:
+        for key, name in names.items():
+            for row, entry in zip(found["orders"], entries, strict=True):
+                if key in entry:
+                    yield from order_rows(name, row["order"], entry[key], system.moment, cylinder)
+
+
+def _write(quantity: str, part: Mapping[str, Any], system: System) -> Iterator[FigureRow]:
+    """Yield a line for every figure: pins by their cylinder, bearings by their number in place of
+    an order.
+    """
+    cylinder, order = part.get("cylinder", 0), part.get("bearing")
+    for name, value, _ in list_figures(part, ("cylinder", "bearing", "position_mm")):
+        unit = system.instead_of(find_unit(name))
+        name = name if unit.name in ("deg", "rpm") else remove_unit(name)
+        value = unit.of(value) if isinstance(value, float) else value
+        yield FigureRow(cylinder, quantity, order, name, value, unit.name)
+
+
+# ------------------------------------------------------------------ for people
+def sheet(result: TorqueAnalysis, system: System) -> Sheet:
+    """Return work, torque over the cycle, flywheel, and torque by order."""
+    name = result.name or NAMELESS
+    title = f"{name}: torque" if result.engine is None else f"{name}: torque on the crank"
+    parts: list[Grid | Facts | Text] = [Facts(tuple(_list_work(result, system)))]
+    parts.append(_describe_course(result, system))
+    if result.flywheel is not None:
+        parts.append(Facts(tuple(_list_flywheel(result, result.flywheel, system)), "Flywheel"))
+    elif result.engine is not None:
         parts.append(Text("Flywheel", (_NO_INERTIA,)))
-    crank = 0.0 if result.engine.rotary else result.engine.crank_inertia
-    parts += _flywheel_facts(
-        result.flywheel, result.cycle_deg, system, None if crank is None else float(crank)
-    )
-    parts += _load_tables(result, system)
-    parts.append(_order_table(result, system))
-    return Sheet(f"{name}: torque on the crank", tuple(parts))
-
-
-def _curve_sheet(result: CurveAnalysis, system: System) -> Sheet:
-    cycle = float(np.degrees(result.torque.period))
-    parts: tuple[Grid | Facts | Text, ...] = (
-        _curve_facts(result, system),
-        _course_facts(result.torque, result.surplus, cycle, system),
-        *_flywheel_facts(result.flywheel, cycle, system),
-        _curve_table(result, system),
-    )
-    return Sheet(f"{result.name}: torque", parts)
+    parts += _make_load_tables(result, system)
+    parts.append(_make_order_table(result, system))
+    return Sheet(title, tuple(parts))
 
 
 def tenths(angle_deg: float) -> str:
-    """An angle within a cycle, to a tenth of a degree."""
+    """Return an angle within a cycle, to a tenth of a degree."""
     return f"{round(angle_deg, 6) + 0.0:.1f}"
 
 
 def _size(value: float, unit: ShownUnit) -> str:
-    """As `size_text`, with as many digits as most figures."""
+    """Return what `size_text` does, with as many digits as most figures."""
     return size_text(value, unit, None)
 
 
-def _load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid | Text]:
-    if result.loads.pin:
-        yield _load_table("Crank pins", "cylinder", result.loads.pin, result.cycle_deg, system)
-    if (hung := result.loads.knuckle) is not None:
-        yield _load_table("Knuckle pins", "cylinder", hung, result.cycle_deg, system)
-    if result.loads.main:
-        grid = _load_table("Main bearings", "bearing", result.loads.main, result.cycle_deg, system)
-        yield grid._replace(
-            note="Half-way between neighbouring throws and as far outside the end ones; the shaft "
-            "counts as cut in each."
+def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, str]]:
+    kinds, period = {"": 1.0}, f"{write_whole(result.cycle_deg)} deg"
+    if (engine := result.engine) is None:
+        yield "period", period
+        if result.speed_rpm is not None:
+            yield "speed", f"{given(result.speed_rpm)} rpm"
+    else:
+        yield "cycle", f"{tell_strokes(engine)}, {period}"
+        yield "speed", tell_speed(engine, steady=True)
+        kinds = {" indicated": 1.0}
+        if engine.mechanical_efficiency is not None:
+            kinds[" brake"] = engine.mechanical_efficiency
+        imep = result.imep_Pa or 0.0
+        each = (_size(imep * share, system.pressure) + kind for kind, share in kinds.items())
+        yield "mean pressure", ", ".join(each)
+    if result.max_pressure_Pa is not None:
+        at = degrees(result.max_pressure_deg or 0.0)
+        yield (
+            "largest pressure",
+            f"{_size(result.max_pressure_Pa, system.pressure)}, {at} deg after firing",
         )
-    if result.loads.obstacle:
-        yield Text("Main bearings", (f"Not known: {result.loads.obstacle}.",))
+    if engine is not None:
+        yield from list_silent(engine.silent)
+    yield "mean torque", _tell_each(result.mean_torque_Nm, system.moment, kinds)
+    if result.power_W is not None:
+        yield "power", _tell_each(result.power_W, system.power, kinds)
+    if result.load_Nm is not None:
+        mean, rest = (_size(size, system.moment) for size in result.load_Nm)
+        yield "load", f"{mean} in the mean" + (f", and {rest} evenly" if result.load_Nm[1] else "")
 
 
-def _load_table(
-    title: str, word: str, loads: tuple[CycleLoad, ...], cycle_deg: float, system: System
-) -> Grid:
-    unit = system.force.fit(max(load.largest.value for load in loads))
-    pressures = [load.pressure for load in loads if load.pressure is not None]
-    pressed = len(pressures) == len(loads)
-    stress = system.stress.fit(max(pressures, default=0.0))
-
-    def row(load: CycleLoad) -> Iterator[str]:
-        yield str(load.name)
-        yield number(unit.of(load.largest.value))
-        yield tenths(degrees_in_cycle(load.largest.angle, cycle_deg))
-        yield number(unit.of(load.mean))
-        if load.pressure is not None and pressed:
-            yield number(stress.of(load.pressure), 4)
-
-    heads = (word, f"largest, {unit.name}", "at, deg", f"mean, {unit.name}")
-    rows = tuple(tuple(row(load)) for load in loads)
-    return Grid(title, (*heads, stress.name) if pressed else heads, rows)
+def _tell_each(value: float, unit: ShownUnit, kinds: Mapping[str, float]) -> str:
+    """Return a figure, and the share of it that each kind is, such as " brake"."""
+    of_all = unit.fit(value)
+    sizes = ((number(of_all.of(share * value)), kind) for kind, share in kinds.items())
+    return ", ".join(f"{size} {of_all.name}{kind}" for size, kind in sizes)
 
 
-def _work_facts(result: TorqueAnalysis, system: System) -> Facts:
-    gas = result.max_pressure
-    pairs = [("cycle", f"{tell_strokes(result.engine)}, {round_angle(result.cycle_deg)} deg")]
-    pairs.append(("speed", tell_speed(result.engine, steady=True)))
-    mean = f"{_size(result.imep, system.pressure)} indicated"
-    if result.bmep is not None:
-        mean += f", {_size(result.bmep, system.pressure)} brake"
-    pairs.append(("mean pressure", mean))
-    if gas is not None:
-        at = degrees(float(np.degrees(gas.angle)))
-        largest = _size(gas.value, system.pressure)
-        pairs.append(("largest pressure", f"{largest}, {at} deg after firing"))
-    pairs += list_silent(result.engine.silent)
-    kinds = {" indicated": 1.0}
-    if result.mechanical_efficiency is not None:
-        kinds[" brake"] = result.mechanical_efficiency
-    return Facts((*pairs, *_mean_pairs(result.mean_torque, result.power, system, kinds)))
-
-
-def _mean_pairs(
-    mean: float, power: float | None, system: System, kinds: Mapping[str, float]
-) -> Iterator[tuple[str, str]]:
-    """Mean torque and power, with the share of them that each kind is, such as " brake"."""
-
-    def told(value: float, unit: ShownUnit) -> str:
-        of_all = unit.fit(value)
-        sizes = ((number(of_all.of(share * value)), kind) for kind, share in kinds.items())
-        return ", ".join(f"{size} {of_all.name}{kind}" for size, kind in sizes)
-
-    yield "mean torque", told(mean, system.moment)
-    if power is not None:
-        yield "power", told(power, system.power)
-
-
-def _curve_facts(result: CurveAnalysis, system: System) -> Facts:
-    pairs = [("period", f"{round_angle(float(np.degrees(result.torque.period)))} deg")]
-    speed = result.shaft.mean_speed
-    if speed is not None:
-        pairs.append(("speed", f"{given(speed / RPM)} rpm"))
-    power = None if speed is None else result.torque.mean * speed
-    pairs += _mean_pairs(result.torque.mean, power, system, {"": 1.0})
-    if result.load is not None:
-        curves = (result.torque, result.load)
-        rounded = SAME_MEAN * max(abs(e.value) for curve in curves for e in curve.extremes())
-        mean, rest = result.load.mean, result.torque.mean - result.load.mean
-        told = f"{_size(mean if abs(mean) > rounded else 0.0, system.moment)} in the mean"
-        if abs(rest) > rounded:
-            told += f", and {_size(rest, system.moment)} evenly"
-        pairs.append(("load", told))
-    return Facts(tuple(pairs))
-
-
-def _course_facts(
-    torque: PiecewiseCurve, surplus: Surplus, cycle_deg: float, system: System
-) -> Facts:
-    lowest, highest = torque.extremes()
-    unit = system.moment.fit(max(abs(lowest.value), abs(highest.value)))
-    start, end = (tenths(degrees_in_cycle(a, cycle_deg)) for a in (surplus.start, surplus.end))
-
-    def told(value: float, angle: float) -> str:
-        at = tenths(degrees_in_cycle(angle, cycle_deg))
-        return f"{number(unit.of(value))} {unit.name} at {at} deg"
-
+def _describe_course(result: TorqueAnalysis, system: System) -> Facts:
+    torque, energy = result.torque, result.energy
+    unit = system.moment.fit(max(abs(torque.min_Nm), abs(torque.max_Nm)))
+    large, small = (number(unit.of(value)) for value in (torque.max_Nm, torque.min_Nm))
+    surplus, start, end = energy.surplus_J, tenths(energy.from_deg), tenths(energy.to_deg)
     pairs = (
-        ("largest", told(highest.value, highest.angle)),
-        ("smallest", told(lowest.value, lowest.angle)),
-        ("reversals", str(torque.reversals())),
-        ("work of a cycle", _size(surplus.work, system.energy)),
-        ("surplus", f"{_size(surplus.energy, system.energy)} from {start} to {end} deg"),
+        ("largest", f"{large} {unit.name} at {tenths(torque.max_deg)} deg"),
+        ("smallest", f"{small} {unit.name} at {tenths(torque.min_deg)} deg"),
+        ("reversals", str(torque.reversals)),
+        ("work of a cycle", _size(energy.work_J, system.energy)),
+        ("surplus", f"{_size(surplus, system.energy)} from {start} to {end} deg"),
     )
     return Facts(pairs, "Torque over the cycle")
 
 
-def _flywheel_facts(
-    flywheel: Flywheel | None, cycle_deg: float, system: System, crank: float | None = None
-) -> Iterator[Facts]:
-    """`crank`: inertia of the crankshaft by itself, kg m2, if it is known; 0 if it stands still."""
-    if flywheel is None:
+def _list_flywheel(
+    result: TorqueAnalysis, wheel: Flywheel, system: System
+) -> Iterator[tuple[str, str]]:
+    unit, moving = system.inertia, wheel.moving_parts_kg_m2
+    if wheel.inertia_kg_m2 is not None:
+        parts = f", of it moving parts {number(unit.of(moving))}" if moving else ""
+        yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
+    if wheel.fluctuation is not None:
+        both = (wheel.fluctuation, wheel.fluctuation_small or 0.0)
+        exact, small = (f"{number(100 * share, 4)} %" for share in both)
+        one_in = f"1/{number(1 / wheel.fluctuation, 4)}" if wheel.fluctuation else "0"
+        yield "fluctuation", f"{exact} ({one_in}); {small} by the rule for small ones"
+        low = (wheel.speed_min_rpm or 0.0, wheel.speed_min_deg)
+        high = (wheel.speed_max_rpm or 0.0, wheel.speed_max_deg)
+        ends = (f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in (low, high))
+        yield "speed", " to ".join(ends)
+    if wheel.stall:
+        yield "speed", wheel.stall
+    if (needed := wheel.needed_kg_m2) is not None:
+        told = f"{_size(needed, unit)} in all"
+        crank = None if result.engine is None else result.engine.crank_inertia
+        crank = 0.0 if result.engine is not None and result.engine.rotary else crank
+        rest = needed - moving - float(crank or 0.0)
+        if moving and rest <= 0:
+            told += ", which is there without a flywheel"
+        elif moving:
+            place = "crankshaft and flywheel" if crank is None else "the flywheel"
+            told += f", {number(unit.of(rest))} of it in {place}"
+        yield "needed", told
+
+
+def _make_load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid | Text]:
+    if (loads := result.loads) is None:
         return
-    pairs, unit = [], system.inertia
-    if flywheel.mean is not None:
-        inertia = _size(flywheel.mean, unit)
-        if flywheel.moving:
-            inertia += f", of it moving parts {number(unit.of(flywheel.moving))}"
-        pairs.append(("inertia", inertia))
-    if flywheel.speed is not None:
-        pairs += _speed_pairs(flywheel.speed, cycle_deg)
-    if flywheel.stall:
-        pairs.append(("speed", flywheel.stall))
-    if flywheel.needed is not None:
-        share = _tell_share_of_flywheel(flywheel.needed, flywheel.moving, crank, unit)
-        pairs.append(("needed", f"{_size(flywheel.needed, unit)} in all{share}"))
-    yield Facts(tuple(pairs), "Flywheel")
+    for title, word, each in (
+        ("Crank pins", "cylinder", loads.pin),
+        ("Knuckle pins", "cylinder", loads.knuckle),
+        ("Main bearings", "bearing", loads.main),
+    ):
+        if each:
+            yield _make_load_table(title, word, each, system)
+    if loads.obstacle:
+        yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
 
 
-def _tell_share_of_flywheel(
-    needed: float, moving: float, crank: float | None, unit: ShownUnit
-) -> str:
-    """How much of the inertia that is needed (kg m2) moving parts and crankshaft leave to the
-    flywheel; nothing where moving parts are not known.
-    """
-    if not moving:
-        return ""
-    own = needed - moving - (crank or 0.0)
-    if own <= 0:
-        return ", which is there without a flywheel"
-    place = "crankshaft and flywheel" if crank is None else "the flywheel"
-    return f", {number(unit.of(own))} of it in {place}"
+def _make_load_table(title: str, word: str, loads: Sequence[CycleLoad], system: System) -> Grid:
+    unit = system.force.fit(max(load.max_N for load in loads))
+    pressures = [load.pressure_Pa for load in loads if load.pressure_Pa is not None]
+    pressed = len(pressures) == len(loads)
+    stress = system.stress.fit(max(pressures, default=0.0))
 
+    def row(load: CycleLoad) -> Iterator[str]:
+        yield str(getattr(load, word))
+        yield number(unit.of(load.max_N))
+        yield tenths(load.max_deg)
+        yield number(unit.of(load.mean_N))
+        if load.pressure_Pa is not None and pressed:
+            yield number(stress.of(load.pressure_Pa), 4)
 
-def _speed_pairs(speed: Speed, cycle_deg: float) -> Iterator[tuple[str, str]]:
-    share = f"1/{number(1 / speed.fluctuation, 4)}" if speed.fluctuation else "0"
-    small = number(100 * speed.small, 4)
-    yield (
-        "fluctuation",
-        f"{number(100 * speed.fluctuation, 4)} % ({share}); {small} % by the rule for small ones",
+    heads = [word, f"largest, {unit.name}", "at, deg", f"mean, {unit.name}"]
+    heads += [stress.name] if pressed else []
+    note = (
+        "Half-way between neighbouring throws and as far outside the end ones; the shaft counts "
+        "as cut in each."
     )
-    low, high = (
-        f"{number(e.value / RPM, 6)} rpm at {tenths(degrees_in_cycle(e.angle, cycle_deg))} deg"
-        for e in (speed.lowest, speed.highest)
-    )
-    yield "speed", f"{low} to {high}"
+    rows = tuple(tuple(row(load)) for load in loads)
+    return Grid(title, tuple(heads), rows, note if word == "bearing" else "")
 
 
-def _order_table(result: TorqueAnalysis, system: System) -> Grid:
-    """Orders in which the engine or the one cylinder has something."""
-    spectra, alone = result.spectra, result.single["gas"]
-    columns = [spectra[kind] for kind in KINDS_OF_TORQUE]
-    largest = max(float(abs(phasors.x).max(initial=0)) for phasors in (*columns, alone))
+def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
+    """Return a table of the orders in which the engine or the one cylinder has something."""
+    orders, is_engine = result.orders, result.engine is not None
+    keys = ("gas_torque_Nm", "inertia_torque_Nm", "torque_Nm")[0 if is_engine else 2 :]
+    lines: list[list[Harmonic]] = [[getattr(o.torques, key) for key in keys] for o in orders]
+    many = len(orders) == MOST_HARMONICS_UNASKED
+    heads, note = ["torque", "peak, deg"], "--orders asks for higher ones." if many else ""
+    if is_engine:
+        last = f"gas of {result.cylinder}"
+        heads = ["gas", "at, deg", "inertia", "at, deg", "total", "at, deg", last]
+        note = f"The last column is what the gas of cylinder {result.cylinder} does alone."
+        for line, order in zip(lines, orders, strict=True):
+            line.append(getattr(order.one_cylinder, keys[0]))
+    largest = max((harmonic.amplitude for line in lines for harmonic in line), default=0.0)
     unit = system.moment.fit(largest)
 
-    def cells(k: int) -> Iterator[str]:
-        n = float(spectra.orders[k])
-        yield order_name(n)
-        for phasors in columns:
-            yield from _amplitude(complex(phasors.x[k]), n, unit)
-        yield number(unit.of(size_or_mean(complex(alone.x[k]), n)), 4)
+    def size(harmonic: Harmonic, n: float, digits: int) -> str:
+        return number(unit.of(harmonic.amplitude if n else harmonic.cos), digits)
 
-    every = [*(phasors for _, phasors in spectra.items()), alone]
-    shown = [k for k in range(len(spectra.orders)) if not all(p.balanced[k] for p in every)]
-    return Grid(
-        f"Torque by order, {unit.name}",
-        (
-            *("order", "gas", "at, deg", "inertia", "at, deg", "total", "at, deg"),
-            f"gas of {result.cylinder}",
-        ),
-        tuple(tuple(cells(k)) for k in shown),
-        f"The last column is what the gas of cylinder {result.cylinder} does alone.",
-    )
+    def cells(n: float, line: list[Harmonic]) -> Iterator[str]:
+        yield order_name(n) if is_engine else f"{n:g}"
+        for harmonic in line[: len(keys)]:
+            yield size(harmonic, n, 5)
+            peak = UNKNOWN if harmonic.peak_deg is None else degrees(harmonic.peak_deg)
+            yield peak if harmonic.amplitude else ""
+        yield from (size(harmonic, n, 4) for harmonic in line[len(keys) :])
 
-
-def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
-    return (number(unit.of(size_or_mean(c, order)), 5), show_peak_deg(c, order)) if c else ("0", "")
-
-
-def _curve_table(result: CurveAnalysis, system: System) -> Grid:
-    unit = system.moment.fit(float(abs(result.harmonics).max(initial=0)))
-    rows = tuple(
-        (f"{round(float(n), 9):g}", *_amplitude(complex(c), float(n), unit))
-        for n, c in zip(result.orders, result.harmonics, strict=True)
-    )
-    title = f"Torque by order, {unit.name}"
-    note = "--orders asks for higher ones." if len(rows) == MOST_HARMONICS_UNASKED else ""
-    return Grid(title, ("order", "torque", "peak, deg"), rows, note=note)
+    shown = [
+        tuple(cells(order.order, line))
+        for order, line in zip(orders, lines, strict=True)
+        if not is_engine or not all(harmonic.balanced for harmonic in line)
+    ]
+    return Grid(f"Torque by order, {unit.name}", ("order", *heads), tuple(shown), note)

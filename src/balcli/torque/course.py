@@ -39,10 +39,10 @@ class TorqueCurves(NamedTuple):
 
 
 def find_torque_curves(engine: Engine) -> TorqueCurves:
-    """The torque of an engine without trailing axes, as if its speed were even.
+    """Return the torque of an engine without trailing axes, as if its speed were even.
 
     Raises:
-        BalcliError: it has no gas.
+        BalcliError: The engine has no gas.
     """
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
@@ -53,8 +53,8 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
 
 def count_repeats(engine: Engine) -> int:
-    """How often everything repeats itself in a cycle: as often as equal cylinders fire, if they
-    fire evenly to the last digit.
+    """Return how often everything repeats itself in a cycle: as often as equal cylinders fire, if
+    they fire evenly to the last digit. One interval takes a quarter of the time of a cycle.
     """
     gas, c = take_gas(engine), engine.cylinders
     columns = (c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
@@ -68,8 +68,8 @@ def count_repeats(engine: Engine) -> int:
 
 
 def find_inertia_torque(engine: Engine) -> Function:
-    """Inertia torque (N m) at crank angles (rad) of any shape, at the mean speed; 0 everywhere
-    where cylinders cancel each other's to rounding errors.
+    """Return the inertia torque (N m) at crank angles (rad) of any shape, at the mean speed; 0
+    everywhere where cylinders cancel each other's to rounding errors.
     """
     steady = replace(engine, ripple=())
     torque = compute_spectra(steady, find_relevant_orders(steady), ("torque",))["torque"]
@@ -79,9 +79,9 @@ def find_inertia_torque(engine: Engine) -> Function:
 
 
 def find_moving_inertia(engine: Engine) -> Function:
-    """Moment of inertia about the crank (kg m2) of pistons, rods and throw masses, at crank angles
-    (rad) of any shape. Throw masses are left out where the crankshaft's own inertia is given, which
-    has them; those of a rotary engine stand still.
+    """Return the moment of inertia about the crank (kg m2) of pistons, rods and throw masses, at
+    crank angles (rad) of any shape. Throw masses are left out where the crankshaft's own inertia is
+    given, which has them; those of a rotary engine stand still.
     """
     if engine.crank_inertia is not None and not engine.rotary:
         c = engine.cylinders
@@ -91,8 +91,8 @@ def find_moving_inertia(engine: Engine) -> Function:
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
-    """Moment of inertia of crankshaft and flywheel, kg m2; None where the file gives neither. The
-    crankshaft of a rotary engine stands still.
+    """Return the moment of inertia of crankshaft and flywheel, kg m2; None where the file gives
+    neither. The crankshaft of a rotary engine stands still.
     """
     crank = None if engine.rotary else engine.crank_inertia
     given = [v for v in (crank, engine.flywheel_inertia) if v is not None]
@@ -100,10 +100,10 @@ def find_constant_inertia(engine: Engine) -> float | None:
 
 
 def silence(engine: Engine, number: int) -> Engine:
-    """The engine with a cylinder whose gas does nothing.
+    """Return the engine with a cylinder whose gas does nothing.
 
     Raises:
-        BalcliError: it has no gas, or no such cylinder.
+        BalcliError: The engine has no gas, or no such cylinder.
     """
     gas: EngineGas = take_gas(engine)
     share = gas.without_share_of(find_row(engine, number, "--misfire"))
@@ -111,7 +111,7 @@ def silence(engine: Engine, number: int) -> Engine:
 
 
 def _at_radians(function: Function) -> Function:
-    """A function of degrees in one axis as one of radians of any shape."""
+    """Return a function of degrees in one axis as one of radians of any shape."""
 
     def at(angle: Array) -> Array:
         return function(np.degrees(angle.reshape(-1))).reshape(angle.shape)

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..forces.curves import Curves, compute_cylinder_torque, compute_piecemeal
@@ -15,38 +14,34 @@ from ..forces.kinds import GAS, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
 from ..forces.rod_forces import compute_rod_forces
 
 _ROUNDING = 1e-14
-_APART = 15.0  # deg, of the angles where the size of the torque is taken
 
 
 def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
-    """The curves of a whole engine, with gas torque, total torque and total roll (N m).
+    """Return the curves of a whole engine, with gas torque, total torque and total roll (N m).
 
     Args:
         curves: of the engine, from `forces.curves.compute_engine_curves`.
     """
-    everywhere = np.arange(0.0, take_gas(engine).cycle_deg, _APART)
-    size = np.abs(_find_gas_torques(engine, everywhere)).sum(axis=0).max()
     gas = compute_piecemeal(
-        engine,
-        curves.crank_deg,
-        lambda angles: {GAS.key: _find_gas_torques(engine, angles).sum(axis=0)},
+        engine, curves.crank_deg, lambda angles: {GAS.key: _find_gas_torque(engine, angles)}
     )[GAS.key]
-    gas = np.where(np.abs(gas) <= _ROUNDING * size, 0.0, gas)
+    gas = _settle(gas)
     inertia, roll = curves.values[TORQUE.key], curves.values[ROLL.key]
     added = {GAS.key: gas, TORQUE_TOTAL.key: inertia + gas, ROLL_TOTAL.key: roll - gas}
     return replace(curves, values={**curves.values, **added})
 
 
-def _find_gas_torques(engine: Engine, crank_deg: Array) -> Array:
-    """Of each cylinder, N m, shape (cylinders, angles)."""
+def _find_gas_torque(engine: Engine, crank_deg: Array) -> Array:
+    """Return the torque of all cylinders' gas, N m, shape (angles,)."""
     at = np.radians(crank_deg)
-    return np.stack([c.share * c.torque.at(at - c.fires) for c in take_gas(engine).cylinders])
+    each = (c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders)
+    return sum(each, np.zeros(at.shape))
 
 
 def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
-    """The motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust, force
-    along the rod, force on its crank or knuckle pin along and across the cylinder (N), and the
-    cylinder's torque of gas and inertia (N m); as far as they are known.
+    """Return the motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust,
+    force along the rod, force on its crank or knuckle pin along and across the cylinder (N), and
+    the cylinder's torque of gas and inertia (N m); as far as they are known.
 
     Args:
         curves: of that cylinder, from `forces.curves.compute_cylinder_curves`.
@@ -60,36 +55,32 @@ def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """What `add_cylinder_gas` adds, of the cylinder in a row, each of shape (angles,)."""
+    """Return what `add_cylinder_gas` adds for the cylinder in a row, each of shape (angles,).
+
+    Forces across count to the side to which the crank pin moves after top dead centre, which seen
+    from a cylinder that turns lies behind it.
+    """
     found: dict[str, Array] = {}
     gas = take_gas(engine)
     cylinder = gas.cylinders[row]
     at = np.radians(crank_deg) - cylinder.fires
-    if isinstance(cylinder.torque, PressureOnPiston):
-        found["pressure_Pa"] = cylinder.torque.pressure.at(at)
+    if cylinder.torque.pressure is not None:
+        forces, side = compute_rod_forces(engine, crank_deg), -1 if engine.rotary else 1
+        found["pressure_Pa"] = forces.pressure[row]
         if gas.compression_ratio is not None:
             found["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)
-        found["gas_force_N"] = cylinder.share * cylinder.torque.force(at)
-        found |= _find_rod_forces(engine, row, crank_deg)
+        found |= {
+            "gas_force_N": forces.gas[row],
+            "side_thrust_N": side * forces.thrust[row],
+            "rod_force_N": forces.rod[row],
+            "pin_x_N": forces.pin[row].real,
+            "pin_y_N": side * forces.pin[row].imag,
+        }
     inertia = compute_cylinder_torque(engine, row, crank_deg)
-    found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.at(at)
+    found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.curve.at(at)
     return found
 
 
 def _settle(values: Array) -> Array:
-    """What is rounding error beside the largest value is 0."""
+    """Return values in which rounding errors next to the largest value are 0."""
     return np.where(np.abs(values) <= _ROUNDING * np.abs(values).max(initial=0), 0.0, values)
-
-
-def _find_rod_forces(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """Those across count to the side to which the crank pin moves after top dead centre, which seen
-    from a cylinder that turns lies behind it.
-    """
-    found = compute_rod_forces(engine, crank_deg)
-    side = -1 if engine.rotary else 1
-    return {
-        "side_thrust_N": side * found.thrust[row],
-        "rod_force_N": found.rod[row],
-        "pin_x_N": found.pin[row].real,
-        "pin_y_N": side * found.pin[row].imag,
-    }

@@ -2,136 +2,132 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
-from ..core.phasors import Complex
-from ..core.piecewise import Extreme, Function, PiecewiseCurve, resolved
+from ..core.phasors import Array, Complex
+from ..core.piecewise import Function, PiecewiseCurve, resolved
 from ..core.speed_ripple import RippleLine
 from ..core.speed_variation import StallError, needed_inertia, small_fluctuation, speed_variation
+from ..core.speeds import RPM
+from ..documents.records import HIDDEN
 from ..errors import BalcliError
-from ..limits import HIGHEST_RIPPLE_ORDER, MOST_RIPPLES
+from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 
 _WORTH = 1e-4  # share of the largest line of the speed below which one is left out
 
 
-class Speed(NamedTuple):
-    """The speed over a cycle, rad/s.
+@dataclass(frozen=True, kw_only=True)
+class Flywheel:
+    """Inertia on the shaft, and how even it keeps the speed, as far as that is known.
 
     Attributes:
-        fluctuation: (highest - lowest)/mean.
-        small: the same by the rule for small fluctuations, surplus/(I omega^2).
-        lowest, highest: angle (rad) and speed.
-        lines: of the uneven speed, those worth naming.
+        inertia_kg_m2: Mean inertia of all that turns and moves; left out where the file gives none.
+        moving_parts_kg_m2: Mean inertia of the moving parts in it.
+        fluctuation: (highest - lowest)/mean speed.
+        fluctuation_small: The same by the rule for small fluctuations, surplus/(I omega^2).
+        needed_kg_m2: Mean inertia of all that keeps the fluctuation asked for.
+        speed_max_rpm: Highest speed.
+        speed_min_rpm: Lowest speed.
+        stall: Where the crank stalls, in words.
+        speed_max_deg, speed_min_deg: Crank angles of highest and lowest speed.
+        lines: Orders of the uneven speed that are worth naming.
     """
 
-    fluctuation: float
-    small: float
-    lowest: Extreme
-    highest: Extreme
-    lines: tuple[RippleLine, ...]
+    inertia_kg_m2: float | None = None
+    moving_parts_kg_m2: float = 0.0
+    fluctuation: float | None = None
+    fluctuation_small: float | None = None
+    needed_kg_m2: float | None = None
+    speed_max_rpm: float | None = None
+    speed_min_rpm: float | None = None
+    stall: str | None = None
+    speed_max_deg: Annotated[float, HIDDEN] = 0.0
+    speed_min_deg: Annotated[float, HIDDEN] = 0.0
+    lines: Annotated[tuple[RippleLine, ...], HIDDEN] = ()
 
 
-class Flywheel(NamedTuple):
-    """Inertia on the shaft, kg m2.
+def find_flywheel(
+    torque: PiecewiseCurve,
+    surplus: float,
+    mean_speed: float | None,
+    constant: float | None,
+    moving: Function | None = None,
+    fluctuation: float | None = None,
+) -> Flywheel | None:
+    """Return what inertia does for the speed; None where nothing of it is known or asked.
 
-    Attributes:
-        mean: of all that turns and moves, mean over a cycle; None: constant inertia is not known.
-        moving: that of the moving parts in it.
-        speed: with this inertia; None: it is not known, or the mean speed is not, or it stalls.
-        needed: mean of all that keeps the fluctuation asked for; None: none was asked for.
-        stall: that it stalls, in words.
-    """
-
-    mean: float | None
-    moving: float
-    speed: Speed | None
-    needed: float | None
-    stall: str = ""
-
-
-class FlywheelQuestion(NamedTuple):
-    """What is asked of a shaft.
-
-    Attributes:
-        torque: of gas or a given curve, less an uneven load, N m.
-        surplus: the largest of the total torque, J.
-        mean_speed: rad/s; None: not known.
-        constant: inertia, kg m2; None: not known.
-        moving: inertia of moving parts, kg m2 at angles (rad); None: there are none.
-        fluctuation: that is allowed; None: it is not asked for.
-    """
-
-    torque: PiecewiseCurve
-    surplus: float
-    mean_speed: float | None
-    constant: float | None
-    moving: Function | None
-    fluctuation: float | None
-
-
-def find_flywheel(question: FlywheelQuestion) -> Flywheel | None:
-    """What inertia does for the speed; None where nothing of it is known or asked.
+    Args:
+        torque: Torque of gas or a given curve, less an uneven load, N m.
+        surplus: Largest surplus of the total torque, J.
+        mean_speed: Mean speed, rad/s; None: not known.
+        constant: Constant inertia, kg m2; None: not known.
+        moving: Inertia of moving parts, kg m2 at angles (rad); None: there are none.
+        fluctuation: The largest that is allowed; None: not asked for.
 
     Raises:
-        BalcliError: a fluctuation is asked for without a mean speed.
+        BalcliError: A fluctuation is asked for that is not between 1e-9 and 2, or without a mean
+            speed.
     """
-    q = question
-    if q.constant is None and q.fluctuation is None:
+    if constant is None and fluctuation is None:
         return None
-    if q.fluctuation is not None and q.mean_speed is None:
+    if fluctuation is not None and not SMALLEST_FLUCTUATION <= fluctuation < 2:
+        raise BalcliError(f"--fluctuation {fluctuation:g}: {FLUCTUATION}")
+    if fluctuation is not None and mean_speed is None:
         raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
-    moving = 0.0
-    if q.moving is not None:
-        course = resolved(q.moving, q.torque.breaks)
-        moving, q = course.mean, q._replace(moving=course.at)  # quicker than the mechanism
-    mean = None if q.constant is None else q.constant + moving
-    needed = None
-    if q.fluctuation is not None and q.mean_speed is not None:
-        parts = 0.0 if q.moving is None else q.moving
-        needed = moving + needed_inertia(q.torque, q.mean_speed, q.fluctuation, parts)
-    if mean is None or q.mean_speed is None:
-        return Flywheel(mean, moving, None, needed)
+    course = resolved(moving or np.zeros_like, torque.breaks)  # quicker than the mechanism
+    own = course.mean
+    found = Flywheel(
+        inertia_kg_m2=None if constant is None else constant + own, moving_parts_kg_m2=own
+    )
+    if mean_speed is None:
+        return found
+    if fluctuation is not None:
+        needed = needed_inertia(torque, mean_speed, fluctuation, course.at)
+        found = replace(found, needed_kg_m2=own + needed)
+    if constant is None:
+        return found
+
+    def inertia(angle: Array) -> Array:
+        return constant + course.at(angle)
+
     try:
-        return Flywheel(mean, moving, _find_speed(q, q.mean_speed, mean), needed)
+        speed = speed_variation(torque, inertia, mean_speed)
     except StallError as error:
-        return Flywheel(mean, moving, None, needed, f"{error}")
-
-
-def _find_speed(q: FlywheelQuestion, mean_speed: float, mean_inertia: float) -> Speed:
-    found = speed_variation(q.torque, _inertia(q.constant or 0.0, q.moving), mean_speed)
-    return Speed(
-        found.fluctuation,
-        small_fluctuation(q.surplus, mean_inertia, mean_speed),
-        found.lowest,
-        found.highest,
-        _find_lines(found.speed, mean_speed),
+        return replace(found, stall=str(error))
+    return replace(
+        found,
+        fluctuation=speed.fluctuation,
+        fluctuation_small=small_fluctuation(surplus, constant + own, mean_speed),
+        speed_max_rpm=speed.highest.value / RPM,
+        speed_min_rpm=speed.lowest.value / RPM,
+        speed_max_deg=degrees_in_cycle(speed.highest.angle, torque.period),
+        speed_min_deg=degrees_in_cycle(speed.lowest.angle, torque.period),
+        lines=_find_lines(speed.speed, mean_speed),
     )
 
 
-def _inertia(constant: float, moving: Function | None) -> float | Function:
-    if moving is None:
-        return constant
-    return lambda angle: constant + moving(angle)
-
-
 def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, ...]:
-    """Lines whose sum is the speed, in shares of its mean: multiples of 1/2, or of 1, as far as an
-    engine file may have them.
+    """Return lines whose sum is the speed, in shares of its mean: multiples of 1/2, or of 1, as far
+    as an engine file may have them.
     """
     turns = speed.period / (2 * np.pi)
     count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))
     c: Complex = speed.harmonics(np.arange(1, count + 1)) / mean_speed
     size = np.abs(c)
     worth = np.flatnonzero(size > _WORTH * size.max(initial=0))
-    return tuple(
-        RippleLine(_as_order((k + 1) / turns), float(size[k]), float(-np.degrees(np.angle(c[k]))))
-        for k in worth.tolist()
-    )
+    lines = []
+    for k in worth.tolist():
+        halves = round(2 * (k + 1) / turns)
+        order = halves // 2 if halves % 2 == 0 else halves / 2
+        lines.append(RippleLine(order, float(size[k]), float(-np.degrees(np.angle(c[k])))))
+    return tuple(lines)
 
 
-def _as_order(order: float) -> float:
-    """To the multiple of 1/2 that a whole number of revolutions makes of it."""
-    halves = round(2 * order)
-    return halves // 2 if halves % 2 == 0 else halves / 2
+def degrees_in_cycle(angle: float, period: float) -> float:
+    """Return a crank angle (rad) in [0, period) in degrees."""
+    whole = float(np.degrees(period))
+    turned = float(np.degrees(angle)) % whole
+    return 0.0 if whole - turned < 1e-9 else turned

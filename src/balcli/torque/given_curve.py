@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..core.phasors import Array, Complex
 from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
-from ..core.speed_variation import Surplus, surplus
+from ..core.speed_variation import surplus
+from ..core.speeds import RPM
 from ..enginefile.csv_columns import read_columns
 from ..errors import BalcliError
 from ..forces.orders import check_orders
@@ -22,56 +21,29 @@ from ..limits import (
     HIGHEST_HARMONIC,
     MOST_HARMONICS_UNASKED,
 )
-from ..result import Result
-from .flywheel import Flywheel, FlywheelQuestion, find_flywheel
+from .answer import (
+    TorqueAnalysis,
+    TorqueOrder,
+    Torques,
+    list_harmonics,
+    measure_curve,
+    measure_energy,
+    write_whole,
+)
+from .flywheel import find_flywheel
 
+SAME_MEAN = 1e-6  # of the largest torque: figures of files are rounded
 _NOISE = 1e-14  # of the largest torque: rounding errors of a harmonic
 _SAME = 1e-9  # of a turn, by which periods may differ
 _WHOLE = 1e-4  # of itself, by which a period in a file may be rounded: 102.86 deg of 720/7
 
 
-class DrivenShaft(NamedTuple):
-    """What turns: mean speed, rad/s, and inertia, kg m2; None: not known."""
-
-    mean_speed: float | None = None
-    inertia: float | None = None
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class CurveAnalysis(Result):
-    """What a given torque does.
-
-    Attributes:
-        name: what to call it.
-        torque: N m over its period, rad.
-        load: likewise; None: it takes the mean evenly.
-        orders: cycles in 360 degrees, shape (orders,).
-        harmonics: c_n of `Re sum c_n e^{i n theta}`, N m, shape (orders,).
-        surplus: of the torque above the load; the work is the torque's own.
-        shaft, flywheel: what turns, and how evenly.
-    """
-
-    name: str
-    torque: PiecewiseCurve
-    load: PiecewiseCurve | None
-    orders: Array
-    harmonics: Complex
-    surplus: Surplus
-    shaft: DrivenShaft
-    flywheel: Flywheel | None
-
-    @property
-    def summary(self) -> str:
-        """Of what."""
-        return f"of {self.name}"
-
-
 def read_curve(path: Path) -> PiecewiseCurve:
-    """A torque from CSV headed angle_deg,torque_Nm: straight lines between rows, the last of which
-    closes the period.
+    """Return a torque from CSV headed angle_deg,torque_Nm: straight lines between rows, the last of
+    which closes the period.
 
     Raises:
-        BalcliError: it is no such file, or angles do not rise.
+        BalcliError: The file is none of that kind, or angles do not rise.
     """
     columns = read_columns(path, (("angle_deg",), ("torque_Nm",)))
     angle, torque = np.array(columns.column(0)), np.array(columns.column(1))
@@ -89,7 +61,7 @@ def read_curve(path: Path) -> PiecewiseCurve:
 
 
 def doubt_period(curve: PiecewiseCurve) -> Iterator[str]:
-    """A warning where a period is neither whole turns nor an even share of two, as of a curve
+    """Yield a warning where a period is neither whole turns nor an even share of two, as of a curve
     sampled from 0 to 359 degrees.
     """
     turns = curve.period / (2 * np.pi)
@@ -104,50 +76,75 @@ def analyze_curve(
     name: str,
     torque: PiecewiseCurve,
     load: PiecewiseCurve | None = None,
-    shaft: DrivenShaft | None = None,
     *,
+    speed_rpm: float | None = None,
+    inertia: float | None = None,
     fluctuation: float | None = None,
     orders: list[float] | None = None,
-) -> CurveAnalysis:
-    """What a torque does to the speed of a shaft.
+) -> TorqueAnalysis:
+    """Return what a torque does to the speed of a shaft.
 
     Args:
-        name: what to call it.
-        torque, load: N m, over one and the same period.
-        shaft: what turns.
+        name: Name of the result.
+        torque, load: N m, over one and the same period; without a load it takes the mean evenly.
+        speed_rpm: Mean speed of the shaft, rpm; None: not known.
+        inertia: Inertia of all that turns, kg m2; None: not known.
         fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
-        orders: default: all that the period has, up to HIGHEST_GAS_ORDER_UNASKED, at least two and
-            at most MOST_HARMONICS_UNASKED.
+        orders: Cycles in 360 degrees; default: all that the period has, up to
+            HIGHEST_GAS_ORDER_UNASKED, at least two and at most MOST_HARMONICS_UNASKED.
 
     Raises:
-        BalcliError: other periods, orders that the period has not.
+        BalcliError: Other periods, orders that the period has not.
     """
-    shaft = shaft or DrivenShaft()
     net = torque if load is None else _subtract(torque, load)
-    turns = torque.period / (2 * np.pi)
-    usual = max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2)
-    every = np.arange(1, min(usual, MOST_HARMONICS_UNASKED) + 1)
-    if orders is not None:
-        wanted = check_orders(orders) * turns
-        every = np.rint(wanted).astype(int)
-        if len(odd := np.flatnonzero(np.abs(wanted - every) > _SAME)):
-            raise BalcliError(
-                f"order {wanted[odd[0]] / turns:g}: a period of {turns * 360:g} deg has multiples "
-                f"of {1 / turns:g}"
-            )
-        if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
-            highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # that may be asked for
-            raise BalcliError(
-                f"order {every[high[0]] / turns:g}: of a period of {turns:g} turns there are "
-                f"orders to {highest:g}"
-            )
-    above = surplus(net)._replace(work=torque.integral)
-    asked = FlywheelQuestion(net, above.energy, shaft.mean_speed, shaft.inertia, None, fluctuation)
+    turns, speed = torque.period / (2 * np.pi), None if speed_rpm is None else speed_rpm * RPM
+    every = _choose_harmonics(turns, orders)
     found = torque.harmonics(every)
     found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)
-    return CurveAnalysis(
-        name, torque, load, every / turns, found, above, shaft, find_flywheel(asked)
+    shown = list_harmonics(every / turns, found, found == 0)
+    above, extremes = surplus(net), measure_curve(torque)
+    shares = None
+    if load is not None:
+        least = SAME_MEAN * max(abs(e.value) for c in (torque, load) for e in c.extremes())
+        mean, rest = load.mean, torque.mean - load.mean
+        shares = (mean if abs(mean) > least else 0.0, rest if abs(rest) > least else 0.0)
+    return TorqueAnalysis(
+        speed_rpm=speed_rpm,
+        cycle_deg=write_whole(float(np.degrees(torque.period))),
+        mean_torque_Nm=torque.mean,
+        power_W=None if speed is None else torque.mean * speed,
+        torque=extremes,
+        orders=tuple(
+            TorqueOrder(order=write_whole(n), torques=Torques(torque_Nm=harmonic))
+            for n, harmonic in zip(every / turns, shown, strict=True)
+        ),
+        energy=measure_energy(above, torque.period, torque.integral),
+        flywheel=find_flywheel(net, above.energy, speed, inertia, None, fluctuation),
+        name=name,
+        curve=torque,
+        load_Nm=shares,
     )
+
+
+def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.intp]:
+    """Return the harmonics of a period of some turns that are shown, or belong to these orders."""
+    if orders is None:
+        usual = max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2)
+        return np.arange(1, min(usual, MOST_HARMONICS_UNASKED) + 1)
+    wanted = check_orders(orders) * turns
+    every = np.rint(wanted).astype(int)
+    if len(odd := np.flatnonzero(np.abs(wanted - every) > _SAME)):
+        raise BalcliError(
+            f"order {wanted[odd[0]] / turns:g}: a period of {turns * 360:g} deg has multiples "
+            f"of {1 / turns:g}"
+        )
+    if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
+        highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # that may be asked for
+        raise BalcliError(
+            f"order {every[high[0]] / turns:g}: of a period of {turns:g} turns there are "
+            f"orders to {highest:g}"
+        )
+    return every
 
 
 def _subtract(torque: PiecewiseCurve, load: PiecewiseCurve) -> PiecewiseCurve:

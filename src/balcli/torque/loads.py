@@ -1,45 +1,138 @@
-"""Loads of crank pins and main bearings over a cycle: which may be asked for, and what is told."""
+"""Loads of crank pins and main bearings over a cycle, at the mean speed."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 
-from ..core.piecewise import Extreme
+import numpy as np
+
+from ..core.phasors import Array, Complex
+from ..core.vectors_over_cycle import Vectors, find_panels
+from ..engine.build import Engine
+from ..forces.in_bearings import (
+    NOTHING,
+    BearingsUnknownError,
+    compute_bearing_loads,
+    compute_in_pieces,
+    find_breaks,
+    place_main_bearings,
+)
+from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 
 KINDS_OF_LOAD = ("pin", "main")
 
 
-class CycleLoad(NamedTuple):
-    """Load of one pin or bearing.
+@dataclass(frozen=True, kw_only=True)
+class CycleLoad:
+    """Load of a crank pin, knuckle pin or main bearing over the cycle.
 
     Attributes:
-        name: number of the cylinder whose rod turns on the pin, or of the bearing from the free
-            end.
-        z_m: place along the crank.
-        largest: N, and the crank angle (rad) at which it is reached.
-        mean: over the cycle, N.
-        pressure: largest load over diameter times width, Pa; None: the file does not say these.
+        cylinder: Number of the cylinder whose rod turns on the pin.
+        bearing: Number of the main bearing from the free end.
+        position_mm: Place of the main bearing along the crank.
+        max_N: Largest load.
+        max_deg: Crank angle at which it is reached.
+        mean_N: Mean load.
+        pressure_Pa: Largest load over diameter times width; left out where the file does not say
+            these.
     """
 
-    name: int
-    z_m: float
-    largest: Extreme
-    mean: float
-    pressure: float | None
+    cylinder: int | None = None
+    bearing: int | None = None
+    position_mm: float | None = None
+    max_N: float
+    max_deg: float
+    mean_N: float
+    pressure_Pa: float | None = None
 
 
-class CycleLoads(NamedTuple):
-    """What was asked for.
+@dataclass(frozen=True, kw_only=True)
+class CycleLoads:
+    """Loads of pins and bearings, as far as they were asked for.
 
     Attributes:
-        pin: of crank pins, by the cylinders whose rods turn on them.
-        knuckle: of the knuckle pins in master rods, by their articulated cylinders; None where
-            there are none.
-        main: of main bearings.
-        obstacle: why these are not known, though asked for beside others; else empty.
+        pin: Loads of crank pins, by the cylinders whose rods turn on them.
+        knuckle: Loads of the knuckle pins in master rods, by their articulated cylinders.
+        main: Loads of main bearings.
+        obstacle: Why these are not known, though asked for with others.
     """
 
     pin: tuple[CycleLoad, ...] | None = None
     knuckle: tuple[CycleLoad, ...] | None = None
     main: tuple[CycleLoad, ...] | None = None
-    obstacle: str = ""
+    obstacle: str | None = None
+
+
+def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> CycleLoads:
+    """Return loads of pins and bearings.
+
+    The main bearings stand half-way between neighbouring throws and as far outside the end ones,
+    and the shaft counts as cut in each of them. Where `place_main_bearings` refuses them, the
+    loads of pins come without.
+
+    Args:
+        engine: With gas.
+        asked: Names of KINDS_OF_LOAD.
+
+    Raises:
+        BalcliError: No gas of known pressure; refused main bearings that are asked for alone.
+    """
+    steady, sizes = replace(engine, ripple=()), engine.bearings
+    pin = knuckle = main = obstacle = None
+    if "pin" in asked:
+        found = _measure(steady, find_pin_loads(steady), sizes and sizes.pin_m2)
+        loads = [replace(f, cylinder=n) for n, f in zip(engine.numbers, found, strict=True)]
+        loads.sort(key=lambda load: load.cylinder or 0)
+        hung = {engine.numbers[row] for rows in list_hung_rows(engine).values() for row in rows}
+        pin = tuple(load for load in loads if load.cylinder not in hung)
+        others = [replace(load, pressure_Pa=None) for load in loads if load.cylinder in hung]
+        knuckle = tuple(others) or None
+    if "main" in asked:
+        try:
+            places, vectors = find_bearing_loads(steady)
+        except BearingsUnknownError as error:
+            if pin is None:
+                raise
+            obstacle = error.reason
+        else:
+            found = _measure(steady, vectors, sizes and sizes.main_m2)
+            each = enumerate(zip(places.tolist(), found, strict=True), 1)
+            main = tuple(replace(f, bearing=k, position_mm=z * 1e3) for k, (z, f) in each)
+    return CycleLoads(pin=pin, knuckle=knuckle, main=main, obstacle=obstacle)
+
+
+def find_pin_loads(engine: Engine) -> Vectors:
+    """Return the force of each rod on its crank pin or knuckle pin at crank angles (deg), in the
+    cylinder's frame: u along its axis away from the crank, v 90 deg ahead; cylinders in the order
+    of `engine.numbers`.
+    """
+    return lambda degrees: compute_rod_forces(engine, degrees).pin
+
+
+def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
+    """Return places of the main bearings, m, and the force of the shaft on each at crank angles
+    (deg), x + iy; errors as of `place_main_bearings`.
+    """
+    span = place_main_bearings(engine)
+    return span, lambda degrees: compute_bearing_loads(engine, degrees)
+
+
+def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:
+    """Yield the load of each vector over the cycle; 0 where it is rounding beside others."""
+
+    def compute(angles: Array) -> Complex:
+        return compute_in_pieces(engine, vectors, angles)
+
+    breaks = find_breaks(engine)
+    panels = find_panels(compute, breaks, 1.0)
+    every = compute(panels.angles)
+    every[np.abs(every).max(axis=1) <= NOTHING * np.abs(every).max()] = 0.0
+    for samples in every:
+        size, angle, _ = panels.find_largest(samples)
+        yield CycleLoad(
+            max_N=size,
+            max_deg=float(np.degrees(angle)) % float(np.degrees(breaks[-1])),
+            mean_N=panels.find_mean_size(samples),
+            pressure_Pa=None if area is None else size / area,
+        )

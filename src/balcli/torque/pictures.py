@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..core.cylinder_pressure import PressureOnPiston
 from ..core.phasors import Array, Complex, unit
 from ..core.speed_variation import Surplus, surplus
 from ..engine.build import Engine
-from ..errors import BalcliError
 from ..forces.gas import take_gas
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 from .course import find_torque_curves
-from .find_loads import find_bearing_loads
+from .loads import find_bearing_loads
 
 PAGES = ("pressure", "p-v", "torque", "pin", "main")
 _STEP = 0.5  # deg
@@ -78,61 +78,29 @@ class MainLoads(NamedTuple):
 GasPicture: TypeAlias = Pressures | Torques | PinLoads | MainLoads  # what one of PAGES shows
 
 
-class Running(NamedTuple):
-    """What runs with the crank.
-
-    Attributes:
-        torques: over the cycle.
-        pressures: in cylinder 1; None where the file has harmonics of the torque alone.
-        fires_deg: crank angle at which cylinder 1 fires.
-    """
-
-    torques: Torques
-    pressures: Pressures | None
-    fires_deg: float
-
-
-def compute_running(engine: Engine) -> Running:
-    """Return torque and pressure over a cycle, at the mean speed.
-
-    Raises:
-        BalcliError: the engine has no gas.
-    """
-    steady = replace(engine, ripple=())
-    cylinder = take_gas(engine).cylinders[engine.numbers.index(1)]
-    known = isinstance(cylinder.torque, PressureOnPiston)
-    pressures = _find_pressures(steady) if known else None
-    return Running(_find_torques(steady), pressures, float(np.degrees(cylinder.fires)))
-
-
 def compute_picture(engine: Engine, what: str) -> GasPicture:
     """Return what a page of `PAGES` shows, at the mean speed.
 
     Raises:
         BalcliError: the engine has no gas, or lacks what the page shows.
     """
-    steady = replace(engine, ripple=())
-    if what == "torque":
-        return _find_torques(steady)
-    if what == "pin":
-        return _find_pin(steady)
-    return _find_main(steady) if what == "main" else _find_pressures(steady)
+    compute: dict[str, Callable[[Engine], GasPicture]] = {
+        "torque": _find_torques,
+        "pin": _find_pin,
+        "main": _find_main,
+    }
+    return compute.get(what, _find_pressures)(replace(engine, ripple=()))
 
 
 def _find_pressures(engine: Engine) -> Pressures:
     gas = take_gas(engine)
     cylinder = gas.cylinders[engine.numbers.index(1)]
-    if not isinstance(cylinder.torque, PressureOnPiston):
-        raise BalcliError("the file has harmonics of the torque, and no pressures")
     half = gas.cycle_deg / 2
     angle = _divide(-half, half, np.degrees(cylinder.torque.breaks), gas.cycle_deg)
     at = np.radians(angle)
     known = gas.compression_ratio is not None
-    swept = cylinder.piston.area * cylinder.piston.travel(at)
-    volume = cylinder.piston.volume(at, gas.compression_ratio) if gas.compression_ratio else swept
-    under = cylinder.torque.crankcase
-    pressure = under + cylinder.share * (cylinder.torque.pressure.at(at) - under)
-    return Pressures(angle, pressure, volume, known)
+    volume = cylinder.piston.volume(at, gas.compression_ratio or math.inf)
+    return Pressures(angle, cylinder.find_pressure(at), volume, known)
 
 
 def _find_torques(engine: Engine) -> Torques:

@@ -27,15 +27,15 @@ class CycleQuantity:
 
     @property
     def unit(self) -> str:
-        """SI."""
+        """SI unit."""
         return _UNITS[self.name]
 
 
 def parse_quantity(text: str) -> CycleQuantity:
-    """`torque.mean` and its like.
+    """Return the quantity of a name such as `torque.mean`.
 
     Raises:
-        BalcliError: anything else, with what there is.
+        BalcliError: Anything else, with what there is.
     """
     if text not in _UNITS:
         raise BalcliError(f"{text} is no quantity: give {', '.join(_UNITS)}")
@@ -43,26 +43,26 @@ def parse_quantity(text: str) -> CycleQuantity:
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Those that an engine with gas has."""
+    """Yield the names of the quantities that an engine with gas has."""
     known = find_constant_inertia(build(model)) is not None
     yield from (name for name in _UNITS if known or name != "fluctuation")
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[CycleQuantity]) -> None:
-    """Nothing, unless the engine has no gas.
+    """Raise BalcliError if the engine has no gas.
 
     Raises:
-        BalcliError: it has none.
+        BalcliError: The engine has no gas.
     """
     if model.gas is None:
         raise BalcliError(f"{quantities[0].name}: the engine file has no [gas]")
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[CycleQuantity]) -> list[float]:
-    """The value of each quantity of one engine with gas.
+    """Return the value of each quantity of one engine with gas.
 
     Raises:
-        BalcliError: a fluctuation without inertia; the crank stalls.
+        BalcliError: A fluctuation without inertia; the crank stalls.
     """
     found = dict[str, float]()
     if any(q.name != "fluctuation" for q in quantities):
@@ -71,15 +71,11 @@ def evaluate_engine(engine: Engine, quantities: Sequence[CycleQuantity]) -> list
         found |= {"torque.mean": curves.gas.mean, "torque.max": highest.value}
         found["torque.min"] = lowest.value
     if any(q.name == "fluctuation" for q in quantities):
-        found["fluctuation"] = _find_fluctuation(engine)
+        flywheel = analyze_torque(engine, [1]).flywheel
+        if flywheel is None or flywheel.fluctuation is None:
+            raise BalcliError(NO_INERTIA if flywheel is None else flywheel.stall or NO_INERTIA)
+        found["fluctuation"] = flywheel.fluctuation
     return [found[q.name] for q in quantities]
 
 
 Variants = partial(FiguresOfVariants, evaluate_engine)
-
-
-def _find_fluctuation(engine: Engine) -> float:
-    flywheel = analyze_torque(engine, [1]).flywheel
-    if flywheel is None or flywheel.speed is None:
-        raise BalcliError(flywheel.stall if flywheel is not None else NO_INERTIA)
-    return flywheel.speed.fluctuation
