@@ -51,9 +51,7 @@ def _open(data: Any, table: str) -> Any:
     return data
 
 
-def _edit(
-    text: str, table: str, changes: Mapping[str, Any], wanted: Any, note: str
-) -> str:
+def _edit(text: str, table: str, changes: Mapping[str, Any], wanted: Any, note: str) -> str:
     """Return the text with these changes; a table in braces is written anew as it is wanted."""
     import tomlkit
     from tomlkit.items import InlineTable, Table
