@@ -92,11 +92,14 @@ class Problem(NamedTuple):
         path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
         message: what is wrong there, and what would be right.
         missing: paths of keys that are not there, without which it is a mistake; empty: of none.
+        meant: path of the key that was probably meant by an unknown one, "" if none comes to mind;
+            None: the key is known.
     """
 
     path: str
     message: str
     missing: tuple[str, ...] = ()
+    meant: str | None = None
 
     @classmethod
     def of_missing(cls, path: str, hint: str) -> Problem:

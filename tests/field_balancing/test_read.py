@@ -158,7 +158,7 @@ CASES = [
         'planes = ["a"]\n[run]\nreadings = ["1 @ 0"]\n',
         "run: is one of several; write [[run]] in double brackets, once for each run",
     ),
-    ('planes = ["a"]\nrun = [3]\n', "run.1: 3 is not a table; write [[run]] above it"),
+    ('planes = ["a"]\nrun = [3]\n', "run.1: 3 stands where a table belongs; write [[run]] and its keys below it"),
     (
         'planes = ["a"]\n[[run]]\nname = "x"\n',
         'run.1.readings: is missing; give it, such as readings = ["170 @ 112", "53 @ 78"]',

@@ -13,12 +13,12 @@ class Choice(NamedTuple):
     Attributes:
         groups: of these one may be given.
         required: one must be given.
-        complete: a group that is begun must be finished.
+        complete: a group that is begun must be finished: every one, or the one that is named.
     """
 
     groups: tuple[tuple[str, ...], ...]
     required: bool = False
-    complete: bool = False
+    complete: bool | tuple[str, ...] = False
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
         """What is wrong with these keys, in words that a table's name can stand before."""
@@ -36,7 +36,7 @@ class Choice(NamedTuple):
         begun = [group for group in self.groups if any(key in given for key in group)]
         if not begun and self.required:
             return tuple(key for group in self.groups for key in group)
-        if len(begun) == 1 and self.complete:
+        if len(begun) == 1 and self.complete in (True, begun[0]):
             return tuple(key for key in begun[0] if key not in given)
         return ()
 

@@ -24,7 +24,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
-from .exclusive import Choice, find_repeated, join_words
+from .exclusive import Choice, find_repeated
 from .fields import FileName, Flag, Halves, Label, Number, OneOf, Whole, counted, parse_firing_order
 from .units import (
     ANGLE,
@@ -206,7 +206,7 @@ class Rod(FileTable):
 
     choices = (
         Choice((("length",), ("ratio",)), required=True),
-        Choice((("mass", "cg"), ("small_end", "big_end"))),
+        Choice((("mass", "cg"), ("small_end", "big_end")), complete=("small_end", "big_end")),
         Choice((("inertia",), ("pendulum",))),
     )
 
@@ -235,14 +235,6 @@ class Rod(FileTable):
     )
     pendulum: Pendulum | None = Field(None, description="a pendulum test, instead of inertia")
 
-    def _check_ends(self) -> Iterator[str]:
-        ends = (self.small_end, self.big_end)
-        if None in ends and ends != (None, None) and self.mass is None and self.cg is None:
-            there, missing = "small_end", "big_end"
-            if self.small_end is None:
-                there, missing = missing, there
-            yield f"has {there} without {missing}; weigh the rod at both ends, or give mass and cg"
-
     def _check_pendulum(self) -> Iterator[str]:
         if self.pendulum and self.length is not None:
             total = (self.small_end or 0.0) + (self.big_end or 0.0)
@@ -251,10 +243,7 @@ class Rod(FileTable):
             if self.pendulum.period <= shortest_period(arm):
                 yield f"pendulum.{describe_quick_period(self.pendulum.period, arm)}"
 
-    rules = (
-        TableRule(_check_ends, {"small_end", "big_end", "mass", "cg"}),
-        TableRule(_check_pendulum, {"pendulum", "length", "small_end", "big_end", "cg"}),
-    )
+    rules = (TableRule(_check_pendulum, {"pendulum", "length", "small_end", "big_end", "cg"}),)
 
 
 def shortest_period(arm_mm: float) -> float:
@@ -275,7 +264,9 @@ def describe_quick_period(period: float, arm_mm: float) -> str:
 class Piston(FileTable):
     """One piston with its rings, pin and locks: weighed together, or part by part."""
 
-    choices = (Choice((("mass",), ("piston", "pin", "rings", "locks")), required=True),)
+    choices = (
+        Choice((("mass",), ("piston", "pin", "rings", "locks")), required=True, complete=True),
+    )
 
     bore: Size | None = Field(None, description="cylinder bore", examples=[86])
     mass: Mass | None = Field(
@@ -293,18 +284,6 @@ class Piston(FileTable):
         description="of the pin path, + towards the side to which the crank pin moves after top "
         "dead centre",
     )
-
-    def _check_parts(self) -> Iterator[str]:
-        parts = {"piston": self.piston, "pin": self.pin, "rings": self.rings, "locks": self.locks}
-        given = [key for key, mass in parts.items() if mass is not None]
-        missing = [key for key in parts if key not in given]
-        if given and missing and self.mass is None:
-            yield (
-                f"has {join_words(given)} without {join_words(missing)}; give every part: 0 for "
-                "one that is not there or was weighed with another"
-            )
-
-    rules = (TableRule(_check_parts, {"mass", "piston", "pin", "rings", "locks"}),)
 
 
 class Layout(FileTable):
