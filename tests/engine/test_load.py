@@ -148,13 +148,13 @@ def test_what_is_no_length(stroke, message):
         ),
         (
             changed(("mass = 0.5\n", "pin = 0.1\nlocks = 0.004\n")),
-            "piston: has pin and locks without piston and rings; give every part: 0 for one that "
-            "is not there or was weighed with another",
+            "piston: has pin and locks without piston and rings; give either mass or piston, "
+            "pin, rings and locks",
         ),
         (
             changed(("mass = 0.5\n", "piston = 0.4\n")),
-            "piston: has piston without pin, rings and locks; give every part: 0 for one that is "
-            "not there or was weighed with another",
+            "piston: has piston without pin, rings and locks; give either mass or piston, pin, rings "
+            "and locks",
         ),
         (
             changed(("mass = 0.5\n", "mass = 0.5\npin = 0.1\n")),

@@ -6,9 +6,8 @@ from a pendulum) is the business of the package `engine`. A validator is built o
 a file has.
 """
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Sequence, Set
-from itertools import chain, pairwise
+from collections.abc import Callable, Iterable, Iterator, Set
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple
 
@@ -34,7 +33,6 @@ from .units import (
     MASS,
     PLAIN,
     SPEED,
-    STANDARD_GRAVITY,
     TIME,
     UNBALANCE,
 )
@@ -44,21 +42,6 @@ if TYPE_CHECKING:
     from .gas_tables import Bearing, Flywheel, Gas
     from .mounting_tables import Body, Mount, Point
     from .torsion_tables import Torsion
-
-
-class CrankRatio(Number):
-    """Lambda, crank radius over rod length; who gives the inverse is told what it would be."""
-
-    def __init__(self) -> None:
-        super().__init__(PLAIN, above=0, below=1)
-
-    def _fault(self, number: float) -> tuple[str, str] | None:
-        fault = super()._fault(number)
-        if fault is None or number <= 1:
-            return fault
-        found, bounds = fault
-        inverse = f"of a rod {number:.4g} times as long as the crank radius it is {1 / number:.4g}"
-        return found, f"{bounds}: crank radius / rod length; {inverse}"
 
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
@@ -77,7 +60,7 @@ Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 ShareOfGas = Annotated[float, Number(PLAIN, least=0, most=100)]
 Heat = Annotated[float, Number(ENERGY, least=0, most=1e12)]
-RodRatio = Annotated[float, CrankRatio()]
+RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
 RippleOrder = Annotated[float, Halves(most=HIGHEST_RIPPLE_ORDER)]
@@ -235,31 +218,6 @@ class Rod(FileTable):
     )
     pendulum: Pendulum | None = Field(None, description="a pendulum test, instead of inertia")
 
-    def _check_pendulum(self) -> Iterator[str]:
-        if self.pendulum and self.length is not None:
-            total = (self.small_end or 0.0) + (self.big_end or 0.0)
-            cg = self.length * (self.small_end or 0.0) / total if total else self.cg or 0.0
-            arm = cg if self.pendulum.pivot == "big_end" else self.length - cg
-            if self.pendulum.period <= shortest_period(arm):
-                yield f"pendulum.{describe_quick_period(self.pendulum.period, arm)}"
-
-    rules = (TableRule(_check_pendulum, {"pendulum", "length", "small_end", "big_end", "cg"}),)
-
-
-def shortest_period(arm_mm: float) -> float:
-    """Period (s) of a point mass at this distance from the pivot; that of every rod is longer."""
-    return 2 * math.pi * math.sqrt(max(arm_mm, 0.0) * 1e-3 / STANDARD_GRAVITY)
-
-
-def describe_quick_period(period: float, arm_mm: float) -> str:
-    """What is wrong with a pendulum test that leaves no moment of inertia; `arm_mm` is the distance
-    of the centre of mass from the pivot.
-    """
-    return (
-        f"period {period:g} s is too quick: with the centre of mass {arm_mm:g} mm from the pivot "
-        f"a full swing takes more than {shortest_period(arm_mm):.4g} s"
-    )
-
 
 class Piston(FileTable):
     """One piston with its rings, pin and locks: weighed together, or part by part."""
@@ -351,12 +309,6 @@ class Layout(FileTable):
         if not (intervals and order and len(intervals) == len(order)):
             return
         if abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
-            if gaps := _find_gaps(intervals, 180 * self.strokes):
-                yield (
-                    "firing_intervals rise from one to the next, as angles at which cylinders fire "
-                    f"do; intervals are the angles between: [{', '.join(f'{x:g}' for x in gaps)}]"
-                )
-                return
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
                 f"{self.strokes}-stroke has {180 * self.strokes} (within "
@@ -369,15 +321,6 @@ class Layout(FileTable):
         TableRule(_check_intervals, {"firing_intervals", "firing_order"}),
         TableRule(_check_cycle, {"firing_intervals", "firing_order", "strokes"}),
     )
-
-
-def _find_gaps(angles: Sequence[float], cycle: float) -> list[float]:
-    """Return the intervals between spark angles that begin at 0 or end with the cycle; empty if
-    these are none.
-    """
-    ends = [*angles, cycle] if angles[0] == 0 else [0.0, *angles]
-    gaps = [b - a for a, b in pairwise(ends)]
-    return gaps if ends[-1] == cycle and min(gaps) > 0 else []
 
 
 def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
@@ -524,21 +467,6 @@ def label_table(table: FileTable, number: int) -> str:
     """
     name = getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)
-
-
-def change_figure(whole: Any, keys: Sequence[str], value: float) -> Any:
-    """A table, or a list of tables or figures, with another figure in it, by the keys that lead
-    there (`rear`, `1`, `stiffness`); members of lists count from 1.
-    """
-    if not keys:
-        return value
-    first, *rest = keys
-    if isinstance(whole, FileTable):
-        changed = change_figure(getattr(whole, first), rest, value)
-        return whole.model_copy(update={first: changed})
-    members = list(whole)
-    members[int(first) - 1] = change_figure(members[int(first) - 1], rest, value)
-    return tuple(members)
 
 
 # Tables on which most depends: what depends on some of their keys does not on others, which may

@@ -6,12 +6,12 @@ What the tables say against each other is not looked at here: that takes an engi
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import DISGUISES, InputError, Problem
-from ..limits import LONGEST_NAME, MOST_PARTS
+from ..limits import LONGEST_NAME
 from .fields import printable, shorten
 from .file_kinds import ENGINE, refuse_other_kind
 from .messages import (
@@ -25,6 +25,7 @@ from .messages import (
     join_path,
 )
 from .model import ONE_BY_ONE, EngineFile, Override
+from .plain_tables import change_tables
 from .table_reader import TableReader, refuse
 from .toml_text import parse_toml
 from .unknown_keys import INSTEAD, suggest, suggest_place
@@ -107,10 +108,35 @@ def check_tables(
     for key in filter(data.__contains__, (*TABLES, *CHAPTERS)):
         parts[key] = reader.read_table(key, data[key], import_table(key))
     for key in filter(data.__contains__, (*DEVICES, *CHAPTER_LISTS)):
-        parts[key] = reader.read_list(key, data[key], import_table(key), MOST_PARTS)
+        parts[key] = reader.read_list(key, data[key], import_table(key))
     if "cylinder" in data:
         parts["cylinder"] = _read_cylinders(reader, data["cylinder"])
     return _draft(reader, parts, folder)
+
+
+def change_figures(
+    model: EngineFile, values: Mapping[str, float], tables: Collection[str]
+) -> EngineFile:
+    """Return the file with other figures in some of its tables.
+
+    Args:
+        model: the file.
+        values: by dotted names (`mount.left.stiffness.2`, `torsion.rear.1.inertia`).
+        tables: kinds of tables that change (`mount`); figures of all others are left alone.
+
+    Raises:
+        InputError: what a table then says against itself, such as a bore wider than its shaft.
+    """
+    own = {path: value for path, value in values.items() if path.partition(".")[0] in tables}
+    data = change_tables(model, own)
+    reader = TableReader(ENGINE.name, is_engine=True)
+    changed: dict[str, Any] = {}
+    for key in {path.partition(".")[0] for path in own}:
+        read = reader.read_list if isinstance(data[key], list) else reader.read_table
+        changed[key] = read(key, data[key], import_table(key))
+    if reader.problems:
+        raise reader.refusal("")
+    return model.model_copy(update=changed)
 
 
 def _refuse_strangers(reader: TableReader, data: Mapping[str, Any]) -> None:

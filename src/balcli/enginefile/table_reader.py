@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ..errors import InputError, Problem
-from ..limits import MOST_KEY_VALUES, MOST_MISTAKES_SHOWN
+from ..limits import MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
 from .fields import shorten
 from .messages import KNOWN, TEXTS, describe_finding, find_inner_table, join_path
 from .model import FileTable
@@ -74,7 +74,7 @@ class TableReader:
         self.refused: dict[str, RefusedTable] = {}
 
     def read_list(
-        self, key: str, value: object, table: type[T], most: int
+        self, key: str, value: object, table: type[T], most: int = MOST_PARTS
     ) -> tuple[T | None, ...] | None:
         """Return the tables under a key, None for those with mistakes; None if it is no list.
 
