@@ -148,13 +148,11 @@ def test_what_is_no_length(stroke, message):
         ),
         (
             changed(("mass = 0.5\n", "pin = 0.1\nlocks = 0.004\n")),
-            "piston: has pin and locks without piston and rings; give either mass or piston, "
-            "pin, rings and locks",
+            "piston: has pin and locks without piston and rings; give either mass or piston, pin, rings and locks",
         ),
         (
             changed(("mass = 0.5\n", "piston = 0.4\n")),
-            "piston: has piston without pin, rings and locks; give either mass or piston, pin, rings "
-            "and locks",
+            "piston: has piston without pin, rings and locks; give either mass or piston, pin, rings and locks",
         ),
         (
             changed(("mass = 0.5\n", "mass = 0.5\npin = 0.1\n")),
@@ -252,13 +250,9 @@ def test_broken_files(text, message):
     assert mistakes_in(text) == message
 
 
-@pytest.mark.parametrize("digits", ["9" * 5000, "9_9" * 4000, "-" + "9" * 4300])
-def test_numbers_of_thousands_of_digits_are_refused_by_path(digits):
-    ripple = f"[operation]\nspeed_ripple = [{{ order = {digits}, ratio = 0.1 }}]"
-    told = mistakes_in(changed(("stroke = 90", f"stroke = {digits}"), ("[operation]", ripple)))
-    for path in ("crank.stroke: ", "operation.speed_ripple.1.order: "):
-        assert f"  {path}an integer of about " in told
-    assert max(map(len, told.splitlines())) < 200
+@pytest.mark.parametrize("digits", ["9" * 5000, "9_9" * 4000, "-" + "9" * 4400])
+def test_numbers_of_thousands_of_digits_are_refused(digits):
+    assert mistakes_in(changed(("stroke = 90", f"stroke = {digits}"))) == "has a number of thousands of digits"
 
 
 def test_messages_carry_no_control_characters():

@@ -131,7 +131,7 @@ WIEBE = {"cycle": "wiebe", "compression_ratio": 10, "imep": 9}
         ({"gas": [WIEBE]}, "gas: stands once, in single brackets: [gas]"),
         ({"cylinder": [{"gas": 0}]}, "cylinder: has a table for each that differs, such as [cylinder.3]"),
         ({"operation": {"speed_ripple": 0.02}}, "operation.speed_ripple: 0.02 is no table; write [[operation.speed_ripple]] in double brackets"),
-        ({"layout": {"firing_order": ["B2", "A1", "B1", "A2"]}}, "layout.firing_order: names cylinders by bank and place; here they have numbers: without layout.numbering, bank by bank from the free end, they are [4, 1, 3, 2]"),
+        ({"layout": {"firing_order": ["B2", "A1", "B1", "A2"]}}, "layout.firing_order: names cylinders by bank and place; give their numbers, which count bank by bank from the free end without layout.numbering"),
         ({"layout": {"firing_order": "A1-B1"}}, "layout.firing_order: names cylinders by bank and place;"),
     ],
 )  # fmt: skip
@@ -158,8 +158,7 @@ def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     assert refusal("analyze", "i3.csv") == "i3.csv: no such file"
     err = run_here("analyze", "ford.toml", "--only", "force", "moment").err
     assert "--only force,moment" in err
-    assert "That is vee: balcli new vee" in run_here("new", "v8").err
-    assert "That is inline: balcli new inline" in run_here("new", "i4").err
+    assert "among the examples: balcli engines i4" in run_here("new", "i4").err
     assert (
         "scheme auto has no --at; add --scheme with single-shaft or two-shaft"
         in run_here("balance", "ford.toml", "--at", "1,2").err

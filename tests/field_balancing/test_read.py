@@ -152,7 +152,7 @@ CASES = [
     ('planes = ["a", "a"]\n[[run]]\nreadings = ["1 @ 0"]\n', 'planes: names "a" twice; each needs a name of its own'),
     (
         'planes = ["a\\u001b"]\n[[run]]\nreadings = ["1 @ 0"]\n',
-        'planes: the 1st value "a?" is no name; use up to 200 letters, digits and signs',
+        'planes: the 1st value "a?" is no name; use up to 200 letters, digits and signs, in quotes',
     ),
     (
         'planes = ["a"]\n[run]\nreadings = ["1 @ 0"]\n',

@@ -81,20 +81,12 @@ def text(name: str) -> str:
     """The engine file of an example. BalcliError for an unknown name, with the nearest ones."""
     known = {path.stem: path for path in _paths()}
     if name not in known:
-        near = _find_near(name.lower()[:100], sorted(known))
+        near = get_close_matches(name.lower()[:100], known, 3)
         hint = f" Did you mean {' or '.join(near)}?" if near else ""
         if name.lower() in groups():
             hint = f" It is a class: balcli engines --class {name.lower()}."
         raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
     return known[name].read_text(encoding="utf-8")
-
-
-def _find_near(name: str, known: list[str]) -> list[str]:
-    """At most three of the known names that were probably meant: those that begin so, then those
-    that are spelt nearly so.
-    """
-    begun = [each for each in known if name and each.startswith(name)]
-    return list(dict.fromkeys([*begun, *get_close_matches(name, known, 3)]))[:3]
 
 
 def folder() -> Path:

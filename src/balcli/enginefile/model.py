@@ -24,7 +24,7 @@ from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .exclusive import Choice, find_repeated
-from .fields import FileName, Flag, Halves, Label, Number, OneOf, Whole, counted, parse_firing_order
+from .fields import FileName, Flag, Label, Number, OneOf, Whole, counted, parse_firing_order
 from .units import (
     ANGLE,
     ENERGY,
@@ -63,7 +63,7 @@ Heat = Annotated[float, Number(ENERGY, least=0, most=1e12)]
 RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
-RippleOrder = Annotated[float, Halves(most=HIGHEST_RIPPLE_ORDER)]
+RippleOrder = Annotated[float, Whole(least=0.5, most=HIGHEST_RIPPLE_ORDER, halves=True)]
 ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
 Name = Annotated[str, Label()]
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
