@@ -10,7 +10,6 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from .exclusive import join_words
 from .fields import count_lambda_digits
 from .model import Counterweight, EngineFile, Layout
 from .units import ask_unit
@@ -35,7 +34,6 @@ SPEED = 9.0  # rpm, least; the largest ship engines idle at 15, and 1 rad/s is 9
 # Engines with a stroke over 1 m, or so slow with a stroke over two bores, are two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
-NEAR_THE_CRANK = 0.02  # strokes; a shaft this near would stand within the crank
 NO_DISTANCE = 1e-6  # mm: on the axis, but for rounding
 OFFSET = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
 # Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
@@ -57,9 +55,6 @@ UNBALANCE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 # Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip
 # from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
-# rad, by the work that a cylinder does at 10 bar as a torque: engines have 2e-4 to 5e-3; much
-# less is said of shafts that are taken for rigid.
-TWIST = 0.05
 LOSS = 1.0  # steel has 0.01 to 0.05, rubber to 0.5; what is in percent is a hundred times that
 
 
@@ -86,7 +81,14 @@ class Figure(NamedTuple):
 
 def find_suspicious(model: EngineFile) -> list[str]:
     """Return warnings for what is allowed and yet unlikely; none for an ordinary engine."""
-    groups = _list_pistons, _list_rods, _list_cranks, _list_devices, _list_inertias, _list_gas
+    groups = (
+        _list_pistons,
+        _list_rods,
+        _list_cranks,
+        _list_counterweights,
+        _list_inertias,
+        _list_gas,
+    )
     figures = [figure for group in groups for figure in group(model)]
     return [*_find_missing(model), *_doubt(figures), *doubt_losses(_list_losses(model))]
 
@@ -162,8 +164,9 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     least, most = PISTON[0] * (bores[0] * 1e-3) ** 3, heavy * (bores[1] * 1e-3) ** 3
     beside = f"at a stroke of {stroke:g}" if bore is None else f"in a bore of {bore:g}"
     units = "are the units right? Bare numbers are kg and mm"
+    name = "the parts of [piston] weigh" if model.piston.mass is None else "piston.mass is"
     if mass := _weigh_piston(model):
-        yield Figure(_name_piston_mass(model), mass, least, most, f" kg {beside} mm", units)
+        yield Figure(name, mass, least, most, f" kg {beside} mm", units)
     if bore is not None:
         same = "are both in the same unit?"
         yield Figure("piston.bore / crank.stroke is", bore / stroke, *BORE, "", same)
@@ -229,47 +232,30 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
             yield Figure(f"{name} is", mass, 0, most * one, " kg", hint)
 
 
-def _list_devices(model: EngineFile) -> Iterator[Figure]:
+def _list_counterweights(model: EngineFile) -> Iterator[Figure]:
     throws, rods = _count_throws_and_rods(model)
     moving = throws * model.crank.throw_mass + rods * (_weigh_piston(model) + _weigh_rod(model))
     most = UNBALANCE * moving * 1e3 * model.crank.stroke / 2
     for number, weight in enumerate(model.counterweight if most else (), 1):
         name = f"counterweight.{number}: its unbalance is"
         yield Figure(name, abs(_unbalance(weight)), 0, most, " g mm", "is it in g mm?")
-    for number, shaft in enumerate(model.shaft, 1):
-        away, least = max(map(abs, shaft.at)), NEAR_THE_CRANK * model.crank.stroke
-        if away > NO_DISTANCE:
-            name = f"shaft.{number}.at: the distance from the crank's axis is"
-            question = ask_unit("mm", f"{away:.3g} m")
-            yield Figure(name, away, least, math.inf, " mm", question)
 
 
 def _list_inertias(model: EngineFile) -> Iterator[Figure]:
     """Yield what turns with the crank, beside the inertia of all rods and pistons on the pins."""
-    throws, rods = _count_throws_and_rods(model)
-    turning = {"crank.inertia": model.crank.inertia}
-    if wheel := model.flywheel:
-        arm = wheel.radius_of_gyration or 0.0
-        turning["flywheel.inertia"] = wheel.inertia or (wheel.mass or 0.0) * arm**2
-    if torsion := model.torsion:
-        each = torsion.throw_inertia or (0.0,)
-        name = "torsion.throw_inertia, of all throws,"
-        turning[name] = sum(each) * (throws if len(each) == 1 else 1)
-        parts = {part.name: part.inertia or 0.0 for part in (*torsion.front, *torsion.rear)}
-        if parts:
-            heaviest = max(parts, key=parts.__getitem__)
-            turning[f"the heaviest part of [torsion], '{heaviest}',"] = parts[heaviest]
+    wheel = model.flywheel
+    arm = (wheel and wheel.radius_of_gyration) or 0.0
+    turning = {
+        "crank.inertia": model.crank.inertia,
+        "flywheel.inertia": wheel and (wheel.inertia or (wheel.mass or 0.0) * arm**2),
+    }
+    _, rods = _count_throws_and_rods(model)
     one = _weigh_piston(model) + _weigh_rod(model)
     least = TURNING * rods * one * (model.crank.stroke / 2) ** 2
     for name, inertia in turning.items():
         if inertia:
             question = ask_unit("kg mm^2", f"{inertia:.4g} kg m^2")
             yield Figure(f"{name} is", inertia, least, math.inf, " kg mm^2", question)
-    if torsion and torsion.throw_stiffness and model.piston.bore:
-        area = math.pi / 4 * model.piston.bore**2
-        twist = 1e-3 * area * model.crank.stroke / min(torsion.throw_stiffness)
-        name = "torsion.throw_stiffness: the twist of a throw by a mean pressure of 10 bar is"
-        yield Figure(name, twist, 0, TWIST, " rad", ask_unit("N m/rad", "1.2 MN m/rad"), 2)
 
 
 def _list_gas(model: EngineFile) -> Iterator[Figure]:
@@ -317,17 +303,6 @@ def _weigh_piston(model: EngineFile) -> float:
     piston = model.piston
     parts = (piston.mass, piston.piston, piston.pin, piston.rings, piston.locks)
     return sum(mass for mass in parts if mass is not None)
-
-
-def _name_piston_mass(model: EngineFile) -> str:
-    """Return the keys from which the mass is read, with their verb."""
-    keys = ("piston", "pin", "rings", "locks")
-    parts = {key: mass for key in keys if (mass := getattr(model.piston, key)) is not None}
-    if not parts:
-        return "piston.mass is"
-    heaviest = max(parts, key=parts.__getitem__)
-    together = join_words([f"piston.{key}" for key in parts])
-    return f"{together} (most of it piston.{heaviest}, {parts[heaviest]:.4g} kg) are together"
 
 
 def _weigh_rod(model: EngineFile) -> float:
