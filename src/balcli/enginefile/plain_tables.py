@@ -82,7 +82,8 @@ def _write(value: Any) -> Any:
     if isinstance(value, FileTable):
         fields = type(value).model_fields
         given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
-        return {fields[key].alias or key: _write(part) for key, part in given if part is not None}
+        written = ((fields[key].alias or key, part) for key, part in given)
+        return {key: _write(part) for key, part in written if part is not None and part != ()}
     if isinstance(value, Mapping):
         return {str(key): _write(inner) for key, inner in value.items()}
     if isinstance(value, tuple):
