@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -12,14 +13,9 @@ from numbers import Real
 from os import PathLike
 from typing import NamedTuple
 
-# Unicode's own: what turns the direction of text, and what ends a line or a paragraph.
-DISGUISES = "\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069"  # in a class of a pattern
-_CONTROL = dict.fromkeys(
-    [
-        *(*range(0x09), *range(0x0B, 0x20), *range(0x7F, 0xA0)),
-        *(0x061C, 0x200E, 0x200F, *range(0x2028, 0x202F), *range(0x2066, 0x206A)),
-    ],
-    "?",
+# All but tabs and line ends; Unicode's own turn the direction of text, or end a paragraph.
+CONTROL_CHARACTERS = (
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069]"
 )
 
 
@@ -27,7 +23,7 @@ def legible(text: str) -> str:
     """Text for a terminal: of all control characters only line ends and tabs stay, so that nobody's
     file name can command it.
     """
-    return text.translate(_CONTROL)
+    return re.sub(CONTROL_CHARACTERS, "?", text)
 
 
 def say(text: str) -> None:

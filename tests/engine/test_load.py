@@ -143,10 +143,6 @@ def test_what_is_no_length(stroke, message):
         ),
         (changed(("length = 160", "lenght = 160")), "rod.lenght: unknown key in [rod]; did you mean length?"),
         (
-            GOOD + "[bobweight]\noverbalance = 0.51\n",
-            "bobweight.overbalance: unknown key in [bobweight]; did you mean balcli balance FILE --factor 51%?",
-        ),
-        (
             changed(("mass = 0.5\n", "pin = 0.1\nlocks = 0.004\n")),
             "piston: has pin and locks without piston and rings; give either mass or piston, pin, rings and locks",
         ),

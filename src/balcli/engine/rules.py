@@ -156,20 +156,15 @@ def check_speed(parts: Assembly) -> Iterator[Problem]:
             continue
         slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))
         if slowest.value <= STANDSTILL:
-            told = _describe_standstill(slowest.value, slowest.theta)
-            yield Problem("operation.speed_ripple", told)
+            share = slowest.value if abs(slowest.value) > STANDSTILL else 0.0
+            yield Problem(
+                "operation.speed_ripple",
+                f"the crank would {'turn back' if share else 'stop'}: at crank angle "
+                f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean; it "
+                "must stay above 0: make the amplitudes smaller, they are shares of the mean speed "
+                "(0.01 is one per cent)",
+            )
             return
-
-
-def _describe_standstill(least: float, theta: float) -> str:
-    """What is wrong with an uneven speed whose least value, of its mean, is at this crank angle."""
-    stops = "turn back" if least < -STANDSTILL else "stop"
-    share = least if abs(least) > STANDSTILL else 0.0
-    return (
-        f"the crank would {stops}: at crank angle {math.degrees(theta):.4g} deg its speed is "
-        f"{share:.4g} of the mean; it must stay above 0: make the amplitudes smaller, they are "
-        "shares of the mean speed (0.01 is one per cent)"
-    )
 
 
 def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 
@@ -58,9 +57,3 @@ def join_words(words: Collection[str]) -> str:
     """Words as they are counted up in a sentence: `a, b and c`."""
     *front, last = words
     return f"{', '.join(front)} and {last}" if front else last
-
-
-def find_repeated(numbers: Iterable[int]) -> str:
-    """The numbers that occur more than once, in words (the first five); empty if none does."""
-    repeated = [str(number) for number, times in Counter(numbers).items() if times > 1]
-    return join_words(repeated[:5]) if repeated else ""

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, get_args
 
 from ..errors import Problem
-from ..limits import MOST_LIST_VALUES
+from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
 from . import model
 from .fields import counted, printable, shorten
 
@@ -127,8 +127,8 @@ def _describe_length(
     if not value:
         hint = "" if field is not None and field.is_required() else ", or leave the key out"
         return f"is an empty list; give at least one value{hint}"
-    if len(value) > MOST_LIST_VALUES:
-        return f"has more than {MOST_LIST_VALUES} values"
+    if (most := context.get("max_length")) in (MOST_LIST_VALUES, MOST_RIPPLES):
+        return f"has {len(value)} values; at most {most} are taken"
     wanted = context.get("min_length") or context.get("max_length")
     what = field.description if field else None
     these = f": {what.partition(';')[0]}" if what else ""

@@ -6,6 +6,7 @@ from a pendulum) is the business of the package `engine`. A validator is built o
 a file has.
 """
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Set
 from itertools import chain
 from pathlib import Path
@@ -23,7 +24,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
-from .exclusive import Choice, find_repeated
+from .exclusive import Choice, join_words
 from .fields import FileName, Flag, Label, Number, OneOf, Whole, counted, parse_firing_order
 from .units import (
     ANGLE,
@@ -306,8 +307,10 @@ class Layout(FileTable):
 
 
 def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
-    if twice := find_repeated(numbers):
-        yield f"{key} has cylinder {twice} more than once; name every cylinder once"
+    twice = [str(number) for number, times in Counter(numbers).items() if times > 1]
+    if twice:
+        listed = join_words(twice[:5])
+        yield f"{key} has cylinder {listed} more than once; name every cylinder once"
 
 
 class Bobweight(FileTable):
@@ -331,18 +334,9 @@ class Operation(FileTable):
     """How the engine runs."""
 
     speed: Speed = key("crank speed (mean over the angle)", 3000, default=1000.0)
-    speed_ripple: tuple[Ripple, ...] = key(
+    speed_ripple: Annotated[tuple[Ripple, ...], Field(max_length=MOST_RIPPLES)] = key(
         "uneven crank speed, by orders: whole ones, or halves of a four-stroke engine", default=()
     )
-
-    def _check_ripple(self) -> Iterator[str]:
-        if len(self.speed_ripple) > MOST_RIPPLES:
-            yield (
-                f"speed_ripple has {len(self.speed_ripple)} orders; no more than {MOST_RIPPLES} "
-                "can be given"
-            )
-
-    rules = (TableRule(_check_ripple, {"speed_ripple"}),)
 
 
 class Frame(FileTable):

@@ -6,11 +6,11 @@ What the tables say against each other is not looked at here: that takes an engi
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import DISGUISES, InputError, Problem
+from ..errors import CONTROL_CHARACTERS, InputError, Problem
 from ..limits import LONGEST_NAME
 from .fields import printable, shorten
 from .file_kinds import ENGINE, refuse_other_kind
@@ -26,15 +26,11 @@ from .messages import (
 )
 from .model import ONE_BY_ONE, EngineFile, Override
 from .plain_tables import change_tables
-from .table_reader import TableReader, refuse
+from .table_reader import TableReader
 from .toml_text import parse_toml
 from .unknown_keys import INSTEAD, suggest, suggest_place
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
-CONTROL_CHARACTERS = {  # compiled when a text is met that is not all printable
-    "name": rf"[\x00-\x1f\x7f-\x9f{DISGUISES}]",
-    "source": rf"[\x00-\x08\x0b-\x1f\x7f-\x9f{DISGUISES}]",  # may have lines
-}
 
 
 class Draft(NamedTuple):
@@ -52,16 +48,6 @@ class Draft(NamedTuple):
     model: EngineFile
     legible: frozenset[str]
     problems: tuple[Problem, ...]
-
-    @property
-    def has_mistakes(self) -> bool:
-        return bool(self.problems)
-
-    def refusal(self, contradictions: Iterable[Problem], name: str) -> InputError:
-        """Return all mistakes as one error: unknown keys, those of the text, and what the tables
-        say against each other.
-        """
-        return refuse((*self.problems, *contradictions), name)
 
 
 def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Draft:
@@ -186,7 +172,8 @@ def _read_text(reader: TableReader, key: str, value: object) -> str | None:
     if not isinstance(value, str):
         reader.add(key, f"{shorten(value)} is not text; write it in quotes")
         return None
-    strange = None if value.isprintable() else re.search(CONTROL_CHARACTERS[key], value)
+    characters = CONTROL_CHARACTERS if key == "source" else rf"{CONTROL_CHARACTERS}|[\t\n]"
+    strange = None if value.isprintable() else re.search(characters, value)
     if strange:
         reader.add(
             key,

@@ -41,8 +41,6 @@ MEAN_PRESSURE = 60.0  # bar
 MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
 # bar, absolute: at 10 km of height there are 0.26, charged in two stages 10; psi and MPa: beyond.
 AROUND = 0.15, 12.0
-COMPRESSION = 2.0, 30.0  # engines have 4 (of 1910) to 25
-INDEX = 1.0, 1.67  # to that of a gas of single atoms that loses nothing; engines have 1.2 to 1.4
 # Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft
 # weighs some 4 to 10 times as much for each throw, with its counterweights.
 THROW = 6.0
@@ -261,23 +259,14 @@ def _list_inertias(model: EngineFile) -> Iterator[Figure]:
 def _list_gas(model: EngineFile) -> Iterator[Figure]:
     if model.gas is None:
         return
-    computed = model.gas.cycle is not None  # a compressor, with a diagram, leaves less clearance
     question = ask_unit("bar", "130 psi", "0.9 MPa")
-    index = "it is n of p V^n = const"
-    for key, (least, most), unit, hint in (
-        ("intake", AROUND, " bar absolute", question),
-        ("exhaust", AROUND, " bar absolute", question),
-        ("crankcase", AROUND, " bar absolute", question),
-        ("imep", (0.0, MEAN_PRESSURE), " bar", question),
-        ("bmep", (0.0, MEAN_PRESSURE), " bar", question),
-        ("max_pressure", (0.0, MAX_PRESSURE), " bar", question),
-        ("compression_ratio", COMPRESSION, "", "it is the largest volume over the smallest"),
-        ("compression_index", INDEX, "", index),
-        ("expansion_index", INDEX, "", index),
-    ):
+    around, mean = (*AROUND, " bar absolute"), (0.0, MEAN_PRESSURE, " bar")
+    usual = dict.fromkeys(("intake", "exhaust", "crankcase"), around)
+    usual |= {"imep": mean, "bmep": mean, "max_pressure": (0.0, MAX_PRESSURE, " bar")}
+    for key, (least, most, unit) in usual.items():
         value = getattr(model.gas, key)
-        if value is not None and (unit or computed):
-            yield Figure(f"gas.{key} is", value, least, most, unit, hint)
+        if value is not None:
+            yield Figure(f"gas.{key} is", value, least, most, unit, question)
 
 
 def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:

@@ -46,14 +46,6 @@ _COUNT = (
 INSTEAD = {
     **dict.fromkeys(("cylinders", "count", "number_of_cylinders"), _COUNT),
     **dict.fromkeys(("radius", "crank_radius"), "give crank.stroke, twice the crank radius"),
-    **dict.fromkeys(
-        ("power", "torque"), "power and torque follow from gas.imep and operation.speed"
-    ),
-    **dict.fromkeys(
-        ("overbalance", "balance_factor", "factor"),
-        "did you mean balcli balance FILE --factor 51%?",
-    ),
-    **dict.fromkeys(("unit", "units"), 'a unit stands with its figure, such as "3.5 in"'),
 }
 _NEAR = 0.65  # of a key and one of its table that is meant: "damper" is no "name"
 _NEAR_ELSEWHERE = 0.75

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from typing import Any
 
 from ..engine.load import parse_dict
 from ..engine.numbering import doubt_firing
-from ..engine.vary import NO_FIRING_ORDER
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import change_tables
 from ..enginefile.suspicious import find_suspicious
@@ -40,15 +38,6 @@ def doubt_unvaried(
     for end in (0, -1) if doubts else ():
         figures = {p.path: float(p.values[end]) for p in parameters}
         with suppress(InputError):
-            variant = _doubt_variant(model, figures, doubt)
+            variant = list(doubt(parse_dict(change_tables(model, figures), model.folder)))
             doubts = [each for each in doubts if each in variant]
     return doubts
-
-
-def _doubt_variant(model: EngineFile, figures: Mapping[str, Any], doubt: Doubt) -> list[str]:
-    """Without the firing order, where it does not fit the variant."""
-    try:
-        return list(doubt(parse_dict(change_tables(model, figures), model.folder)))
-    except InputError:
-        changes = {**NO_FIRING_ORDER, **figures}
-        return list(doubt(parse_dict(change_tables(model, changes), model.folder)))
