@@ -12,7 +12,6 @@ from balcli.enginefile import templates as new
 from balcli.enginefile.suspicious import find_suspicious
 
 FREE = ("firing_order = [1, 3, 4, 2]\n", "")  # no firing order, which throws would have to fit
-MM = 'is it in mm? Another unit is said as in "4.4 in" or "1.02 m"'
 DEGREES = (
     'bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 rad", and numbers of '
     "cylinders stand in layout.firing_order"
@@ -65,8 +64,6 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
         # 5 x (4 x 0.8 + 4 x (0.5 + 0.6)) kg x 45 mm
         ([], "[[counterweight]]\nunbalance = 10\n[[counterweight]]\nmass = 40\nradius = 60\n", "counterweight.2: its unbalance is 2.4e+06 g mm, where at most 1700000 is usual; is it in g mm?"),
         ([], '[gas]\ncycle = "otto"\ncompression_ratio = 10\nimep = 130\n', 'gas.imep is 130 bar, where at most 60 is usual; is it in bar? Another unit is said as in "130 psi" or "0.9 MPa"'),
-        ([("spacing = 100", "spacing = 4.4")], "", f"crank.spacing: the distance of neighbouring cylinders of one bank is 4.4 mm, where at least 77 is usual; {MM}"),
-        ([("spacing = 100", "positions = [15, 10, -10, -15]")], "", f"crank.positions: the distance of neighbouring cylinders of one bank is 5 mm, where at least 77 is usual; {MM}"),
         # all of a forged two-litre crankshaft
         ([("throw_mass = 0.8", "throw_mass = 16")], "", "crank.throw_mass is 16 kg, where at most 6.6 is usual; is it in kg? It is what one throw has off the axis, not what the crankshaft weighs"),
         ([], "[bobweight]\nrod_bearing = 47\noil = 0.004\n", 'bobweight.rod_bearing is 47 kg, where at most 0.55 is usual; is it in kg? Grams are said as in "47 g"'),
@@ -109,20 +106,6 @@ def test_engines_of_the_project_are_of_usual_size():
     assert len(files) > 60
     doubts = {file.name: find_suspicious(parse(file.read_text("utf-8"))) for file in files}
     assert {name: told for name, told in doubts.items() if told} == {}
-
-
-@pytest.mark.parametrize(
-    "layout",
-    [
-        'banks = [-90, 90]\nrods = "alternating"',  # opposite cylinders overlap in side view
-        'bank_angle = 15\nrods = "alternating"',
-        "radial = 9",
-    ],
-)
-def test_cylinders_of_different_banks_may_overlap(layout):
-    close = ("spacing = 100", "spacing = 50")
-    assert len(find_suspicious(parse(changed(close)))) == 1
-    assert find_suspicious(parse(changed(close, ("firing_order = [1, 3, 4, 2]", layout)))) == []
 
 
 def test_moving_masses_count_every_rod_of_a_vee():

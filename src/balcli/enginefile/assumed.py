@@ -24,8 +24,10 @@ def list_assumed(model: EngineFile) -> Iterator[str]:
             unit = next((m.dimension.unit for m in field.metadata if isinstance(m, Number)), "")
             if told:
                 yield f"{path}: {taken}"
-            elif isinstance(field.default, int | float | str) and field.default is not False:
-                yield f"{path} = {_plain(field.default)} {unit}".rstrip()
+            elif isinstance(field.default, str):
+                yield f"{path} = {field.default}"
+            elif isinstance(field.default, int | float) and field.default is not False:
+                yield f"{path} = {field.default:g} {unit}".rstrip()
     if model.rod.mass is None and model.rod.small_end is None:
         yield "rod.mass: a rod without mass"
 
@@ -41,7 +43,3 @@ def _list_idle(model: EngineFile) -> set[str]:
     if one_throw and one_bank:
         found |= {"layout.firing_intervals"}
     return found
-
-
-def _plain(value: float | str) -> str:
-    return value if isinstance(value, str) else f"{value:g}"

@@ -115,16 +115,13 @@ class FileTable(BaseModel):
 
     @model_validator(mode="after")
     def _consistent(self, info: ValidationInfo) -> "FileTable":
-        """A context stands for a table that is known to have mistakes."""
-        if info.context is None and (found := self.list_faults()):
-            raise ValueError("; ".join(found))
+        """Refuse contradictions. A context stands for a table that is known to have mistakes."""
+        if info.context is None:
+            given = self.model_fields_set
+            of_choices = [fault for choice in self.choices for fault in choice.mistakes(given)]
+            if found := [*of_choices, *self.contradictions()]:
+                raise ValueError("; ".join(found))
         return self
-
-    def list_faults(self) -> list[str]:
-        """All that its keys and figures say against each other."""
-        given = self.model_fields_set
-        of_choices = [mistake for choice in self.choices for mistake in choice.mistakes(given)]
-        return [*of_choices, *self.contradictions()]
 
     def contradictions(self) -> Iterator[str]:
         """What the fields of this table say against each other."""
@@ -277,32 +274,28 @@ class Layout(FileTable):
         yield from _refuse_repeated("numbering", chain(*self.numbering or ()))
 
     def _check_intervals(self) -> Iterator[str]:
-        intervals, order = self.firing_intervals, self.firing_order
-        if intervals and order is None:
+        intervals, order, cycle = self.firing_intervals, self.firing_order, 180 * self.strokes
+        if intervals is None:
+            return
+        if order is None:
             yield "firing_intervals is given without firing_order; give both, or neither"
-        elif intervals and order and len(intervals) != len(order):
+        elif len(intervals) != len(order):
             yield (
                 f"firing_intervals has {counted(len(intervals), 'interval')} for "
                 f"{counted(len(order), 'firing')}; give one for each, the last one "
                 "back to the first cylinder"
             )
-
-    def _check_cycle(self) -> Iterator[str]:
-        intervals, order = self.firing_intervals, self.firing_order
-        if not (intervals and order and len(intervals) == len(order)):
-            return
-        if abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
+        elif abs(sum(intervals) - cycle) > INTERVAL_TOLERANCE_DEG:
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
-                f"{self.strokes}-stroke has {180 * self.strokes} (within "
-                f"{INTERVAL_TOLERANCE_DEG:g})"
+                f"{self.strokes}-stroke has {cycle} (within {INTERVAL_TOLERANCE_DEG:g}); give the "
+                "angle from each firing to the next"
             )
 
     rules = (
         TableRule(_check_firing_order, {"firing_order"}),
         TableRule(_check_numbering, {"numbering"}),
-        TableRule(_check_intervals, {"firing_intervals", "firing_order"}),
-        TableRule(_check_cycle, {"firing_intervals", "firing_order", "strokes"}),
+        TableRule(_check_intervals, {"firing_intervals", "firing_order", "strokes"}),
     )
 
 

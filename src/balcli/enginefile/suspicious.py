@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from .fields import count_lambda_digits
-from .model import Counterweight, EngineFile, Layout
+from .model import Counterweight, EngineFile
 from .units import ask_unit
 
 # Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
@@ -45,8 +45,6 @@ AROUND = 0.15, 12.0
 # weighs some 4 to 10 times as much for each throw, with its counterweights.
 THROW = 6.0
 BEARING = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
-# Cylinders in line need more than their bore from one to the next: engines have 1.05 to 1.8.
-NEIGHBOURS = 0.9
 # deg, of all throws: cranks have 60 or more, or none; [1, 3, 4, 2] and radians have 1 to 10.
 THROWS = 1.0, 10.0
 UNBALANCE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
@@ -202,12 +200,6 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
 
 
 def _list_cranks(model: EngineFile) -> Iterator[Figure]:
-    bore, gap = model.piston.bore, _find_gap_in_bank(model)
-    if bore is not None and gap:  # 0 is said on purpose: all throws in one plane
-        key = "spacing" if model.crank.positions is None else "positions"
-        name = f"crank.{key}: the distance of neighbouring cylinders of one bank is"
-        question = ask_unit("mm", "4.4 in", "1.02 m")
-        yield Figure(name, gap, NEIGHBOURS * bore, math.inf, " mm", question)
     angles = model.crank.throws or (0.0,)
     span = max(angles) - min(angles)
     if span >= THROWS[0]:
@@ -300,34 +292,15 @@ def _weigh_rod(model: EngineFile) -> float:
     return rod.mass or (rod.small_end or 0.0) + (rod.big_end or 0.0)
 
 
-def _find_gap_in_bank(model: EngineFile) -> float | None:
-    """Return the least distance of two cylinders of one bank, mm; None where it is not known, or
-    where rows of a radial or cylinders with axes of their own may reach between one another.
-    """
-    layout, crank = model.layout, model.crank
-    own = any(c.bank is not None or c.position is not None for c in model.cylinder.values())
-    throws, _ = _count_throws_and_rods(model)
-    # from one throw of a bank to its next
-    step = _count_banks(layout) if layout.rods == "alternating" else 1
-    if layout.radial is not None or own or step >= throws:
-        return None
-    if crank.positions is None:
-        return None if crank.spacing is None else step * crank.spacing
-    return min(abs(b - a) for a, b in zip(crank.positions, crank.positions[step:], strict=False))
-
-
 def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:
     """Without throws, the firing order tells the number of rods."""
     layout = model.layout
-    rods_on_a_throw = _count_banks(layout) if layout.rods == "shared" else 1
+    banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
+    rods_on_a_throw = banks if layout.rods == "shared" else 1
     if model.crank.throws is None and layout.firing_order:
         return max(len(layout.firing_order) // rods_on_a_throw, 1), len(layout.firing_order)
     throws = len(model.crank.throws or (0.0,))
     return throws, throws * rods_on_a_throw
-
-
-def _count_banks(layout: Layout) -> int:
-    return 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
 
 
 def _unbalance(weight: Counterweight) -> float:

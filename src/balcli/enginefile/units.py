@@ -13,7 +13,7 @@ from functools import cache
 from typing import NamedTuple
 
 from ..limits import LONGEST_FIGURE
-from .unit_table import AMBIGUOUS, DEFINITIONS, find_near_name, split_prefix
+from .unit_table import AMBIGUOUS, DEFINITIONS, PREFIXED, find_near_name
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 
@@ -242,8 +242,8 @@ def _find(name: str) -> Unit | None:
         number, names = _split(DEFINITIONS[name]) or (Fraction(), "")
         unit = read_unit(names, PLAIN)
         return Unit(number * unit.scale, unit.powers)
-    if prefixed := split_prefix(name):
-        power, of_which = prefixed
+    if name in PREFIXED:
+        power, of_which = PREFIXED[name]
         unit = read_unit(of_which, PLAIN)
         return Unit(Fraction(10) ** power * unit.scale, unit.powers)
     one = name.removesuffix("s")
