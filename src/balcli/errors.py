@@ -33,7 +33,7 @@ def say(text: str) -> None:
 
 
 class Loudness(IntEnum):
-    """How much is said beside results and errors."""
+    """How much balcli prints besides results and errors."""
 
     QUIET = 0  # nothing
     USUAL = 1  # warnings; on a terminal, how far a long computation is
@@ -44,29 +44,29 @@ _loudness = Loudness.USUAL
 
 
 def set_loudness(loudness: Loudness) -> None:
-    """For the rest of this process."""
+    """Set how much is printed in the rest of this process."""
     global _loudness
     _loudness = loudness
 
 
 def is_quiet() -> bool:
-    """Whether warnings and progress are not wanted."""
+    """Return whether warnings and progress are not wanted."""
     return _loudness == Loudness.QUIET
 
 
 def is_verbose() -> bool:
-    """Whether notes are wanted."""
+    """Return whether notes are wanted."""
     return _loudness == Loudness.VERBOSE
 
 
 def warn(text: str) -> None:
-    """A warning on standard error, unless nobody wants any."""
+    """Print a warning on standard error, unless warnings are not wanted."""
     if not is_quiet():
         say(f"warning: {text}")
 
 
 def note(text: str) -> None:
-    """What was read, assumed or tried, on standard error, for those who want to know."""
+    """Print what was read, assumed or tried on standard error, if notes are wanted."""
     if is_verbose():
         say(f"note: {text}")
 
@@ -111,7 +111,7 @@ class BalcliError(Exception):
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
-    """The error of a file that cannot be written; a missing folder has its name."""
+    """Return the error of a file that cannot be written; it names a missing folder."""
     folder = os.path.dirname(target)
     reason = error.strerror or str(error)
     if isinstance(error, FileNotFoundError) and folder and not os.path.exists(folder):
@@ -120,7 +120,7 @@ def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
 
 
 class InputError(BalcliError):
-    """All mistakes of one input file at once; `more` is the number of those that are not listed."""
+    """All mistakes of one input file at once; `more` is the number of those not listed."""
 
     def __init__(self, problems: Iterable[Problem], file: str = "", more: int = 0) -> None:
         self.problems = tuple(problems)
@@ -139,7 +139,7 @@ class InputError(BalcliError):
 
 @contextmanager
 def naming_file(file: str) -> Iterator[None]:
-    """Mistakes that are found within are told as those of this file."""
+    """Give mistakes that are found within the name of a file."""
     try:
         yield
     except InputError as error:
@@ -147,7 +147,7 @@ def naming_file(file: str) -> Iterator[None]:
 
 
 def check_type(function: str, value: object, kind: type | tuple[type, ...], wanted: str) -> None:
-    """For the library: refuse what is not of this kind, with what would be right.
+    """Raise an error if an argument of the library is not of this kind.
 
     Raises:
         TypeError: it is not.
@@ -157,7 +157,7 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
 
 
 def check_number(name: str, value: object, wanted: str) -> float:
-    """For the library: a number; one of hundreds of digits counts as infinite.
+    """Return an argument of the library as a number; hundreds of digits count as infinite.
 
     Raises:
         TypeError: it is none.
@@ -172,7 +172,7 @@ def check_number(name: str, value: object, wanted: str) -> float:
 def list_words(
     name: str, words: str | Iterable[str], example: str = '["force", "moment"]'
 ) -> list[str]:
-    """For the library: words as a list, or in a text with commas between.
+    """Return an argument of the library, a list of words or a text with commas, as a list.
 
     Raises:
         TypeError: they are no words.
@@ -187,7 +187,7 @@ def list_words(
 
 
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
-    """For the library: what a function was given, and what would be right."""
+    """Return the error for an argument of the library: what was given, and what would be right."""
     try:
         text = repr(value)
     except ValueError:  # Python writes no number of thousands of digits

@@ -129,8 +129,6 @@ WIEBE = {"cycle": "wiebe", "compression_ratio": 10, "imep": 9}
         ({"gas": [WIEBE]}, "gas: stands once, in single brackets: [gas]"),
         ({"cylinder": [{"gas": 0}]}, "cylinder: has a table for each that differs, such as [cylinder.3]"),
         ({"operation": {"speed_ripple": 0.02}}, "operation.speed_ripple: 0.02 is no table; write [[operation.speed_ripple]] in double brackets"),
-        ({"layout": {"firing_order": ["B2", "A1", "B1", "A2"]}}, "layout.firing_order: names cylinders by bank and place; give their numbers, which count bank by bank from the free end without layout.numbering"),
-        ({"layout": {"firing_order": "A1-B1"}}, "layout.firing_order: names cylinders by bank and place;"),
     ],
 )  # fmt: skip
 def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer):

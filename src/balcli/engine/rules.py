@@ -1,4 +1,4 @@
-"""What does not fit together in an engine file: rules, each of which tells its mistakes by path.
+"""Rules for what fits together in an engine file; each yields its mistakes by path.
 
 A rule looks at an engine as far as it is put together, and names the tables that it needs. So the
 mistakes of a file of which some tables cannot be read are found by the same rules.
@@ -28,14 +28,14 @@ _PLAN = frozenset(  # which cylinders there are
 
 
 class Rule(NamedTuple):
-    """What must hold, and the keys of the file without which nothing can be said of it."""
+    """A check, and the keys of the file that it needs."""
 
     check: Callable[[Assembly], Iterator[Problem]]
     needs: frozenset[str]
 
 
 def find_contradictions(parts: Assembly) -> list[Problem]:
-    """What the tables of a file say against each other, as far as they could be read.
+    """Return what the tables of a file say against each other, as far as they could be read.
 
     All that the first rules that find something find, each mistake once: the others are about
     engines of which those hold.

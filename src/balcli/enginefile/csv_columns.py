@@ -29,12 +29,16 @@ class NumberColumns(NamedTuple):
     lines: tuple[int, ...]
 
     def column(self, number: int) -> list[float]:
-        """All numbers under one of the heads."""
+        """Return all numbers under one of the heads, counted from 0."""
         return [row[number] for row in self.rows]
 
 
 def locate_beside(folder: Path, name: str) -> Path:
-    """The file of this name, relative to a folder that it may not leave.
+    """Return the path of a file beside an engine file.
+
+    Args:
+        folder: of the engine file, which the path may not leave.
+        name: as the engine file has it.
 
     Raises:
         BalcliError: it would, or no file can have that name.

@@ -20,7 +20,7 @@ class Choice(NamedTuple):
     complete: bool | tuple[str, ...] = False
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
-        """What is wrong with these keys, in words that a table's name can stand before."""
+        """Yield what is wrong with the given keys, in words that follow the name of the table."""
         begun = [[key for key in group if key in given] for group in self.groups]
         keys, missing = [key for some in begun for key in some], self.find_missing(given)
         if sum(map(bool, begun)) > 1:
@@ -31,7 +31,7 @@ class Choice(NamedTuple):
             yield f"has {join_words(keys)} without {join_words(missing)}; {self._wanted()}"
 
     def find_missing(self, given: Collection[str]) -> tuple[str, ...]:
-        """Keys that are not there, and of which one has to be, or all."""
+        """Return missing keys of which one is needed, or all."""
         begun = [group for group in self.groups if any(key in given for key in group)]
         if not begun and self.required:
             return tuple(key for group in self.groups for key in group)
@@ -40,13 +40,13 @@ class Choice(NamedTuple):
         return ()
 
     def rivals(self, key: str) -> tuple[str, ...]:
-        """The keys that must not be given beside this one; none for a key of no group."""
+        """Return the keys that exclude this one; none for a key of no group."""
         if not any(key in group for group in self.groups):
             return ()
         return tuple(other for group in self.groups if key not in group for other in group)
 
     def for_overrides(self, prefix: str) -> Choice:
-        """The same choice among keys with this prefix, none of which must be given."""
+        """Return this choice among keys with a prefix, none of which must be given."""
         return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
 
     def _wanted(self) -> str:
@@ -54,6 +54,6 @@ class Choice(NamedTuple):
 
 
 def join_words(words: Collection[str]) -> str:
-    """Words as they are counted up in a sentence: `a, b and c`."""
+    """Return words as a sentence lists them: `a, b and c`."""
     *front, last = words
     return f"{', '.join(front)} and {last}" if front else last

@@ -19,13 +19,13 @@ RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
 
 
 def printable(text: str) -> str:
-    """The first 60 characters; what moves the cursor or colours a terminal becomes a "?"."""
+    """Return the first 60 characters; what moves the cursor or colours a terminal becomes a "?"."""
     cut = text[:LONGEST_SHOWN] + ("..." if len(text) > LONGEST_SHOWN else "")
     return "".join(letter if letter.isprintable() else "?" for letter in cut)
 
 
 def shorten(value: object) -> str:
-    """A value as a reader may recognise it, cut to about 60 characters, however huge it is."""
+    """Return a value as a reader may recognize it, cut to about 60 characters."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int) and value.bit_length() > 200:
@@ -42,35 +42,32 @@ def shorten(value: object) -> str:
 
 
 def counted(count: int, what: str) -> str:
-    """ "1 place", "2 places"."""
+    """Return a number with its noun: "1 place", "2 places"."""
     return f"{count} {what}{'s' * (count != 1)}"
 
 
 def count_lambda_digits(ratio: float, usual: int = 4) -> int:
-    """Of crank radius / rod length, as it is told: more next to 1, where the crank locks."""
+    """Return how many digits of crank radius / rod length are shown: more next to 1, where the
+    crank locks.
+    """
     return usual if ratio < 0.999 else max(usual, 7)
 
 
 def parse_firing_order(value: object) -> object:
-    """Return a firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is.
-
-    Raises:
-        ValueError: cylinders are named by bank and place, A1-B1-A2-B2.
-    """
+    """Return a firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is."""
     if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-, ]\s*\d{1,5})+\s*", value):
         return [int(number) for number in re.findall(r"\d+", value)]
-    names = re.split(r"[-, ]+", value.strip()) if isinstance(value, str) else value
-    listed = names if isinstance(names, (list, tuple)) else ()
-    if listed and all(re.fullmatch(r"[A-Za-z]\d{1,3}", str(name)) for name in listed):
-        raise ValueError(
-            "names cylinders by bank and place; give their numbers, which count bank by bank from "
-            "the free end without layout.numbering"
-        )
     return value
 
 
 def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
-    """The known word that was probably meant; empty if none is near. `cutoff`: 1 for equal ones."""
+    """Return the known word that was probably meant; empty if none is near.
+
+    Args:
+        word: as somebody wrote it.
+        known: words that there are.
+        cutoff: least similarity, 1 for equal words.
+    """
     from difflib import get_close_matches
 
     near = get_close_matches(word.lower(), list(known), 1, cutoff) if len(word) < 100 else []
@@ -78,7 +75,7 @@ def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
 
 
 def suggest_nearest(word: str, known: Iterable[str], otherwise: str) -> str:
-    """A question for the known word that was probably meant; what to say otherwise if none is."""
+    """Return "did you mean ...?" for the known word that was probably meant, else `otherwise`."""
     near = nearest(word, known)
     return f"did you mean {near}?" if near else otherwise
 
@@ -134,7 +131,7 @@ class Number(_Field):
         return number
 
     def _fault(self, number: float) -> tuple[str, str] | None:
-        """How a number is out of bounds, and what bounds it has; None if it is within."""
+        """Return how a number is out of bounds, and its bounds; None if it is within."""
         if self.above is not None and number <= self.above:
             return f"not above {self.above:g}", f"above {self.above:g}"
         if self.above == 0 and number < SMALLEST_POSITIVE:

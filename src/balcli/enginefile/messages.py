@@ -45,7 +45,7 @@ KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
 
 
 def import_table(key: str) -> type[model.FileTable]:
-    """The table of a key; its module is imported, if it is of a chapter."""
+    """Return the table of a key; the module of a chapter is imported."""
     if key in TABLES or key in DEVICES:
         return (TABLES | DEVICES)[key]
     module = import_module(f"{__package__}.{(CHAPTERS | CHAPTER_LISTS)[key]}")
@@ -53,18 +53,18 @@ def import_table(key: str) -> type[model.FileTable]:
 
 
 def import_tables() -> dict[str, type[model.FileTable]]:
-    """All tables that stand once in a file, those of chapters too."""
+    """Return all tables that stand once in a file, with those of chapters."""
     return TABLES | {key: import_table(key) for key in CHAPTERS}
 
 
 def import_lists() -> dict[str, type[model.FileTable]]:
-    """All tables that may stand several times in a file, those of chapters too."""
+    """Return all tables that may stand several times in a file, with those of chapters."""
     return DEVICES | {key: import_table(key) for key in CHAPTER_LISTS}
 
 
 def join_path(start: str, parts: Iterable[int | str]) -> str:
-    """`a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people count from 1. The path
-    of the file itself is empty.
+    """Return a dotted path: `a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people
+    count from 1. The path of the file itself is empty.
     """
     names = (str(part + 1) if isinstance(part, int) else printable(part) for part in parts)
     return ".".join(filter(None, [start, *names]))

@@ -1,4 +1,4 @@
-"""What an engine file may say: one pydantic table per part, in its units (mm, kg, degrees, rpm, kg
+"""The tables of an engine file: one pydantic class per part, in its units (mm, kg, degrees, rpm, kg
 mm^2, g mm, s).
 
 The tables check and never derive: what follows from the figures (rod length from its ratio, inertia
@@ -93,10 +93,10 @@ def needed(description: str, *examples: object) -> Any:
 
 
 class TableRule(NamedTuple):
-    """What must hold in a table.
+    """A rule for the keys of a table.
 
     Attributes:
-        check: what is wrong, in words.
+        check: yields what is wrong, in words.
         needs: keys without whose values nothing can be said of it.
         wants: keys of which one is enough.
     """
@@ -124,17 +124,17 @@ class FileTable(BaseModel):
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """What the fields of this table say against each other."""
+        """Yield what the fields of this table say against each other."""
         for rule in self.rules:
             yield from rule.check(self)
 
     def rivals(self, key: str) -> tuple[str, ...]:
-        """Keys of what says the same as this one, of which only one may be given."""
+        """Return the keys that exclude this one, since they say the same."""
         return tuple(rival for choice in self.choices for rival in choice.rivals(key))
 
     @classmethod
     def keys(cls) -> dict[str, FieldInfo]:
-        """Its fields by their keys as a file has them."""
+        """Return the fields of this table by their keys, as a file has them."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
 
@@ -409,8 +409,8 @@ class Slider(Device):
 
 
 def label_table(table: FileTable, number: int) -> str:
-    """What stands for a table of several in dotted names: its name, if that is a word, with `_` for
-    spaces; else its number.
+    """Return the word for a table of several in dotted names: its name, with `_` for spaces, if
+    that is a word; else its number.
     """
     name = getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)
@@ -458,13 +458,13 @@ class EngineFile(FileTable):
         return self._folder
 
     def with_table(self, key: str, **values: object) -> "EngineFile":
-        """The same with other values in one of its tables, which are not checked."""
+        """Return a copy of this file with other values in one table; they are not checked."""
         table: FileTable = getattr(self, key)
         return self.model_copy(update={key: table.model_copy(update=values)})
 
     def tables(self) -> Iterator[tuple[str, FileTable]]:
-        """Every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the file
-        has it or it has defaults; not the tables within tables.
+        """Yield every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the
+        file has it or it has defaults; not the tables within tables.
         """
         for key, part in self:
             if isinstance(part, FileTable):

@@ -34,7 +34,7 @@ REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5
 
 
 class Draft(NamedTuple):
-    """What could be read of an engine file.
+    """The readable part of an engine file.
 
     Attributes:
         model: the file. Where there are mistakes, tables that could not be read are left out of it:
@@ -51,9 +51,11 @@ class Draft(NamedTuple):
 
 
 def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Draft:
-    """What a TOML text says of an engine; `name` is that of its file, for messages.
+    """Return the readable part of a TOML text.
 
     Args:
+        text: of the file.
+        name: of the file, for messages.
         bare: whether a body on its mounts will do, without crank, rods and pistons: the model then
             has none.
 
@@ -66,7 +68,8 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
 def check_tables(
     data: Mapping[str, Any], folder: Path, name: str = "", *, bare: bool = False
 ) -> Draft:
-    """What tables say of an engine. Those that are not there are not even compiled by pydantic.
+    """Return the readable part of the tables of a file; pydantic compiles only tables that are
+    there.
 
     Args:
         data: as TOML is read.

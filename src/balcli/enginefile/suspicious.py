@@ -117,7 +117,7 @@ def _doubt(figures: Iterable[Figure]) -> Iterator[str]:
 
 
 def _round(value: float) -> str:
-    """Two significant digits, without an exponent where it can be read."""
+    """Return two significant digits, without an exponent where it can be read."""
     return f"{float(f'{value:.2g}'):.12g}"
 
 
@@ -274,7 +274,7 @@ def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:
 
 
 def _has_crosshead(model: EngineFile) -> bool:
-    """Whether the stroke is as long as only engines with a crosshead have it."""
+    """Return whether only engines with a crosshead have so long a stroke."""
     bore = model.piston.bore
     return bore is not None and model.crank.stroke > LONG_STROKE * bore
 
@@ -293,7 +293,7 @@ def _weigh_rod(model: EngineFile) -> float:
 
 
 def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """Without throws, the firing order tells the number of rods."""
+    """Return the numbers of throws and of rods; without throws, the firing order has the latter."""
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
     rods_on_a_throw = banks if layout.rods == "shared" else 1

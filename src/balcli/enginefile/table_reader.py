@@ -184,8 +184,8 @@ class TableReader:
 
 
 def _is_miscounted(finding: ErrorDetails) -> bool:
-    """Whether a list is called too short only because members of it, which have findings of their
-    own, were not counted.
+    """Return whether a list is called too short only because members of it, which have findings of
+    their own, were not counted.
     """
     return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
 
@@ -226,7 +226,7 @@ def _find_conflicts(
 
 
 def _count_values(value: object) -> int:
-    """How many values a value holds, itself included."""
+    """Return how many values a value holds, itself included."""
     if isinstance(value, Mapping):
         return 1 + sum(map(_count_values, value.values()))
     return 1 + sum(map(_count_values, value)) if isinstance(value, list) else 1

@@ -34,7 +34,8 @@ _HINTS = (
 
 
 def read_bytes(source: str | Path) -> bytes:
-    """The content of a file, or of standard input for "-", as far as it may be long.
+    """Return the content of a file, or of standard input for "-"; at most one byte more than a file
+    may have.
 
     Raises:
         BalcliError: it cannot be read.
@@ -57,7 +58,7 @@ def read_bytes(source: str | Path) -> bytes:
 
 
 def find_near_file(source: str | Path) -> str:
-    """The file or example that was probably meant, in words; empty if none comes to mind."""
+    """Return the file or example that was probably meant, in words; empty if none is near."""
     from .examples import is_example  # after a mistake alone
 
     with_ending, asked = f"{source}.toml", Path(source)
@@ -73,7 +74,7 @@ def find_near_file(source: str | Path) -> str:
 
 
 def name_file(source: str | Path) -> str:
-    """What messages call a file; "-" is standard input."""
+    """Return the name of a file in messages; "-" is standard input."""
     return "standard input" if str(source) == "-" else str(source)
 
 

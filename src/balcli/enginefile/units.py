@@ -37,8 +37,12 @@ class Unit(NamedTuple):
 
 
 class Dimension(NamedTuple):
-    """What a field of the engine file measures: its bare unit, how one speaks of it, and figures to
-    show a reader.
+    """A dimension of figures in engine files.
+
+    Attributes:
+        unit: of bare numbers.
+        name: in words, with its article.
+        examples: figures to show a reader.
     """
 
     unit: str
@@ -125,14 +129,22 @@ _RAISED = {"²": 2, "³": 3, "2": 2, "3": 3}
 
 
 def convert(text: str, dimension: Dimension) -> float:
-    """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong,
-    what would be right.
+    """Return a figure in the bare unit of a dimension, correctly rounded.
+
+    Args:
+        text: number and unit, such as "3 1/2 in".
+        dimension: that the figure has to have.
+
+    Raises:
+        ValueError: what is wrong, and what would be right.
     """
     return float(convert_exactly(text, dimension))
 
 
 def convert_exactly(text: str, dimension: Dimension) -> Fraction:
-    """As `convert`, before it is rounded."""
+    """Return the exact figure in the bare unit of a dimension; arguments and errors as of
+    `convert`.
+    """
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     figure = re.sub(_INCH_MARK, r"\1 in", text)
@@ -178,7 +190,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
 
 
 def _measure_part(part: str, dimension: Dimension) -> Fraction:
-    """As `_measure`, of one figure of two, which errors name."""
+    """Return `_measure` of one figure of two; errors name it."""
     try:
         return _measure(part, dimension)
     except ValueError as error:
@@ -212,7 +224,15 @@ def _split(figure: str) -> tuple[Fraction, str] | None:
 
 @cache
 def read_unit(names: str, dimension: Dimension) -> Unit:
-    """The product of a unit's parts; ValueError for an unknown one, with examples."""
+    """Return the product of the parts of a unit.
+
+    Args:
+        names: of the parts, such as "kg mm^2".
+        dimension: for the examples in errors.
+
+    Raises:
+        ValueError: a part is unknown, or might be two units.
+    """
     if re.sub(_PART, "", names, flags=re.ASCII).strip(" .-"):
         raise ValueError(f'has the unknown unit "{names}"; {wanted(dimension)}')
     scale, powers = Fraction(1), Powers()
@@ -251,15 +271,18 @@ def _find(name: str) -> Unit | None:
 
 
 def ask_unit(unit: str, *others: str) -> str:
-    """For messages on an unlikely figure: whether it is in this unit, its bare one, and how figures
-    in others are said, such as "3.5 in".
+    """Return a question for messages on an unlikely figure: is it in its bare unit?
+
+    Args:
+        unit: the bare one.
+        others: figures in other units, such as "3.5 in".
     """
     said = " or ".join(f'"{other}"' for other in others)
     return f"is it in {unit}? Another unit is said as in {said}"
 
 
 def wanted(dimension: Dimension) -> str:
-    """What would be right, with examples."""
+    """Return what would be right, with examples."""
     if dimension is PLAIN:
         return "a plain number is wanted, without quotes"
     examples = " or ".join(f'"{e}"' for e in dimension.examples)

@@ -83,8 +83,8 @@ def suggest_own(key: str, own: Collection[str]) -> tuple[str, str]:
 
 
 def suggest(key: str, own: Collection[str]) -> tuple[str, str]:
-    """As `suggest_own`, for a table of an engine file: by what others call it, and by tables that
-    have the key.
+    """Return the same as `suggest_own` for a table of an engine file: synonyms and the tables that
+    have the key count, too.
     """
     word = key.lower().replace("-", "_")
     if word in INSTEAD:

@@ -1,4 +1,4 @@
-"""What is unlikely of an engine file of which figures vary."""
+"""Doubts of an engine file of which figures vary."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Doubt = Callable[[EngineFile], Iterable[str]]
 
 
 def doubt_but_for_gas(model: EngineFile) -> list[str]:
-    """What is unlikely of a file, in words; no gas is computed for it.
+    """Return the doubts of a file, in words; gas is not computed.
 
     Raises:
         InputError: a firing order that does not fit the crank.
@@ -28,8 +28,8 @@ def doubt_but_for_gas(model: EngineFile) -> list[str]:
 def doubt_unvaried(
     model: EngineFile, parameters: Sequence[Parameter], doubt: Doubt = doubt_but_for_gas
 ) -> list[str]:
-    """What is unlikely of a file whatever its varying figures are, in words: what is said of the
-    file, of its first and of its last variant alike, as far as these can be.
+    """Return the doubts of a file that do not depend on its varying figures: those of the file, its
+    first and its last variant, as far as these can be.
 
     Raises:
         InputError: what does not fit together in the file.
