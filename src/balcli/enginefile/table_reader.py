@@ -10,10 +10,18 @@ from pydantic_core import ErrorDetails
 
 from ..errors import InputError, Problem
 from ..limits import MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
-from .fields import shorten
-from .messages import KNOWN, TEXTS, describe_finding, find_inner_table, join_path
+from .fields import printable, shorten
+from .messages import (
+    CHAPTER_LISTS,
+    DEVICES,
+    KNOWN,
+    TEXTS,
+    describe_finding,
+    find_inner_table,
+    join_path,
+)
 from .model import FileTable
-from .unknown_keys import describe_misplaced, name_heading, suggest, suggest_own
+from .unknown_keys import name_heading, suggest
 
 T = TypeVar("T", bound=FileTable)
 
@@ -137,22 +145,18 @@ class TableReader:
         if self._unknown > MOST_MISTAKES_SHOWN:  # of these only how many there are is told
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
+        hint, near = suggest(key, own or (), is_engine=self._is_engine)
+        table, meant = f"[{printable(name_heading(path))}]", join_path(path, [near]) if near else ""
+        message = f"unknown key in {table if path else self._file_kind}"
         is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
         if self._is_engine and path and is_table:
-            self.problems.append(describe_misplaced(path, key))
-            return
-        hint, meant = (suggest if self._is_engine else suggest_own)(key, own or ())
-        where = (
-            f"unknown key in [{name_heading(path)}]"
-            if path
-            else f"unknown key in {self._file_kind}"
-        )
-        if own is None:
-            where = f"there is no table [{name_heading(path)}]"
-        message = f"{where}; {hint}" if hint else where
-        self.problems.append(
-            Problem(place, message, meant=join_path(path, [meant]) if meant else "")
-        )
+            message, meant = f"{key} is a table of its own, not one within {table}", key
+            several = key in DEVICES or key in CHAPTER_LISTS
+            head = f"[[{key}]]" if several else "[cylinder.3]" if key == "cylinder" else f"[{key}]"
+            hint = f"write {head} and its keys below it"
+        elif own is None:
+            message = f"there is no table {table}"
+        self.problems.append(Problem(place, f"{message}; {hint}" if hint else message, (), meant))
 
     def refusal(self, name: str) -> InputError:
         """Return the error that lists the mistakes of the file with this name (empty: none)."""

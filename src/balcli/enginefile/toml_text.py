@@ -67,8 +67,8 @@ def find_near_file(source: str | Path) -> str:
     if asked.suffix in ("", ".toml") and is_example(asked.stem):
         return f"; {asked.stem} is an example: balcli engines {asked.stem} {asked.stem}.toml"
     beside = [file.name for file in asked.parent.glob("*.toml") if file.is_file()]
-    is_toml = nearest(asked.suffix, [".toml"])  # not the .csv beside an engine file
-    if is_toml and (near := nearest(asked.name, sorted(beside), cutoff=0.8)):
+    near = nearest(asked.name, sorted(beside), cutoff=0.8)
+    if near and nearest(asked.suffix, [".toml"]):  # not the .csv beside an engine file
         return f"; {asked.with_name(near)} is there: did you mean it?"
     return ""
 
@@ -116,8 +116,8 @@ def _load_toml(text: str | bytes) -> dict[str, Any]:
         ValueError: it is no TOML.
     """
     if len(text) > LARGEST_FILE_BYTES:
-        megabytes = LARGEST_FILE_BYTES // 1_000_000
-        raise OverflowError(f"has more than {megabytes} MB; no engine file needs that")
+        most = f"{LARGEST_FILE_BYTES // 1_000_000} MB"
+        raise OverflowError(f"has more than {most}; no engine file needs that")
     decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
     if _DEEP_KEY.search(decoded):
         raise RecursionError

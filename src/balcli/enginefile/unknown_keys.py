@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from ..errors import Problem
-from .fields import nearest, printable
+from .fields import nearest
 from .messages import (
-    CHAPTER_LISTS,
-    DEVICES,
     TABLES,
     TEXTS,
     import_tables,
-    join_path,
 )
 
 # What people call a key, and keys that mean it; the first that a table has
@@ -51,17 +47,6 @@ _NEAR = 0.65  # of a key and one of its table that is meant: "damper" is no "nam
 _NEAR_ELSEWHERE = 0.75
 
 
-def describe_misplaced(path: str, key: str) -> Problem:
-    """Return the mistake of a table of its own that stands within the one at `path`."""
-    several = key in {**DEVICES, **CHAPTER_LISTS}
-    head = f"[[{key}]]" if several else "[cylinder.3]" if key == "cylinder" else f"[{key}]"
-    message = (
-        f"{key} is a table of its own, not one within [{printable(name_heading(path))}]; write "
-        f"{head} and its keys below it"
-    )
-    return Problem(join_path(path, [key]), message, meant=key)
-
-
 def name_heading(path: str) -> str:
     """Return the name of a table in its heading: `operation.speed_ripple` of its second line,
     `operation.speed_ripple.2`.
@@ -69,37 +54,31 @@ def name_heading(path: str) -> str:
     return ".".join(part for part in path.split(".") if not part.isdecimal())
 
 
-def suggest_own(key: str, own: Collection[str]) -> tuple[str, str]:
+def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[str, str]:
     """Return what to write instead of an unknown key, in words, and the key that was probably
     meant, or "".
 
     Args:
         key: as it is written.
         own: keys of its table.
-    """
-    if near := nearest(key, own, _NEAR):
-        return f"did you mean {near}?", near
-    return f"it has {', '.join(own)}" if own else "", ""
-
-
-def suggest(key: str, own: Collection[str]) -> tuple[str, str]:
-    """Return the same as `suggest_own` for a table of an engine file: synonyms and the tables that
-    have the key count, too.
+        is_engine: whether the table is of an engine file, which has hints and other tables.
     """
     word = key.lower().replace("-", "_")
-    if word in INSTEAD:
+    if is_engine and word in INSTEAD:
         return INSTEAD[word], ""
     synonyms = SYNONYMS.get(word, ())
     if meant := next((each for each in synonyms if each in own), ""):
         return f"did you mean {meant}?", meant
-    if place := suggest_place(key):
+    if is_engine and (place := suggest_place(key)):
         return place, ""
-    hint, meant = suggest_own(key, own)
-    if meant:
-        return hint, meant
+    if near := nearest(key, own, _NEAR):
+        return f"did you mean {near}?", near
+    listed = f"it has {', '.join(own)}" if own else ""
+    if not is_engine:
+        return listed, ""
     keys = {each for table in import_tables().values() for each in table.model_fields}
     elsewhere = (*synonyms, nearest(key, sorted(keys), _NEAR_ELSEWHERE))
-    return next(filter(None, map(suggest_place, elsewhere)), hint), ""
+    return next(filter(None, map(suggest_place, elsewhere)), listed), ""
 
 
 def suggest_place(key: str) -> str:
