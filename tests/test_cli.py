@@ -456,7 +456,7 @@ def test_any_locale_gets_utf_8():
 
 
 # ------------------------------------------------------------------ what is imported
-HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "tomli_w", "jinja2", "scipy"}
+HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "tomli_w", "tomlkit", "jinja2", "scipy"}
 PROBE = """
 import atexit, sys
 from balcli.__main__ import main

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -12,14 +13,9 @@ from numbers import Real
 from os import PathLike
 from typing import NamedTuple
 
-# Unicode's own: what turns the direction of text, and what ends a line or a paragraph.
-DISGUISES = "\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069"  # in a class of a pattern
-_CONTROL = dict.fromkeys(
-    [
-        *(*range(0x09), *range(0x0B, 0x20), *range(0x7F, 0xA0)),
-        *(0x061C, 0x200E, 0x200F, *range(0x2028, 0x202F), *range(0x2066, 0x206A)),
-    ],
-    "?",
+# All but tabs and line ends; Unicode's own turn the direction of text, or end a paragraph.
+CONTROL_CHARACTERS = (
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069]"
 )
 
 
@@ -27,7 +23,7 @@ def legible(text: str) -> str:
     """Text for a terminal: of all control characters only line ends and tabs stay, so that nobody's
     file name can command it.
     """
-    return text.translate(_CONTROL)
+    return re.sub(CONTROL_CHARACTERS, "?", text)
 
 
 def say(text: str) -> None:
@@ -37,7 +33,7 @@ def say(text: str) -> None:
 
 
 class Loudness(IntEnum):
-    """How much is said beside results and errors."""
+    """How much balcli prints besides results and errors."""
 
     QUIET = 0  # nothing
     USUAL = 1  # warnings; on a terminal, how far a long computation is
@@ -48,29 +44,29 @@ _loudness = Loudness.USUAL
 
 
 def set_loudness(loudness: Loudness) -> None:
-    """For the rest of this process."""
+    """Set how much is printed in the rest of this process."""
     global _loudness
     _loudness = loudness
 
 
 def is_quiet() -> bool:
-    """Whether warnings and progress are not wanted."""
+    """Return whether warnings and progress are not wanted."""
     return _loudness == Loudness.QUIET
 
 
 def is_verbose() -> bool:
-    """Whether notes are wanted."""
+    """Return whether notes are wanted."""
     return _loudness == Loudness.VERBOSE
 
 
 def warn(text: str) -> None:
-    """A warning on standard error, unless nobody wants any."""
+    """Print a warning on standard error, unless warnings are not wanted."""
     if not is_quiet():
         say(f"warning: {text}")
 
 
 def note(text: str) -> None:
-    """What was read, assumed or tried, on standard error, for those who want to know."""
+    """Print what was read, assumed or tried on standard error, if notes are wanted."""
     if is_verbose():
         say(f"note: {text}")
 
@@ -92,11 +88,14 @@ class Problem(NamedTuple):
         path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
         message: what is wrong there, and what would be right.
         missing: paths of keys that are not there, without which it is a mistake; empty: of none.
+        meant: path of the key that was probably meant by an unknown one, "" if none comes to mind;
+            None: the key is known.
     """
 
     path: str
     message: str
     missing: tuple[str, ...] = ()
+    meant: str | None = None
 
     @classmethod
     def of_missing(cls, path: str, hint: str) -> Problem:
@@ -112,7 +111,7 @@ class BalcliError(Exception):
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
-    """The error of a file that cannot be written; a missing folder has its name."""
+    """Return the error of a file that cannot be written; it names a missing folder."""
     folder = os.path.dirname(target)
     reason = error.strerror or str(error)
     if isinstance(error, FileNotFoundError) and folder and not os.path.exists(folder):
@@ -121,7 +120,7 @@ def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
 
 
 class InputError(BalcliError):
-    """All mistakes of one input file at once; `more` is the number of those that are not listed."""
+    """All mistakes of one input file at once; `more` is the number of those not listed."""
 
     def __init__(self, problems: Iterable[Problem], file: str = "", more: int = 0) -> None:
         self.problems = tuple(problems)
@@ -140,7 +139,7 @@ class InputError(BalcliError):
 
 @contextmanager
 def naming_file(file: str) -> Iterator[None]:
-    """Mistakes that are found within are told as those of this file."""
+    """Give mistakes that are found within the name of a file."""
     try:
         yield
     except InputError as error:
@@ -148,7 +147,7 @@ def naming_file(file: str) -> Iterator[None]:
 
 
 def check_type(function: str, value: object, kind: type | tuple[type, ...], wanted: str) -> None:
-    """For the library: refuse what is not of this kind, with what would be right.
+    """Raise an error if an argument of the library is not of this kind.
 
     Raises:
         TypeError: it is not.
@@ -158,7 +157,7 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
 
 
 def check_number(name: str, value: object, wanted: str) -> float:
-    """For the library: a number; one of hundreds of digits counts as infinite.
+    """Return an argument of the library as a number; hundreds of digits count as infinite.
 
     Raises:
         TypeError: it is none.
@@ -173,7 +172,7 @@ def check_number(name: str, value: object, wanted: str) -> float:
 def list_words(
     name: str, words: str | Iterable[str], example: str = '["force", "moment"]'
 ) -> list[str]:
-    """For the library: words as a list, or in a text with commas between.
+    """Return an argument of the library, a list of words or a text with commas, as a list.
 
     Raises:
         TypeError: they are no words.
@@ -188,7 +187,7 @@ def list_words(
 
 
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
-    """For the library: what a function was given, and what would be right."""
+    """Return the error for an argument of the library: what was given, and what would be right."""
     try:
         text = repr(value)
     except ValueError:  # Python writes no number of thousands of digits

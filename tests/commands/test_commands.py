@@ -307,16 +307,6 @@ def test_mistakes_of_a_built_model_name_its_file():
         build_named(broken, "x.toml")
 
 
-def test_more_devices_than_any_engine_has():
-    from support.engines import refused
-
-    from balcli.limits import MOST_PARTS
-
-    assert f"counterweight: stands {MOST_PARTS + 1} times; no engine has more than {MOST_PARTS}" in refused(
-        counterweight=[{"mass": 1, "radius": 10}] * (MOST_PARTS + 1)
-    )
-
-
 def test_devices_of_a_sizing_that_is_asked_for_in_csv():
     """Those of its JSON, in the units of an engine file; without asking, CSV has none of them."""
     three = ENGINES / "i3.toml"

@@ -267,7 +267,7 @@ def test_a_diagram_may_have_so_many_rows(beside):
             FOUR + "[gas]\nindicator = 'x.csv'\nheat = 3\n",
             "gas: has heat beside indicator; these belong to a computed cycle",
         ),
-        (FOUR + "[gas]\nindicator = 3\n", "gas.indicator: 3 is not text; give the name of a f"),
+        (FOUR + "[gas]\nindicator = 3\n", "gas.indicator: 3 is no name of a file; give the name"),
         (FOUR + "[flywheel]\ninertia = 0\n", "flywheel.inertia: 0 is not above 0; a moment of inertia is wanted: "),
         (
             FOUR + "[bearing]\npin_width = 20\n",

@@ -63,7 +63,7 @@ def test_what_is_no_length(stroke, message):
         ),
         (
             changed(("stroke = 90", "stroke = 90\nratios = 1")),
-            "crank.ratios: unknown key in [crank]; did you mean ratio of [rod]?",
+            "crank.ratios: unknown key in [crank]; ratio belongs to [rod]",
         ),
         (
             changed(("stroke = 90", "stroke = 90\nxyz = 1")),
@@ -143,18 +143,12 @@ def test_what_is_no_length(stroke, message):
         ),
         (changed(("length = 160", "lenght = 160")), "rod.lenght: unknown key in [rod]; did you mean length?"),
         (
-            GOOD + "[bobweight]\noverbalance = 0.51\n",
-            "bobweight.overbalance: unknown key in [bobweight]; did you mean balcli balance FILE --factor 51%?",
-        ),
-        (
             changed(("mass = 0.5\n", "pin = 0.1\nlocks = 0.004\n")),
-            "piston: has pin and locks without piston and rings; give every part: 0 for one that "
-            "is not there or was weighed with another",
+            "piston: has pin and locks without piston and rings; give either mass or piston, pin, rings and locks",
         ),
         (
             changed(("mass = 0.5\n", "piston = 0.4\n")),
-            "piston: has piston without pin, rings and locks; give every part: 0 for one that is "
-            "not there or was weighed with another",
+            "piston: has piston without pin, rings and locks; give either mass or piston, pin, rings and locks",
         ),
         (
             changed(("mass = 0.5\n", "mass = 0.5\npin = 0.1\n")),
@@ -252,13 +246,9 @@ def test_broken_files(text, message):
     assert mistakes_in(text) == message
 
 
-@pytest.mark.parametrize("digits", ["9" * 5000, "9_9" * 4000, "-" + "9" * 4300])
-def test_numbers_of_thousands_of_digits_are_refused_by_path(digits):
-    ripple = f"[operation]\nspeed_ripple = [{{ order = {digits}, ratio = 0.1 }}]"
-    told = mistakes_in(changed(("stroke = 90", f"stroke = {digits}"), ("[operation]", ripple)))
-    for path in ("crank.stroke: ", "operation.speed_ripple.1.order: "):
-        assert f"  {path}an integer of about " in told
-    assert max(map(len, told.splitlines())) < 200
+@pytest.mark.parametrize("digits", ["9" * 5000, "9_9" * 4000, "-" + "9" * 4400])
+def test_numbers_of_thousands_of_digits_are_refused(digits):
+    assert mistakes_in(changed(("stroke = 90", f"stroke = {digits}"))) == "has a number of thousands of digits"
 
 
 def test_messages_carry_no_control_characters():
@@ -273,7 +263,7 @@ def test_messages_carry_no_control_characters():
 
 def test_more_devices_than_an_engine_can_have():
     text = GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\n" * 1001
-    assert mistakes_in(text) == "shaft: stands 1001 times; no engine has more than 1000"
+    assert mistakes_in(text) == "shaft: stands 1001 times; at most 1000 are taken"
 
 
 def test_enormous_lists_are_refused_whole():

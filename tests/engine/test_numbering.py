@@ -247,11 +247,6 @@ def test_a_long_wait_is_doubted():
     assert load(said).doubts == ()
 
 
-def test_angles_of_sparks_are_no_intervals():
-    told = refused(layout={"firing_order": [1, 3, 4, 2], "firing_intervals": [0, 180, 360, 540]})
-    assert "[180, 180, 180, 180]" in told
-
-
 @pytest.mark.parametrize(("intervals", "good"), [([125.4068, 109.1864, 125.4068], True), ([130, 100, 130], False)])
 def test_articulated_rods_fire_at_their_true_dead_centres(intervals, good):
     parts = {

@@ -12,9 +12,12 @@ from balcli.enginefile import templates as new
 from balcli.enginefile.suspicious import find_suspicious
 
 FREE = ("firing_order = [1, 3, 4, 2]\n", "")  # no firing order, which throws would have to fit
-WITHIN = (
-    'of one another; bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 '
-    'rad", and numbers of cylinders stand in layout.firing_order'
+DEGREES = (
+    'bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 rad", and numbers of '
+    "cylinders stand in layout.firing_order"
+)
+LAMBDA = (
+    "where 0.15 to 0.4 is usual; crank.stroke is twice the crank radius, rod.length the distance of its two centres"
 )
 
 
@@ -35,182 +38,40 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
 
 
 @pytest.mark.parametrize(
-    ("text", "warning"),
+    ("changes", "more", "warning"),
     [
-        (
-            changed(("mass = 0.5", "mass = 65"), ("bore = 86", "bore = 80"), ("mass = 0.6", "mass = 60")),
-            "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 kg is usual; are the "
-            "units right? Bare numbers are kg and mm",
-        ),
-        (
-            changed(("spacing = 100\n", "")) + "[cylinder.2]\nposition = -50\n",
-            "cylinder.2.position is given, but 3 cylinders have no place and all stand at 0: give "
-            "the position of each, or crank.spacing",
-        ),
-        (
-            changed(
-                ("throws = [0, 180, 180, 0]", "inertia = 90000"),
-                ("firing_order = [1, 3, 4, 2]", "radial = 3\nrotary = true"),
-            ),
-            "crank.inertia counts for nothing: the crank of a rotary engine stands still; give "
-            "what turns with its cylinders as flywheel.inertia",
-        ),
-        (
-            changed(("mass = 0.5\n", "piston = 0.4\npin = 0.1\nrings = 3.6\nlocks = 0\n")),
-            "piston.piston, piston.pin, piston.rings and piston.locks (most of it piston.rings, 3.6 "
-            "kg) are together 4.1 kg in a bore of 86 mm, where 0.064 to 3.2 kg is usual; are the "
-            "units right? Bare numbers are kg and mm",
-        ),
-        (
-            changed(("mass = 0.5", "mass = 0")),
-            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings and locks",
-        ),
-        (
-            # no bore: that of 0.2 to 3 strokes of 90 mm, by 100 and 5000 kg per m^3 of its cube
-            changed(("mass = 0.5", "mass = 500"), ("bore = 86\n", ""), ("mass = 0.6", "mass = 600")),
-            "piston.mass is 500 kg at a stroke of 90 mm, where 0.00058 to 98 kg is usual; are the "
-            "units right? Bare numbers are kg and mm",
-        ),
-        (
-            changed(("throws = [0, 180, 180, 0]", "throws = [1, 3, 4, 2]"), FREE),
-            f"crank.throws are all within 3 deg {WITHIN}",
-        ),
-        (
-            changed(("throws = [0, 180, 180, 0]", "throws = [0, 3.14159, 3.14159, 0]"), FREE),
-            f"crank.throws are all within 3.142 deg {WITHIN}",
-        ),
-        (
-            changed(("length = 160", "length = 100")),
-            "crank radius / rod length is 0.45, where 0.15 to 0.4 is usual; crank.stroke is "
-            "twice the crank radius, rod.length the distance of its two centres",
-        ),
-        (
-            changed(("length = 160", "ratio = 0.99999"), ("cg = 45", "cg = 15")),  # not told as 1, which would lock
-            "crank radius / rod length is 0.99999, where 0.15 to 0.4 is usual; crank.stroke is "
-            "twice the crank radius, rod.length the distance of its two centres",
-        ),
-        (
-            changed(("length = 160", "ratio = 0.1")),
-            "crank radius / rod length is 0.1, where 0.15 to 0.4 is usual; crank.stroke is "
-            "twice the crank radius, rod.length the distance of its two centres",
-        ),
-        (
-            changed(
-                ("bore = 86", "bore = 300"),
-                ("spacing = 100", "spacing = 400"),
-                ("mass = 0.5", "mass = 20"),
-                ("mass = 0.6", "mass = 16"),
-            ),
-            "piston.bore / crank.stroke is 3.333, where 0.2 to 3 is usual; are both in the same unit?",
-        ),
-        (
-            changed(("mass = 0.6\ncg = 45", "small_end = 1.2\nbig_end = 3.8")),
-            "the rod weighs 5 kg, 10 times the piston, where 0.1 to 8 times is usual; are both in the same unit?",
-        ),
-        (
-            changed(("cg = 45\n", "")),
-            "rod.cg is not given: all of the rod counts at the crank pin; measure it from the big-end centre",
-        ),
-        (
-            changed(("cg = 45", "cg = -45")),
-            "rod.cg is -45 mm, outside the rod (0 to 160 mm); it is measured from the big-end "
-            "centre towards the small end",
-        ),
-        (
-            changed(("cg = 45", "cg = 115")),
-            "rod.cg is 115 mm, nearer to the small end than to the big end (160 mm apart); it is "
-            "measured from the big-end centre",
-        ),
-        (
-            changed(("mass = 0.6\ncg = 45", "small_end = 0.42\nbig_end = 0.18")),
-            "rod.small_end is 0.42 kg, more than rod.big_end with 0.18 kg; are they exchanged?",
-        ),
-        (
-            changed(("cg = 45", "cg = 45\ninertia = 0.0023")),
-            "rod.inertia is 0.0023 kg mm^2, where 310 to 6100 is usual for 0.6 kg and 160 "
-            "mm; it is taken about the centre of mass, in kg mm^2",
-        ),
-        *(
-            (
-                changed(("speed = 3000", f"speed = {value}")),
-                "operation.speed is 3 rpm; a point parts decimals, not thousands: were 3000 rpm meant?",
-            )
-            for value in ("3.000", '"3.000 rpm"')
-        ),
-        (
-            changed(("speed = 3000", "speed = 30000")),
-            "the mean piston speed is 90 m/s at 30000 rpm and a stroke of 90 mm, more than 40; "
-            "are operation.speed and crank.stroke right?",
-        ),
-        (
-            changed(more="[[shaft]]\nratio = -2\nunbalance = 4500\nat = [0, 0.08]\n"),
-            'shaft.1.at is within 0.08 mm of the crank\'s axis; is it in mm? Another unit is said as in "0.08 m"',
-        ),
-        (
-            changed(("bore = 86", "bore = 86\noffset = -20")),
-            "piston.offset is -20 mm, more than 20% of the stroke (18 mm); is it in mm?",
-        ),
-        (
-            changed(("[layout]", "[layout]\nstagger = 220"), ("spacing = 100", "positions = [-190, -90, 10, 90]")),
-            "layout.stagger is 220 mm, more than the distance of neighbouring throws (80 mm); "
-            "it is the distance of two rods on one throw",
-        ),
-        (
-            changed(more="[[counterweight]]\nunbalance = 10\n[[counterweight]]\nmass = 40\nradius = 60\n"),
-            # 5 x (4 x 0.8 + 4 x (0.5 + 0.6)) kg x 45 mm
-            "counterweight.2: its unbalance is 2.4e+06 g mm, more than 5 times all moving "
-            "masses at the crank radius (1.71e+06); is it in g mm?",
-        ),
-        (
-            changed(more='[gas]\ncycle = "otto"\ncompression_ratio = 10\nimep = 130\n'),
-            "gas.imep is 130 bar, where at most 60 is usual; is it in bar? Another unit is said "
-            'as in "130 psi" or "0.9 MPa"',
-        ),
-        (
-            changed(("spacing = 100", "spacing = 4.4")),
-            "crank.spacing puts neighbouring cylinders of one bank 4.4 mm apart, which is less "
-            "than their bore of 86 mm; is it in mm? Another unit is said as in "
-            '"4.4 in" or "1.02 m"',
-        ),
-        (
-            changed(("spacing = 100", "positions = [15, 10, -10, -15]")),
-            "crank.positions puts neighbouring cylinders of one bank 5 mm apart, which is less "
-            "than their bore of 86 mm; is it in mm? Another unit is said as in "
-            '"4.4 in" or "1.02 m"',
-        ),
-        (
-            changed(("throw_mass = 0.8", "throw_mass = 800")),
-            "crank.throw_mass is 800 kg, more than 6 times the rods and pistons of a throw (1.1 "
-            'kg); is it in kg? Grams are said as in "800 g". It is what one throw has off the axis, '
-            "not what the crankshaft weighs",
-        ),
-        (  # all of a forged two-litre crankshaft
-            changed(("throw_mass = 0.8", "throw_mass = 16")),
-            "crank.throw_mass is 16 kg, more than 6 times the rods and pistons of a throw (1.1 "
-            'kg); is it in kg? Grams are said as in "16 g". It is what one throw has off the axis, '
-            "not what the crankshaft weighs",
-        ),
-        (
-            changed(more="[bobweight]\nrod_bearing = 47\noil = 0.004\n"),
-            "bobweight.rod_bearing is 47 kg, more than 0.5 times a rod with its piston (1.1 kg); "
-            'is it in kg? Grams are said as in "47 g"',
-        ),
-        (
-            changed(more="[bobweight]\nrod_bearing = 0.047\noil = 4\n"),
-            "bobweight.oil is 4 kg, more than 0.5 times a rod with its piston (1.1 kg); "
-            'is it in kg? Grams are said as in "4 g"',
-        ),
+        ([("mass = 0.5", "mass = 65"), ("bore = 86", "bore = 80"), ("mass = 0.6", "mass = 60")], "", "piston.mass is 65 kg in a bore of 80 mm, where 0.051 to 2.6 is usual; are the units right? Bare numbers are kg and mm"),
+        ([("spacing = 100\n", "")], "[cylinder.2]\nposition = -50\n", "cylinder.2.position is given, but 3 cylinders have no place and all stand at 0: give the position of each, or crank.spacing"),
+        ([("mass = 0.5\n", "piston = 0.4\npin = 0.1\nrings = 3.6\nlocks = 0\n")], "", "the parts of [piston] weigh 4.1 kg in a bore of 86 mm, where 0.064 to 3.2 is usual; are the units right? Bare numbers are kg and mm"),
+        ([("mass = 0.5", "mass = 0")], "", "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings and locks"),
+        # no bore: that of 0.2 to 3 strokes of 90 mm, by 100 and 5000 kg per m^3 of its cube
+        ([("mass = 0.5", "mass = 500"), ("bore = 86\n", ""), ("mass = 0.6", "mass = 600")], "", "piston.mass is 500 kg at a stroke of 90 mm, where 0.00058 to 98 is usual; are the units right? Bare numbers are kg and mm"),
+        ([("[0, 180, 180, 0]", "[1, 3, 4, 2]"), FREE], "", f"crank.throws: the largest difference of two is 3 deg, where at least 10 is usual; {DEGREES}"),
+        ([("[0, 180, 180, 0]", "[0, 3.14159, 3.14159, 0]"), FREE], "", f"crank.throws: the largest difference of two is 3.142 deg, where at least 10 is usual; {DEGREES}"),
+        ([("length = 160", "length = 100")], "", f"crank radius / rod length is 0.45, {LAMBDA}"),
+        ([("length = 160", "ratio = 0.99999"), ("cg = 45", "cg = 15")], "", f"crank radius / rod length is 0.99999, {LAMBDA}"),
+        ([("length = 160", "ratio = 0.1")], "", f"crank radius / rod length is 0.1, {LAMBDA}"),
+        ([("bore = 86", "bore = 300"), ("spacing = 100", "spacing = 400"), ("mass = 0.5", "mass = 20"), ("mass = 0.6", "mass = 16")], "", "piston.bore / crank.stroke is 3.333, where 0.2 to 3 is usual; are both in the same unit?"),
+        ([("mass = 0.6\ncg = 45", "small_end = 1.2\nbig_end = 3.8")], "", "the rod weighs 5 kg, 10 times the piston, where 0.1 to 8 is usual; are both in the same unit?"),
+        ([("cg = 45\n", "")], "", "rod.cg is not given: all of the rod counts at the crank pin; measure it from the big-end centre"),
+        ([("cg = 45", "cg = -45")], "", "rod.cg is -45 mm, where 0 to 88 is usual; it is measured from the big-end centre; the small end is at 160 mm"),
+        ([("cg = 45", "cg = 115")], "", "rod.cg is 115 mm, where at most 88 is usual; it is measured from the big-end centre; the small end is at 160 mm"),
+        ([("mass = 0.6\ncg = 45", "small_end = 0.42\nbig_end = 0.18")], "", "rod.small_end is 0.42 kg, where at most 0.33 is usual; are small_end and big_end exchanged?"),
+        ([("cg = 45", "cg = 45\ninertia = 0.0023")], "", "rod.inertia is 0.0023 kg mm^2, where 310 to 6100 is usual; it is taken about the centre of mass, in kg mm^2"),
+        ([("speed = 3000", "speed = 3.000")], "", "operation.speed is 3 rpm, where at least 9 is usual; a point parts decimals, not thousands"),
+        ([("speed = 3000", "speed = 30000")], "", "the mean piston speed is 90 m/s, where at most 40 is usual; are operation.speed and crank.stroke right?"),
+        ([("bore = 86", "bore = 86\noffset = -20")], "", "piston.offset is -20 mm, where -18 to 18 is usual; is it in mm?"),
+        # 5 x (4 x 0.8 + 4 x (0.5 + 0.6)) kg x 45 mm
+        ([], "[[counterweight]]\nunbalance = 10\n[[counterweight]]\nmass = 40\nradius = 60\n", "counterweight.2: its unbalance is 2.4e+06 g mm, where at most 1700000 is usual; is it in g mm?"),
+        ([], '[gas]\ncycle = "otto"\ncompression_ratio = 10\nimep = 130\n', 'gas.imep is 130 bar, where at most 60 is usual; is it in bar? Another unit is said as in "130 psi" or "0.9 MPa"'),
+        # all of a forged two-litre crankshaft
+        ([("throw_mass = 0.8", "throw_mass = 16")], "", "crank.throw_mass is 16 kg, where at most 6.6 is usual; is it in kg? It is what one throw has off the axis, not what the crankshaft weighs"),
+        ([], "[bobweight]\nrod_bearing = 47\noil = 0.004\n", 'bobweight.rod_bearing is 47 kg, where at most 0.55 is usual; is it in kg? Grams are said as in "47 g"'),
+        ([], "[bobweight]\nrod_bearing = 0.047\noil = 4\n", 'bobweight.oil is 4 kg, where at most 0.55 is usual; is it in kg? Grams are said as in "47 g"'),
     ],
-)
-def test_warnings(text, warning):
-    assert find_suspicious(parse(text)) == [warning]
-
-
-def test_shafts_on_the_axis_of_the_crank_are_no_slip():
-    """A shaft that may stand anywhere is written so."""
-    shafts = "[[shaft]]\nratio = -2\nunbalance = 45\nat = [0, %s]\n"
-    on_it, beside = (changed(more=shafts % y) for y in ("1e-14", "2"))
-    assert find_suspicious(parse(on_it)) == find_suspicious(parse(beside)) == []
+)  # fmt: skip
+def test_warnings(changes, more, warning):
+    assert find_suspicious(parse(changed(*changes, more=more))) == [warning]
 
 
 BAR = ' bar absolute, where %s is usual; is it in bar? Another unit is said as in "130 psi" or "0.9 MPa"'
@@ -222,13 +83,10 @@ BAR = ' bar absolute, where %s is usual; is it in bar? Another unit is said as i
         ("intake", 14.7, BAR % "0.15 to 12"),
         ("exhaust", 0.101, BAR % "0.15 to 12"),
         ("crankcase", 14.7, BAR % "0.15 to 12"),
-        ("compression_ratio", 100, ", where 2 to 30 is usual; it is the largest volume over the smallest"),
-        ("compression_index", 3, ", where 1 to 1.67 is usual; it is n of p V^n = const"),
-        ("expansion_index", 2.5, ", where 1 to 1.67 is usual; it is n of p V^n = const"),
     ],
 )  # fmt: skip
 def test_gas_of_no_engine_is_doubted(key, value, told):
-    """Psi and MPa for bar, a slip of the decimal point, more than an adiabate of helium."""
+    """Psi and MPa for bar."""
     gas = {"cycle": '"otto"', "compression_ratio": 10, "imep": 9} | {key: value}
     text = "\n".join(f"{name} = {figure}" for name, figure in gas.items())
     assert find_suspicious(parse(changed(more=f"[gas]\n{text}\n"))) == [f"gas.{key} is {value:g}{told}"]
@@ -248,20 +106,6 @@ def test_engines_of_the_project_are_of_usual_size():
     assert len(files) > 60
     doubts = {file.name: find_suspicious(parse(file.read_text("utf-8"))) for file in files}
     assert {name: told for name, told in doubts.items() if told} == {}
-
-
-@pytest.mark.parametrize(
-    "layout",
-    [
-        'banks = [-90, 90]\nrods = "alternating"',  # opposite cylinders overlap in side view
-        'bank_angle = 15\nrods = "alternating"',
-        "radial = 9",
-    ],
-)
-def test_cylinders_of_different_banks_may_overlap(layout):
-    close = ("spacing = 100", "spacing = 50")
-    assert len(find_suspicious(parse(changed(close)))) == 1
-    assert find_suspicious(parse(changed(close, ("firing_order = [1, 3, 4, 2]", layout)))) == []
 
 
 def test_moving_masses_count_every_rod_of_a_vee():
@@ -287,10 +131,7 @@ stiffness = 1e6
 """
 
 
-LIGHT = (
-    "less than 0.01 of what all rods and pistons have at the crank radius (8910); is it in kg mm^2? "
-    "Another unit is said as in "
-)
+LIGHT = "where at least 89 is usual; is it in kg mm^2? Another unit is said as in "
 
 
 @pytest.mark.parametrize(
@@ -301,41 +142,12 @@ LIGHT = (
             "[flywheel]\nmass = 12\nradius_of_gyration = 0.14\n",
             f'flywheel.inertia is 0.2352 kg mm^2, {LIGHT}"0.2352 kg m^2"',
         ),
-        (
-            TWIST % ("0.02", "1.1"),
-            f'torsion.throw_inertia, of all throws, is 0.08 kg mm^2, {LIGHT}"0.08 kg m^2"\n'
-            f"the heaviest part of [torsion], 'Flywheel', is 1.1 kg mm^2, {LIGHT}\"1.1 kg m^2\"",
-        ),
         (TWIST % ("20000", "250000"), ""),
         ("[flywheel]\ninertia = 100\n", ""),
     ],
 )
 def test_inertias_in_kg_m2_are_asked_back(more, told):
     assert "\n".join(find_suspicious(parse(changed(more=more)))) == told
-
-
-def test_a_propeller_with_a_dashpot_in_its_shaft_is_asked_back():
-    """Damped by the water it would be by node_damping; a coupling has a dashpot."""
-    twist = TWIST % ("20000", "250000") + "damping = 9e4\n"
-    assert find_suspicious(parse(changed(more=twist))) == []
-    propeller = twist.replace("Flywheel", "Propeller")
-    assert find_suspicious(parse(changed(more=propeller))) == [
-        "the part 'Propeller' of [torsion]: damping is of a dashpot between the ends of its shaft; "
-        "of the part against ground, as water damps it, it is node_damping"
-    ]
-    assert find_suspicious(parse(changed(more=propeller.replace("\ndamping", "\nnode_damping")))) == []
-
-
-@pytest.mark.parametrize(
-    ("stiffness", "twist"),  # 1 MPa x pi/4 (86 mm)^2 x 90 mm = 523 N m
-    [("1e3", "0.52"), ("[1e6, 9e3, 1e16]", "0.058")],
-)
-def test_stiffness_of_throws_in_another_unit_is_asked_back(stiffness, twist):
-    text = changed(more=(TWIST % ("20000", "250000")).replace("= 1e6", f"= {stiffness}", 1))
-    assert find_suspicious(parse(text)) == [
-        f"torsion.throw_stiffness: a mean pressure of 10 bar would twist a throw by {twist} rad, "
-        'where at most 0.05 is usual; is it in N m/rad? Another unit is said as in "1.2 MN m/rad"'
-    ]
 
 
 def test_loss_factors_in_percent_are_asked_back():
@@ -353,29 +165,6 @@ def test_a_crank_in_kg_m2_is_asked_back():
     assert told == f'crank.inertia is 0.09 kg mm^2, {LIGHT}"0.09 kg m^2"'
 
 
-@pytest.mark.parametrize("flywheel", ["inertia = 250000", "mass = 10\nradius_of_gyration = 158.1"])
-def test_inertias_that_are_said_twice(flywheel):
-    """Once for `torque`, once for `torsion`: both are used as they are."""
-    own = ("throw_mass = 0.8", "throw_mass = 0.8\ninertia = 100000")
-
-    def warnings(throws: str, inertia: str) -> list[str]:
-        more = f"[flywheel]\n{flywheel}\n{TWIST % (throws, inertia)}"
-        return find_suspicious(parse(changed(own, more=more)))
-
-    assert warnings("25000", "250000") == []
-    assert warnings("[20000, 30000, 30000, 20000]", "240000") == []
-    throws = (
-        "crank.inertia is 0.1 kg m^2, and all throws of torsion.throw_inertia together have 0.12: "
-        "the whole has no less than its parts"
-    )
-    assert warnings("30000", "250000") == [throws]
-    assert warnings("[20000, 40000, 40000, 20000]", "250000") == [throws]
-    assert warnings("25000", "2500000") == [
-        "[flywheel] has 0.25 kg m^2, and the part 'Flywheel' of [torsion] 2.5: `torque` takes the "
-        "one, `torsion` the other"
-    ]
-
-
 def test_a_flywheel_that_torsion_lacks():
     """[flywheel] is for `torque`; without one of its own the crankshaft twists at far higher
     frequencies.
@@ -383,10 +172,7 @@ def test_a_flywheel_that_torsion_lacks():
     wheel, twist = "[flywheel]\ninertia = 250000\n", TWIST % ("25000", "250000")
     alone = twist.partition("[[torsion.rear]]")[0]
     assert find_suspicious(parse(changed(more=wheel + alone))) == [
-        "[flywheel] has 0.25 kg m^2, and [torsion] nothing behind the throws: `torsion` has no "
-        "flywheel; write it as [[torsion.rear]], too"
+        "[flywheel] counts for `torque`, not for `torsion`; write it as [[torsion.rear]], too"
     ]
     assert find_suspicious(parse(changed(more=wheel + twist))) == []
     assert find_suspicious(parse(changed(more=alone))) == []
-    propeller = '[[torsion.front]]\nname = "propeller"\ninertia = 250000\nstiffness = 500000\n'
-    assert find_suspicious(parse(changed(more=wheel + alone + propeller))) == []

@@ -291,7 +291,7 @@ def test_units_as_people_write_them(text, dimension, expected):
 def test_no_name_has_two_meanings():
     """Neither a listed unit nor another prefix reads otherwise what a prefix makes."""
     for name in unit_table.DEFINITIONS:
-        if found := unit_table.split_prefix(name):
+        if found := unit_table.PREFIXED.get(name):
             power, unit = found
             prefixed, listed = read_unit(unit, PLAIN), read_unit(name, PLAIN)
             assert (10**power * prefixed.scale, prefixed.powers) == listed, name

@@ -152,13 +152,13 @@ CASES = [
     ('planes = ["a", "a"]\n[[run]]\nreadings = ["1 @ 0"]\n', 'planes: names "a" twice; each needs a name of its own'),
     (
         'planes = ["a\\u001b"]\n[[run]]\nreadings = ["1 @ 0"]\n',
-        'planes: the 1st value "a?" is no name; use up to 200 letters, digits and signs',
+        'planes: the 1st value "a?" is no name; use up to 200 letters, digits and signs, in quotes',
     ),
     (
         'planes = ["a"]\n[run]\nreadings = ["1 @ 0"]\n',
         "run: is one of several; write [[run]] in double brackets, once for each run",
     ),
-    ('planes = ["a"]\nrun = [3]\n', "run.1: 3 is not a table; write [[run]] above it"),
+    ('planes = ["a"]\nrun = [3]\n', "run.1: 3 stands where a table belongs; write [[run]] and its keys below it"),
     (
         'planes = ["a"]\n[[run]]\nname = "x"\n',
         'run.1.readings: is missing; give it, such as readings = ["170 @ 112", "53 @ 78"]',

@@ -463,8 +463,7 @@ WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
         ),
         (
             lambda: balcli.sweep(V8, {"rod.ratio": [2.0]}),
-            "rod.ratio: 2 is not below 1; a plain number is wanted, without quotes, below 1: crank "
-            "radius / rod length; of a rod 2 times as long as the crank radius it is 0.5",
+            "rod.ratio: 2 is not below 1; a plain number is wanted, without quotes, below 1",
         ),
         (
             lambda: balcli.sweep(V8, {"rod.ratio": ["x"]}),

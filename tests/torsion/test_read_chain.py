@@ -133,7 +133,7 @@ def test_torques_of_one_node_and_order_add_up():
             TWO.replace('to = "b"', 'to = "flywhel"').replace('name = "b"', 'name = "flywheel"'),
             'shaft.1.to: "flywhel" is no node; did you mean flywheel?',
         ),
-        (TWO + "[[node]]\nname = 3\n", "node.3.name: 3 is no name; write it in quotes"),
+        (TWO + "[[node]]\nname = 3\n", "node.3.name: 3 is no name; use up to 200 letters, digits and signs, in quotes"),
         (
             TWO + '[[node]]\nname = "c"\n',
             'node.3: "c" hangs on nothing that hangs on "a"; join them by a [[shaft]] or a [[gear]]',

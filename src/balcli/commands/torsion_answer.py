@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.vibration import Real
 from ..enginefile.toml_text import name_file
-from ..enginefile.units import Dimension, Powers, convert
+from ..enginefile.units import Dimension, convert
 from ..errors import BalcliError, warn
 from ..limits import HIGHEST_TORSION_ORDER
 from ..render.formats import Units
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_FREQUENCY = Dimension("rad/s", "a frequency", Powers(time=-1, angle=1), ("20 rad/s",))
+_FREQUENCY = Dimension("rad/s", "a frequency", ("20 rad/s",))
 _HERTZ = re.compile(r"\s*([0-9.eE+-]+)\s*Hz\s*")
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import normalize_tables, take_tables
 from ..enginefile.read import Draft, check_tables, read_tables
+from ..enginefile.table_reader import refuse
 from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import naming_file
 from .assembly import Assembly
@@ -97,6 +98,7 @@ def parse_dict(tables: Mapping[str, Any], folder: Path | None = None) -> EngineF
 
 
 def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
-    if not draft.has_mistakes:
+    if not draft.problems:
         return infer_numbering(draft.model)
-    raise draft.refusal(find_contradictions(Assembly(draft.model, legible=draft.legible)), name)
+    contradictions = find_contradictions(Assembly(draft.model, legible=draft.legible))
+    raise refuse([*draft.problems, *contradictions], name)

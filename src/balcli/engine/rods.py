@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.phasors import Figure
-from ..enginefile.model import describe_quick_period
 from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import Problem
 from ..limits import NEAREST_TO_LOCK
@@ -170,7 +169,12 @@ def _describe_pendulum(pendulum: PendulumTest, gear: RunningGear) -> str:
     arm = from_big_end if pendulum.pivot == "big_end" else gear.length - from_big_end
     spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
     worst = spin.argmin()
-    return describe_quick_period(float(period.flat[worst]), 1e3 * float(arm.flat[worst]))
+    shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
+    return (
+        f"period {period.flat[worst]:g} s is too quick: with the centre of mass "
+        f"{1e3 * arm.flat[worst]:g} mm from the pivot a full swing takes more than "
+        f"{shortest:.4g} s"
+    )
 
 
 def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterator[Problem]:

@@ -1,4 +1,4 @@
-"""What does not fit together in an engine file: rules, each of which tells its mistakes by path.
+"""Rules for what fits together in an engine file; each yields its mistakes by path.
 
 A rule looks at an engine as far as it is put together, and names the tables that it needs. So the
 mistakes of a file of which some tables cannot be read are found by the same rules.
@@ -28,14 +28,14 @@ _PLAN = frozenset(  # which cylinders there are
 
 
 class Rule(NamedTuple):
-    """What must hold, and the keys of the file without which nothing can be said of it."""
+    """A check, and the keys of the file that it needs."""
 
     check: Callable[[Assembly], Iterator[Problem]]
     needs: frozenset[str]
 
 
 def find_contradictions(parts: Assembly) -> list[Problem]:
-    """What the tables of a file say against each other, as far as they could be read.
+    """Return what the tables of a file say against each other, as far as they could be read.
 
     All that the first rules that find something find, each mistake once: the others are about
     engines of which those hold.
@@ -148,20 +148,15 @@ def check_speed(parts: Assembly) -> Iterator[Problem]:
             continue
         slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))
         if slowest.value <= STANDSTILL:
-            told = _describe_standstill(slowest.value, slowest.theta)
-            yield Problem("operation.speed_ripple", told)
+            share = slowest.value if abs(slowest.value) > STANDSTILL else 0.0
+            yield Problem(
+                "operation.speed_ripple",
+                f"the crank would {'turn back' if share else 'stop'}: at crank angle "
+                f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean; it "
+                "must stay above 0: make the amplitudes smaller, they are shares of the mean speed "
+                "(0.01 is one per cent)",
+            )
             return
-
-
-def _describe_standstill(least: float, theta: float) -> str:
-    """What is wrong with an uneven speed whose least value, of its mean, is at this crank angle."""
-    stops = "turn back" if least < -STANDSTILL else "stop"
-    share = least if abs(least) > STANDSTILL else 0.0
-    return (
-        f"the crank would {stops}: at crank angle {math.degrees(theta):.4g} deg its speed is "
-        f"{share:.4g} of the mean; it must stay above 0: make the amplitudes smaller, they are "
-        "shares of the mean speed (0.01 is one per cent)"
-    )
 
 
 def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:

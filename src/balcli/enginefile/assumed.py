@@ -1,4 +1,4 @@
-"""What an engine file leaves out, and what is taken for it."""
+"""List the defaults that count where an engine file leaves keys out."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ _TOLD = "left out: "  # in the description of a key: what follows is taken
 
 
 def list_assumed(model: EngineFile) -> Iterator[str]:
-    """Such as "operation.speed = 1000 rpm", or "rod.inertia: two masses at the ends"."""
+    """Yield each default in words, such as "operation.speed = 1000 rpm", or "rod.inertia: two
+    masses at the ends".
+    """
     idle = _list_idle(model)
     for name in _TABLES:
         table = getattr(model, name)
@@ -24,14 +26,16 @@ def list_assumed(model: EngineFile) -> Iterator[str]:
             unit = next((m.dimension.unit for m in field.metadata if isinstance(m, Number)), "")
             if told:
                 yield f"{path}: {taken}"
-            elif isinstance(field.default, int | float | str) and field.default is not False:
-                yield f"{path} = {_plain(field.default)} {unit}".rstrip()
+            elif isinstance(field.default, str):
+                yield f"{path} = {field.default}"
+            elif isinstance(field.default, int | float) and field.default is not False:
+                yield f"{path} = {field.default:g} {unit}".rstrip()
     if model.rod.mass is None and model.rod.small_end is None:
         yield "rod.mass: a rod without mass"
 
 
 def _list_idle(model: EngineFile) -> set[str]:
-    """Keys in whose place others stand, or that say nothing of this engine."""
+    """Return keys in whose place others stand, or that have no effect in this engine."""
     found = {"rod.inertia"} if model.rod.pendulum is not None else set()
     layout = model.layout
     one_throw = len(model.crank.throws or (0,)) == 1 and layout.firing_order is None
@@ -41,7 +45,3 @@ def _list_idle(model: EngineFile) -> set[str]:
     if one_throw and one_bank:
         found |= {"layout.firing_intervals"}
     return found
-
-
-def _plain(value: float | str) -> str:
-    return value if isinstance(value, str) else f"{value:g}"

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ..errors import BalcliError
 from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, MOST_ROWS
 from .fields import shorten
-from .toml_text import name_other_kind, read_bytes
+from .toml_text import read_bytes
 
 
 class NumberColumns(NamedTuple):
@@ -29,12 +29,16 @@ class NumberColumns(NamedTuple):
     lines: tuple[int, ...]
 
     def column(self, number: int) -> list[float]:
-        """All numbers under one of the heads."""
+        """Return all numbers under one of the heads, counted from 0."""
         return [row[number] for row in self.rows]
 
 
 def locate_beside(folder: Path, name: str) -> Path:
-    """The file of this name, relative to a folder that it may not leave.
+    """Return the path of a file beside an engine file.
+
+    Args:
+        folder: of the engine file, which the path may not leave.
+        name: as the engine file has it.
 
     Raises:
         BalcliError: it would, or no file can have that name.
@@ -52,11 +56,14 @@ def locate_beside(folder: Path, name: str) -> Path:
 
 
 def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> NumberColumns:
-    """Some columns of a CSV file; other columns, empty lines and lines that begin with # count for
-    nothing. Where semicolons or tabs part the heading, they part the lines, and decimals may have
-    commas; elsewhere a number to the right of the heading is refused: "0,5,1,3" might be two.
+    """Return some columns of a CSV file.
+
+    Other columns, empty lines and lines that begin with # count for nothing. Where semicolons or
+    tabs part the heading, they part the lines, and decimals may have commas; elsewhere a number to
+    the right of the heading is refused: "0,5,1,3" might be two.
 
     Args:
+        path: of the file.
         wanted: the names that each column may have.
 
     Raises:
@@ -66,40 +73,26 @@ def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> NumberColumns:
     if len(content) > LARGEST_FILE_BYTES:
         raise BalcliError(f"{path}: has more than {LARGEST_FILE_BYTES // 1_000_000} MB")
     try:
-        text = content.decode("utf-8-sig")
+        return _parse(content.decode("utf-8-sig"), wanted)
     except UnicodeDecodeError:
-        kind = name_other_kind(content)
-        told = (
-            f"is {kind}; save the sheet as CSV" if kind else "is not UTF-8 text; save it as UTF-8"
-        )
-        raise BalcliError(f"{path}: {told}") from None
-    try:
-        return _parse(text, wanted)
+        raise BalcliError(f"{path}: is not UTF-8 text; save it as CSV in UTF-8") from None
     except (ValueError, csv.Error) as error:
         raise BalcliError(f"{path}: {error}") from None
 
 
 def _parse(text: str, wanted: Sequence[Sequence[str]]) -> NumberColumns:
-    lines = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
+    numbered = enumerate(text.splitlines(), 1)
+    lines = {n: line for n, line in numbered if line.strip() and not line.lstrip().startswith("#")}
     if len(lines) > MOST_ROWS:
         raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
-    first = lines[0][1] if lines else ""
-    if re.fullmatch(r"[-+\d.,;eE\s]+", first) and re.search(r"\d", first):
-        mark = next((mark for mark in ";\t" if mark in first), ",")
-        usual = mark.join(some[0] for some in wanted)
-        raise ValueError(f"begins with figures, without a heading; put the line {usual} above them")
+    first = next(iter(lines.values()), "")
     # The comma, where none of them is there; tabs after a comma are room.
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
     if mark != ",":
-        lines = [(n, line.replace(",", ".").replace(mark, ",")) for n, line in lines]
-    cells = csv.reader(line for _, line in lines)
+        lines = {n: line.replace(",", ".").replace(mark, ",") for n, line in lines.items()}
+    numbers, cells = list(lines)[1:], csv.reader(lines.values())
     heading = [cell.strip() for cell in next(cells, [])]
     places = [_find_head(names, heading, wanted, mark) for names in wanted]
-    numbers = [number for number, _ in lines[1:]]
     width = len(heading) if mark == "," else None
     rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
     return NumberColumns(tuple(heading[place] for place in places), rows, tuple(numbers))
@@ -108,7 +101,7 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> NumberColumns:
 def _find_head(
     names: Sequence[str], heading: list[str], wanted: Sequence[Sequence[str]], mark: str
 ) -> int:
-    """Where a heading has one of these names; `mark` parts its columns."""
+    """Return where a heading has one of these names; `mark` parts its columns."""
     for place, head in enumerate(heading):
         if head in names:
             return place
@@ -136,8 +129,7 @@ def _read_number(cell: str, line: int) -> float:
         number = float(cell)
     except ValueError:
         number = math.nan
-    if not math.isfinite(number):
-        raise ValueError(f"line {line}: {shorten(cell.strip())} is not a number")
-    if abs(number) > LARGEST_IN_COLUMNS:
-        raise ValueError(f"line {line}: {shorten(cell.strip())} is too large a number")
+    if not abs(number) <= LARGEST_IN_COLUMNS:
+        what = "too large a" if math.isfinite(number) else "not a"
+        raise ValueError(f"line {line}: {shorten(cell.strip())} is {what} number")
     return number

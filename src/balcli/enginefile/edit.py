@@ -1,65 +1,105 @@
-"""The text of an engine file with some keys of a table changed, and all else as it was: comments,
-lay-out, other tables.
+"""The text of a TOML file with some keys of a table changed, and all else as it was: comments,
+layout, other tables. tomlkit does the work; what it writes is read back before anyone gets it.
 """
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Mapping
 from typing import Any
 
-HEAD = re.compile(r"(?m)^[ \t]*\[\[?[ \t\w.\"'-]+\]\]?[ \t]*(?:#.*)?$")
-# that can be replaced: a flat list, a string, a number
-_VALUE = r"""\[[^\[\]]*\]|"[^"\n]*"|'[^'\n]*'|[^\s,#\[\]{}"']+"""
-_COMMENT = r"([ \t]*#.*)|[ \t]*$"
-
 
 def set_keys(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
-    """With these keys of a table set (None: left out), comments kept.
+    """Return the text with some keys of a table set; comments are kept.
 
-    A key keeps its place and its comment, to which the note is added; a new one comes first in its
-    table. The table, which may be one within another (`cylinder.3`), may have its own heading,
-    dotted keys or braces; where it is written in a more unusual way, so that a key cannot be put
-    in, the file is written anew, without comments.
+    A key keeps its place and its comment, to which the note is added; a new one comes last in its
+    table. Where tomlkit does not get the wanted values right, the file is written anew, without
+    comments.
+
+    Args:
+        text: as the file has it.
+        table: dotted name; a number names a cylinder (`cylinder.3`) or, from 1, a member of a list
+            (`torsion.rear.2`).
+        keys: values of the keys; None leaves a key out.
+        note: of where the new values come from.
     """
+    from tomlkit.exceptions import TOMLKitError
+
     wanted = tomllib.loads(text)
-    changed = _open(wanted, table)
-    new: str | None = text.replace("\r\n", "\n")
-    for key, value in keys.items():
-        if changed.get(key) == value:
-            continue
+    place = _open(wanted, table)
+    changes = {key: value for key, value in keys.items() if place.get(key) != value}
+    if not changes:
+        return text
+    for key, value in changes.items():
+        place[key] = value
         if value is None:
-            del changed[key]
-        else:
-            changed[key] = value
-        if new is not None:
-            ways = (edit(new, table, key, value, note) for edit in _EDITS)
-            new = next((found for found in ways if _says(found, table, wanted)), None)
-    if new is None:
+            del place[key]
+    try:
+        new = _edit(text.replace("\r\n", "\n"), table, changes, wanted, note)
+        right = tomllib.loads(new) == wanted
+    except (TOMLKitError, ValueError):
+        right = False
+    if not right:
         return rewrite(wanted, f"its [{table}] is written in an unusual way")
     return new.replace("\n", "\r\n") if "\r\n" in text else new
 
 
-def _open(data: dict[str, Any], table: str) -> dict[str, Any]:
-    """A table in the data of a file, put there if it is missing."""
+def _open(data: Any, table: str) -> Any:
+    """Return a table in the data of a file; it is put there if it is missing."""
     for name in table.split("."):
-        data = data.setdefault(name, {})
+        data = data[int(name) - 1] if isinstance(data, list) else data.setdefault(name, {})
     return data
 
 
-def _says(text: str, table: str, wanted: Mapping[str, Any]) -> bool:
-    """Whether a text is TOML that says what is wanted, but for an empty table."""
-    try:
-        said = tomllib.loads(text)
-        _open(said, table)
-    except (tomllib.TOMLDecodeError, AttributeError):
-        return False
-    return said == wanted
+def _edit(text: str, table: str, changes: Mapping[str, Any], wanted: Any, note: str) -> str:
+    """Return the text with these changes; a table in braces is written anew as it is wanted."""
+    import tomlkit
+    from tomlkit.items import InlineTable, Table
+
+    document = tomlkit.parse(text)
+    place: Any = document
+    for name in table.split("."):
+        if isinstance(place, list):
+            place, wanted = place[int(name) - 1], wanted[int(name) - 1]
+            continue
+        if isinstance(place.get(name), InlineTable):
+            changes = {name: wanted[name]}
+            break
+        if name not in place:
+            place[name] = tomlkit.table()
+        place, wanted = place[name], wanted[name]
+    for key, value in changes.items():
+        if value is None:
+            del place[key]
+            continue
+        item = tomlkit.value(format_value(value))
+        last = _find_last_key(place) if isinstance(place, Table) and key not in place else None
+        if last is None:
+            place[key] = item
+        else:
+            place.value._insert_after(last, key, item)
+        if not item.trivia.comment:
+            item.trivia.comment_ws, item.trivia.comment = "    ", f"# {note}"
+        elif note not in item.trivia.comment:
+            item.trivia.comment = f"{item.trivia.comment.rstrip()} ({note})"
+    return tomlkit.dumps(document)
+
+
+def _find_last_key(table: Any) -> Any:
+    """Return the last key of a table whose value is no table; None if it has none."""
+    from tomlkit.items import AoT, Table
+
+    keys = [key for key, item in table.value.body if key and not isinstance(item, (AoT, Table))]
+    return keys[-1] if keys else None
 
 
 def rewrite(data: Mapping[str, Any], reason: str) -> str:
-    """All of a file in the order of its keys, under a comment that says why no other is left."""
+    """Return a whole file in the order of its keys, under a comment that says why no other is left.
+
+    Args:
+        data: the tables of the file.
+        reason: why its comments are lost.
+    """
     import tomli_w
 
     return (
@@ -69,78 +109,12 @@ def rewrite(data: Mapping[str, Any], reason: str) -> str:
 
 
 def format_value(value: Any) -> str:
-    """A number, or lists and tables of them, as TOML has it: the shortest decimals that read back
-    to the same number.
+    """Return a number, a text, or lists and tables of them, as TOML has it in one line: the
+    shortest decimals that read back to the same number.
     """
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(format_value, value))}]"
     if isinstance(value, Mapping):
-        return (
-            f"{{ {', '.join(f'{key} = {format_value(inner)}' for key, inner in value.items())} }}"
-        )
-    return repr(value)
-
-
-# ------------------------------------------------------------------ one key, in one way of writing
-def _change_in_table(text: str, table: str, key: str, value: Any, note: str) -> str:
-    """Under the table's own heading; with a new one at the end where there is none."""
-    head = re.search(rf"(?m)^[ \t]*\[[ \t]*{table}[ \t]*\][ \t]*(?:#.*)?$", text)
-    line = f"{key} = {format_value(value)}    # {note}\n"
-    if head is None:
-        return text if value is None else f"{text.rstrip()}\n\n[{table}]\n{line}"
-    following = HEAD.search(text, head.end())
-    end = following.start() if following else len(text)
-    before, body, after = text[: head.end()] + "\n", text[head.end() + 1 : end], text[end:]
-    changed_body = _change_line(body, key, value, note)
-    if changed_body is None:
-        changed_body = line * (value is not None) + body
-    return before + changed_body + after
-
-
-def _change_dotted(text: str, table: str, key: str, value: Any, note: str) -> str:
-    """As `table.key = value`, above all headings; a new key before the others of its table."""
-    first = HEAD.search(text)
-    end = first.start() if first else len(text)
-    top, rest = text[:end], text[end:]
-    dotted = rf"{table}[ \t]*\.[ \t]*"
-    found = _change_line(top, dotted + key, value, note)
-    if found is None:
-        line = f"{table}.{key} = {format_value(value)}    # {note}\n" if value is not None else ""
-        found = re.sub(rf"(?m)^(?=[ \t]*{dotted}\w)", lambda _: line, top, count=1)
-    return found + rest
-
-
-def _change_line(lines: str, key: str, value: Any, note: str) -> str | None:
-    """Lines with the value of a key (a regular expression) changed, or without it; None if there is
-    no such line.
-    """
-    old = re.search(rf"(?m)^([ \t]*{key}[ \t]*=[ \t]*)(?:{_VALUE})(?:{_COMMENT})\n?", lines)
-    if old is None:
-        return None
-    line = "" if value is None else f"{old[1]}{format_value(value)}{_add_note(old[2], note)}\n"
-    return lines[: old.start()] + line + lines[old.end() :]
-
-
-def _change_inline(text: str, table: str, key: str, value: Any, note: str) -> str:
-    """Within `table = { key = value, ... }`; a new key comes first."""
-    braces = rf"(?m)^([ \t]*{table}[ \t]*=[ \t]*\{{)([^#\n]*)\}}(?:{_COMMENT})"
-    old = re.search(braces, text)
-    if old is None:
-        return text
-    item = "" if value is None else f" {key} = {format_value(value)}"
-    place = rf"(^|,)[ \t]*{key}[ \t]*=[ \t]*(?:{_VALUE})[ \t]*(?=,|$)"
-    inside, there = re.subn(place, lambda found: (found[1] + item) if item else "", old[2])
-    items = [part for part in ("" if there else item, inside) if part.strip(" \t,")]
-    inside = ",".join(items).strip(" \t,")
-    line = f"{old[1]} {inside} }}{_add_note(old[3], note)}"
-    return text[: old.start()] + line + text[old.end() :]
-
-
-def _add_note(comment: str | None, note: str) -> str:
-    """A comment, or none, with the note after it."""
-    if comment is None:
-        return f"    # {note}"
-    return comment.rstrip() + f" ({note})" * (note not in comment)
-
-
-_EDITS = (_change_in_table, _change_dotted, _change_inline)
+        inner = ", ".join(f"{key} = {format_value(part)}" for key, part in value.items())
+        return f"{{ {inner} }}"
+    return f'"{value}"' if isinstance(value, str) else repr(value)

@@ -37,8 +37,8 @@ class Example(NamedTuple):
     text: str
 
     def mentions(self, words: str) -> bool:
-        """Whether each of the words, in any case, occurs in name, class, lesson, title, source, or
-        is a table of the file, such as gas.
+        """Return whether each of the words, in any case, occurs in name, class, lesson, title,
+        source, or is a table of the file, such as gas.
         """
         head, _, _ = self.text.partition("\n[")
         tables = {*re.findall(r"^\[+([a-z]+)", self.text, re.MULTILINE)} - _USUAL_TABLES
@@ -47,8 +47,11 @@ class Example(NamedTuple):
 
 
 def find(words: str = "", group: str | None = None) -> list[Example]:
-    """Examples of a class (default: of all) that mention all the words; layouts first, then by
-    class and name.
+    """Return the examples that mention all the words; layouts first, then by class and name.
+
+    Args:
+        words: with spaces between.
+        group: class of the examples; None: all.
 
     Raises:
         BalcliError: no such class; nothing found.
@@ -63,25 +66,29 @@ def find(words: str = "", group: str | None = None) -> list[Example]:
 
 
 def names() -> list[str]:
-    """The short names, layouts first, then by class."""
+    """Return the short names, layouts first, then by class."""
     return [path.stem for path in _paths()]
 
 
 def is_example(name: str) -> bool:
-    """Whether there is an example of this short name; not in an installation without any."""
+    """Return whether there is an example of this short name; an installation may have none."""
     return any(path.stem == name for place in _PLACES for path in place.rglob("*.toml"))
 
 
 def groups() -> list[str]:
-    """The classes, layouts first."""
+    """Return the classes, layouts first."""
     return list(dict.fromkeys(_group(path) for path in _paths()))
 
 
 def text(name: str) -> str:
-    """The engine file of an example. BalcliError for an unknown name, with the nearest ones."""
+    """Return the engine file of an example.
+
+    Raises:
+        BalcliError: there is none of this name; with the nearest ones.
+    """
     known = {path.stem: path for path in _paths()}
     if name not in known:
-        near = _find_near(name.lower()[:100], sorted(known))
+        near = get_close_matches(name.lower()[:100], known, 3)
         hint = f" Did you mean {' or '.join(near)}?" if near else ""
         if name.lower() in groups():
             hint = f" It is a class: balcli engines --class {name.lower()}."
@@ -89,16 +96,12 @@ def text(name: str) -> str:
     return known[name].read_text(encoding="utf-8")
 
 
-def _find_near(name: str, known: list[str]) -> list[str]:
-    """At most three of the known names that were probably meant: those that begin so, then those
-    that are spelt nearly so.
-    """
-    begun = [each for each in known if name and each.startswith(name)]
-    return list(dict.fromkeys([*begun, *get_close_matches(name, known, 3)]))[:3]
-
-
 def folder() -> Path:
-    """Where they are. BalcliError for an installation without them."""
+    """Return the folder of the examples.
+
+    Raises:
+        BalcliError: the installation has none.
+    """
     for place in _PLACES:
         if place.is_dir():
             return place

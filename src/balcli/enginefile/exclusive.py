@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 
@@ -13,15 +12,15 @@ class Choice(NamedTuple):
     Attributes:
         groups: of these one may be given.
         required: one must be given.
-        complete: a group that is begun must be finished.
+        complete: a group that is begun must be finished: every one, or the one that is named.
     """
 
     groups: tuple[tuple[str, ...], ...]
     required: bool = False
-    complete: bool = False
+    complete: bool | tuple[str, ...] = False
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
-        """What is wrong with these keys, in words that a table's name can stand before."""
+        """Yield what is wrong with the given keys, in words that follow the name of the table."""
         begun = [[key for key in group if key in given] for group in self.groups]
         keys, missing = [key for some in begun for key in some], self.find_missing(given)
         if sum(map(bool, begun)) > 1:
@@ -32,22 +31,22 @@ class Choice(NamedTuple):
             yield f"has {join_words(keys)} without {join_words(missing)}; {self._wanted()}"
 
     def find_missing(self, given: Collection[str]) -> tuple[str, ...]:
-        """Keys that are not there, and of which one has to be, or all."""
+        """Return missing keys of which one is needed, or all."""
         begun = [group for group in self.groups if any(key in given for key in group)]
         if not begun and self.required:
             return tuple(key for group in self.groups for key in group)
-        if len(begun) == 1 and self.complete:
+        if len(begun) == 1 and self.complete in (True, begun[0]):
             return tuple(key for key in begun[0] if key not in given)
         return ()
 
     def rivals(self, key: str) -> tuple[str, ...]:
-        """The keys that must not be given beside this one; none for a key of no group."""
+        """Return the keys that exclude this one; none for a key of no group."""
         if not any(key in group for group in self.groups):
             return ()
         return tuple(other for group in self.groups if key not in group for other in group)
 
     def for_overrides(self, prefix: str) -> Choice:
-        """The same choice among keys with this prefix, none of which must be given."""
+        """Return this choice among keys with a prefix, none of which must be given."""
         return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
 
     def _wanted(self) -> str:
@@ -55,12 +54,6 @@ class Choice(NamedTuple):
 
 
 def join_words(words: Collection[str]) -> str:
-    """Words as they are counted up in a sentence: `a, b and c`."""
+    """Return words as a sentence lists them: `a, b and c`."""
     *front, last = words
     return f"{', '.join(front)} and {last}" if front else last
-
-
-def find_repeated(numbers: Iterable[int]) -> str:
-    """The numbers that occur more than once, in words (the first five); empty if none does."""
-    repeated = [str(number) for number, times in Counter(numbers).items() if times > 1]
-    return join_words(repeated[:5]) if repeated else ""

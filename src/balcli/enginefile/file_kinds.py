@@ -1,4 +1,4 @@
-"""Which of three kinds a file is, by what stands at its head."""
+"""The three kinds of files, told apart by the keys at their head."""
 
 from __future__ import annotations
 
@@ -16,7 +16,13 @@ class OtherKindError(InputError):
 
 
 class FileKind(NamedTuple):
-    """What a file is in words, who reads it, and the keys of which it alone has any."""
+    """A kind of file.
+
+    Attributes:
+        name: of the kind, in words.
+        reader: the command that reads it, in words.
+        keys: that only this kind has.
+    """
 
     name: str
     reader: str
@@ -29,8 +35,8 @@ CHAIN = FileKind("a chain file", "balcli torsion reads", frozenset({"node", "exc
 
 
 def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> None:
-    """Nothing, unless the keys at the head of a file are those of one other kind, and none of a
-    kind that is wanted: then its mistakes, key by key, would say nothing.
+    """Raise an error if the keys at the head of a file are those of one other kind, and none of a
+    kind that is wanted: a list of all its mistakes would not help.
 
     Raises:
         OtherKindError: with what it is, and who reads it.

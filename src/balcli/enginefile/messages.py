@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, get_args
 
 from ..errors import Problem
-from ..limits import MOST_LIST_VALUES
+from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
 from . import model
 from .fields import counted, printable, shorten
 
@@ -42,16 +42,10 @@ DEVICES: dict[str, type[model.FileTable]] = {
     "slider": model.Slider,
 }
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
-WORDS = {
-    "tuple_type": "{value} is not a list; write it in square brackets, such as {example}",
-    "model_type": "{value} is not a table; write it in braces with its keys",
-    "model_attributes_type": "{value} is not a table; write it in braces with its keys",
-}
-OTHER = "{value} does not fit here"
 
 
 def import_table(key: str) -> type[model.FileTable]:
-    """The table of a key; its module is imported, if it is of a chapter."""
+    """Return the table of a key; the module of a chapter is imported."""
     if key in TABLES or key in DEVICES:
         return (TABLES | DEVICES)[key]
     module = import_module(f"{__package__}.{(CHAPTERS | CHAPTER_LISTS)[key]}")
@@ -59,61 +53,61 @@ def import_table(key: str) -> type[model.FileTable]:
 
 
 def import_tables() -> dict[str, type[model.FileTable]]:
-    """All tables that stand once in a file, those of chapters too."""
+    """Return all tables that stand once in a file, with those of chapters."""
     return TABLES | {key: import_table(key) for key in CHAPTERS}
 
 
 def import_lists() -> dict[str, type[model.FileTable]]:
-    """All tables that may stand several times in a file, those of chapters too."""
+    """Return all tables that may stand several times in a file, with those of chapters."""
     return DEVICES | {key: import_table(key) for key in CHAPTER_LISTS}
 
 
 def join_path(start: str, parts: Iterable[int | str]) -> str:
-    """`a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people count from 1."""
+    """Return a dotted path: `a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people
+    count from 1. The path of the file itself is empty.
+    """
     names = (str(part + 1) if isinstance(part, int) else printable(part) for part in parts)
-    return ".".join([start, *names])
+    return ".".join(filter(None, [start, *names]))
 
 
 def describe_finding(path: str, finding: ErrorDetails, table: type[model.FileTable]) -> Problem:
-    """One finding of pydantic in the table at `path`; a member of a list is named in words (`the
-    2nd value`).
+    """Return one finding of pydantic in words; a member of a list is named as `the 2nd value`.
+
+    Args:
+        path: of the table.
+        finding: with the place of the key in it.
+        table: what may stand there.
     """
-    kind, loc = finding["type"], finding["loc"]
+    kind, loc, value = finding["type"], finding["loc"], finding["input"]
+    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    examples = list(field.examples or ()) if field else []
+    place, shown = join_path(path, loc), shorten(value)
     if kind == "missing":
-        return Problem.of_missing(join_path(path, loc), _suggest_missing(table, loc))
-    value, context = finding["input"], finding.get("ctx", {})
+        example = shorten(examples[0]) if examples else "{ length = 200 }"
+        return Problem.of_missing(place, f"give it, such as {loc[-1]} = {example}")
     if kind == "value_error":
-        message = str(context["error"])
+        message = str(finding["ctx"]["error"])
     elif kind in ("too_short", "too_long"):
-        message = _describe_length(value, context, _find_field(table, loc))
-    elif kind == "tuple_type" and _holds_tables(table, loc):
-        what = (
-            "is one of several" if isinstance(value, Mapping) else f"{shorten(value)} is no table"
-        )
-        message = f"{what}; write [[{join_path(path, loc)}]] in double brackets"
+        message = _describe_length(value, finding["ctx"], field)
+    elif kind == "tuple_type" and field and find_table(field.annotation):
+        found = "is one of several" if isinstance(value, Mapping) else f"{shown} is no table"
+        message = f"{found}; write [[{place}]] in double brackets"
+    elif kind == "tuple_type":
+        example = shorten(next((each for each in examples if isinstance(each, list)), [0, 180]))
+        message = f"{shown} is not a list; write it in square brackets, such as {example}"
+    elif kind.startswith("model_"):
+        message = f"{shown} is not a table; write it in braces with its keys"
     else:
-        example = _find_example(table, loc) if kind == "tuple_type" else ""
-        message = WORDS.get(kind, OTHER).format(value=shorten(value), example=example)
+        message = f"{shown} does not fit here"
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
         return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
-    return Problem(join_path(path, loc), message)
-
-
-def _holds_tables(table: type[model.FileTable], loc: Sequence[str | int]) -> bool:
-    """Whether a key has a list of tables."""
-    field = _find_field(table, loc)
-    return field is not None and find_table(field.annotation) is not None
-
-
-def _find_field(table: type[model.FileTable], loc: Sequence[str | int]) -> FieldInfo | None:
-    """The field at a place, which may be in a table within the table; None: there is none."""
-    return find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    return Problem(place, message)
 
 
 def find_inner_table(
     table: type[model.FileTable], loc: Sequence[str | int]
 ) -> type[model.FileTable]:
-    """The table in which the last part of a place stands: `table`, or one within it."""
+    """Return the table in which the last part of a place stands: `table`, or one within it."""
     for part in loc[:-1]:
         field = table.keys().get(str(part))
         table = table if field is None else find_table(field.annotation) or table
@@ -121,37 +115,21 @@ def find_inner_table(
 
 
 def find_table(annotation: object) -> type[model.FileTable] | None:
-    """The table of which a field's type is made, alone or in a list; None: it is none."""
+    """Return the table of which a field's type is made, alone or in a list; None: it is none."""
     if isinstance(annotation, type) and issubclass(annotation, model.FileTable):
         return annotation
     return next(filter(None, map(find_table, get_args(annotation))), None)
 
 
-def _find_example(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
-    """A list that a key may hold."""
-    field = _find_field(table, loc)
-    listed = [each for each in (field.examples or () if field else ()) if isinstance(each, list)]
-    return shorten(listed[0]) if listed else "[0, 180]"
-
-
-def _suggest_missing(table: type[model.FileTable], loc: Sequence[str | int]) -> str:
-    """An example of the key."""
-    field = _find_field(table, loc)
-    example = shorten(field.examples[0]) if field and field.examples else "{ length = 200 }"
-    return f"give it, such as {loc[-1]} = {example}"
-
-
 def _describe_length(
     value: list[object], context: Mapping[str, object], field: FieldInfo | None
 ) -> str:
-    wanted = context.get("min_length") or context.get("max_length")
     if not value:
-        needed = field is not None and field.is_required()
-        return (
-            f"is an empty list; give at least one value{'' if needed else ', or leave the key out'}"
-        )
-    if len(value) > MOST_LIST_VALUES:
-        return f"has more than {MOST_LIST_VALUES} values"
+        hint = "" if field is not None and field.is_required() else ", or leave the key out"
+        return f"is an empty list; give at least one value{hint}"
+    if (most := context.get("max_length")) in (MOST_LIST_VALUES, MOST_RIPPLES):
+        return f"has {len(value)} values; at most {most} are taken"
+    wanted = context.get("min_length") or context.get("max_length")
     what = field.description if field else None
     these = f": {what.partition(';')[0]}" if what else ""
     return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted{these}"

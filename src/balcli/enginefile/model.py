@@ -1,4 +1,4 @@
-"""What an engine file may say: one pydantic table per part, in its units (mm, kg, degrees, rpm, kg
+"""The tables of an engine file: one pydantic class per part, in its units (mm, kg, degrees, rpm, kg
 mm^2, g mm, s).
 
 The tables check and never derive: what follows from the figures (rod length from its ratio, inertia
@@ -6,9 +6,9 @@ from a pendulum) is the business of the package `engine`. A validator is built o
 a file has.
 """
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Sequence, Set
-from itertools import chain, pairwise
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Set
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple
 
@@ -24,8 +24,8 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
-from .exclusive import Choice, find_repeated, join_words
-from .fields import FileName, Flag, Halves, Label, Number, OneOf, Whole, counted, parse_firing_order
+from .exclusive import Choice, join_words
+from .fields import FileName, Flag, Label, Number, OneOf, Whole, counted, parse_firing_order
 from .units import (
     ANGLE,
     ENERGY,
@@ -34,7 +34,6 @@ from .units import (
     MASS,
     PLAIN,
     SPEED,
-    STANDARD_GRAVITY,
     TIME,
     UNBALANCE,
 )
@@ -44,21 +43,6 @@ if TYPE_CHECKING:
     from .gas_tables import Bearing, Flywheel, Gas
     from .mounting_tables import Body, Mount, Point
     from .torsion_tables import Torsion
-
-
-class CrankRatio(Number):
-    """Lambda, crank radius over rod length; who gives the inverse is told what it would be."""
-
-    def __init__(self) -> None:
-        super().__init__(PLAIN, above=0, below=1)
-
-    def _fault(self, number: float) -> tuple[str, str] | None:
-        fault = super()._fault(number)
-        if fault is None or number <= 1:
-            return fault
-        found, bounds = fault
-        inverse = f"of a rod {number:.4g} times as long as the crank radius it is {1 / number:.4g}"
-        return found, f"{bounds}: crank radius / rod length; {inverse}"
 
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
@@ -77,10 +61,10 @@ Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 ShareOfGas = Annotated[float, Number(PLAIN, least=0, most=100)]
 Heat = Annotated[float, Number(ENERGY, least=0, most=1e12)]
-RodRatio = Annotated[float, CrankRatio()]
+RodRatio = Annotated[float, Number(PLAIN, above=0, below=1)]
 Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
-RippleOrder = Annotated[float, Halves(most=HIGHEST_RIPPLE_ORDER)]
+RippleOrder = Annotated[float, Whole(least=0.5, most=HIGHEST_RIPPLE_ORDER, halves=True)]
 ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
 Name = Annotated[str, Label()]
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
@@ -92,11 +76,27 @@ Place = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
 Triple = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
 
 
+def key(description: str, *examples: object, default: Any = None) -> Any:
+    """Return the pydantic field of a key that may be left out.
+
+    Args:
+        description: what it means, for the schema and the reference.
+        examples: a value that it may have.
+        default: what counts where it is left out; None: nothing, or what the description says.
+    """
+    return Field(default, description=description, examples=list(examples) or None)
+
+
+def needed(description: str, *examples: object) -> Any:
+    """Return the pydantic field of a key that has to be there; arguments as of `key`."""
+    return Field(description=description, examples=list(examples) or None)
+
+
 class TableRule(NamedTuple):
-    """What must hold in a table.
+    """A rule for the keys of a table.
 
     Attributes:
-        check: what is wrong, in words.
+        check: yields what is wrong, in words.
         needs: keys without whose values nothing can be said of it.
         wants: keys of which one is enough.
     """
@@ -115,29 +115,26 @@ class FileTable(BaseModel):
 
     @model_validator(mode="after")
     def _consistent(self, info: ValidationInfo) -> "FileTable":
-        """A context stands for a table that is known to have mistakes."""
-        if info.context is None and (found := self.list_faults()):
-            raise ValueError("; ".join(found))
+        """Refuse contradictions. A context stands for a table that is known to have mistakes."""
+        if info.context is None:
+            given = self.model_fields_set
+            of_choices = [fault for choice in self.choices for fault in choice.mistakes(given)]
+            if found := [*of_choices, *self.contradictions()]:
+                raise ValueError("; ".join(found))
         return self
 
-    def list_faults(self) -> list[str]:
-        """All that its keys and figures say against each other."""
-        given = self.model_fields_set
-        of_choices = [mistake for choice in self.choices for mistake in choice.mistakes(given)]
-        return [*of_choices, *self.contradictions()]
-
     def contradictions(self) -> Iterator[str]:
-        """What the fields of this table say against each other."""
+        """Yield what the fields of this table say against each other."""
         for rule in self.rules:
             yield from rule.check(self)
 
     def rivals(self, key: str) -> tuple[str, ...]:
-        """Keys of what says the same as this one, of which only one may be given."""
+        """Return the keys that exclude this one, since they say the same."""
         return tuple(rival for choice in self.choices for rival in choice.rivals(key))
 
     @classmethod
     def keys(cls) -> dict[str, FieldInfo]:
-        """Its fields by their keys as a file has them."""
+        """Return the fields of this table by their keys, as a file has them."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
 
@@ -146,40 +143,35 @@ class Crank(FileTable):
 
     choices = (Choice((("spacing",), ("positions",))),)
 
-    stroke: Size = Field(description="twice the crank radius", examples=[90])
-    throws: Angles | None = Field(
-        None,
-        examples=[[0, 180, 180, 0]],
-        description="angle of every throw, free end to flywheel end; may be left out where "
-        "firing_order fixes them",
+    stroke: Size = needed("twice the crank radius", 90)
+    throws: Angles | None = key(
+        "angle of every throw, free end to flywheel end; may be left out where firing_order fixes "
+        "them",
+        [0, 180, 180, 0],
     )
-    spacing: Distance | None = Field(
-        None,
-        description="axial distance of neighbouring throws; without it (or positions) moments of "
-        "several throws are not known",
-        examples=[100],
+    spacing: Distance | None = key(
+        "axial distance of neighbouring throws; without it (or positions) moments of several "
+        "throws are not known",
+        100,
     )
-    positions: Lengths | None = Field(
-        None,
-        description="axial place of every throw, instead of spacing",
-        examples=[[-150, -50, 50, 150]],
+    positions: Lengths | None = key(
+        "axial place of every throw, instead of spacing", [-150, -50, 50, 150]
     )
-    throw_mass: Mass = Field(
-        0.0,
-        examples=[0.8],
-        description="unbalanced mass of one whole throw, referred to the crank radius; its pins "
-        "share it equally",
+    throw_mass: Mass = key(
+        "unbalanced mass of one whole throw, referred to the crank radius; its pins share it "
+        "equally",
+        0.8,
+        default=0.0,
     )
-    inertia: GivenInertia | None = Field(
-        None,
-        description="polar moment of inertia of the whole crankshaft with throws and "
-        "counterweights, for its uneven speed",
-        examples=[90000],
+    inertia: GivenInertia | None = key(
+        "polar moment of inertia of the whole crankshaft with throws and counterweights, for its "
+        "uneven speed",
+        90000,
     )
-    splay: Angle = Field(
-        0.0,
-        description="split pins: angle by which each further bank's pin leads the one before it",
-        examples=[-30],
+    splay: Angle = key(
+        "split pins: angle by which each further bank's pin leads the one before it",
+        -30,
+        default=0.0,
     )
 
     def _check_places(self) -> Iterator[str]:
@@ -195,10 +187,10 @@ class Crank(FileTable):
 class Pendulum(FileTable):
     """A pendulum test of a rod: swung about one of its bores."""
 
-    pivot: Annotated[Literal["small_end", "big_end"], OneOf("small_end", "big_end")] = Field(
-        description="the bore about whose centre the rod swings", examples=["small_end"]
+    pivot: Annotated[Literal["small_end", "big_end"], OneOf("small_end", "big_end")] = needed(
+        "the bore about whose centre the rod swings", "small_end"
     )
-    period: Period = Field(description="one full swing, there and back", examples=[0.82])
+    period: Period = needed("one full swing, there and back", 0.82)
 
 
 class Rod(FileTable):
@@ -206,105 +198,40 @@ class Rod(FileTable):
 
     choices = (
         Choice((("length",), ("ratio",)), required=True),
-        Choice((("mass", "cg"), ("small_end", "big_end"))),
+        Choice((("mass", "cg"), ("small_end", "big_end")), complete=("small_end", "big_end")),
         Choice((("inertia",), ("pendulum",))),
     )
 
-    length: Size | None = Field(None, description="distance of the two centres", examples=[160])
-    ratio: RodRatio | None = Field(
-        None,
-        description="crank radius over rod length (lambda), instead of length",
-        examples=[0.28],
+    length: Size | None = key("distance of the two centres", 160)
+    ratio: RodRatio | None = key("crank radius over rod length (lambda), instead of length", 0.28)
+    mass: Mass | None = key("mass of the whole rod with bolts, without bearing shells", 0.6)
+    cg: Length | None = key("from the big-end centre to the centre of mass", 45)
+    small_end: Mass | None = key("mass weighed at the small end, instead of mass and cg", 0.17)
+    big_end: Mass | None = key("mass weighed at the big end, instead of mass and cg", 0.43)
+    inertia: Inertia | None = key(
+        "moment of inertia about the centre of mass; left out: two masses at the ends", 2300
     )
-    mass: Mass | None = Field(
-        None, description="mass of the whole rod with bolts, without bearing shells", examples=[0.6]
-    )
-    cg: Length | None = Field(
-        None, description="from the big-end centre to the centre of mass", examples=[45]
-    )
-    small_end: Mass | None = Field(
-        None, description="mass weighed at the small end, instead of mass and cg", examples=[0.17]
-    )
-    big_end: Mass | None = Field(
-        None, description="mass weighed at the big end, instead of mass and cg", examples=[0.43]
-    )
-    inertia: Inertia | None = Field(
-        None,
-        examples=[2300],
-        description="moment of inertia about the centre of mass; left out: two masses at the ends",
-    )
-    pendulum: Pendulum | None = Field(None, description="a pendulum test, instead of inertia")
-
-    def _check_ends(self) -> Iterator[str]:
-        ends = (self.small_end, self.big_end)
-        if None in ends and ends != (None, None) and self.mass is None and self.cg is None:
-            there, missing = "small_end", "big_end"
-            if self.small_end is None:
-                there, missing = missing, there
-            yield f"has {there} without {missing}; weigh the rod at both ends, or give mass and cg"
-
-    def _check_pendulum(self) -> Iterator[str]:
-        if self.pendulum and self.length is not None:
-            total = (self.small_end or 0.0) + (self.big_end or 0.0)
-            cg = self.length * (self.small_end or 0.0) / total if total else self.cg or 0.0
-            arm = cg if self.pendulum.pivot == "big_end" else self.length - cg
-            if self.pendulum.period <= shortest_period(arm):
-                yield f"pendulum.{describe_quick_period(self.pendulum.period, arm)}"
-
-    rules = (
-        TableRule(_check_ends, {"small_end", "big_end", "mass", "cg"}),
-        TableRule(_check_pendulum, {"pendulum", "length", "small_end", "big_end", "cg"}),
-    )
-
-
-def shortest_period(arm_mm: float) -> float:
-    """Period (s) of a point mass at this distance from the pivot; that of every rod is longer."""
-    return 2 * math.pi * math.sqrt(max(arm_mm, 0.0) * 1e-3 / STANDARD_GRAVITY)
-
-
-def describe_quick_period(period: float, arm_mm: float) -> str:
-    """What is wrong with a pendulum test that leaves no moment of inertia; `arm_mm` is the distance
-    of the centre of mass from the pivot.
-    """
-    return (
-        f"period {period:g} s is too quick: with the centre of mass {arm_mm:g} mm from the pivot "
-        f"a full swing takes more than {shortest_period(arm_mm):.4g} s"
-    )
+    pendulum: Pendulum | None = key("a pendulum test, instead of inertia")
 
 
 class Piston(FileTable):
     """One piston with its rings, pin and locks: weighed together, or part by part."""
 
-    choices = (Choice((("mass",), ("piston", "pin", "rings", "locks")), required=True),)
-
-    bore: Size | None = Field(None, description="cylinder bore", examples=[86])
-    mass: Mass | None = Field(
-        None, description="piston, pin, rings and locks together", examples=[0.5]
-    )
-    piston: Mass | None = Field(
-        None, description="the bare piston, instead of mass, which is then the sum", examples=[0.36]
-    )
-    pin: Mass | None = Field(None, description="piston pin", examples=[0.1])
-    rings: Mass | None = Field(None, description="all rings of one piston", examples=[0.036])
-    locks: Mass | None = Field(None, description="both locks (clips) of the pin", examples=[0.004])
-    offset: Length = Field(
-        0.0,
-        examples=[-1.6],
-        description="of the pin path, + towards the side to which the crank pin moves after top "
-        "dead centre",
+    choices = (
+        Choice((("mass",), ("piston", "pin", "rings", "locks")), required=True, complete=True),
     )
 
-    def _check_parts(self) -> Iterator[str]:
-        parts = {"piston": self.piston, "pin": self.pin, "rings": self.rings, "locks": self.locks}
-        given = [key for key, mass in parts.items() if mass is not None]
-        missing = [key for key in parts if key not in given]
-        if given and missing and self.mass is None:
-            yield (
-                f"has {join_words(given)} without {join_words(missing)}; give every part: 0 for "
-                "one that is not there or was weighed with another"
-            )
-
-    rules = (TableRule(_check_parts, {"mass", "piston", "pin", "rings", "locks"}),)
+    bore: Size | None = key("cylinder bore", 86)
+    mass: Mass | None = key("piston, pin, rings and locks together", 0.5)
+    piston: Mass | None = key("the bare piston, instead of mass, which is then the sum", 0.36)
+    pin: Mass | None = key("piston pin", 0.1)
+    rings: Mass | None = key("all rings of one piston", 0.036)
+    locks: Mass | None = key("both locks (clips) of the pin", 0.004)
+    offset: Length = key(
+        "of the pin path, + towards the side to which the crank pin moves after top dead centre",
+        -1.6,
+        default=0.0,
+    )
 
 
 class Layout(FileTable):
@@ -312,42 +239,32 @@ class Layout(FileTable):
 
     choices = (Choice((("bank_angle",), ("banks",), ("radial",))),)
 
-    bank_angle: Angle | None = Field(
-        None, description="a vee: banks at minus and plus half of this angle", examples=[90]
+    bank_angle: Angle | None = key("a vee: banks at minus and plus half of this angle", 90)
+    banks: Angles | None = key("angle of every bank", [-90, 90])
+    radial: Count | None = key("number of banks, evenly round the crank", 9)
+    rods: Annotated[Literal["shared", "alternating"], OneOf("shared", "alternating")] = key(
+        "shared: every throw carries one rod of each bank; alternating: the throws take the banks "
+        "in turn",
+        "alternating",
+        default="shared",
     )
-    banks: Angles | None = Field(None, description="angle of every bank", examples=[[-90, 90]])
-    radial: Count | None = Field(
-        None, description="number of banks, evenly round the crank", examples=[9]
+    stagger: Length = key(
+        "axial distance of adjacent rods on a throw, first bank towards the free end",
+        22,
+        default=0.0,
     )
-    rods: Annotated[Literal["shared", "alternating"], OneOf("shared", "alternating")] = Field(
-        "shared",
-        examples=["alternating"],
-        description="shared: every throw carries one rod of each bank; alternating: the throws "
-        "take the banks in turn",
+    firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = key(
+        "numbers of the cylinders as they fire", [1, 3, 4, 2]
     )
-    stagger: Length = Field(
-        0.0,
-        description="axial distance of adjacent rods on a throw, first bank towards the free end",
-        examples=[22],
+    firing_intervals: Intervals | None = key(
+        "from each firing to the next; left out: from the throws, or even", [405, 315]
     )
-    firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = Field(
-        None, description="numbers of the cylinders as they fire", examples=[[1, 3, 4, 2]]
+    rotary: Annotated[bool, Flag()] = key(
+        "the crank stands still and the cylinders turn about it", True, default=False
     )
-    firing_intervals: Intervals | None = Field(
-        None,
-        description="from each firing to the next; left out: from the throws, or even",
-        examples=[[405, 315]],
-    )
-    rotary: Annotated[bool, Flag()] = Field(
-        False, description="the crank stands still and the cylinders turn about it", examples=[True]
-    )
-    strokes: Annotated[Literal[2, 4], OneOf(2, 4)] = Field(
-        4, description="two-stroke or four-stroke", examples=[4]
-    )
-    numbering: NumbersOfBanks | None = Field(
-        None,
-        description="cylinder numbers of each bank, free end to flywheel end",
-        examples=[[[1, 3], [2, 4]]],
+    strokes: Annotated[Literal[2, 4], OneOf(2, 4)] = key("two-stroke or four-stroke", 4, default=4)
+    numbering: NumbersOfBanks | None = key(
+        "cylinder numbers of each bank, free end to flywheel end", [[1, 3], [2, 4]]
     )
 
     def _check_firing_order(self) -> Iterator[str]:
@@ -357,62 +274,43 @@ class Layout(FileTable):
         yield from _refuse_repeated("numbering", chain(*self.numbering or ()))
 
     def _check_intervals(self) -> Iterator[str]:
-        intervals, order = self.firing_intervals, self.firing_order
-        if intervals and order is None:
+        intervals, order, cycle = self.firing_intervals, self.firing_order, 180 * self.strokes
+        if intervals is None:
+            return
+        if order is None:
             yield "firing_intervals is given without firing_order; give both, or neither"
-        elif intervals and order and len(intervals) != len(order):
+        elif len(intervals) != len(order):
             yield (
                 f"firing_intervals has {counted(len(intervals), 'interval')} for "
                 f"{counted(len(order), 'firing')}; give one for each, the last one "
                 "back to the first cylinder"
             )
-
-    def _check_cycle(self) -> Iterator[str]:
-        intervals, order = self.firing_intervals, self.firing_order
-        if not (intervals and order and len(intervals) == len(order)):
-            return
-        if abs(sum(intervals) - 180 * self.strokes) > INTERVAL_TOLERANCE_DEG:
-            if gaps := _find_gaps(intervals, 180 * self.strokes):
-                yield (
-                    "firing_intervals rise from one to the next, as angles at which cylinders fire "
-                    f"do; intervals are the angles between: [{', '.join(f'{x:g}' for x in gaps)}]"
-                )
-                return
+        elif abs(sum(intervals) - cycle) > INTERVAL_TOLERANCE_DEG:
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
-                f"{self.strokes}-stroke has {180 * self.strokes} (within "
-                f"{INTERVAL_TOLERANCE_DEG:g})"
+                f"{self.strokes}-stroke has {cycle} (within {INTERVAL_TOLERANCE_DEG:g}); give the "
+                "angle from each firing to the next"
             )
 
     rules = (
         TableRule(_check_firing_order, {"firing_order"}),
         TableRule(_check_numbering, {"numbering"}),
-        TableRule(_check_intervals, {"firing_intervals", "firing_order"}),
-        TableRule(_check_cycle, {"firing_intervals", "firing_order", "strokes"}),
+        TableRule(_check_intervals, {"firing_intervals", "firing_order", "strokes"}),
     )
 
 
-def _find_gaps(angles: Sequence[float], cycle: float) -> list[float]:
-    """Return the intervals between spark angles that begin at 0 or end with the cycle; empty if
-    these are none.
-    """
-    ends = [*angles, cycle] if angles[0] == 0 else [0.0, *angles]
-    gaps = [b - a for a, b in pairwise(ends)]
-    return gaps if ends[-1] == cycle and min(gaps) > 0 else []
-
-
 def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
-    if twice := find_repeated(numbers):
-        yield f"{key} has cylinder {twice} more than once; name every cylinder once"
+    twice = [str(number) for number, times in Counter(numbers).items() if times > 1]
+    if twice:
+        listed = join_words(twice[:5])
+        yield f"{key} has cylinder {listed} more than once; name every cylinder once"
 
 
 class Bobweight(FileTable):
     """What turns with a crank pin besides rod and throw, for each rod on it; it rotates."""
 
-    rod_bearing: Mass = Field(
-        0.0, description="big-end bearing shells of one rod", examples=[0.047]
-    )
-    oil: Mass = Field(0.0, description="allowance for oil, for each rod", examples=[0.004])
+    rod_bearing: Mass = key("big-end bearing shells of one rod", 0.047, default=0.0)
+    oil: Mass = key("allowance for oil, for each rod", 0.004, default=0.0)
 
 
 class Ripple(FileTable):
@@ -420,39 +318,27 @@ class Ripple(FileTable):
     angle).
     """
 
-    order: RippleOrder = Field(description="times for each turn of the crank", examples=[4])
-    amplitude: Share = Field(description="of the mean speed", examples=[0.01])
-    angle: Angle = Field(0.0, description="phase: it is largest at angle / order", examples=[0])
+    order: RippleOrder = needed("times for each turn of the crank", 4)
+    amplitude: Share = needed("of the mean speed", 0.01)
+    angle: Angle = key("phase: it is largest at angle / order", 0, default=0.0)
 
 
 class Operation(FileTable):
     """How the engine runs."""
 
-    speed: Speed = Field(1000.0, description="crank speed (mean over the angle)", examples=[3000])
-    speed_ripple: tuple[Ripple, ...] = Field(
-        (),
-        description="uneven crank speed, by orders: whole ones, or halves of a four-stroke engine",
+    speed: Speed = key("crank speed (mean over the angle)", 3000, default=1000.0)
+    speed_ripple: Annotated[tuple[Ripple, ...], Field(max_length=MOST_RIPPLES)] = key(
+        "uneven crank speed, by orders: whole ones, or halves of a four-stroke engine", default=()
     )
-
-    def _check_ripple(self) -> Iterator[str]:
-        if len(self.speed_ripple) > MOST_RIPPLES:
-            yield (
-                f"speed_ripple has {len(self.speed_ripple)} orders; no more than {MOST_RIPPLES} "
-                "can be given"
-            )
-
-    rules = (TableRule(_check_ripple, {"speed_ripple"}),)
 
 
 class Frame(FileTable):
     """The engine's frame."""
 
-    reference: Triple | None = Field(
-        None,
-        examples=[[0, 0, 0]],
-        description="x, y, z of the point about which all moments are taken; left out: on the "
-        "crank axis, half-way "
-        "between the first and the last throw",
+    reference: Triple | None = key(
+        "x, y, z of the point about which all moments are taken; left out: on the crank axis, "
+        "half-way between the first and the last throw",
+        [0, 0, 0],
     )
 
 
@@ -464,33 +350,26 @@ class Override(FileTable):
         Choice((("heat",), ("indicator",))),
     )
 
-    piston_mass: Mass | None = Field(None, description="as piston.mass", examples=[0.502])
-    piston_offset: Length | None = Field(None, description="as piston.offset", examples=[0.8])
-    rod_length: Size | None = Field(None, description="as rod.length", examples=[160])
-    rod_ratio: RodRatio | None = Field(None, description="as rod.ratio", examples=[0.28])
-    rod_mass: Mass | None = Field(None, description="as rod.mass", examples=[0.602])
-    rod_cg: Length | None = Field(None, description="as rod.cg", examples=[45])
-    rod_small_end: Mass | None = Field(None, description="as rod.small_end", examples=[0.17])
-    rod_big_end: Mass | None = Field(None, description="as rod.big_end", examples=[0.43])
-    rod_inertia: Inertia | None = Field(None, description="as rod.inertia", examples=[2300])
-    rod_pendulum: Pendulum | None = Field(None, description="as rod.pendulum")
-    gas: ShareOfGas | None = Field(
-        None, description="share of the gas force; 0: a misfire", examples=[0]
+    piston_mass: Mass | None = key("as piston.mass", 0.502)
+    piston_offset: Length | None = key("as piston.offset", 0.8)
+    rod_length: Size | None = key("as rod.length", 160)
+    rod_ratio: RodRatio | None = key("as rod.ratio", 0.28)
+    rod_mass: Mass | None = key("as rod.mass", 0.602)
+    rod_cg: Length | None = key("as rod.cg", 45)
+    rod_small_end: Mass | None = key("as rod.small_end", 0.17)
+    rod_big_end: Mass | None = key("as rod.big_end", 0.43)
+    rod_inertia: Inertia | None = key("as rod.inertia", 2300)
+    rod_pendulum: Pendulum | None = key("as rod.pendulum")
+    gas: ShareOfGas | None = key("share of the gas force; 0: a misfire", 0)
+    heat: Heat | None = key(
+        "as gas.heat, of a computed cycle; 0: a cylinder that compresses and does not burn", 0
     )
-    heat: Heat | None = Field(
-        None,
-        description="as gas.heat, of a computed cycle; 0: a cylinder that compresses and does not "
-        "burn",
-        examples=[0],
+    indicator: Annotated[str, FileName()] | None = key(
+        "as gas.indicator, a diagram of its own", "p_3.csv"
     )
-    indicator: Annotated[str, FileName()] | None = Field(
-        None, description="as gas.indicator, a diagram of its own", examples=["p_3.csv"]
-    )
-    bank: Angle | None = Field(None, description="angle of this cylinder's axis", examples=[30])
-    throw: Angle | None = Field(
-        None, description="angle of this cylinder's crank pin", examples=[120]
-    )
-    position: Length | None = Field(None, description="axial place of this cylinder", examples=[50])
+    bank: Angle | None = key("angle of this cylinder's axis", 30)
+    throw: Angle | None = key("angle of this cylinder's crank pin", 120)
+    position: Length | None = key("axial place of this cylinder", 50)
 
 
 class Device(FileTable):
@@ -498,68 +377,43 @@ class Device(FileTable):
 
     choices = (Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),)
 
-    unbalance: Unbalance | None = Field(None, description="mass times radius", examples=[9000])
-    mass: Mass | None = Field(None, description="with radius, instead of unbalance", examples=[0.5])
-    radius: Distance | None = Field(
-        None, description="with mass, instead of unbalance", examples=[40]
-    )
-    position: Length = Field(0.0, description="axial place (z)", examples=[0])
+    unbalance: Unbalance | None = key("mass times radius", 9000)
+    mass: Mass | None = key("with radius, instead of unbalance", 0.5)
+    radius: Distance | None = key("with mass, instead of unbalance", 40)
+    position: Length = key("axial place (z)", 0, default=0.0)
 
 
 class Counterweight(Device):
     """An unbalance fixed to the crankshaft."""
 
-    angle: Angle = Field(
-        0.0, description="at crank angle 0, from cylinder 1's crank pin", examples=[180]
-    )
+    angle: Angle = key("at crank angle 0, from cylinder 1's crank pin", 180, default=0.0)
 
 
 class Shaft(Device):
     """A balancer shaft, or one of several eccentrics on it."""
 
-    ratio: ShaftRatio = Field(
-        description="times crank speed; negative: against the crank", examples=[-2]
-    )
-    angle: Angle = Field(
-        0.0, description="of the eccentric at crank angle 0, from the x axis", examples=[90]
-    )
-    at: Place = Field((0.0, 0.0), description="x, y of the shaft", examples=[[-40, 60]])
+    ratio: ShaftRatio = needed("times crank speed; negative: against the crank", -2)
+    angle: Angle = key("of the eccentric at crank angle 0, from the x axis", 90, default=0.0)
+    at: Place = key("x, y of the shaft", [-40, 60], default=(0.0, 0.0))
 
 
 class Slider(Device):
     """A reciprocating balance mass."""
 
-    order: Count = Field(description="strokes for each turn of the crank", examples=[2])
-    direction: Angle = Field(description="of its path, from the x axis", examples=[90])
-    angle: Angle = Field(
-        0.0,
-        description="phase at crank angle 0: displacement ~ cos(order * theta + angle)",
-        examples=[180],
+    order: Count = needed("strokes for each turn of the crank", 2)
+    direction: Angle = needed("of its path, from the x axis", 90)
+    angle: Angle = key(
+        "phase at crank angle 0: displacement ~ cos(order * theta + angle)", 180, default=0.0
     )
-    at: Place = Field((0.0, 0.0), description="x, y of its middle", examples=[[0, 0]])
+    at: Place = key("x, y of its middle", [0, 0], default=(0.0, 0.0))
 
 
 def label_table(table: FileTable, number: int) -> str:
-    """What stands for a table of several in dotted names: its name, if that is a word, with `_` for
-    spaces; else its number.
+    """Return the word for a table of several in dotted names: its name, with `_` for spaces, if
+    that is a word; else its number.
     """
     name = getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)
-
-
-def change_figure(whole: Any, keys: Sequence[str], value: float) -> Any:
-    """A table, or a list of tables or figures, with another figure in it, by the keys that lead
-    there (`rear`, `1`, `stiffness`); members of lists count from 1.
-    """
-    if not keys:
-        return value
-    first, *rest = keys
-    if isinstance(whole, FileTable):
-        changed = change_figure(getattr(whole, first), rest, value)
-        return whole.model_copy(update={first: changed})
-    members = list(whole)
-    members[int(first) - 1] = change_figure(members[int(first) - 1], rest, value)
-    return tuple(members)
 
 
 # Tables on which most depends: what depends on some of their keys does not on others, which may
@@ -570,11 +424,9 @@ ONE_BY_ONE: dict[str, type[FileTable]] = {"crank": Crank, "layout": Layout}
 class EngineFile(FileTable):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
-    name: str = Field("", description="what the engine is called", examples=["in-line four"])
-    source: str = Field(
-        "",
-        description="where the figures come from, and what is assumed",
-        examples=["weighed, May 2024"],
+    name: str = key("what the engine is called", "in-line four", default="")
+    source: str = key(
+        "where the figures come from, and what is assumed", "weighed, May 2024", default=""
     )
     crank: Crank
     rod: Rod
@@ -588,17 +440,15 @@ class EngineFile(FileTable):
     flywheel: "Flywheel | None" = None
     bearing: "Bearing | None" = None
     torsion: "Torsion | None" = None
-    cylinder: dict[int, Override] = Field(
-        {}, description="what differs in single cylinders, by their numbers"
+    cylinder: dict[int, Override] = key(
+        "what differs in single cylinders, by their numbers", default={}
     )
-    counterweight: tuple[Counterweight, ...] = Field(
-        (), description="unbalance fixed to the crankshaft"
-    )
-    shaft: tuple[Shaft, ...] = Field((), description="balancer shafts")
-    slider: tuple[Slider, ...] = Field((), description="reciprocating balance masses")
+    counterweight: tuple[Counterweight, ...] = key("unbalance fixed to the crankshaft", default=())
+    shaft: tuple[Shaft, ...] = key("balancer shafts", default=())
+    slider: tuple[Slider, ...] = key("reciprocating balance masses", default=())
     body: "Body | None" = None
-    mount: "tuple[Mount, ...]" = Field((), description="what the body stands on")
-    point: "tuple[Point, ...]" = Field((), description="points whose motion is wanted")
+    mount: "tuple[Mount, ...]" = key("what the body stands on", default=())
+    point: "tuple[Point, ...]" = key("points whose motion is wanted", default=())
 
     _folder: Path = PrivateAttr(Path())
 
@@ -608,13 +458,13 @@ class EngineFile(FileTable):
         return self._folder
 
     def with_table(self, key: str, **values: object) -> "EngineFile":
-        """The same with other values in one of its tables, which are not checked."""
+        """Return a copy of this file with other values in one table; they are not checked."""
         table: FileTable = getattr(self, key)
         return self.model_copy(update={key: table.model_copy(update=values)})
 
     def tables(self) -> Iterator[tuple[str, FileTable]]:
-        """Every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the file
-        has it or it has defaults; not the tables within tables.
+        """Yield every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the
+        file has it or it has defaults; not the tables within tables.
         """
         for key, part in self:
             if isinstance(part, FileTable):

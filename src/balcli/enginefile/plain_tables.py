@@ -16,7 +16,7 @@ from .toml_text import name_file, parse_toml, read_bytes
 
 
 def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
-    """What a user of Python gives as TOML would have it: keys are text, arrays and tuples are
+    """Return tables of a user of Python as TOML has them: keys are text, arrays and tuples are
     lists, numpy's numbers are Python's; what is None is left out.
 
     Raises:
@@ -32,8 +32,8 @@ def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
 
 
 def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, Any], str]:
-    """The tables of what a user of Python gives: a path ("-": standard input), the text of a file,
-    of several lines, or a dict; and the file's name, empty where there is none.
+    """Return the tables of what a user of Python gives: a path ("-": standard input), the text of a
+    file, of several lines, or a dict; and the file's name, empty where there is none.
 
     Args:
         function: that was given it, for messages.
@@ -74,7 +74,7 @@ def _plain(value: Any) -> Any:
 
 
 def list_tables(model: EngineFile) -> dict[str, Any]:
-    """What a file says, as the tables that describe it again: numbers in the units of the file."""
+    """Return the tables that describe a file again; numbers are in the units of the file."""
     return _write(model)
 
 
@@ -82,7 +82,8 @@ def _write(value: Any) -> Any:
     if isinstance(value, FileTable):
         fields = type(value).model_fields
         given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
-        return {fields[key].alias or key: _write(part) for key, part in given if part is not None}
+        written = ((fields[key].alias or key, part) for key, part in given)
+        return {key: _write(part) for key, part in written if part is not None and part != ()}
     if isinstance(value, Mapping):
         return {str(key): _write(inner) for key, inner in value.items()}
     if isinstance(value, tuple):
@@ -91,7 +92,7 @@ def _write(value: Any) -> Any:
 
 
 def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The tables of a file with other values of some keys.
+    """Return the tables of a file with other values of some keys.
 
     Args:
         model: the file.
@@ -118,7 +119,9 @@ def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, An
 
 
 def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[Any, Any]:
-    """The table or list at these keys, as written and as the model has it (None: it has none)."""
+    """Return the table or list at these keys, as written and as the model has it (None: it has
+    none).
+    """
     for key in keys:
         if isinstance(place, list):
             k = _find_member(place, given, key, path)
@@ -133,7 +136,7 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
 
 
 def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
-    """Which member of a list a number (from 1) or a name means."""
+    """Return the place (from 0) of the member of a list that a number (from 1) or a name means."""
     labels = [
         label_table(one, k) if isinstance(one, FileTable) else str(k)
         for k, one in enumerate(given, 1)

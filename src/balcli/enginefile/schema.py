@@ -17,8 +17,8 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def describe_engine_file() -> Node:
-    """JSON Schema (draft 2020-12) of an engine file: every key with description, unit, bounds and
-    an example.
+    """Return the JSON Schema (draft 2020-12) of an engine file: every key with description, unit,
+    bounds and an example.
     """
     chapters = {key.capitalize(): import_table(key) for key in (*CHAPTERS, *CHAPTER_LISTS)}
     tables: list[type[FileTable]] = [
@@ -38,8 +38,8 @@ def describe_engine_file() -> Node:
 def describe_file(
     file: type[BaseModel], tables: Iterable[type[BaseModel]], name: str, title: str
 ) -> Node:
-    """JSON Schema (draft 2020-12) of files: every key with description, unit, bounds and an
-    example.
+    """Return the JSON Schema (draft 2020-12) of files: every key with description, unit, bounds and
+    an example.
 
     Args:
         file: what they hold.
@@ -53,7 +53,9 @@ def describe_file(
 
 
 def tidy_schema(schema: Node) -> Node:
-    """Without what pydantic adds for Python: null (TOML has none), titles, empty defaults."""
+    """Return a schema without what pydantic adds for Python: null (TOML has none), titles, empty
+    defaults.
+    """
     node: Node = {key: _tidy_member(value) for key, value in schema.items()}
     if isinstance(node.get("description"), str):
         node["description"] = " ".join(node["description"].split())  # docstrings are wrapped
@@ -72,14 +74,14 @@ def tidy_schema(schema: Node) -> Node:
 
 
 def _tidy_member(value: object) -> object:
-    """A schema, or what holds schemas, tidied; anything else as it is."""
+    """Return a schema, or what holds schemas, tidied; anything else as it is."""
     if isinstance(value, dict):
         return tidy_schema(value)
     return [_tidy_member(item) for item in value] if isinstance(value, list) else value
 
 
 def _exclusions(table: type[FileTable]) -> Node:
-    """What `FileTable.choices` says, in the words of JSON Schema."""
+    """Return `FileTable.choices` as JSON Schema."""
     rules: list[Node] = []
     for choice in table.choices:
         if choice.required:

@@ -1,24 +1,59 @@
-"""The tables of a file that is of no engine (runs of a rotor, a chain of inertias), read one by
-one: every mistake by its path, with what would be right.
-"""
+"""The tables of a file, read one by one: every mistake by its path, with what would be right."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TypeVar
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import Any, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ..errors import InputError, Problem
-from ..limits import MOST_MISTAKES_SHOWN
-from .conflicts import RefusedTable, examine_refused
-from .fields import nearest, shorten
-from .messages import join_path
+from ..limits import MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
+from .fields import printable, shorten
+from .messages import (
+    CHAPTER_LISTS,
+    DEVICES,
+    KNOWN,
+    TEXTS,
+    describe_finding,
+    find_inner_table,
+    join_path,
+)
 from .model import FileTable
+from .unknown_keys import name_heading, suggest
 
 T = TypeVar("T", bound=FileTable)
-_NEAR = 0.65  # of a key and one that is meant: "damper" is no "name"
+
+
+class RefusedTable(NamedTuple):
+    """A table that pydantic refuses.
+
+    Attributes:
+        broken: keys that cannot be read.
+        draft: the table without these, with examples of those that have to be there; None where
+            that is none, either.
+        is_consistent: whether what could be read has no contradictions.
+    """
+
+    broken: set[str]
+    draft: FileTable | None
+    is_consistent: bool
+
+
+def refuse(problems: Iterable[Problem], name: str) -> InputError:
+    """Return mistakes as one error: the first are listed, of the others there is the number. A key
+    that is missing is left out where it is there, misspelt.
+
+    Args:
+        problems: all mistakes of a file.
+        name: of the file.
+    """
+    problems = sorted(problems, key=lambda problem: problem.meant is None)
+    meant = {problem.meant for problem in problems}
+    listed = [problem for problem in problems if meant.isdisjoint(problem.missing)]
+    more = max(len(listed) - MOST_MISTAKES_SHOWN, 0)
+    return InputError(listed[:MOST_MISTAKES_SHOWN], name, more)
 
 
 class TableReader:
@@ -27,6 +62,7 @@ class TableReader:
     Args:
         file_kind: what the file is, in words: "a chain file".
         describe: one of pydantic's findings in a table with this path, in words.
+        is_engine: whether tables are those of an engine file, which has synonyms and hints.
 
     Attributes:
         problems: the mistakes so far.
@@ -34,64 +70,167 @@ class TableReader:
     """
 
     def __init__(
-        self, file_kind: str, describe: Callable[[str, ErrorDetails, type[FileTable]], Problem]
+        self,
+        file_kind: str,
+        describe: Callable[[str, ErrorDetails, type[FileTable]], Problem] = describe_finding,
+        *,
+        is_engine: bool = False,
     ) -> None:
-        self._file_kind, self._describe = file_kind, describe
+        self._file_kind, self._describe, self._is_engine = file_kind, describe, is_engine
+        self._unknown = 0
         self.problems: list[Problem] = []
         self.refused: dict[str, RefusedTable] = {}
-        self._meant: set[str] = set()  # paths of keys that are there, misspelt
 
-    def read_list(self, key: str, value: object, table: type[T], most: int) -> tuple[T | None, ...]:
-        """The tables under a key, of which there may be so many; None for those with mistakes."""
+    def read_list(
+        self, key: str, value: object, table: type[T], most: int = MOST_PARTS
+    ) -> tuple[T | None, ...] | None:
+        """Return the tables under a key, None for those with mistakes; None if it is no list.
+
+        Args:
+            key: of the list.
+            value: as TOML is read.
+            table: what each of them may say.
+            most: how many there may be.
+        """
         if not isinstance(value, list):
             wanted = f"write [[{key}]] in double brackets, once for each {key}"
-            self._add(key, f"is one of several; {wanted}")
-            return ()
+            self.add(key, f"is one of several; {wanted}")
+            return None
         if len(value) > most:
-            self._add(key, f"stands {len(value)} times; at most {most} are taken")
-            return ()
+            self.add(key, f"stands {len(value)} times; at most {most} are taken")
+            return None
         return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
-        """The table with this path (empty: the file itself); None if it has mistakes."""
+        """Return the table with this path (empty: the file itself); None if it has mistakes."""
+        if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
+            self.add(path, f"stands once, in single brackets: [{path}]")
+            return None
         if not isinstance(value, Mapping):
-            self._add(path, f"{shorten(value)} is not a table; write {_heading(path)} above it")
+            head = f"[{path}]"
+            if path[-1:].isdecimal() and not path.startswith("cylinder."):
+                head = f"[[{name_heading(path)}]]"
+            hint = f"write {head} and its keys below it"
+            self.add(path, f"{shorten(value)} stands where a table belongs; {hint}")
             return None
         keys = table.keys()
-        unknown = [key for key in value if key not in keys]
-        for key in unknown:
-            self._refuse_key(path, key, table)
-        known = {key: value[key] for key in value if key in keys}
+        for key in value:
+            if key not in keys:
+                self.refuse_key(path, key, keys, value[key])
+        known = {key: part for key, part in value.items() if key in keys}
+        sizes = {key: _count_values(part) for key, part in known.items()}
+        huge = {key: size for key, size in sizes.items() if size > MOST_KEY_VALUES}
+        for key, size in huge.items():  # more than pydantic should look at one by one
+            message = f"holds {size} values; no engine needs more than {MOST_KEY_VALUES}"
+            self.add(join_path(path, [key]), message)
+        if huge:
+            return None
         try:
             return table.model_validate(known)
         except ValidationError as error:
-            refused = self.refused[path] = examine_refused(path, table, known, error)
-        described = [self._describe(path, finding, table) for finding in refused.findings]
-        for problem in (*refused.conflicts, *described):
-            missing = tuple(each.lstrip(".") for each in problem.missing)
-            self.problems.append(Problem(problem.path.lstrip("."), problem.message, missing))
-        return None
+            self._translate(path, table, known, error)
+            return None
+
+    def refuse_key(self, path: str, key: str, own: Collection[str] | None, value: object) -> None:
+        """Collect a key that is none of a table.
+
+        Args:
+            path: of the table; empty: the file itself.
+            key: as it is written.
+            own: keys of the table; None: no engine file has this table.
+            value: what stands there.
+        """
+        place = join_path(path, [key])
+        self._unknown += 1
+        if self._unknown > MOST_MISTAKES_SHOWN:  # of these only how many there are is told
+            self.problems.append(Problem(place, "unknown key", meant=""))
+            return
+        hint, near = suggest(key, own or (), is_engine=self._is_engine)
+        table, meant = f"[{printable(name_heading(path))}]", join_path(path, [near]) if near else ""
+        message = f"unknown key in {table if path else self._file_kind}"
+        is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
+        if self._is_engine and path and is_table:
+            message, meant = f"{key} is a table of its own, not one within {table}", key
+            several = key in DEVICES or key in CHAPTER_LISTS
+            head = f"[[{key}]]" if several else "[cylinder.3]" if key == "cylinder" else f"[{key}]"
+            hint = f"write {head} and its keys below it"
+        elif own is None:
+            message = f"there is no table {table}"
+        self.problems.append(Problem(place, f"{message}; {hint}" if hint else message, (), meant))
 
     def refusal(self, name: str) -> InputError:
-        """The error that lists the mistakes of the file with this name, or of one without. A key
-        that is missing is not told where it is there, misspelt.
+        """Return the error that lists the mistakes of the file with this name (empty: none)."""
+        return refuse(self.problems, name or self._file_kind.removeprefix("a "))
+
+    def add(self, path: str, message: str) -> None:
+        """Collect a mistake."""
+        self.problems.append(Problem(path, message))
+
+    def _translate(
+        self, path: str, table: type[FileTable], value: Mapping[str, Any], error: ValidationError
+    ) -> None:
+        """Collect what the keys say against each other, as far as they can be read, and pydantic's
+        findings in them.
         """
-        problems = [one for one in self.problems if self._meant.isdisjoint(one.missing)]
-        more = max(len(problems) - MOST_MISTAKES_SHOWN, 0)
-        named = name or self._file_kind.removeprefix("a ")
-        return InputError(problems[:MOST_MISTAKES_SHOWN], named, more)
-
-    def _refuse_key(self, path: str, key: str, table: type[FileTable]) -> None:
-        place = f"in {_heading(path)}" if path else f"in {self._file_kind}"
-        near = nearest(key, table.keys(), _NEAR)
-        if near:
-            self._meant.add(join_path(path, [near]).lstrip("."))
-        hint = f"did you mean {near}?" if near else f"it has {', '.join(table.keys())}"
-        self._add(join_path(path, [key]), f"unknown key {place}; {hint}")
-
-    def _add(self, path: str, message: str) -> None:
-        self.problems.append(Problem(path.lstrip("."), message))
+        findings = [found for found in error.errors(include_url=False) if found["loc"]]
+        broken = {str(finding["loc"][0]) for finding in findings}
+        draft = _read_without(table, value, broken)
+        conflicts = list(_find_conflicts(path, table, value, broken, draft))
+        self.problems += conflicts
+        self.refused[path] = RefusedTable(broken, draft, not conflicts)
+        for finding in findings:
+            if finding["type"] == "extra_forbidden":  # in a table within the table
+                *parents, last = finding["loc"]
+                inner = find_inner_table(table, finding["loc"]).keys()
+                self.refuse_key(join_path(path, parents), str(last), inner, finding["input"])
+            elif not _is_miscounted(finding):
+                self.problems.append(self._describe(path, finding, table))
 
 
-def _heading(path: str) -> str:
-    return f"[[{path.partition('.')[0]}]]"
+def _is_miscounted(finding: ErrorDetails) -> bool:
+    """Return whether a list is called too short only because members of it, which have findings of
+    their own, were not counted.
+    """
+    return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
+
+
+def _read_without(
+    table: type[FileTable], value: Mapping[str, Any], broken: set[str]
+) -> FileTable | None:
+    """Return `RefusedTable.draft`."""
+    known = {key: part for key, part in value.items() if key not in broken}
+    needed = {key: field for key, field in table.keys().items() if field.is_required()}
+    examples = {key: (field.examples or [None])[0] for key, field in needed.items()}
+    try:
+        draft = table.model_validate(examples | known, context=broken)
+    except ValidationError:
+        return None
+    draft.model_fields_set.update(broken & value.keys())  # these are given, too
+    return draft
+
+
+def _find_conflicts(
+    path: str,
+    table: type[FileTable],
+    value: Mapping[str, Any],
+    broken: set[str],
+    draft: FileTable | None,
+) -> Iterator[Problem]:
+    """Yield what the keys, and the values of those that can be read, say against each other."""
+    for choice in table.choices:
+        missing = tuple(join_path(path, [key]) for key in choice.find_missing(value))
+        for mistake in choice.mistakes(value):
+            yield Problem(path, mistake, missing)
+    for rule in table.rules if draft is not None else ():
+        if rule.needs.isdisjoint(broken):
+            keys = {*rule.needs, *rule.wants} - value.keys()
+            missing = tuple(join_path(path, [key]) for key in keys)
+            for mistake in rule.check(draft):
+                yield Problem(path, mistake, missing)
+
+
+def _count_values(value: object) -> int:
+    """Return how many values a value holds, itself included."""
+    if isinstance(value, Mapping):
+        return 1 + sum(map(_count_values, value.values()))
+    return 1 + sum(map(_count_values, value)) if isinstance(value, list) else 1

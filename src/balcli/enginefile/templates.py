@@ -4,7 +4,6 @@ of a rotor and of a chain of shafts.
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from ..errors import BalcliError
@@ -20,35 +19,18 @@ SCHEMA = """\
 """
 _FOLDER = Path(__file__).with_name("starting_files")
 
-# what people call the kinds
-_CALLED = {
-    r"v|v-?\d+|v-?twin|vee-?\w*": "vee",
-    r"[il]-?\d+|r\d+|straight-?\w+|in-?line-?\w+|line|(parallel-?)?twin|four|six": "inline",
-    r"h?flat-?\w*|boxer-?\w+|b\d+|[fh]\d+": "boxer",
-    r"w-?\d+": "w",
-    r"one|thumper|mono|1": "single",
-    r"star|radial-?\w+": "radial",
-    r"chain|shafts?|holzer": "torsion",
-    r"rotor|fan|runs": "field",
-}
-
-
-def _known_as(kind: str) -> str:
-    """What a layout such as v8 or i4 is called here, and where there is one that is finished."""
-    called = next((name for pattern, name in _CALLED.items() if re.fullmatch(pattern, kind)), None)
-    hint = f" That is {called}: balcli new {called}." if called else ""
-    if kind in examples.names():
-        return f"{hint} A finished one is among the examples: balcli engines {kind}."
-    return hint and f"{hint} A finished one may be among the examples: balcli engines."
-
 
 def template(kind: str) -> str:
-    """The starting file of a kind as TOML text. BalcliError for an unknown kind, with the nearest
-    one and all of them.
+    """Return the starting file of a kind as TOML text.
+
+    Raises:
+        BalcliError: there is no such kind; with the nearest one and all of them.
     """
     if kind not in KINDS:
         near = nearest(kind, KINDS)
-        hint = _known_as(kind.lower()) or (f" Did you mean {near}?" if near else "")
+        hint = f" Did you mean {near}?" if near else ""
+        if kind in examples.names():
+            hint = f" A finished one is among the examples: balcli engines {kind}."
         raise BalcliError(
             f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(KINDS)}.{hint}'
         )

@@ -16,17 +16,26 @@ from .fields import nearest
 
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
-_OTHER_KINDS = {
-    b"PK\x03\x04": "a workbook or another packed file",
-    b"\xd0\xcf\x11\xe0": "a workbook or document of an old kind",
-    b"%PDF": "a PDF",
-}
-_MOST_DIGITS = 4300  # of a whole number that Python reads
-_TOO_MANY_DIGITS = re.compile(rf"[0-9][0-9_]{{{_MOST_DIGITS},}}")
+_LONGEST_LINE = 80  # that is shown
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
+_DASHED = r"\d+(?:-\d+)+"  # a firing order, 1-3-4-2
+# A key, =, and a value without quotes that may be ... The first that fits tells what is meant.
+_HINTS = (
+    (rf"{_NUMBER},\d+", "write a decimal point, not a comma"),
+    (
+        rf"{_NUMBER}(?:[\s,;]+{_NUMBER})+|{_DASHED}|\[[^\[\]]*\d\s*[\s;]\s*[-+.\d][^\[\]]*\]",
+        "a list stands in brackets, with commas: {key} = [{numbers}]",
+    ),
+    (
+        rf"{_NUMBER}(?:/\d+)?\s*[A-Za-z°%\"″'].*",
+        'a value with a unit stands in quotes: {key} = "{value}"',
+    ),
+)
 
 
 def read_bytes(source: str | Path) -> bytes:
-    """The content of a file, or of standard input for "-", as far as it may be long.
+    """Return the content of a file, or of standard input for "-"; at most one byte more than a file
+    may have.
 
     Raises:
         BalcliError: it cannot be read.
@@ -49,86 +58,92 @@ def read_bytes(source: str | Path) -> bytes:
 
 
 def find_near_file(source: str | Path) -> str:
-    """The file or example that was probably meant, in words; empty if none comes to mind."""
+    """Return the file or example that was probably meant, in words; empty if none is near."""
     from .examples import is_example  # after a mistake alone
 
     with_ending, asked = f"{source}.toml", Path(source)
-    if asked.suffix.lower() in (".svg", ".png", ".pdf"):
-        return f"; balcli plot FILE {source} draws into it"
     if Path(with_ending).is_file():
         return f"; {with_ending} is there: did you mean it?"
     if asked.suffix in ("", ".toml") and is_example(asked.stem):
         return f"; {asked.stem} is an example: balcli engines {asked.stem} {asked.stem}.toml"
     beside = [file.name for file in asked.parent.glob("*.toml") if file.is_file()]
-    is_toml = nearest(asked.suffix, [".toml"])  # not the .csv beside an engine file
-    if is_toml and (near := nearest(asked.name, sorted(beside), cutoff=0.8)):
+    near = nearest(asked.name, sorted(beside), cutoff=0.8)
+    if near and nearest(asked.suffix, [".toml"]):  # not the .csv beside an engine file
         return f"; {asked.with_name(near)} is there: did you mean it?"
     return ""
 
 
 def name_file(source: str | Path) -> str:
-    """What messages call a file; "-" is standard input."""
+    """Return the name of a file in messages; "-" is standard input."""
     return "standard input" if str(source) == "-" else str(source)
 
 
 def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
-    """TOML -> nested dicts; whatever tomllib raises becomes an InputError for this file."""
-    if len(text) > LARGEST_FILE_BYTES:
-        megabytes = LARGEST_FILE_BYTES // 1_000_000
-        message = f"has more than {megabytes} MB; no engine file needs that"
-        raise InputError([Problem("", message)], file)
+    """Return TOML as nested dicts.
+
+    Args:
+        text: of the file.
+        file: its name, for messages.
+
+    Raises:
+        InputError: it is no TOML, or larger than any file is.
+    """
     try:
-        return _load_toml(text.decode("utf-8-sig") if isinstance(text, bytes) else text)
+        return _load_toml(text)
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        message = f"is not UTF-8 text (line {line}); save it as UTF-8"
     except tomllib.TOMLDecodeError as error:
-        message = f"is not valid TOML: {str(error)[:300]}{_explain(text, str(error))}"
-    except OverflowError as error:
-        message = str(error)
+        decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
+        message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, str(error))}"
     except RecursionError:
         message = (
             "lists or tables are nested too deeply; an engine file needs no more than four levels"
         )
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        message = f"is not UTF-8 text (line {line}); save it as UTF-8"
-        if kind := name_other_kind(error.object):
-            message = f"is {kind}, no text; write TOML, as `balcli new` does"
+    except OverflowError as error:
+        message = str(error)
+    except ValueError:  # Python reads no more digits
+        message = "has a number of thousands of digits"
     raise InputError([Problem("", message)], file)
 
 
-def name_other_kind(content: bytes) -> str:
-    """What a file is that people hand over for text, in words; empty if it is none of these."""
-    kinds = (kind for start, kind in _OTHER_KINDS.items() if content.startswith(start))
-    return next(kinds, "")
-
-
-def _explain(text: str | bytes, error: str) -> str:
-    """What is wrong with the line that an error of tomllib names, or else with the last."""
-    from .toml_slips import explain  # after a mistake alone
-
-    decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
-    place = re.search(r"\(at line (\d+), ", error)
-    lines = decoded.split("\n")
-    number = int(place[1]) if place else len(decoded.rstrip("\n").split("\n"))
-    return explain(lines[number - 1])
-
-
-def _load_toml(text: str) -> dict[str, Any]:
-    """The text as nested dicts, unless tomllib would take too much memory for it.
+def _load_toml(text: str | bytes) -> dict[str, Any]:
+    """Return the text as nested dicts, unless tomllib would take too much memory for it.
 
     Raises:
         RecursionError: a key has too many parts.
         OverflowError: there are too many values.
+        ValueError: it is no TOML.
     """
-    if _DEEP_KEY.search(text):
+    if len(text) > LARGEST_FILE_BYTES:
+        most = f"{LARGEST_FILE_BYTES // 1_000_000} MB"
+        raise OverflowError(f"has more than {most}; no engine file needs that")
+    decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
+    if _DEEP_KEY.search(decoded):
         raise RecursionError
-    if sum(map(text.count, "[{.,=")) > MOST_TOML_MARKS:
+    if sum(map(decoded.count, "[{.,=")) > MOST_TOML_MARKS:
         raise OverflowError(
             f"has more than {MOST_TOML_MARKS} keys, lists and values; no engine file needs that"
         )
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
-        raise
-    except ValueError:  # too many digits: as many as can be are refused by the path of their key
-        cut = _TOO_MANY_DIGITS.sub(lambda found: found[0][:_MOST_DIGITS].rstrip("_"), text)
-        return tomllib.loads(cut)
+    return tomllib.loads(decoded)
+
+
+def _explain(text: str, error: str) -> str:
+    """Return the line that an error of tomllib names, or else the last, and what would be right
+    where one of three slips is recognized: units without quotes, lists without brackets, a decimal
+    comma.
+    """
+    place = re.search(r"\(at line (\d+), ", error)
+    lines = text.rstrip("\n").split("\n")
+    shown = lines[min(int(place[1]), len(lines)) - 1 if place else -1].strip()
+    if not 0 < len(shown) <= _LONGEST_LINE or not shown.isprintable():
+        return ""
+    assigned = re.fullmatch(r"([\w.-]+)\s*=\s*([^#]+?)\s*(?:#.*)?", shown)
+    if assigned is None:
+        return f": {shown}"
+    key, value = assigned.groups()
+    hint = next((f": {hint}" for pattern, hint in _HINTS if re.fullmatch(pattern, value)), "")
+    unit = value.replace("''", " in").replace('"', " in").replace("″", " in")
+    listed = value.replace("-", " ") if re.fullmatch(_DASHED, value) else value
+    numbers = ", ".join(re.findall(_NUMBER, listed))
+    return f": {key} = {value}{hint.format(key=key, value=unit, numbers=numbers)}"

@@ -120,14 +120,13 @@ _SYMBOLS = "m g s rad N Pa bar J W Wh Hz Nm Ns Nms psi rpm"
 _WORDS = "metre meter gram gramme second radian newton pascal bar joule watt hertz"
 
 
-def split_prefix(name: str) -> tuple[int, str] | None:
-    """ "kPa" -> (3, "Pa"), "millimetre" -> (-3, "metre"); None: it is no unit with a prefix."""
-    for prefixes, power in _PREFIXES.items():
-        for prefix in prefixes.split():
-            unit = name.removeprefix(prefix)
-            if unit != name and unit in (_SYMBOLS if len(prefix) < 3 else _WORDS).split():
-                return power, unit
-    return None
+# "kPa" -> (3, "Pa"), "millimetre" -> (-3, "metre")
+PREFIXED = {
+    prefix + unit: (power, unit)
+    for prefixes, power in _PREFIXES.items()
+    for prefix in prefixes.split()
+    for unit in (_SYMBOLS if len(prefix) < 3 else _WORDS).split()
+}
 
 
 def find_near_name(name: str) -> str:

@@ -13,7 +13,7 @@ from functools import cache
 from typing import NamedTuple
 
 from ..limits import LONGEST_FIGURE
-from .unit_table import AMBIGUOUS, DEFINITIONS, find_near_name, split_prefix
+from .unit_table import AMBIGUOUS, DEFINITIONS, PREFIXED, find_near_name
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 
@@ -37,18 +37,24 @@ class Unit(NamedTuple):
 
 
 class Dimension(NamedTuple):
-    """What a field of the engine file measures: its bare unit, how one speaks of it, and figures to
-    show a reader.
+    """A dimension of figures in engine files.
+
+    Attributes:
+        unit: of bare numbers.
+        name: in words, with its article.
+        examples: figures to show a reader.
     """
 
     unit: str
     name: str
-    powers: Powers
-    examples: tuple[str, ...]
+    examples: tuple[str, ...] = ()
+
+    @property
+    def powers(self) -> Powers:
+        """Exponents of its unit."""
+        return read_unit(self.unit, self).powers
 
 
-_LENGTH, _MASS, _ANGLE = Powers(length=1), Powers(mass=1), Powers(angle=1)
-_ENERGY, _PRESSURE = Powers(2, 1, -2), Powers(-1, 1, -2)
 # By definition: the international inch and pound (1959), standard gravity (CGPM 1901).
 INCH = Fraction(254, 10_000)  # m
 POUND = Fraction(45_359_237, 100_000_000)  # kg
@@ -58,63 +64,49 @@ POUND_FORCE = float(POUND) * STANDARD_GRAVITY  # N
 BAR = 1e5  # Pa
 
 _BASE = {
-    "m": Unit(Fraction(1), _LENGTH),
-    "g": Unit(Fraction(1, 1000), _MASS),
+    "m": Unit(Fraction(1), Powers(length=1)),
+    "g": Unit(Fraction(1, 1000), Powers(mass=1)),
     "s": Unit(Fraction(1), Powers(time=1)),
-    "turn": Unit(Fraction(1), _ANGLE),
-    "rad": Unit(1 / (2 * PI), _ANGLE),
-    "in": Unit(INCH, _LENGTH),
-    "lb": Unit(POUND, _MASS),
+    "turn": Unit(Fraction(1), Powers(angle=1)),
+    "rad": Unit(1 / (2 * PI), Powers(angle=1)),
+    "in": Unit(INCH, Powers(length=1)),
+    "lb": Unit(POUND, Powers(mass=1)),
     "g_n": Unit(_GRAVITY, Powers(1, 0, -2)),
     "of_another_kind": Unit(Fraction(1), Powers(99)),
 }
 
-LENGTH = Dimension("mm", "a length", _LENGTH, ("90 mm", "3.5 in"))
-MASS = Dimension("kg", "a mass", _MASS, ("650 g", "0.8 lb"))
-ANGLE = Dimension("deg", "an angle", _ANGLE, ("30 deg", "1.2 rad", "1/7 turn"))
-INERTIA = Dimension(
-    "kg mm^2", "a moment of inertia", Powers(length=2, mass=1), ("4200 kg mm^2", "8.1 lb in^2")
-)
-UNBALANCE = Dimension(
-    "g mm",
-    "an unbalance (mass times radius)",
-    Powers(length=1, mass=1),
-    ("9000 g mm", "12.5 oz in"),
-)
-SPEED = Dimension("rpm", "a speed of rotation", Powers(time=-1, angle=1), ("6000 rpm", "300 rad/s"))
-TIME = Dimension("s", "a time", Powers(time=1), ("0.82 s", "820 ms"))
-PRESSURE = Dimension("bar", "a pressure", _PRESSURE, ("9.5 bar", "1.2 MPa", "150 psi"))
-ENERGY = Dimension("J", "an energy", _ENERGY, ("1400 J", "1.4 kJ"))
-STIFFNESS = Dimension("N/mm", "a stiffness", Powers(0, 1, -2), ("350 N/mm", "2000 lbf/in"))
-DAMPING = Dimension("N s/mm", "a damping", Powers(0, 1, -1), ("0.5 N s/mm", "3 lbf s/in"))
-TORQUE = Dimension("N m", "a torque", Powers(2, 1, -2), ("250 N m", "184 lbf ft"))
+LENGTH = Dimension("mm", "a length", ("90 mm", "3.5 in"))
+MASS = Dimension("kg", "a mass", ("650 g", "0.8 lb"))
+ANGLE = Dimension("deg", "an angle", ("30 deg", "1.2 rad", "1/7 turn"))
+INERTIA = Dimension("kg mm^2", "a moment of inertia", ("4200 kg mm^2", "8.1 lb in^2"))
+UNBALANCE = Dimension("g mm", "an unbalance (mass times radius)", ("9000 g mm", "12.5 oz in"))
+SPEED = Dimension("rpm", "a speed of rotation", ("6000 rpm", "300 rad/s"))
+TIME = Dimension("s", "a time", ("0.82 s", "820 ms"))
+PRESSURE = Dimension("bar", "a pressure", ("9.5 bar", "1.2 MPa", "150 psi"))
+ENERGY = Dimension("J", "an energy", ("1400 J", "1.4 kJ"))
+STIFFNESS = Dimension("N/mm", "a stiffness", ("350 N/mm", "2000 lbf/in"))
+DAMPING = Dimension("N s/mm", "a damping", ("0.5 N s/mm", "3 lbf s/in"))
+TORQUE = Dimension("N m", "a torque", ("250 N m", "184 lbf ft"))
 TORSIONAL_STIFFNESS = Dimension(
-    "N m/rad",
-    "a torsional stiffness",
-    Powers(2, 1, -2, -1),
-    ("1.25e6 N m/rad", "24.17e6 lbf in/rad"),
+    "N m/rad", "a torsional stiffness", ("1.25e6 N m/rad", "24.17e6 lbf in/rad")
 )
 TORSIONAL_DAMPING = Dimension(
-    "N m s/rad", "a torsional damping", Powers(2, 1, -1, -1), ("2 N m s/rad", "18 lbf in s/rad")
+    "N m s/rad", "a torsional damping", ("2 N m s/rad", "18 lbf in s/rad")
 )
-SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", _PRESSURE, ("79.3 GPa", "11.5e6 psi"))
-STRESS = Dimension("N/mm^2", "a stress", _PRESSURE, ("40 N/mm^2", "5800 psi"))
-PLAIN = Dimension("", "a plain number", Powers(), ())
-_UNSHARED = (  # dimensions whose powers no other has
-    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, STIFFNESS, DAMPING),
+SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", ("79.3 GPa", "11.5e6 psi"))
+STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
+PLAIN = Dimension("", "a plain number")
+_KINDS = (  # how one speaks of what has these units; the first that has the powers
+    Dimension("J", "a torque or an energy"),
+    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, STIFFNESS, DAMPING),
     *(TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, PLAIN),
+    Dimension("N", "a force"),
+    Dimension("W", "a power"),
+    Dimension("Hz", "a frequency"),
+    Dimension("m^2", "an area"),
+    Dimension("m^3", "a volume"),
+    Dimension("m/s", "a velocity"),
 )
-_NAMES = {  # how one speaks of what has these powers
-    **{each.powers: each.name for each in _UNSHARED},
-    _ENERGY: "a torque or an energy",
-    _PRESSURE: "a pressure",
-    Powers(1, 1, -2): "a force",
-    Powers(2, 1, -3): "a power",
-    Powers(time=-1): "a frequency",
-    Powers(2): "an area",
-    Powers(3): "a volume",
-    Powers(1, 0, -1): "a velocity",
-}
 
 # Compiled when a string is met
 BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
@@ -137,14 +129,22 @@ _RAISED = {"²": 2, "³": 3, "2": 2, "3": 3}
 
 
 def convert(text: str, dimension: Dimension) -> float:
-    """The figure in the bare unit of `dimension`, correctly rounded. ValueError: what is wrong,
-    what would be right.
+    """Return a figure in the bare unit of a dimension, correctly rounded.
+
+    Args:
+        text: number and unit, such as "3 1/2 in".
+        dimension: that the figure has to have.
+
+    Raises:
+        ValueError: what is wrong, and what would be right.
     """
     return float(convert_exactly(text, dimension))
 
 
 def convert_exactly(text: str, dimension: Dimension) -> Fraction:
-    """As `convert`, before it is rounded."""
+    """Return the exact figure in the bare unit of a dimension; arguments and errors as of
+    `convert`.
+    """
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
     figure = re.sub(_INCH_MARK, r"\1 in", text)
@@ -183,13 +183,14 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
         force = read_unit(re.sub(_POUND, "lbf", names), dimension)
         if force.powers == dimension.powers:
             return number * force.scale
-        name = _NAMES.get(unit.powers, "of another dimension")
+        names_of_kinds = (kind.name for kind in _KINDS if kind.powers == unit.powers)
+        name = next(names_of_kinds, "of another dimension")
         raise ValueError(f"is {name}, but {wanted(dimension)}")
     return number * unit.scale
 
 
 def _measure_part(part: str, dimension: Dimension) -> Fraction:
-    """As `_measure`, of one figure of two, which errors name."""
+    """Return `_measure` of one figure of two; errors name it."""
     try:
         return _measure(part, dimension)
     except ValueError as error:
@@ -198,11 +199,14 @@ def _measure_part(part: str, dimension: Dimension) -> Fraction:
 
 def _spell_out(figure: str, dimension: Dimension) -> str:
     """A speed or an angle with its turns said; the kgm2 of a moment of inertia in two words."""
-    if dimension is SPEED:
-        return _count_turns(figure)
+    if dimension is SPEED:  # "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm
+        counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", figure)
+        return re.sub(_PER_MINUTE, r"\1 rpm", counted)
     if dimension is INERTIA:
         return re.sub(r"kg(?=[cm]?m(?:\^|\*\*)?[2²])", "kg ", figure)
-    return _name_pi(figure) if dimension is ANGLE else figure
+    # "3 pi/4 rad" -> "3/4 pi", half a turn being the unit
+    parts = re.fullmatch(_PI, figure, re.ASCII) if dimension is ANGLE else None
+    return f"{parts[1]}{parts[2] or 1}/{parts[3] or 1} pi" if parts else figure
 
 
 def _split(figure: str) -> tuple[Fraction, str] | None:
@@ -218,15 +222,24 @@ def _split(figure: str) -> tuple[Fraction, str] | None:
     return (-number if sign == "-" else number), names or ""
 
 
+@cache
 def read_unit(names: str, dimension: Dimension) -> Unit:
-    """The product of a unit's parts; ValueError for an unknown one, with examples."""
+    """Return the product of the parts of a unit.
+
+    Args:
+        names: of the parts, such as "kg mm^2".
+        dimension: for the examples in errors.
+
+    Raises:
+        ValueError: a part is unknown, or might be two units.
+    """
     if re.sub(_PART, "", names, flags=re.ASCII).strip(" .-"):
         raise ValueError(f'has the unknown unit "{names}"; {wanted(dimension)}')
     scale, powers = Fraction(1), Powers()
     for joint, name, power, raised in re.findall(_PART, names, re.ASCII):
         if question := AMBIGUOUS.get(name) or AMBIGUOUS.get(name.removesuffix("s")):
             raise ValueError(f'has the unit "{name}": {question} {wanted(dimension)}')
-        part = _find(name) or _find(_in_small(name))
+        part = _find(name) or (_find(name.lower()) if name.isupper() and name[1:] else None)
         if part is None:
             near = find_near_name(name)
             alone = _find(near) if name == names.strip() else None
@@ -249,41 +262,27 @@ def _find(name: str) -> Unit | None:
         number, names = _split(DEFINITIONS[name]) or (Fraction(), "")
         unit = read_unit(names, PLAIN)
         return Unit(number * unit.scale, unit.powers)
-    if prefixed := split_prefix(name):
-        power, of_which = prefixed
+    if name in PREFIXED:
+        power, of_which = PREFIXED[name]
         unit = read_unit(of_which, PLAIN)
         return Unit(Fraction(10) ** power * unit.scale, unit.powers)
     one = name.removesuffix("s")
     return _find(one) if one != name and len(one) > 1 and name.islower() else None
 
 
-def _count_turns(speed: str) -> str:
-    """A speed of rotation with its turns said: "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm."""
-    counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", speed)
-    return re.sub(_PER_MINUTE, r"\1 rpm", counted)
-
-
-def _name_pi(angle: str) -> str:
-    """Parts of pi with it as their unit, half a turn: "3 pi/4 rad" -> "3/4 pi"."""
-    match = re.fullmatch(_PI, angle, re.ASCII)
-    return f"{match[1]}{match[2] or 1}/{match[3] or 1} pi" if match else angle
-
-
-def _in_small(name: str) -> str:
-    """A unit of several letters that is written in capitals throughout, such as RPM."""
-    return name.lower() if len(name) > 1 and name.isupper() else name
-
-
 def ask_unit(unit: str, *others: str) -> str:
-    """For messages on an unlikely figure: whether it is in this unit, its bare one, and how figures
-    in others are said, such as "3.5 in".
+    """Return a question for messages on an unlikely figure: is it in its bare unit?
+
+    Args:
+        unit: the bare one.
+        others: figures in other units, such as "3.5 in".
     """
     said = " or ".join(f'"{other}"' for other in others)
     return f"is it in {unit}? Another unit is said as in {said}"
 
 
 def wanted(dimension: Dimension) -> str:
-    """What would be right, with examples."""
+    """Return what would be right, with examples."""
     if dimension is PLAIN:
         return "a plain number is wanted, without quotes"
     examples = " or ".join(f'"{e}"' for e in dimension.examples)

@@ -32,7 +32,7 @@ _WITH_UNIT = re.compile(rf"\s*({BARE_FIGURE})\s*([^\s\d.,@+-][^@]*?){_AT}", re.A
 _LARGEST, _SMALLEST = 1e12, 1e-12
 _FARTHEST_DEG = 1e6
 FREE = "free"  # places of a plane that takes weights at any angle
-_AMOUNTS = Dimension("g", "a unit of mass or of unbalance", MASS.powers, ("g", "oz", "g mm"))
+_AMOUNTS = Dimension("g", "a unit of mass or of unbalance", ("g", "oz", "g mm"))
 
 
 class Grade(Number):

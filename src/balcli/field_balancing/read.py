@@ -53,7 +53,7 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
     elif data["run"] == []:
         reader.problems.append(Problem("run", f"is an empty list; {_NEEDED['run']}"))
     else:
-        runs = reader.read_list("run", data["run"], Run, MOST_RUNS)
+        runs = reader.read_list("run", data["run"], Run, MOST_RUNS) or ()
     if not reader.problems and model is not None:
         model = model.model_copy(update={"run": runs})
     head, broken = model, set[str]()

@@ -11,8 +11,8 @@ import numpy as np
 from ..core.speeds import RPM
 from ..engine.arrays import find_first_largest
 from ..engine.variants import EngineVariants
-from ..enginefile.changed_figures import change_figures
 from ..enginefile.model import EngineFile, label_table
+from ..enginefile.read import change_figures
 from ..errors import BalcliError
 from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .build import build_mounted_body

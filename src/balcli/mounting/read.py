@@ -15,6 +15,7 @@ from ..enginefile.model import EngineFile
 from ..enginefile.mounting_tables import Body, Mount, Point
 from ..enginefile.read import REQUIRED, Draft, read_tables
 from ..enginefile.suspicious import NO_DISTANCE, doubt_losses
+from ..enginefile.table_reader import refuse
 from ..enginefile.toml_text import name_file, read_bytes
 from ..enginefile.units import STANDARD_GRAVITY, ask_unit
 from .build import find_mounting_faults
@@ -47,10 +48,10 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
     """The same of what could be read of a file; `name` is that of the file, for messages."""
     faults = list(find_mounting_faults(draft.model, draft.legible))
     has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
-    if draft.has_mistakes or faults:
+    if draft.problems or faults:
         whole = Assembly(draft.model, legible=draft.legible)
-        contradictions = find_contradictions(whole) if has_engine and draft.has_mistakes else []
-        raise draft.refusal([*contradictions, *faults], name)
+        contradictions = find_contradictions(whole) if has_engine and draft.problems else []
+        raise refuse([*draft.problems, *contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
     of_engine = () if engine is None else engine.unlikely
     body, mounts = draft.model.body, draft.model.mount

@@ -1,14 +1,12 @@
-"""What is unlikely of an engine file of which figures vary."""
+"""Doubts of an engine file of which figures vary."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from typing import Any
 
 from ..engine.load import parse_dict
 from ..engine.numbering import doubt_firing
-from ..engine.vary import NO_FIRING_ORDER
 from ..enginefile.model import EngineFile
 from ..enginefile.plain_tables import change_tables
 from ..enginefile.suspicious import find_suspicious
@@ -19,7 +17,7 @@ Doubt = Callable[[EngineFile], Iterable[str]]
 
 
 def doubt_but_for_gas(model: EngineFile) -> list[str]:
-    """What is unlikely of a file, in words; no gas is computed for it.
+    """Return the doubts of a file, in words; gas is not computed.
 
     Raises:
         InputError: a firing order that does not fit the crank.
@@ -30,8 +28,8 @@ def doubt_but_for_gas(model: EngineFile) -> list[str]:
 def doubt_unvaried(
     model: EngineFile, parameters: Sequence[Parameter], doubt: Doubt = doubt_but_for_gas
 ) -> list[str]:
-    """What is unlikely of a file whatever its varying figures are, in words: what is said of the
-    file, of its first and of its last variant alike, as far as these can be.
+    """Return the doubts of a file that do not depend on its varying figures: those of the file, its
+    first and its last variant, as far as these can be.
 
     Raises:
         InputError: what does not fit together in the file.
@@ -40,15 +38,6 @@ def doubt_unvaried(
     for end in (0, -1) if doubts else ():
         figures = {p.path: float(p.values[end]) for p in parameters}
         with suppress(InputError):
-            variant = _doubt_variant(model, figures, doubt)
+            variant = list(doubt(parse_dict(change_tables(model, figures), model.folder)))
             doubts = [each for each in doubts if each in variant]
     return doubts
-
-
-def _doubt_variant(model: EngineFile, figures: Mapping[str, Any], doubt: Doubt) -> list[str]:
-    """Without the firing order, where it does not fit the variant."""
-    try:
-        return list(doubt(parse_dict(change_tables(model, figures), model.folder)))
-    except InputError:
-        changes = {**NO_FIRING_ORDER, **figures}
-        return list(doubt(parse_dict(change_tables(model, changes), model.folder)))

@@ -11,8 +11,8 @@ import numpy as np
 from ..core.vibration import Real
 from ..engine.build import Engine, build
 from ..engine.variants import EngineVariants, Values, remember
-from ..enginefile.changed_figures import change_figures
 from ..enginefile.model import EngineFile
+from ..enginefile.read import change_figures
 from ..errors import BalcliError
 from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .build_engine import build_engine_system, excite_engine

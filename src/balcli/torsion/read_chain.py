@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from pydantic_core import ErrorDetails
-
 from ..enginefile.fields import counted, nearest, printable, shorten
 from ..enginefile.file_kinds import CHAIN
-from ..enginefile.messages import describe_finding, find_inner_table, join_path
 from ..enginefile.model import FileTable
 from ..enginefile.table_reader import TableReader
 from ..errors import Problem
@@ -33,7 +30,7 @@ def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
     Raises:
         InputError: with every mistake.
     """
-    reader = TableReader(CHAIN.name, _describe)
+    reader = TableReader(CHAIN.name)
     head = {key: value for key, value in data.items() if key not in KEYS}
     model = reader.read_table("", head | {"node": []}, ChainFile)
     lists = {}
@@ -44,13 +41,6 @@ def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
     if reader.problems or model is None:
         raise reader.refusal(file)
     return model.model_copy(update=lists)
-
-
-def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
-    if finding["type"] == "extra_forbidden":
-        hint = f"it has {', '.join(find_inner_table(table, finding['loc']).keys())}"
-        return Problem(join_path(path, finding["loc"]), f"unknown key in a damper; {hint}")
-    return describe_finding(path, finding, table)
 
 
 # ------------------------------------------------------------------ what does not fit together
