@@ -143,21 +143,21 @@ def test_tolerances_are_shares_or_percentages():
         balcli.scatter(FOUR, "force.1.major", mass=mass, angle_deg=angle, samples=50, seed=3)
         for mass, angle in ((0.01, 0.2), ("1%", "0.2 deg"), (np.float64(0.01), 0.1))
     )
-    assert one.spreads[0].mean == other.spreads[0].mean
-    assert third.spreads[0].bound < one.spreads[0].bound
+    assert one.quantities == other.quantities
+    assert third.quantities["force.1.major"].bound < one.quantities["force.1.major"].bound
 
 
 def test_a_tolerance_is_a_number_of_numpy_too():
     usual = balcli.scatter(V8, "force.1.major", mass=0.5, length=0, seed=1, samples=100)
     of_numpy = balcli.scatter(V8, "force.1.major", mass=np.float32(0.5), length=np.int64(0), seed=1, samples=100)
-    assert of_numpy.spreads == usual.spreads
+    assert of_numpy.quantities == usual.quantities
 
 
 def test_with_gas_torque_is_that_of_gas_and_inertia():
     """As of the commands."""
     gas = balcli.load_example("i4_wiebe")
     torque = balcli.analyze(gas, [2], only="gas").spectra["torque_total"].major[0]
-    (spread,) = balcli.scatter(gas, "torque.2.amplitude", samples=10, seed=1).spreads
+    (spread,) = balcli.scatter(gas, "torque.2.amplitude", samples=10, seed=1).quantities.values()
     assert spread.nominal == pytest.approx(torque)
     best = balcli.search(gas, "firing_order", "torque.2.amplitude", top=1).results[0]
     assert best.objective == pytest.approx(torque)
@@ -183,7 +183,7 @@ def test_rows_of_a_scatter_have_their_unit():
 def test_stiffness_of_mounts_scatters():
     found = balcli.scatter(MOUNTS, "mode.1.Hz", stiffness="10%", samples=20, seed=1)
     assert found.varied == "sets of mounts"
-    (spread,) = found.spreads
+    (spread,) = found.quantities.values()
     assert spread.nominal == pytest.approx(balcli.analyze_mounts(MOUNTS).modes.six[0].hertz)
 
 

@@ -33,7 +33,7 @@ SHOWN = {  # by renderer
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "speeds": ("analyze", V6, V8, "--speed", "60:124:8", "--only", "force,peak,inner"),
     "table_list": ("tables",),
-    "tolerances": ("scatter", V8, "--samples", "100", "--seed", "1"),
+    "scatter": ("scatter", V8, "--samples", "100", "--seed", "1"),
     "torque": ("torque", ENGINES / "v8_wiebe.toml"),
     "torsion": ("torsion", ENGINES / "i6_diesel.toml"),
     "two_engines": ("sum", V6, SINGLE),

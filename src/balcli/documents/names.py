@@ -13,7 +13,7 @@ DOCUMENTS = {
     "marine": "analysis",
     "mounts": "vibration",
     "numbers": "studies",
-    "scatter": "studies",
+    "scatter": "studies.scatter:Scatter",
     "search": "studies",
     "speeds": "analysis",
     "sum": "analysis",

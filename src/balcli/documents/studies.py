@@ -47,29 +47,6 @@ class Search(Document):
     locked: NotRequired[list[list[float]]]
 
 
-class Spread(TypedDict):
-    """One quantity over all samples, in its SI unit; sensitivity: by tolerance, largest first."""
-
-    nominal: float
-    mean: float
-    p05: float
-    p50: float
-    p95: float
-    max: float
-    bound: float
-    sensitivity: dict[str, float]
-
-
-class Scatter(Document):
-    """How quantities spread when masses and lengths vary within their tolerances."""
-
-    format: Literal["balcli.scatter/1"]
-    engine: NamedEngine
-    samples: int
-    distribution: Literal["uniform", "normal"]
-    quantities: dict[str, Spread]
-
-
 class NumberOfFile(TypedDict):
     """A number of an engine file; null: it is not there; rigid: a stiffness without end."""
 

@@ -30,7 +30,7 @@ RENDERERS = {
     "Curves": "curves",
     "FieldBalance": "field_balancing",
     "MountReport": "mounts",
-    "Scatter": "tolerances",
+    "Scatter": "scatter",
     "Search": "search",
     "Swept": "swept",
     "Table": "printed_table",
