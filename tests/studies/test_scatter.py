@@ -254,7 +254,11 @@ def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
             ("-q", "torque.max", "--samples", "30000"),
             "30000 samples: torque.max is computed one by one, from 1 to 20000 are allowed",
         ),
-        (FOUR.replace("inertia = 90000\n", ""), ("-q", "fluctuation"), "fluctuation: the file gives no inertia"),
+        (
+            FOUR.replace("inertia = 90000\n", ""),
+            ("-q", "fluctuation"),
+            "a variant: fluctuation: the file gives no inertia",
+        ),
     ],
 )
 def test_what_cannot_be_scattered_is_refused(text, options, message):

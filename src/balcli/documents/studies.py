@@ -37,14 +37,13 @@ class Arranged(TypedDict):
 
 class Search(Document):
     """Best arrangements, best first; over: throws, firing_order, bank_angle, splay, or the dotted
-    name of a number; locked: angles at which articulated rods cannot turn.
+    name of a number.
     """
 
     format: Literal["balcli.search/1"]
     engine: NamedEngine
     over: str
     results: list[Arranged]
-    locked: NotRequired[list[list[float]]]
 
 
 class NumberOfFile(TypedDict):

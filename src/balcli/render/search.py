@@ -29,10 +29,9 @@ def document(result: Search) -> dict[str, Any]:
         "engine": {"name": result.model.name},
         "over": result.over,
         "results": [
-            {**one.design.given(), "objective": one.objective, "quantities": dict(one.figures)}
+            {**one.design, "objective": one.objective, "quantities": dict(one.figures)}
             for one in result.results
         ],
-        **({"locked": [list(ends) for ends in result.locked]} if result.locked else {}),
     }
 
 
@@ -40,13 +39,13 @@ def columns(result: Search) -> Columns:
     """An arrangement a row: angles as numbers, throws and firing orders with hyphens between."""
     first = result.results[0]
     found: dict[str, Any] = {}
-    for key, value in first.design.given().items():
-        settings = [one.design.given()[key] for one in result.results]
+    for key, value in first.design.items():
+        settings = [one.design[key] for one in result.results]
         found[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
     found["objective"] = [one.objective for one in result.results]
     found |= {name: [one.figures[name] for one in result.results] for name in first.figures}
     units = {q.name: q.unit for q in result.objective.quantities}
-    set_in = {key: unit for key in first.design.given() if (unit := result.find_unit(key))}
+    set_in = {key: unit for key in first.design if (unit := result.find_unit(key))}
     return Columns(found, units | set_in)
 
 
@@ -54,9 +53,9 @@ def rows(result: Search, _system: System) -> Rows:
     """CSV: an arrangement a line, figures in SI units."""
     first = result.results[0]
     return Rows(
-        (*first.design.given(), "objective", *first.figures),
+        (*first.design, "objective", *first.figures),
         [
-            (*map(_exactly, one.design.given().values()), one.objective, *one.figures.values())
+            (*map(_exactly, one.design.values()), one.objective, *one.figures.values())
             for one in result.results
         ],
     )
@@ -69,7 +68,7 @@ def sheet(result: Search, _system: System) -> Sheet:
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
     heads = [
-        *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design.given()),
+        *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design),
         *(["objective"] if _is_sum(result) else []),
         *(name_with_unit(name, units[name]) for name in first.figures),
     ]
@@ -78,7 +77,7 @@ def sheet(result: Search, _system: System) -> Sheet:
         tuple(heads),
         tuple(_cells(result, one) for one in result.results),
         note=" ".join(_notes(result)),
-        words=tuple(range(len(first.design.given()))),
+        words=tuple(range(len(first.design))),
     )
     return Sheet(result.model.name or NAMELESS, (grid,))
 
@@ -89,11 +88,6 @@ def _in_words(over: str) -> str:
 
 
 def _notes(result: Search) -> Iterator[str]:
-    if result.locked:
-        spans = " and ".join(
-            f"{round(low, 1):g} to {round(high, 1):g}" for low, high in result.locked
-        )
-        yield f"No candidates: at {spans} deg the articulated rods cannot follow the crank."
     if result.refused:
         yield f"Not every value of the range makes an engine; with {result.refused}."
     if result.constant:
@@ -119,7 +113,7 @@ def _notes(result: Search) -> Iterator[str]:
 def _cells(result: Search, one: Found) -> tuple[str, ...]:
     multiples = _textbook(result, one)
     return (
-        *map(_setting, one.design.given().values()),
+        *map(_setting, one.design.values()),
         *([number(one.objective)] if _is_sum(result) else []),
         *(_figure(value, multiples.get(name)) for name, value in one.figures.items()),
     )

@@ -21,7 +21,7 @@ from ..enginefile.model import EngineFile, FileTable, Override
 from ..enginefile.units import BARE_FIGURE, convert_exactly
 from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
-from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES
+from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 
@@ -39,7 +39,9 @@ class Parameter:
 
 
 def tell_variant(figures: Mapping[str, float]) -> str:
-    """Which variant it is, for messages: `rod.length = 150, piston.mass = 0.5`."""
+    """Return a variant in words, for messages: `rod.length = 150, piston.mass = 0.5`."""
+    if len(figures) > MOST_PARAMETERS:
+        return "a variant"
     return ", ".join(f"{path} = {value:g}" for path, value in figures.items())
 
 

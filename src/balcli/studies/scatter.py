@@ -21,7 +21,7 @@ from ..enginefile.model import EngineFile
 from ..enginefile.units import ANGLE, BARE_FIGURE
 from ..errors import BalcliError, InputError
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
-from ..forces.quantity import evaluate_quantities, leave_out_unknown, refuse_unknown
+from ..forces.quantity import leave_out_unknown, refuse_unknown
 from ..limits import MOST_SINGLE_SAMPLES, MOST_TOLERANCE_SAMPLES
 from ..result import Result
 from .deviating_parts import (
@@ -33,17 +33,14 @@ from .deviating_parts import (
     spell_out_shafting,
     spell_out_throws,
 )
+from .evaluator import Evaluator
 from .quantities import (
-    AnyQuantity,
     NamedEngine,
     choose_of_engine,
-    group_by_chapter,
-    load_chapter,
     parse_quantities,
     refuse_unknown_of_chapters,
 )
 from .quantity_names import MOUNTS, TORSION, find_chapter
-from .varied_gas import attach_gas_torque
 
 RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default number of samples, as arrays or one by one
 CHUNK, AT_ONCE = 8_192, 400_000  # samples at a time; deviations at a time
@@ -186,7 +183,7 @@ class Variants:
         asked = parse_quantities(names or DEFAULT_QUANTITIES, with_gas=model.gas is not None)
         if names is None:
             asked = leave_out_unknown(build(model), choose_of_engine(asked))
-        self.asked, self._of_engine = asked, choose_of_engine(asked)
+        self.asked, of_engine = asked, choose_of_engine(asked)
         kinds = {find_chapter(q.name) for q in asked}
         apart = kinds & {MOUNTS, TORSION}
         if apart and len(kinds) > 1:
@@ -198,10 +195,10 @@ class Variants:
             raise BalcliError(
                 "--stiffness-scatter: is of mounts and shafts, and none of these quantities asks"
             )
-        if angles := [q.name for q in self._of_engine if q.unit == "deg"]:
+        if angles := [q.name for q in of_engine if q.unit == "deg"]:
             raise BalcliError(f"{angles[0]} is a direction, which has no mean; ask for sizes")
-        if self._of_engine:
-            refuse_unknown(build(model), self._of_engine)
+        if of_engine:
+            refuse_unknown(build(model), of_engine)
         refuse_unknown_of_chapters(model, asked)
         self.varied, give = "engines", "--mass-scatter 0.5%"
         if MOUNTS in kinds:
@@ -217,13 +214,10 @@ class Variants:
         self.model, self.sources = model, tuple(each for each in sources if each.tolerance)
         if not self.sources:
             raise BalcliError(f"nothing deviates; give a tolerance, such as {give}")
-        self._chapters = [
-            (members, load_chapter(chapter).Variants(model, members))
-            for chapter, members in group_by_chapter(asked).items()
-        ]
+        self._evaluator = Evaluator(model, asked)
         paths = [path for source in self.sources for path in source.figures]
-        of_gas = any(q.kind in GAS_KINDS for q in self._of_engine)
-        self._slow = bool(self._chapters) or (of_gas and any(map(concerns_gas, paths)))
+        of_gas = any(q.kind in GAS_KINDS for q in of_engine)
+        self._slow = self._evaluator.one_by_one or (of_gas and any(map(concerns_gas, paths)))
         self.usual = RANDOM_SINGLES if self._slow else RANDOM_ENGINES
 
     def evaluate(self, deviations: Array) -> Array:
@@ -241,25 +235,17 @@ class Variants:
             for path, line in source.figures.items()
         }
         of_file = {k: v for k, v in figures.items() if not k.startswith(THROW_MASS)}
-        found: dict[AnyQuantity, Array] = {}
+        shape = (len(deviations),)
         try:
-            if self._of_engine:
-                engine = attach_gas_torque(build(self.model, of_file, rank=1), self.model, of_file)
-                engine = self._weigh_throws(engine, figures)
-                values = evaluate_quantities(engine, self._of_engine)
-                found |= dict(zip(self._of_engine, values, strict=True))
-            for members, variants in self._chapters:
-                rows = [
-                    variants.evaluate({path: float(value[k]) for path, value in of_file.items()})
-                    for k in range(len(deviations))
-                ]
-                found |= dict(zip(members, np.array(rows).T, strict=True))
+            engine = None
+            if self._evaluator.of_engine:
+                engine = self._weigh_throws(self._evaluator.build(of_file, 1), figures)
+            return np.stack(self._evaluator.evaluate(of_file, shape, engine), axis=1)
         except InputError as error:
             raise BalcliError(
                 f"within these tolerances an engine cannot be ({error.problems[0].message}); give "
                 "smaller ones"
             ) from None
-        return np.stack([np.broadcast_to(found[q], len(deviations)) for q in self.asked], axis=1)
 
     def _weigh_throws(self, engine: Engine, figures: dict[str, Array]) -> Engine:
         """Return the engine with the masses of its throws, of which the file has but one."""
