@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from .sizing.options import SchemeOptions
     from .sizing.workshop import Tools
     from .studies.search.search import Search
-    from .studies.swept import Swept
+    from .studies.sweep import Swept
     from .studies.tolerances import Scatter
     from .torque.analysis import TorqueAnalysis
     from .torsion.analysis import TorsionAnalysis
@@ -114,7 +114,7 @@ _ROOMS = {
     "SchemeOptions": "sizing.options",
     "Search": "studies.search.search",
     "search": "library.search",
-    "Swept": "studies.swept",
+    "Swept": "studies.sweep",
     "sweep": "library.sweep",
     "Table": "printed_tables.recomputed",
     "tables": "library.tables",

@@ -16,8 +16,6 @@ from support.commands import HANGS, ask, ask_json, run_command, run_here, start_
 from support.engines import GOOD
 from support.paths import write
 
-from balcli.commands import sweep_output
-
 
 @pytest.fixture
 def engine(tmp_path: Path) -> str:
@@ -170,17 +168,7 @@ def test_a_table_of_variants(engine: str, count: int) -> None:
 def test_chunks_of_a_long_table_are_passed_over(engine: str, monkeypatch) -> None:
     """Its ends do not depend on where the chunks end."""
     whole = sweep_strokes(engine, "40:60:0.1", "-f", "table")
-    own = sweep_output.count_variants
-
-    def split(chunks, *others):
-        for chunk in own(chunks, *others):
-            (cut,) = chunk.box
-            for start in range(cut.start, cut.stop, 7):
-                part = slice(start, min(start + 7, cut.stop))
-                inner = slice(part.start - cut.start, part.stop - cut.start)
-                yield chunk._replace(box=(part,), values=[v[inner] for v in chunk.values])
-
-    monkeypatch.setattr(sweep_output, "count_variants", split)
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 7)
     assert sweep_strokes(engine, "40:60:0.1", "-f", "table") == whole
 
 

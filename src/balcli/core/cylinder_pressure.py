@@ -16,12 +16,12 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import strokes
-from .cached_property import cached_property
 from .cylinders import Cylinders
 from .mechanisms import slidercrank
 from .mechanisms.articulated import Articulated

@@ -8,11 +8,11 @@ variant, and orders that nobody reads cost nothing.
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from .cached_property import cached_property
 from .phasors import Array, Complex, Figure, Phasors
 
 

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import reduce
+from functools import cached_property, reduce
 from operator import add
 
 import numpy as np
 
-from .cached_property import cached_property
 from .cylinders import Cylinders, Device
 from .mechanisms.fourier import Harmonics, Series
 from .phases import SUM, Phases, Vectors

@@ -14,12 +14,12 @@ any trailing axes; an axis along which nothing varies has length 1.
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import groupby
 from typing import NamedTuple
 
 import numpy as np
 
-from .cached_property import cached_property
 from .cylinders import Cylinders
 from .factored_phasors import FactoredPhasors, Product
 from .mechanisms.fourier import Series

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
 
-from .cached_property import cached_property
 from .peaks import Peak
 from .phasors import Array, Complex
 from .piecewise import PiecewiseCurve, cut, gauss, quadrature, resolved, values_to_series

@@ -19,12 +19,12 @@ A numbering that the file gives is not doubted; if it does not fit, other keys a
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
 from itertools import accumulate, groupby, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.cached_property import cached_property
 from ..core.loads import Loads, find_needed_series
 from ..core.phases import TURN, Phases
 from ..core.speeds import RPM

@@ -10,7 +10,6 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ..core.factored_phasors import FactoredPhasors
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
@@ -145,21 +144,6 @@ def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[
         whole = compute_spectra(engine, find_relevant_orders(engine), {q.kind for q in peaks})
         values |= {q: find_largest(whole[q.kind]) for q in peaks}
     return [values[q] for q in quantities]
-
-
-def are_products(engine: Engine, quantities: Sequence[Quantity]) -> bool:
-    """Whether each of these, of variants of an engine, is read from products of parts that are
-    smaller than they (`core.factored_phasors`): then a variant more takes little more than its
-    result.
-    """
-    if not engine.equal or any(q.part == "peak" for q in quantities):
-        return False
-    for orders, members in _group_by_orders(quantities):
-        found = compute_spectra(engine, orders, {q.kind for q in members})
-        every = [phasors for _, phasors in found.items()]
-        if not all(isinstance(one, FactoredPhasors) and one.narrow for one in every):
-            return False
-    return True
 
 
 def find_orders(engine: Engine, quantities: Sequence[Quantity]) -> list[list[float]]:

@@ -5,12 +5,12 @@ it. Speeds and orders are those of its reference, the crankshaft or the first no
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.cached_property import cached_property
 from ..core.torsional_chain import Chain, Damping, find_pieces
 from ..core.torsional_dampers import pendulum_inertia, pendulum_swing, viscous_inertia
 from ..core.vibration import Complex, Indices, Real

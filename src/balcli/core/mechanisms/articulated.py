@@ -9,12 +9,12 @@ K as a plain one hangs on the crank pin. A master rod is the case k = 0.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cached_property import cached_property
 from ..phasors import EPS, Array, Complex, compose, unit
 from . import slidercrank
 from .linkage import Linkage

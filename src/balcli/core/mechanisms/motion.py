@@ -9,13 +9,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from functools import reduce
+from functools import cached_property, reduce
 from operator import add
 from typing import TypeAlias
 
 import numpy as np
 
-from ..cached_property import cached_property
 from ..phasors import Array, Complex, Figure
 
 

@@ -11,12 +11,12 @@ pins, which stand still, and `pin_deg` those of the cylinders, which turn.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cached_property import cached_property
 from ..phasors import Array, Complex, Figure, compose
 from . import slidercrank
 from .articulated import Articulated, hang
