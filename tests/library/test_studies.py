@@ -178,8 +178,8 @@ def test_a_tolerance_that_concerns_no_quantity_is_refused():
 
 
 def test_engines_side_by_side_have_names():
-    assert balcli.compare(V8, FOUR).names == (V8.name, FOUR.name)
-    assert balcli.compare(V8, V8.vary({"layout.bank_angle": 60})).names == ("engine 1", "engine 2")
+    assert balcli.compare(V8, FOUR).engines == (V8.name, FOUR.name)
+    assert balcli.compare(V8, V8.vary({"layout.bank_angle": 60})).engines == ("engine 1", "engine 2")
     found = balcli.compare(V8, V8, names=["as it is", "again"], orders=[1], only="moment")
     assert found.rows()[0]["again"] == found.rows()[0]["as it is"] > 0
     with pytest.raises(balcli.BalcliError, match=r"^1 names for 2 engines; give one for each$"):

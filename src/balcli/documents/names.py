@@ -7,7 +7,7 @@ DOCUMENTS = {
     "balance": "analysis",
     "bench": "studies",
     "check": "studies",
-    "compare": "studies",
+    "compare": "results.comparison:Comparison",
     "curves": "studies",
     "field": "field",
     "marine": "analysis",

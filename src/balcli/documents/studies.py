@@ -7,7 +7,7 @@ from typing import Literal, NotRequired
 from pydantic import ConfigDict, with_config
 from typing_extensions import TypedDict
 
-from .figures import Assumed, Document, NamedEngine, Order
+from .figures import Assumed, Document, NamedEngine
 
 Cell = float | int | str | None
 
@@ -70,24 +70,6 @@ class Numbers(Document):
     engine: NamedEngine
     numbers: list[NumberOfFile]
     quantities: list[NameOfQuantity]
-
-
-class ComparedFigure(TypedDict):
-    """One figure of all engines, and its ratios to the first one's; order null: a peak."""
-
-    quantity: str
-    order: Order | None
-    values: list[float | None]
-    ratios: list[float | None]
-
-
-class Compare(Document):
-    """Engines side by side."""
-
-    format: Literal["balcli.compare/1"]
-    engines: list[str]
-    speeds_rpm: list[float]
-    figures: list[ComparedFigure]
 
 
 class Curves(Document):
