@@ -182,6 +182,13 @@ def test_a_terminal_shows_a_table_and_a_pipe_csv(engine: str) -> None:
     assert run_here(*asked, "-f", "csv", terminal=True).out == piped
 
 
+def test_doubts_are_of_what_does_not_vary(tmp_path: Path) -> None:
+    file = write(tmp_path / "heavy.toml", GOOD.replace("mass = 0.5", "mass = 51"))
+    for vary, doubted in (("rod.length=150,160", True), ("piston.mass=0.5,0.6", False)):
+        done = run_here("sweep", file, "--vary", vary, "-q", "force.2.major")
+        assert ("piston.mass is 51 kg" in done.err) is doubted
+
+
 def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:
     target = tmp_path / "best.toml"
     done = run_command(

@@ -128,10 +128,7 @@ def _read_goal(
 def _doubt(model: EngineFile, over: list[str], name: str) -> None:
     """Warn of what is unlikely in the file, except of what is arranged or varies."""
     from ..engine.build import build
-    from ..studies.search.search import read_ranges
-    from ..studies.unlikely import doubt_unvaried
     from .inputs import warn_each
 
-    ranges = [one.number for one in read_ranges(model, over) if "." in one.key]
-    doubts = doubt_unvaried(model, ranges, lambda variant: build(variant).unlikely)
-    warn_each((doubt for doubt in doubts if not any(one in doubt for one in over)), name)
+    varied = [text.partition("=")[0] for text in over]
+    warn_each((d for d in build(model).unlikely if not any(one in d for one in varied)), name)

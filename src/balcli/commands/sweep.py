@@ -151,13 +151,16 @@ def _doubt(job: Sweep, quantity: str | None) -> None:
     """Say that moments are not known, where the usual quantities would have some, and what is
     unlikely of the file, unless it varies.
     """
-    from ..studies.unlikely import doubt_unvaried
+    from ..engine.numbering import doubt_firing
+    from ..enginefile.suspicious import find_suspicious
     from .inputs import warn_each, warn_of_unknown_moments
 
     if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
         warn_of_unknown_moments(job.name)
     with naming_file(job.name):
-        warn_each(doubt_unvaried(job.file, job.parameters), job.name)
+        doubts = [*find_suspicious(job.file), *doubt_firing(job.file)]
+    varied = [p.path.rstrip(".0123456789") for p in job.parameters]
+    warn_each((d for d in doubts if not any(one in d for one in varied)), job.name)
 
 
 def _choose_target(

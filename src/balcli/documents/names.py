@@ -12,7 +12,7 @@ DOCUMENTS = {
     "field": "field",
     "marine": "analysis",
     "mounts": "vibration",
-    "numbers": "studies",
+    "numbers": "studies.numbers:NamedNumbers",
     "scatter": "studies.scatter:Scatter",
     "search": "studies",
     "speeds": "analysis",

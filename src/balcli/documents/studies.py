@@ -46,32 +46,6 @@ class Search(Document):
     results: list[Arranged]
 
 
-class NumberOfFile(TypedDict):
-    """A number of an engine file; null: it is not there; rigid: a stiffness without end."""
-
-    path: str
-    value: float | Literal["rigid"] | None
-    unit: str
-    meaning: str
-
-
-class NameOfQuantity(TypedDict):
-    """Quantities by a pattern: N for an order, PART for a word of the meaning."""
-
-    name: str
-    unit: str
-    meaning: str
-
-
-class Numbers(Document):
-    """What can be varied of an engine file, and what can be asked of it."""
-
-    format: Literal["balcli.numbers/1"]
-    engine: NamedEngine
-    numbers: list[NumberOfFile]
-    quantities: list[NameOfQuantity]
-
-
 class Curves(Document):
     """Quantities over the crank angle; null: what has no value there."""
 

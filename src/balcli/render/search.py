@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..forces.kinds import EVERY_KIND, VECTORS
 from ..studies.quantity_names import tell_assumed_speed, tell_speeds
 from .csv import Columns, Rows
 from .sheet import NAMELESS, Grid, Sheet, number
@@ -16,10 +14,6 @@ if TYPE_CHECKING:
     from ..studies.search.designs import Found
     from ..studies.search.search import Search
     from .units import System
-
-
-_FORWARD = "Counterweights can take the part that turns with the crank; what they cannot take is"
-_AS_BUILT = "Fn, Fn·a: the textbook's units of order n; figures are as built, with rotating masses."
 
 
 def document(result: Search) -> dict[str, Any]:
@@ -62,8 +56,8 @@ def rows(result: Search, _system: System) -> Rows:
 
 
 def sheet(result: Search, _system: System) -> Sheet:
-    """The best arrangements, a row each: figures in SI units, with those in textbooks' in brackets,
-    F_n of the order, and F_n a of moments. One quantity alone is its own objective.
+    """Return the best arrangements, a row each, with figures in SI units. One quantity alone is its
+    own objective.
     """
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
@@ -98,51 +92,25 @@ def _notes(result: Search) -> Iterator[str]:
     assumed = tell_assumed_speed(result.model)
     if assumed and "operation.speed" not in result.over.split(", "):
         yield assumed
-    if any(one.figures[name] for one in result.results for name in _textbook(result, one)):
-        yield _AS_BUILT
     if speeds := tell_speeds(q.name for q in result.objective.quantities):
         yield speeds
     added = list(dict.fromkeys(q.unit for q in result.objective.weights))
     if len(added) > 1:
         yield f"Objective: {' and '.join(added)} added as plain numbers; NAME=W weighs them."
-    kinds = {q.kind for q in result.of_engine if q.order == 1 and q.part == "major"}
-    if against := [f"{kind.name}.1.backward" for kind in VECTORS if kind.name in kinds]:
-        yield f"{_FORWARD} {' and '.join(against)}."
 
 
 def _cells(result: Search, one: Found) -> tuple[str, ...]:
-    multiples = _textbook(result, one)
     return (
         *map(_setting, one.design.values()),
         *([number(one.objective)] if _is_sum(result) else []),
-        *(_figure(value, multiples.get(name)) for name, value in one.figures.items()),
+        *map(number, one.figures.values()),
     )
-
-
-def _figure(value: float, multiple: tuple[float, str] | None) -> str:
-    """`973.12 (1.333 F1·a)`."""
-    if multiple is None or not value:
-        return number(value)
-    times, unit = multiple
-    return f"{number(value)} ({number(times, 4)} {unit})"
 
 
 def _is_sum(result: Search) -> bool:
     """Whether the objective is more than one of the figures."""
     weights = list(result.objective.weights.values())
     return weights != [1.0]
-
-
-def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
-    """Forces and moments in the textbook's units, where those tell more than the figures alone."""
-    shown: dict[str, tuple[float, str]] = {}
-    for q in result.of_engine:
-        kind = EVERY_KIND[q.kind]
-        if kind.vector and q.part != "peak":
-            size = result.scale.size(kind, q.order)
-            if not math.isnan(size):
-                shown[q.name] = one.figures[q.name] / size, result.scale.name(kind, q.order)
-    return shown
 
 
 def _setting(value: Any) -> str:

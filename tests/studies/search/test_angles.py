@@ -18,7 +18,6 @@ from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.symmetry import explain_symmetry
-from balcli.render import search as renderer
 from balcli.render.search import rows
 from balcli.render.units import SYSTEMS
 from balcli.studies.search.designs import write_design
@@ -345,12 +344,3 @@ def test_bank_angles_vary_beside_given_knuckle_angles() -> None:
 def test_an_articulated_radial_has_no_bank_angle_to_look_for() -> None:
     with pytest.raises(BalcliError, match="there is no bank angle to look for"):
         search_least(load(RADIAL), "bank_angle", "force.6.major")
-
-
-def test_units_of_the_textbook_are_told_where_a_figure_has_them() -> None:
-    """At 60 degrees of split nothing turns against the crank, and there is no multiple of F1."""
-    for of, told in (("force.1.backward", False), ("force.1.backward,force.2.major", True)):
-        found = search_least(vee(bank=60), "splay", of)
-        (grid,) = renderer.sheet(found, SYSTEMS["si"]).parts
-        cells = " ".join(cell for row in grid.rows for cell in row)
-        assert [" F2)" in cells, "Fn" in grid.note] == [told, told]

@@ -385,21 +385,6 @@ def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool
     assert ("Objective: N·m and N added as plain numbers" in grid.note) is told
 
 
-@pytest.mark.parametrize(
-    ("minimise", "against"),
-    [
-        ("moment.1.major", "moment.1.backward"),
-        ("moment.1.major,force.1.major", "force.1.backward and moment.1.backward"),
-        ("moment.2.major,moment.1.forward", ""),
-        ("couple.1.major", ""),  # no counterweight takes of a couple
-    ],
-)
-def test_what_counterweights_cannot_take_is_named(minimise: str, against: str) -> None:
-    found = search_least(load(SHUFFLED), "throws", minimise)
-    note = sheet(found, SYSTEMS["si"]).parts[0].note
-    assert note.partition("what they cannot take is ")[2].removesuffix(".") == against
-
-
 def test_throws_that_follow_from_the_firing_order_are_permuted_like_those_given():
     """1-5-3-6-2-4 asks for 0, 240, 120, 120, 240, 0 of a six with four strokes."""
     six = """

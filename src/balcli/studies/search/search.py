@@ -20,9 +20,7 @@ from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...enginefile.plain_tables import change_tables
 from ...errors import BalcliError, check_type
-from ...forces.orders import merge_orders
-from ...forces.quantity import Quantity, refuse_unknown
-from ...forces.textbook import TextbookUnits, find_textbook_units
+from ...forces.quantity import refuse_unknown
 from ...result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
 from ..quantities import choose_of_engine, refuse_unknown_of_chapters
@@ -67,7 +65,6 @@ class Search(Result):
         over: what was arranged: `throws`, or numbers with commas between.
         objective: the quantities, their weights and limits.
         results: best first, each with its `design`, the value of its `objective` and its `figures`.
-        scale: units of forces and moments in textbooks.
         ranges: the numbers that were searched over.
         constant: whether the numbers change nothing of the objective.
         refused: values of the numbers that make no engine, and why; empty if all do.
@@ -77,7 +74,6 @@ class Search(Result):
     over: str
     objective: Objective
     results: tuple[Found, ...]
-    scale: TextbookUnits
     ranges: tuple[SearchRange, ...] = ()
     constant: bool = False
     refused: str = ""
@@ -109,11 +105,6 @@ class Search(Result):
         """Over what, and how many were found."""
         found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
-
-    @property
-    def of_engine(self) -> tuple[Quantity, ...]:
-        """Those quantities of its objective that are of forces and moments."""
-        return choose_of_engine(self.objective.quantities)
 
     def engine(self, rank: int = 1) -> Engine:
         """Return the engine with the arrangement of this rank, the best being 1. A firing order
@@ -177,9 +168,7 @@ def search_arrangements(
         asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         words = named if "." in named else named.replace("_", " ")
         raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
-    orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
-    scale = find_textbook_units(engine, orders)
-    return Search(model, named, objective, found, scale, ranges, constant, refused)
+    return Search(model, named, objective, found, ranges, constant, refused)
 
 
 # ------------------------------------------------------------------ throws and firing orders
