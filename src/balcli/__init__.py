@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from .sizing.workshop import Tools
     from .studies.search.search import Search
     from .studies.sweep import Swept
-    from .studies.tolerances import Scatter
+    from .studies.scatter import Scatter
     from .torque.analysis import TorqueAnalysis
     from .torsion.analysis import TorsionAnalysis
 
@@ -109,7 +109,7 @@ _ROOMS = {
     "plot": "library.plot",
     "analyze_mounts": "library.mounts",
     "Result": "result",
-    "Scatter": "studies.tolerances",
+    "Scatter": "studies.scatter",
     "scatter": "library.scatter",
     "SchemeOptions": "sizing.options",
     "Search": "studies.search.search",

@@ -257,7 +257,7 @@ def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
         (
             FOUR.replace("inertia = 90000\n", ""),
             ("-q", "fluctuation"),
-            "a variant: fluctuation: the file gives no inertia",
+            "fluctuation: the file gives no inertia",
         ),
     ],
 )

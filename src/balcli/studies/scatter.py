@@ -268,8 +268,8 @@ class Variants:
             raise BalcliError(f"{samples} samples: {why}from 1 to {most} are allowed")
         tolerances = np.array([source.tolerance for source in self.sources])
         ends = np.diag(tolerances)
-        nominal, *both = self.evaluate(np.concatenate([0 * ends[:1], ends, -ends]))
-        changes = _find_changes(nominal, *np.split(np.array(both), 2))
+        nominal = np.array(self._evaluator.evaluate({}, (1,)))[:, 0]
+        changes = _find_changes(nominal, self.evaluate(ends), self.evaluate(-ends))
         values = self._evaluate_random(samples, tolerances, drawing)
         spreads = map(self._spread, nominal, values.T, changes.T)
         names = [q.name for q in self.asked]

@@ -139,16 +139,11 @@ class Contributions(NamedTuple):
     devices: Complex
     reach: Array
 
-    def find_row(self, quantity: AnyQuantity) -> int:
-        """Return the row of the kind and order of a quantity of the engine."""
-        assert isinstance(quantity, Quantity)
-        return self.keys.index((quantity.kind, quantity.order))
-
     def read(self, quantity: Quantity, sums: Complex) -> Array:
         """Return a quantity by the sums over all throws and the devices, shape (keys, 2,
         candidates).
         """
-        k = self.find_row(quantity)
+        k = self.keys.index((quantity.kind, quantity.order))
         noise = np.full((1, 1), ROUNDING * self.reach[k].sum())
         order = np.array([float(quantity.order)])
         return quantity.read_from(Phasors.of(order, sums[k, :1], sums[k, 1:], noise).drop_noise())
@@ -310,9 +305,14 @@ class _Tree:
         reach = self._table.reach[:, to_come].sum(axis=1)[:, None]
         least, most = np.maximum(np.abs(sums) - reach, 0.0), np.abs(sums) + reach
 
+        rows: dict[AnyQuantity, int] = {
+            q: self._table.keys.index((q.kind, q.order))
+            for q in choose_of_engine(self._objective.quantities)
+        }
+
         def bound(q: AnyQuantity, ends: Array) -> float:
             _, _, part = q.name.rpartition(".")
-            ahead, astern = ends[self._table.find_row(q)].tolist()
+            ahead, astern = ends[rows[q]].tolist()
             if part in ("forward", "backward"):
                 return float(ahead if part == "forward" else astern)
             known = part in ("major", "amplitude") or ends is most
