@@ -41,9 +41,9 @@ if TYPE_CHECKING:
     from .results.two_engines import Combined
     from .sizing.options import SchemeOptions
     from .sizing.workshop import Tools
+    from .studies.scatter import Scatter
     from .studies.search.search import Search
     from .studies.sweep import Swept
-    from .studies.scatter import Scatter
     from .torque.analysis import TorqueAnalysis
     from .torsion.analysis import TorsionAnalysis
 
