@@ -44,15 +44,9 @@ def columns(result: Search) -> Columns:
 
 
 def rows(result: Search, _system: System) -> Rows:
-    """CSV: an arrangement a line, figures in SI units."""
-    first = result.results[0]
-    return Rows(
-        (*first.design, "objective", *first.figures),
-        [
-            (*map(_exactly, one.design.values()), one.objective, *one.figures.values())
-            for one in result.results
-        ],
-    )
+    """Return CSV: an arrangement a line, figures in SI units."""
+    found = columns(result).values
+    return Rows([*found], [*zip(*found.values(), strict=True)])
 
 
 def sheet(result: Search, _system: System) -> Sheet:

@@ -42,8 +42,8 @@ class NumbersJudge:
 
     Attributes:
         alone: Whether each candidate takes a computation of its own.
-        first_error: Error of the first candidate that makes no engine; None if all do.
-        refused: That candidate and the reason, in words.
+        refused: Error of the first candidate that makes no engine, with its numbers as `file`;
+            None if all do.
     """
 
     def __init__(
@@ -58,8 +58,7 @@ class NumbersJudge:
         self._even_firing, self._tell, self._count = even_firing, tell, 0
         self._evaluator = Evaluator(model, objective.quantities)
         self.alone = not objective.is_sum_over_cylinders
-        self.first_error: InputError | None = None
-        self.refused = ""
+        self.refused: InputError | None = None
 
     def __call__(self, points: Array) -> Merit:
         """Return the merits of points, shape (points, numbers); infinite where no engine is."""
@@ -72,10 +71,8 @@ class NumbersJudge:
         except InputError as error:
             if len(points) > 1:
                 return _join([self._judge(half) for half in np.array_split(points, 2)])
-            if self.first_error is None:
-                self.first_error = error
-                figures = dict(zip(self._paths, points[0].tolist(), strict=True))
-                self.refused = f"{tell_variant(figures)}: {error.problems[0]}"
+            figures = dict(zip(self._paths, points[0].tolist(), strict=True))
+            self.refused = self.refused or InputError(error.problems, tell_variant(figures))
             merit = Merit(*np.full((2, 1), np.inf))
         self._count += len(points)
         self._tell(self._count)

@@ -19,7 +19,7 @@ from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...enginefile.plain_tables import change_tables
-from ...errors import BalcliError, check_type
+from ...errors import BalcliError, InputError, check_type
 from ...forces.quantity import refuse_unknown
 from ...result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
@@ -274,8 +274,9 @@ def _search_numbers(
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
     optima = find_local_optima(judge, box, effort)
-    if not np.isfinite(optima.merits.excess).any() and judge.first_error is not None:
-        raise judge.first_error
+    refused = judge.refused
+    if not np.isfinite(optima.merits.excess).any() and refused is not None:
+        raise InputError(refused.problems)
     designs = [
         dict(zip((one.key for one in ranges), place, strict=True))
         for place in optima.places.tolist()
@@ -283,7 +284,8 @@ def _search_numbers(
     found = rank_designs(designs, judge.evaluate(optima.places), objective) if designs else iter(())
     costs = optima.merits.cost
     same = np.ptp(costs) <= _ROUNDING * np.abs(costs).max()
-    return found, bool(same and spans.all() and not judge.refused), judge.refused
+    why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
+    return found, bool(same and spans.all() and not why), why
 
 
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
