@@ -128,25 +128,13 @@ def test_a_dataframe_takes_the_rows_as_they_are(answer):
     assert frame.attrs["units"].keys() <= set(frame)
 
 
-def test_a_dataset_holds_the_same(answer):
-    pytest.importorskip("xarray")
-    data, rows = answer.to_xarray(), answer.rows()
-    assert set(data.variables) - set(data.sizes) == set(rows[0]) - set(data.sizes)
-    table = data.to_dataframe().reset_index()
-    for name in rows[0]:
-        found = table[name].tolist()
-        wanted = [row[name] for row in rows]
-        assert [None if value != value else value for value in found] == wanted
-
-
 def test_numbers_are_numbers_where_some_are_missing(answer):
     """And not objects, with which nothing can be computed."""
-    pytest.importorskip("xarray")
-    frame, data, rows = answer.to_pandas(), answer.to_xarray(), answer.rows()
+    pytest.importorskip("pandas")
+    frame, rows = answer.to_pandas(), answer.rows()
     for name in rows[0]:
         if not any(isinstance(row[name], str) for row in rows):
             assert frame[name].dtype.kind in "iuf", name
-            assert data[name].dtype.kind in "iuf", name
 
 
 def test_a_parquet_file_holds_the_same(answer, tmp_path):
@@ -239,7 +227,6 @@ def test_moments_that_are_not_known_have_no_value():
     ("library", "method", "install"),
     [
         ("pandas", "to_pandas", "pandas"),
-        ("xarray", "to_xarray", "xarray"),
         ("pyarrow", "to_parquet", r"balcli\[scale\]"),
     ],
 )

@@ -43,9 +43,9 @@ if TYPE_CHECKING:
     from .results.two_engines import Combined
     from .sizing.options import SchemeOptions
     from .sizing.workshop import Tools
+    from .studies.scatter import Scatter
     from .studies.search.search import Search
-    from .studies.swept import Swept
-    from .studies.tolerances import Scatter
+    from .studies.sweep import Swept
     from .torque.answer import TorqueAnalysis
     from .torsion.analysis import TorsionAnalysis
 
@@ -110,12 +110,12 @@ _ROOMS = {
     "plot": "library.plot",
     "analyze_mounts": "library.mounts",
     "Result": "result",
-    "Scatter": "studies.tolerances",
+    "Scatter": "studies.scatter",
     "scatter": "library.scatter",
     "SchemeOptions": "sizing.options",
     "Search": "studies.search.search",
     "search": "library.search",
-    "Swept": "studies.swept",
+    "Swept": "studies.sweep",
     "sweep": "library.sweep",
     "Table": "printed_tables.recomputed",
     "tables": "library.tables",

@@ -67,8 +67,8 @@ MOST_THREADS = 64  # of a sweep: each computes a few boxes ahead, of some 10 MB 
 MOST_KEPT_FIGURES = 100_000_000  # of a sweep in Python: all are kept, 0.8 GB
 MOST_ROWS_READ = 50  # of the table of a sweep: of more the first and the last are shown
 MOST_PICTURE_VARIANTS = 4_000_000  # of a sweep: a picture keeps all of them in memory
-MOST_TOLERANCE_SAMPLES = 20_000_000  # a minute or two, and mean and percentiles stand long before
-MOST_CYCLE_SAMPLES = 20_000  # of random engines whose cycles are one by one: 10 to 100 ms each
+MOST_TOLERANCE_SAMPLES = 2_000_000  # of random variants as arrays, all of which are kept
+MOST_SINGLE_SAMPLES = 20_000  # of random variants computed one by one: 2 to 100 ms each
 MOST_FOUND = 1000  # designs that a search lists: nobody reads more
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them
 MOST_DESIGNS_ONE_BY_ONE = 2000  # of gas, mounts or torsion: each takes 10 to 50 ms
@@ -88,7 +88,6 @@ MOST_ANALYSED_SPEEDS = 1_000  # of analyze: an analysis each, milliseconds of th
 
 # Engine mounts -------------------------------------------------------------------------------
 MOST_MOUNTS = 100  # and points: each has a curve for every speed
-MOST_MOUNT_SAMPLES = 20_000  # of random mounts, each computed by itself: 2 ms, with an engine 50
 MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 
 # Torsion -------------------------------------------------------------------------------------

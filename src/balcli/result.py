@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pandas
-    import xarray
 
 
 class Result:
@@ -56,16 +55,6 @@ class Result:
             BalcliError: pandas is not installed.
         """
         return import_module("balcli.render.exchange").make_frame(self)
-
-    def to_xarray(self) -> xarray.Dataset:
-        """The rows as a Dataset: what a study varies are its dimensions, of other answers the
-        number of the row. Each variable has its unit as `attrs["units"]`, as far as neither its
-        name nor a variable `unit` tells it.
-
-        Raises:
-            BalcliError: xarray is not installed.
-        """
-        return import_module("balcli.render.exchange").make_dataset(self)
 
     def to_parquet(self, path: str | Path) -> None:
         """Write the rows into a Parquet file; each column has its unit in the metadata.

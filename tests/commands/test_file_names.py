@@ -175,7 +175,7 @@ def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
     def computed(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr(studies, "evaluate_box", computed)
+    monkeypatch.setattr(studies, "evaluate_sweep", computed)
     large = ("--vary", "piston.mass=0:2:0.001", "--vary", "crank.stroke=80:100:0.01")
     options = ("-o", "x.csv", "--plot", "x.svg")
     message = refusal("sweep", "good.toml", *large, *options)
@@ -186,13 +186,13 @@ def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
 
 
 def test_a_picture_takes_the_figures_that_are_written(monkeypatch):
-    boxes, compute = [], studies.evaluate_box
+    boxes, compute = [], studies.evaluate_sweep
 
-    def counted(sweep, box, size):
-        boxes.append(box)
-        return compute(sweep, box, size)
+    def counted(sweep):
+        boxes.append(sweep)
+        return compute(sweep)
 
-    monkeypatch.setattr(studies, "evaluate_box", counted)
+    monkeypatch.setattr(studies, "evaluate_sweep", counted)
     assert run_here("sweep", "good.toml", *VARY, "-o", "x.csv", "--plot", "x.svg")[0] == 0
     assert len(boxes) == 1
 

@@ -180,10 +180,7 @@ def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(on_mounts: bool, mon
     whole = run_here(*args, some)
     monkeypatch.setattr(progress.Progress, "__call__", stop)
     status, out, err = run_here(*args, all_of_them)
-    if on_mounts:  # numbers of another count are drawn in another order
-        assert '"samples": 7' in out
-    else:
-        assert out == whole.out
+    assert out == whole.out
     assert status == 130
     assert err == (f"balcli: stopped after {some} of {all_of_them} samples; the figures are of these\n")
 

@@ -15,7 +15,6 @@ from support.engines import GOOD, changed
 from balcli.commands.progress import Progress
 from balcli.commands.sweep_folder import MANIFEST, write_blocks
 from balcli.studies.sweep import read_sweep
-from balcli.studies.threads import share_work
 
 pytestmark = pytest.mark.slow
 
@@ -37,8 +36,6 @@ def here(tmp_path, monkeypatch):
     """A folder with an engine file, and blocks of 30 variants in boxes of 10."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 10)
-    monkeypatch.setattr("balcli.studies.sweep.PRODUCTS", 1)
-    monkeypatch.setattr("balcli.studies.boxes.JOINED", 10)
     monkeypatch.setattr("balcli.commands.sweep_folder.ROWS_A_BLOCK", 30)
     Path("good.toml").write_text(GOOD)
 
@@ -52,8 +49,7 @@ def plan():
 
 
 @pytest.mark.parametrize("jobs", [(), ("-j", "1"), ("-j", "3")])
-def test_a_folder_holds_what_one_file_does(jobs, monkeypatch):
-    monkeypatch.setattr("balcli.studies.threads.share_work.__defaults__", (0.0,))
+def test_a_folder_holds_what_one_file_does(jobs):
     assert run_here("sweep", "good.toml", *ASKED, *jobs, "-o", "out/") == (0, "", "")
     assert run_here("sweep", "good.toml", *ASKED, "-o", "one.parquet")[0] == 0
     assert len(os.listdir("out")) > 5
@@ -85,7 +81,7 @@ def test_the_same_sweep_goes_on_where_it_was_stopped():
     sweep, progress = plan()
 
     def stop_after_two(work, blocks):
-        for count, done in enumerate(share_work(work, blocks, 1), 1):
+        for count, done in enumerate(map(work, blocks), 1):
             yield done
             if count == 2:
                 raise KeyboardInterrupt

@@ -33,7 +33,7 @@ SHOWN = {  # by renderer
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "speeds": ("analyze", V6, V8, "--speed", "60:124:8", "--only", "force,peak,inner"),
     "table_list": ("tables",),
-    "tolerances": ("scatter", V8, "--samples", "100", "--seed", "1"),
+    "scatter": ("scatter", V8, "--samples", "100", "--seed", "1"),
     "torque": ("torque", ENGINES / "v8_wiebe.toml"),
     "torsion": ("torsion", ENGINES / "i6_diesel.toml"),
     "two_engines": ("sum", V6, SINGLE),
@@ -116,7 +116,7 @@ def test_the_table_of_a_search_fits_a_terminal_and_one_quantity_is_its_own_objec
     throws = ("search", ENGINES / "i5.toml", "--over", "throws", "--minimise")
     one = balcli(*throws, "moment.1.major").out.splitlines()
     assert one[3].split() == ["throws", "moment.1.major,", "N·m"]
-    assert re.fullmatch(r"0-144-216-288-72 +973[.]12 [(]1[.]333 F1·a[)]", one[5])
+    assert re.fullmatch(r"0-144-216-288-72 +973[.]12", one[5])
     two = balcli(*throws, "moment.1.major,moment.2.major").out.splitlines()
     assert two[3].split()[:2] == ["throws", "objective"]
     assert max(map(len, two[:-2])) <= 80

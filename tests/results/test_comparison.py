@@ -15,7 +15,7 @@ from balcli.results.comparison import compare_engines
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
     slow, fast = build_text(GOOD), build_text(changed(("speed = 3000", "speed = 6000")))
-    lines = {(line.kind.name, line.order): line for line in compare_engines([slow, fast], ["slow", "fast"]).lines}
+    lines = {(line.kind.name, line.order): line for line in compare_engines([slow, fast], ["slow", "fast"]).figures}
     assert lines["force", 2].ratios == pytest.approx((1, 4))
     assert lines["force", None].ratios == pytest.approx((1, 4))
     assert lines["force", 1].values == (0, 0)
@@ -44,7 +44,7 @@ def test_orders_of_every_engine_are_shown() -> None:
     six = build_text(changed(("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", "")))
     lines = {
         (line.kind.name, line.order): line
-        for line in compare_engines([build_text(GOOD), six], ["4", "6"], only=["force"]).lines
+        for line in compare_engines([build_text(GOOD), six], ["4", "6"], only=["force"]).figures
     }
     assert {order for _, order in lines} >= {1, 2, 4, 6}
     assert lines["force", 6].values[1] > 0
@@ -55,12 +55,12 @@ def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
     """Unless all engines have gas, what is compared is that of inertia."""
     bare, fired = build_text(GOOD), build_text(GOOD + WIEBE)
     several = compare_engines([fired, bare], ["fired", "bare"], [0.5, 1, 2], ["guide"])
-    lines = {(line.kind.name, line.order): line for line in several.lines}
+    lines = {(line.kind.name, line.order): line for line in several.figures}
     assert lines["guide_h", 2].ratios == (1, 1)
     assert lines["guide_x", 0.5].values == (0, 0)
     assert lines["guide_h", 2].kind.label == "H-type guide moment of inertia alone"
     both = compare_engines([fired, fired], ["fired", "again"], [0.5, 1, 2], ["guide"])
-    lines = {(line.kind.name, line.order): line for line in both.lines}
+    lines = {(line.kind.name, line.order): line for line in both.figures}
     assert lines["guide_x", 0.5].values[0] > 0
     assert lines["guide_h", 2].kind.label == "H-type guide moment"
 
@@ -75,7 +75,7 @@ def test_inner_guide_and_sizing_stand_side_by_side() -> None:
 
     engines = [build_text(GOOD), build_text(changed(("stroke = 90", "stroke = 80")))]
     found = compare_engines(engines, ["a", "b"], None, ["inner", "guide", "sizing"])
-    lines = {(line.kind.name, line.order): line.values for line in found.lines}
+    lines = {(line.kind.name, line.order): line.values for line in found.figures}
     alone = [analyze(engine, [2], ["inner", "guide", "sizing"]) for engine in engines]
     bending = tuple(float(one.inner.bending.phasors.major[0].max()) for one in alone)
     assert lines["bending", 2] == pytest.approx(bending, rel=1e-12)
@@ -89,7 +89,7 @@ def test_orders_that_are_asked_for_are_there_balanced_or_not() -> None:
     """In-line fours have no odd order of any force, moment or torque of inertia."""
     four = build_text(GOOD)
     kinds = ["force", "moment", "couple", "torque", "roll"]
-    asked = compare_engines([four, four], ["one", "other"], orders=[7], only=kinds).lines
+    asked = compare_engines([four, four], ["one", "other"], orders=[7], only=kinds).figures
     assert [(line.kind.name, line.order, line.values) for line in asked] == [(kind, 7, (0, 0)) for kind in kinds]
-    unasked = compare_engines([four, four], ["one", "other"], only=kinds, whole=True).lines
+    unasked = compare_engines([four, four], ["one", "other"], only=kinds, whole=True).figures
     assert 7 not in {line.order for line in unasked}

@@ -14,10 +14,8 @@ from support.searches import search_least
 
 from balcli.engine.load import load, read
 from balcli.forces.crankshaft import compute_inner_loads
-from balcli.studies.deviations import Tolerances
-from balcli.studies.quantities import parse_quantities
+from balcli.studies.scatter import Drawing, Tolerances, scatter_engine
 from balcli.studies.search.objective import Objective
-from balcli.studies.tolerances import Drawing, scatter_engine
 
 pytestmark = pytest.mark.stress
 
@@ -27,13 +25,12 @@ ENGINES = ROOT / "engines"
 @pytest.mark.parametrize("name", ["car/tsinghua_6120q", "car/tsinghua_eq6100", "v10_split", "vr6"])
 def test_equal_shares_of_a_scatter(name: str) -> None:
     """Parts of one kind stand by their numbers."""
-    quantities = parse_quantities("force.1.major,force.2.major,moment.1.major,moment.2.major")
-    for spread in scatter_engine(
-        read(ENGINES / f"{name}.toml"), Tolerances(mass=0.01), quantities, Drawing(10, 1)
-    ).spreads:
-        for _, equal in groupby(spread.shares, key=lambda pair: (f"{abs(pair[1]):.6g}", pair[0].what)):
-            numbers = [source.number for source, _ in equal]
-            assert numbers == sorted(numbers), spread.quantity.name
+    model = read(ENGINES / f"{name}.toml")
+    for spread in scatter_engine(model, None, Tolerances(mass=0.01), Drawing(10, 1)).quantities.values():
+        named = [(*source.rsplit(" ", 1), f"{abs(share):.6g}") for source, share in spread.sensitivity.items()]
+        for _, equal in groupby(named, key=lambda one: (one[2], one[0])):
+            numbers = [int(number) for _, number, _ in equal]
+            assert numbers == sorted(numbers)
 
 
 def test_equal_inner_moments() -> None:

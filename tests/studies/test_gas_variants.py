@@ -14,12 +14,7 @@ from support.engines import build_text
 from support.gas_engines import PETROL_FOUR
 from support.paths import write
 
-from balcli.engine.build import build
-from balcli.engine.load import parse
-from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.spectrum import compute_spectra
-from balcli.studies.deviations import DeviatingEngine, Tolerances
-from balcli.studies.quantities import parse_quantities
 
 pytestmark = pytest.mark.slow
 
@@ -179,44 +174,3 @@ def test_what_no_gas_is_asked_of_does_not_build_it(monkeypatch):
     done = run_here("sweep", "-", "--vary", "rod.length=140,150", "-q", "force.2.major", stdin=FOUR)
     assert done.status == 0
     assert counted == []
-
-
-@pytest.mark.parametrize("text", [FOUR, FOUR.replace("[1, 3, 4, 2]", "[1, 2, 4, 3]")])
-def test_deviating_engines_have_the_gas_of_their_own_rods_and_throws(text):
-    model = parse(text)
-    engines = DeviatingEngine(model, Tolerances(mass=0.01, length=0.004, angle_deg=0.4))
-    random = np.random.default_rng(3)
-    tolerances = np.array([source.tolerance for source in engines.sources])
-    deviations = tolerances[:, None] * (2 * random.random((len(tolerances), 4)) - 1)
-    wanted = parse_quantities(NAMES, with_gas=True)
-    found = np.array(evaluate_quantities(engines.deviate(deviations), wanted))
-    lengths = {1: 150, 2: 151, 3: 150, 4: 150}
-    for sample in range(4):
-        own = dict(zip(engines.sources, deviations[:, sample], strict=True))
-        varied = {}
-        for source, value in own.items():
-            if source.what == "rod length":
-                varied[f"cylinder.{source.number}.rod_length"] = lengths[source.number] * (1 + value)
-            if source.what == "throw angle":
-                angle = (0, 180, 180, 0)[source.number - 1]
-                varied[f"crank.throws.{source.number}"] = angle + value
-            if source.what == "piston mass":
-                varied[f"cylinder.{source.number}.piston_mass"] = 0.5 * (1 + value)
-            if source.what == "rod mass":
-                varied[f"cylinder.{source.number}.rod_mass"] = 0.6 * (1 + value)
-        alone = [float(value) for value in evaluate_quantities(build(model, varied), wanted)]
-        largest = max(map(abs, alone))
-        sizes = [0, 3, 4]  # phases count from cylinder 1's own throw in one of both
-        assert found[sizes, sample] == pytest.approx([alone[k] for k in sizes], rel=1e-9, abs=1e-9 * largest)
-
-
-def test_scatter_counts_the_gas():
-    asked = ("-q", "torque.2.amplitude,gas.2.amplitude", "--samples", "2000", "--seed", "1")
-    said = json.loads(run_here("scatter", "-", *asked, "-f", "json", stdin=FOUR).out)["quantities"]
-    assert said["torque.2.amplitude"]["nominal"] == pytest.approx(analyse(FOUR)[0], rel=1e-12)
-    gas = said["gas.2.amplitude"]
-    assert gas["mean"] == pytest.approx(gas["nominal"], rel=1e-12), "masses leave it alone"
-    assert gas["max"] == pytest.approx(gas["nominal"], rel=1e-12)
-    assert said["torque.2.amplitude"]["p95"] > said["torque.2.amplitude"]["p05"]
-    told = refusal("scatter", "-", "-q", "gas.2.amplitude", stdin=FOUR.partition("[gas]")[0])
-    assert told == "gas.2.amplitude: the engine file has no [gas]"

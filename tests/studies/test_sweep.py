@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from itertools import product
 from threading import Thread
 
@@ -10,32 +11,29 @@ import numpy as np
 import pytest
 from support.engines import GOOD, VEE, changed
 
-from balcli.core.phasors import EPS
 from balcli.engine.build import build
 from balcli.engine.load import parse as load
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.render.sweep import sweep_csv, sweep_json
-from balcli.studies.boxes import Box, BoxSize, divide_grid
-from balcli.studies.parameters import Parameter, parse_parameter
+from balcli.studies.parameters import parse_parameter
 from balcli.studies.quantities import parse_quantities
 from balcli.studies.sweep import (
     Array,
-    Chunk,
     Sweep,
     check_corners,
-    divide_sweep,
-    evaluate_box,
+    count_at_once,
+    divide_grid,
     evaluate_chunks,
+    evaluate_sweep,
     join_chunks,
-    size_boxes,
+    share_among_threads,
     split_columns,
 )
 
 pytestmark = pytest.mark.slow
 
 SAME = 1e-12  # of the largest value of a column
-LARGE = BoxSize(1 << 20, 1 << 20)  # more than any sweep here has
 EVERYTHING = parse_quantities(
     "force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
     "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force"
@@ -98,7 +96,7 @@ def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
     U omega^2.
     """
     sweep = asked(GOOD + "[[counterweight]]\nmass = 0.3\nradius = 40\n", vary, of="force.1.forward")
-    (found,) = evaluate_quantities(sweep.engine((slice(None),)), sweep.quantities)
+    (found,) = evaluate_quantities(sweep.engine(), sweep.quantities)
     assert found == pytest.approx([0, 0.3 * 0.040 * (3000 * math.pi / 30) ** 2], rel=1e-14)
 
 
@@ -110,7 +108,7 @@ def test_a_rod_weighed_at_one_end_only_is_refused() -> None:
 
 def test_what_does_not_vary_is_not_computed_again() -> None:
     sweep = asked(VEE, "layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3,0.31")
-    engine = sweep.engine((slice(None), slice(None)))
+    engine = sweep.engine()
     assert engine.cylinders.axis_deg.shape == (2, 5, 1)
     assert engine.cylinders.lam.shape == (1, 1, 3)
     assert engine.cylinders.z.shape == (8, 1, 1)
@@ -137,7 +135,7 @@ def test_boxes_cover_the_grid_in_the_order_of_rows(shape: tuple[int, ...], most:
 )
 def test_boxes_are_the_smaller_the_more_each_variant_needs(engine: str, vary: str, of: str, most: int) -> None:
     """Orders, and samples near the lock: a box takes a fraction of a second, and little memory."""
-    assert size_boxes(asked(engine, vary, of=of)).variants <= most
+    assert count_at_once(asked(engine, vary, of=of)) <= most
 
 
 def test_a_part_of_a_grid_is_a_sweep_of_its_own() -> None:
@@ -145,8 +143,8 @@ def test_a_part_of_a_grid_is_a_sweep_of_its_own() -> None:
     box = (slice(1, 3), slice(2, 3))
     part = sweep.cut(box)
     assert part.shape == (2, 1)
-    alone, inside = evaluate_box(part, part.whole, LARGE), evaluate_box(sweep, box, LARGE)
-    assert np.array_equal(alone, inside)
+    (whole,) = join_chunks(sweep, evaluate_chunks(sweep))
+    assert np.array_equal(evaluate_sweep(part)[0], whole[box].ravel())
 
 
 def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -159,28 +157,6 @@ def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     assert every.shape == (4, 36_000)
     assert np.array_equal(every[2:], whole.values)
     assert every[:2, [0, 1, 200, -1]].T.tolist() == [[0, 0.2], [0, 0.201], [1, 0.2], [179, 0.399]]
-
-
-@pytest.mark.parametrize("shape", [(3, 5000), (5000, 3), (2, 7, 900)])
-@pytest.mark.parametrize("most", [100, 1000])
-def test_boxes_that_would_be_narrow_are_computed_in_tiles(shape: tuple[int, ...], most: int) -> None:
-    """The same figures in the same order, to rounding: powers of a few numbers at a time may be
-    rounded otherwise.
-    """
-    paths = ("layout.bank_angle", "layout.stagger", "rod.ratio")
-    bounds = ((0, 170), (10, 30), (0.2, 0.3))
-    picked = [*zip(paths, bounds, strict=True)][-len(shape) :]
-    axes = zip(picked, shape, strict=True)
-    parameters = tuple(Parameter(path, np.linspace(*ends, n)) for (path, ends), n in axes)
-    sweep = Sweep(load(VEE), parameters, parse_quantities("force.2.major,moment.1.x"))
-    size = BoxSize(most, most)
-    boxes = list(divide_sweep(sweep, size))
-    assert shape[-1] < 100 or len(boxes) < math.prod(shape) / most
-    tiled = join_chunks(sweep, (Chunk(box, evaluate_box(sweep, box, size)) for box in boxes))
-    whole = (slice(0, n) for n in shape)
-    at_once = evaluate_box(sweep, tuple(whole), LARGE)
-    for one, other in zip(tiled, at_once, strict=True):
-        assert np.abs(one.ravel() - other).max() <= 4 * EPS * np.abs(other).max()
 
 
 def test_csv_is_exact_and_an_axis_that_is_none_an_empty_cell() -> None:
@@ -214,7 +190,7 @@ def test_a_system_that_gives_no_thread_is_told(monkeypatch: pytest.MonkeyPatch) 
     sweep = asked(VEE, *GRID, of="force.2.major")
     monkeypatch.setattr(Thread, "start", refuse)
     with pytest.raises(BalcliError, match="--jobs 5: can't start new thread; give fewer, as --jobs 1"):
-        list(evaluate_chunks(sweep, 5, alone_s=0.0))
+        list(evaluate_chunks(sweep, partial(share_among_threads, threads=5)))
 
 
 GRID = ("layout.bank_angle=0:100:1", "rod.ratio=0.2:0.3:0.0002")
@@ -225,7 +201,7 @@ def test_threads_give_identical_rows(monkeypatch: pytest.MonkeyPatch, threads: i
     """From the first box on, many more boxes than threads or fewer."""
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 300)
     sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
-    there = "".join(sweep_csv(sweep, evaluate_chunks(sweep, threads, alone_s=0.0)))
+    there = "".join(sweep_csv(sweep, evaluate_chunks(sweep, partial(share_among_threads, threads=threads))))
     assert there == "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
 
 
@@ -233,16 +209,16 @@ def test_threads_end_with_who_asks_for_their_figures(monkeypatch: pytest.MonkeyP
     """After three of 51 boxes no more than what was under way is computed."""
     boxes: list[object] = []
 
-    def counted(sweep: Sweep, box: Box, size: BoxSize) -> list[Array]:
-        boxes.append(box)
-        return evaluate_box(sweep, box, size)
+    def counted(sweep: Sweep) -> list[Array]:
+        boxes.append(sweep)
+        return evaluate_sweep(sweep)
 
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 125)
-    monkeypatch.setattr("balcli.studies.sweep.evaluate_box", counted)
+    monkeypatch.setattr("balcli.studies.sweep.evaluate_sweep", counted)
     sweep = asked(VEE, *GRID, of="force.2.major")
-    chunks = evaluate_chunks(sweep, 2, alone_s=0.0)
+    chunks = evaluate_chunks(sweep, partial(share_among_threads, threads=2))
     assert len([next(chunks) for _ in range(3)]) == 3
-    chunks.close()  # type: ignore[attr-defined]
+    del chunks
     assert len(boxes) <= 1 + 2 * 2 + 2
 
 
@@ -253,7 +229,7 @@ def test_a_mistake_in_a_later_box_is_told_by_threads_too(monkeypatch: pytest.Mon
     ripple += "[[operation.speed_ripple]]\norder = 2\namplitude = 0.5\n"
     sweep = asked(VEE + ripple, "operation.speed_ripple.2.angle=0:360:0.01", of="force.1.major")
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 1_000)
-    chunks = evaluate_chunks(sweep, 2, alone_s=0.0)
+    chunks = evaluate_chunks(sweep, partial(share_among_threads, threads=2))
     assert len(next(chunks).values[0]) <= 1_000
     with pytest.raises(InputError, match="the crank would"):
         list(chunks)
@@ -268,5 +244,5 @@ def test_cluster_gives_identical_rows() -> None:
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as local,
         distributed.Client(local) as client,
     ):
-        there = "".join(sweep_csv(sweep, cluster.evaluate_on_cluster(sweep, client)))
+        there = "".join(sweep_csv(sweep, evaluate_chunks(sweep, partial(cluster.run_on_cluster, client))))
     assert there == "".join(sweep_csv(sweep, evaluate_chunks(sweep)))

@@ -100,11 +100,11 @@ def test_what_does_not_scatter(tmp_path):
     path = write(tmp_path / "two.toml", TWO)
     told = refusal("scatter", path, "-q", "torsion.1.Hz,force.2.major")
     assert told == (
-        "force.2.major and torsion.1.Hz have tolerances of their own; ask for quantities of the "
+        "torsion.1.Hz and force.2.major have tolerances of their own; ask for quantities of the "
         "engine, of its mounts and of torsion one after the other"
     )
     told = refusal("scatter", path, "-q", "torsion.1.Hz", "--samples", "30000")
-    assert told == ("30000 samples: of torsion, where each is computed by itself, from 1 to 20000 are allowed")
+    assert told == ("30000 samples: torsion.1.Hz is computed one by one, from 1 to 20000 are allowed")
     none = ("--mass-scatter", "0%", "--stiffness-scatter", "0%")
     told = refusal("scatter", path, "-q", "torsion.1.Hz", *none)
     assert told == "nothing deviates; give a tolerance, such as --stiffness-scatter 15%"

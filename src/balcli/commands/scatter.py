@@ -2,29 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from enum import StrEnum
-from functools import partial
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from ..enginefile.toml_text import name_file
-from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
-from ..render import tolerances as renderer
+from ..render import scatter as renderer
 from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import refuse_overwriting, show
 from .progress import exit_if_cut_short, reporting_until_stopped
-
-if TYPE_CHECKING:
-    from ..engine.build import Engine
-    from ..enginefile.model import EngineFile
-    from ..forces.quantity import Quantity
-    from ..studies.deviations import Tolerances
-    from ..studies.quantities import Scattered
-    from ..studies.tolerances import Drawing, Scatter
 
 
 class Distribution(StrEnum):
@@ -116,55 +105,16 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..studies.quantities import parse_quantities, sort_scattered
-    from ..studies.stated_tolerances import parse_percentage, parse_tolerances
-    from ..studies.tolerances import Drawing
-    from .inputs import read_engine
+    from ..studies.scatter import Drawing, Variants, read_tolerances
+    from .inputs import read_engine, warn_of_unknown_moments
 
-    within = parse_tolerances(mass, length, angle)
-    share = None if stiffness is None else parse_percentage(stiffness, "--stiffness-scatter")
+    within = read_tolerances(mass, length, angle, stiffness)
     _, model, engine = read_engine(path, asked=())
-    names = DEFAULT_QUANTITIES if quantity is None else quantity
-    asked = sort_scattered(parse_quantities(names, with_gas=model.gas is not None))
-    if share is not None and not asked.of_parts:
-        raise BalcliError(
-            "--stiffness-scatter: is of mounts and shafts, and none of these quantities asks"
-        )
-    if quantity is None:
-        known = _leave_out_unknown(engine, asked.by_order, name_file(path))
-        asked = asked._replace(by_order=known)
-    draw, usual = _choose_way(model, within, share, asked)
-    count = usual if samples is None else samples
+    if quantity is None and not engine.places_known:
+        warn_of_unknown_moments(name_file(path))
+    variants = Variants(model, quantity, within)
+    count = variants.usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
-        found = draw(Drawing(count, seed, distribution.value, progress))
+        found = variants.draw(Drawing(count, seed, distribution.value, progress))
     show([found], renderer, form, output)
     exit_if_cut_short(progress, "the figures are of these")
-
-
-def _choose_way(
-    model: EngineFile, within: Tolerances, stiffness: float | None, asked: Scattered
-) -> tuple[Callable[[Drawing], Scatter], int]:
-    """What draws the samples, and their usual number."""
-    from ..studies import cycle_scatter, part_scatter, tolerances
-    from ..studies.spread_one_by_one import RANDOM_SINGLES
-
-    if asked.of_cycle:
-        return partial(cycle_scatter.scatter_cycles, model, within, asked.of_cycle), RANDOM_SINGLES
-    if asked.of_parts:
-        draw = partial(part_scatter.scatter_parts, model, stiffness, within.mass, asked.of_parts)
-        return draw, RANDOM_SINGLES
-    draw = partial(tolerances.scatter_engine, model, within, asked.by_order)
-    return draw, tolerances.RANDOM_ENGINES
-
-
-def _leave_out_unknown(
-    engine: Engine, quantities: tuple[Quantity, ...], name: str
-) -> tuple[Quantity, ...]:
-    """The quantities without moments, with a warning, where those are not known."""
-    if engine.places_known:
-        return quantities
-    from ..forces.quantity import leave_out_unknown
-    from .inputs import warn_of_unknown_moments
-
-    warn_of_unknown_moments(name)
-    return leave_out_unknown(engine, quantities)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -20,7 +19,6 @@ from .progress import exit_if_cut_short, reporting, reporting_until_stopped
 
 if TYPE_CHECKING:
     from ..enginefile.model import EngineFile
-    from ..studies.search.objective import Objective
 
 
 def search(
@@ -88,16 +86,20 @@ def search(
     require_ending(write, ".toml", "--write")
     from ..engine.load import parse
     from ..studies.search.designs import write_design
+    from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements
 
-    _check_options(minimise, maximise, require)
+    if require not in ("", "even-firing"):
+        message = f'"{require}": only even-firing can be required'
+        raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse(text, name)
     with naming_file(name):
         _doubt(model, over, name)
     if write is not None:
         refuse_leaving_files(text, path, write)
-    goal = _read_goal(model, minimise, maximise, limit or ())
+    with_gas = model.gas is not None
+    goal = parse_objective(minimise, limit or (), maximise=maximise, with_gas=with_gas)
     watching = reporting if any("=" in one for one in over) else reporting_until_stopped
     with watching("arrangements") as progress, naming_file(name):
         found = search_arrangements(model, over, goal, top, bool(require), progress)
@@ -107,31 +109,10 @@ def search(
     exit_if_cut_short(progress, "these are the best of them")
 
 
-def _check_options(minimise: str | None, maximise: str | None, require: str) -> None:
-    if (minimise is None) == (maximise is None):
-        raise typer.BadParameter("give exactly one of --minimise and --maximise")
-    if require not in ("", "even-firing"):
-        message = f'"{require}": only even-firing can be required'
-        raise typer.BadParameter(message, param_hint="--require")
-
-
-def _read_goal(
-    model: EngineFile, minimise: str | None, maximise: str | None, limits: Sequence[str]
-) -> Objective:
-    from ..studies.search.objective import parse_objective
-
-    goal = minimise or maximise or ""
-    with_gas = model.gas is not None
-    return parse_objective(goal, limits, maximise=maximise is not None, with_gas=with_gas)
-
-
 def _doubt(model: EngineFile, over: list[str], name: str) -> None:
     """Warn of what is unlikely in the file, except of what is arranged or varies."""
     from ..engine.build import build
-    from ..studies.search.search import read_ranges
-    from ..studies.unlikely import doubt_unvaried
     from .inputs import warn_each
 
-    ranges = [one.number for one in read_ranges(model, over) if "." in one.key]
-    doubts = doubt_unvaried(model, ranges, lambda variant: build(variant).unlikely)
-    warn_each((doubt for doubt in doubts if not any(one in doubt for one in over)), name)
+    varied = [text.partition("=")[0] for text in over]
+    warn_each((d for d in build(model).unlikely if not any(one in d for one in varied)), name)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -16,7 +16,6 @@ from ..limits import MOST_THREADS
 from ..process import count_cores
 from ..render.sweep_plot import check_drawable, make_sweep
 from ..studies.quantity_names import describe_names
-from ..studies.threads import share_work
 from .declare import optional
 from .file_names import (
     VARIANTS,
@@ -32,8 +31,7 @@ from .output import is_seen, refuse_overwriting, write_figure
 from .progress import reporting
 
 if TYPE_CHECKING:
-    from ..studies.sweep import Chunk, Sweep
-    from .sweep_folder import Share
+    from ..studies.sweep import Chunk, Share, Sweep
 
 
 def sweep(
@@ -119,38 +117,50 @@ def sweep(
     if force and not (output and output.is_folder):
         warn("--force is for a folder of parts (-o variants/); a file is replaced without it")
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from ..studies.sweep import join_chunks, read_sweep
-    from . import sweep_output as out
+    from ..studies.sweep import evaluate_chunks, join_chunks, read_sweep
     from .sweep_folder import write_blocks
+    from .sweep_output import write_sweep
 
     job = read_sweep(path, vary, quantity)
     _doubt(job, quantity)
     if drawn is not None:
         check_drawable(job)
-    kept: list[Chunk] | None = [] if drawn else None
     shown = not is_seen(file) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
+    kept: list[Chunk] = []
+
+    def report(chunks: Iterable[Chunk]) -> Iterator[Chunk]:
+        done = 0
+        for chunk in chunks:
+            if drawn is not None:
+                kept.append(chunk)
+            yield chunk
+            done += len(chunk.values[0])
+            watch(done)
+
     with reporting("variants", job.variants, progress, shown) as watch:
         if output is not None and output.is_folder:
             write_blocks(job, output.path, _sharing(jobs, dask), watch, force=force)
         else:
-            with _computing(job, jobs, dask) as chunks:
-                counted = out.count_variants(chunks, watch, kept)
-                out.write_sweep(job, counted, kind, file)
+            with _sharing(jobs, dask) as share:
+                write_sweep(job, report(evaluate_chunks(job, share)), kind, file)
     if plot is not None and drawn is not None:
-        write_figure(make_sweep(job, join_chunks(job, kept or ())), drawn, plot)
+        write_figure(make_sweep(job, join_chunks(job, kept)), drawn, plot)
 
 
 def _doubt(job: Sweep, quantity: str | None) -> None:
     """Say that moments are not known, where the usual quantities would have some, and what is
     unlikely of the file, unless it varies.
     """
-    from ..studies.unlikely import doubt_unvaried
+    from ..engine.numbering import doubt_firing
+    from ..enginefile.suspicious import find_suspicious
     from .inputs import warn_each, warn_of_unknown_moments
 
     if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
         warn_of_unknown_moments(job.name)
     with naming_file(job.name):
-        warn_each(doubt_unvaried(job.file, job.parameters), job.name)
+        doubts = [*find_suspicious(job.file), *doubt_firing(job.file)]
+    varied = [p.path.rstrip(".0123456789") for p in job.parameters]
+    warn_each((d for d in doubts if not any(one in d for one in varied)), job.name)
 
 
 def _choose_target(
@@ -178,35 +188,13 @@ def _choose_target(
     return file, VariantsFormat.PARQUET
 
 
-@contextmanager
-def _computing(job: Sweep, jobs: int | None, dask: str) -> Iterator[Iterator[Chunk]]:
-    """The chunks of a sweep, computed by threads, or on a cluster, if an address of one is given.
+def _sharing(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
+    """Return what shares work among threads, or on a cluster, if an address of one is given."""
+    if dask:
+        from ..studies.dask_cluster import connect_cluster
 
-    Raises:
-        BalcliError: no cluster answers there.
-    """
-    if not dask:
-        from ..studies.sweep import evaluate_chunks
+        return connect_cluster(dask)
+    from ..studies.sweep import share_among_threads
 
-        yield evaluate_chunks(job, _count_threads(jobs))
-        return
-    from ..studies.dask_cluster import connect_cluster, evaluate_on_cluster
-
-    with connect_cluster(dask) as client:
-        yield evaluate_on_cluster(job, client)
-
-
-@contextmanager
-def _sharing(jobs: int | None, dask: str) -> Iterator[Share]:
-    """What shares work among threads, or on a cluster; errors as of `_computing`."""
-    if not dask:
-        yield partial(share_work, threads=_count_threads(jobs))
-        return
-    from ..studies.dask_cluster import connect_cluster, run_on_cluster
-
-    with connect_cluster(dask) as client:
-        yield partial(run_on_cluster, client)
-
-
-def _count_threads(jobs: int | None) -> int:
-    return jobs or min(count_cores(), MOST_THREADS)
+    threads = jobs or min(count_cores(), MOST_THREADS)
+    return nullcontext(partial(share_among_threads, threads=threads))

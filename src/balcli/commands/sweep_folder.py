@@ -11,25 +11,22 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, suppress
 from functools import partial
 from pathlib import Path
-from typing import TypeAlias
 
 from ..errors import BalcliError, tell_unwritable
 from ..files import replacing
 from ..render.sweep_parquet import write_sweep_parquet
-from ..studies.sweep import Block, Sweep, divide_into_blocks, evaluate_chunks, split_columns
+from ..studies.sweep import Block, Share, Sweep, divide_into_blocks, evaluate_chunks, split_columns
 from ..version import __version__
 from .progress import Progress
 
 ROWS_A_BLOCK = 1 << 20
 MANIFEST = "_balcli_sweep.json"  # readers of Parquet pass over names that begin with _
 _BLOCK = re.compile(r"part-\d{6,}\.parquet")
-_UNFINISHED = re.compile(rf"\.{_BLOCK.pattern}\.[0-9a-f]+")  # as `files.name_hidden` names it
-
-Share: TypeAlias = Callable[[Callable[[Block], int], Iterable[Block]], Iterator[int]]
+# An unfinished block is called as `files.name_hidden` has it.
+_OURS = re.compile(rf"{_BLOCK.pattern}|\.{_BLOCK.pattern}\.[0-9a-f]+|{re.escape(MANIFEST)}")
 
 
 def write_blocks(
@@ -52,7 +49,7 @@ def write_blocks(
             pyarrow is missing.
     """
     try:
-        made = _claim(folder, _name_sweep(sweep), force)
+        _claim(folder, _name_sweep(sweep), force)
     except OSError as error:
         raise tell_unwritable(folder, error) from None
     done = 0
@@ -63,7 +60,7 @@ def write_blocks(
                 done += variants
                 progress(done)
     except BalcliError:
-        if made and not done:
+        if not done:
             _give_up(folder)
         raise
 
@@ -101,8 +98,8 @@ def _name_sweep(sweep: Sweep) -> str:
     return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
 
 
-def _claim(folder: Path, manifest: str, force: bool) -> bool:
-    """Make the folder and its manifest; returns whether the manifest is new.
+def _claim(folder: Path, manifest: str, force: bool) -> None:
+    """Make the folder and its manifest, unless they are there.
 
     Raises:
         BalcliError: there is a file of this name, or the folder holds something else or another
@@ -111,11 +108,11 @@ def _claim(folder: Path, manifest: str, force: bool) -> bool:
     if folder.exists() and not folder.is_dir():
         raise BalcliError(f"{folder}/: is a file; choose another name for the folder")
     folder.mkdir(exist_ok=True)
-    if _is_same(folder, manifest):
-        return False
+    with suppress(FileNotFoundError):
+        if (folder / MANIFEST).read_bytes() == manifest.encode():
+            return
     names = sorted(path.name for path in folder.iterdir())
-    known = [re.compile(re.escape(MANIFEST)), _BLOCK, _UNFINISHED]
-    strange = [name for name in names if not any(one.fullmatch(name) for one in known)]
+    strange = [name for name in names if not _OURS.fullmatch(name)]
     if strange or (names and MANIFEST not in names):
         raise BalcliError(
             f"{folder}/: holds {(strange or names)[0]}, which is no part of a sweep; choose a "
@@ -125,20 +122,10 @@ def _claim(folder: Path, manifest: str, force: bool) -> bool:
         raise BalcliError(
             f"{folder}/: holds another sweep; choose another folder, or --force to replace it"
         )
-    for name in names:  # blocks first: whoever is interrupted here finds the manifest
-        if name != MANIFEST:
-            (folder / name).unlink()
-    if names:
-        (folder / MANIFEST).unlink()
+    for name in sorted(names, key=MANIFEST.__eq__):  # the manifest last: a run may be interrupted
+        (folder / name).unlink()
     try:
         with (folder / MANIFEST).open("x", encoding="utf-8") as stream:
             stream.write(manifest)
     except FileExistsError:  # another run was faster
         raise BalcliError(f"{folder}/: another sweep is just beginning there") from None
-    return True
-
-
-def _is_same(folder: Path, manifest: str) -> bool:
-    with suppress(FileNotFoundError):
-        return (folder / MANIFEST).read_bytes() == manifest.encode()
-    return False

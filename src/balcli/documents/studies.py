@@ -7,7 +7,7 @@ from typing import Literal, NotRequired
 from pydantic import ConfigDict, with_config
 from typing_extensions import TypedDict
 
-from .figures import Assumed, Document, NamedEngine, Order
+from .figures import Assumed, Document, NamedEngine
 
 Cell = float | int | str | None
 
@@ -37,81 +37,13 @@ class Arranged(TypedDict):
 
 class Search(Document):
     """Best arrangements, best first; over: throws, firing_order, bank_angle, splay, or the dotted
-    name of a number; locked: angles at which articulated rods cannot turn.
+    name of a number.
     """
 
     format: Literal["balcli.search/1"]
     engine: NamedEngine
     over: str
     results: list[Arranged]
-    locked: NotRequired[list[list[float]]]
-
-
-class Spread(TypedDict):
-    """One quantity over all samples, in its SI unit; sensitivity: by tolerance, largest first."""
-
-    nominal: float
-    mean: float
-    p05: float
-    p50: float
-    p95: float
-    max: float
-    bound: float
-    sensitivity: dict[str, float]
-
-
-class Scatter(Document):
-    """How quantities spread when masses and lengths vary within their tolerances."""
-
-    format: Literal["balcli.scatter/1"]
-    engine: NamedEngine
-    samples: int
-    distribution: Literal["uniform", "normal"]
-    quantities: dict[str, Spread]
-
-
-class NumberOfFile(TypedDict):
-    """A number of an engine file; null: it is not there; rigid: a stiffness without end."""
-
-    path: str
-    value: float | Literal["rigid"] | None
-    unit: str
-    meaning: str
-
-
-class NameOfQuantity(TypedDict):
-    """Quantities by a pattern: N for an order, PART for a word of the meaning."""
-
-    name: str
-    unit: str
-    meaning: str
-
-
-class Numbers(Document):
-    """What can be varied of an engine file, and what can be asked of it."""
-
-    format: Literal["balcli.numbers/1"]
-    engine: NamedEngine
-    numbers: list[NumberOfFile]
-    quantities: list[NameOfQuantity]
-
-
-class ComparedFigure(TypedDict):
-    """One figure of all engines, and its ratios to the first one's; order null: a peak."""
-
-    quantity: str
-    order: Order | None
-    values: list[float | None]
-    ratios: list[float | None]
-
-
-class Compare(Document):
-    """Engines side by side."""
-
-    format: Literal["balcli.compare/1"]
-    engines: list[str]
-    speeds_rpm: list[float]
-    figures: list[ComparedFigure]
 
 
 class Curves(Document):

@@ -161,23 +161,6 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
     return int(value)
 
 
-def parse_share(name: str, value: float | str) -> float:
-    """A share of 0 to 1: a number such as 0.005, or a text such as "0.5%".
-
-    Raises:
-        BalcliError: it is neither.
-    """
-    if isinstance(value, str):
-        from ..studies.stated_tolerances import parse_percentage  # `scatter` alone needs it
-
-        return parse_percentage(value, name)
-    if isinstance(value, bool) or not isinstance(value, _REAL) or not 0 <= value < 1:
-        raise BalcliError(
-            f'{name} {shorten(value)}: give a share from 0 to 1, such as 0.005 or "0.5%"'
-        )
-    return float(value)
-
-
 def read_position(name: str, value: object) -> tuple[float, float, float]:
     """A place that a function was given, m: x, y and z.
 

@@ -27,7 +27,7 @@ def compare(
             all but sizing, inner and guide.
 
     Returns:
-        One line a figure in `result.lines`, with the values of all engines in SI units and their
+        Every figure in `result.figures`, with the values of all engines in SI units and their
         ratios.
 
     Raises:

@@ -25,7 +25,7 @@ from ..render.units import SI
 from ..results.analysis import Analysis
 from ..results.balance import Balance
 from ..studies.pictures import Study, compute_study
-from ..studies.swept import Swept
+from ..studies.sweep import Swept
 from ..torque.answer import TorqueAnalysis
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source

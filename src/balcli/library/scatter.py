@@ -6,16 +6,8 @@ from typing import Literal
 
 from ..engine.build import Engine, check_engine, take_model
 from ..errors import BalcliError, check_type
-from ..forces.kinds import DEFAULT_QUANTITIES
-from ..forces.quantity import leave_out_unknown
-from ..studies.cycle_scatter import scatter_cycles
-from ..studies.deviations import Tolerances
-from ..studies.part_scatter import scatter_parts
-from ..studies.quantities import parse_quantities, sort_scattered
-from ..studies.spread_one_by_one import RANDOM_SINGLES
-from ..studies.stated_tolerances import DEGREES
-from ..studies.tolerances import RANDOM_ENGINES, Drawing, Scatter, scatter_engine
-from .arguments import Words, check_count, join_names, parse_share, tell_arguments
+from ..studies.scatter import Drawing, Scatter, read_tolerances, scatter_engine
+from .arguments import Words, check_count, join_names, tell_arguments
 
 
 @tell_arguments(
@@ -55,47 +47,22 @@ def scatter(
         distribution: within the tolerances, or with a third of them as standard deviation.
 
     Returns:
-        For each quantity in `result.spreads` its nominal value, mean, percentiles, largest, a
-        bound, and the share of each tolerance, SI.
+        For each quantity in `result.quantities` its nominal value, mean, percentiles, largest
+        value, a bound, and the change that each tolerance makes, SI.
 
     Raises:
         BalcliError: quantities without a spread, no tolerance, too many samples.
         TypeError: what is no engine, no names.
 
     Example:
-        >>> scatter(engine, "force.1.major", mass="1%", seed=1).spreads[0].percentiles["p95"]
+        >>> scatter(engine, "force.1.major", mass="1%", seed=1).quantities["force.1.major"].p95
     """
     model = take_model(check_engine("scatter", engine))
-    asked = join_names("scatter", quantities)
-    names = DEFAULT_QUANTITIES if asked is None else asked
-    wanted = parse_quantities(names, with_gas=model.gas is not None)
-    of_engine, of_cycle, of_parts = sort_scattered(wanted)
-    usual = RANDOM_ENGINES if of_engine else RANDOM_SINGLES
-    count = usual if samples is None else check_count("samples", samples)
+    names = join_names("scatter", quantities)
+    count = None if samples is None else check_count("samples", samples)
     seed = None if seed is None else check_count("seed", seed, 0)
     check_type("distribution", distribution, str, 'give "uniform" or "normal"')
     if distribution not in ("uniform", "normal"):
         raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')
-    drawing = Drawing(count, seed, distribution)
-    if of_parts:
-        share = None if stiffness is None else parse_share("stiffness", stiffness)
-        heavier = parse_share("mass", mass)
-        return scatter_parts(model, share, heavier, of_parts, drawing)
-    if stiffness is not None:
-        raise BalcliError("stiffness: is of mounts and shafts, and none of these quantities asks")
-    if asked is None:
-        of_engine = leave_out_unknown(engine, of_engine)
-    tolerances = Tolerances(
-        parse_share("mass", mass), parse_share("length", length), _read_angle(angle_deg)
-    )
-    if of_cycle:
-        return scatter_cycles(model, tolerances, of_cycle, drawing)
-    return scatter_engine(model, tolerances, of_engine, drawing)
-
-
-def _read_angle(value: float | str) -> float:
-    """A tolerance of angles, deg."""
-    try:
-        return DEGREES.read(value)
-    except ValueError as error:
-        raise BalcliError(f"angle_deg: {error}") from None
+    within = read_tolerances(mass, length, angle_deg, stiffness)
+    return scatter_engine(model, names, within, Drawing(count, seed, distribution))

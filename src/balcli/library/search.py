@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..engine.build import Engine, check_engine, take_model
-from ..errors import BalcliError, check_type, wrong_type
+from ..errors import check_type, wrong_type
 from ..limits import MOST_FOUND
 from ..studies.search.objective import parse_objective
 from ..studies.search.search import Search, search_arrangements
@@ -54,23 +54,23 @@ def search(
     if not isinstance(over, (str, list, tuple)):
         raise wrong_type("search", over, 'give what to arrange, such as "throws"')
     texts = (join_names("search", over) or "").split(",")
-    if (minimise is None) == (maximise is None):
-        raise BalcliError("search: give exactly one of minimise and maximise")
-    goal = minimise if maximise is None else maximise
-    if isinstance(goal, Mapping):
-        wanted = ",".join(f"{name}={weight!r}" for name, weight in _as_floats(goal).items())
-    else:
-        wanted = join_names("search", goal) or ""
     given = {} if limits is None else limits
     bounds = check_mapping("search", given, '{"moment.2.major": 100}')
     check_type("even_firing", even_firing, bool, "give True or False")
     kept = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
     objective = parse_objective(
-        wanted, kept, maximise=maximise is not None, with_gas=model.gas is not None
+        _join_goal(minimise), kept, maximise=_join_goal(maximise), with_gas=model.gas is not None
     )
     return search_arrangements(
         model, texts, objective, check_count("top", top, most=MOST_FOUND), even_firing
     )
+
+
+def _join_goal(goal: Words | Mapping[str, float] | None) -> str | None:
+    """Return quantities with their weights as the command line has them; None as it is."""
+    if isinstance(goal, Mapping):
+        return ",".join(f"{name}={weight!r}" for name, weight in _as_floats(goal).items())
+    return join_names("search", goal)
 
 
 def _as_floats(figures: Mapping[str, float]) -> dict[str, object]:

@@ -10,8 +10,7 @@ from ..errors import BalcliError
 from ..limits import MOST_THREADS
 from ..process import count_cores
 from ..studies.parameters import choose_values
-from ..studies.sweep import plan_sweep
-from ..studies.swept import Swept, compute_sweep
+from ..studies.sweep import Swept, compute_sweep, plan_sweep
 from .arguments import Words, check_count, check_mapping, join_names, tell_arguments
 
 
@@ -40,8 +39,7 @@ def sweep(
 
     Returns:
         The grid: `result["force.2.major"]` has one axis a name in `vary`, in SI units or degrees;
-        `result.to_pandas()` one row a variant, the last name fastest; `result.to_xarray()` one
-        dimension a name.
+        `result.to_pandas()` one row a variant, the last name fastest.
 
     Raises:
         BalcliError: an unknown name, with the nearest one; values out of bounds.

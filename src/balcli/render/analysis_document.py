@@ -94,7 +94,7 @@ def columns(result: Analysis) -> Columns:
         for part, figures in parts.items():
             values[f"{kind.name}.{part}"] = figures + 0.0
             units[f"{kind.name}.{part}"] = "deg" if part == "axis" else kind.si_unit
-    return Columns(values, units, {"order": orders})
+    return Columns(values, units)
 
 
 def brief_document(result: Analysis) -> dict[str, Any]:

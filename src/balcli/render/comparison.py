@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from ..documents.records import to_document
 from ..forces.kinds import TORQUE
 from .csv import Rows, name_cell
 from .engine_facts import tell_speed
@@ -19,7 +20,6 @@ from .sheet import (
     capitalized,
     number,
     order_name,
-    order_number,
     size_cell,
 )
 
@@ -32,47 +32,33 @@ if TYPE_CHECKING:
 
 
 def document(result: Comparison) -> dict[str, Any]:
-    """`balcli.compare/1`: SI, ratios to the first engine (null where that has none)."""
-    return {
-        "format": "balcli.compare/1",
-        "engines": list(result.names),
-        "speeds_rpm": [float(engine.speed_rpm) for engine in result.engines],
-        "figures": [
-            {
-                "quantity": _key(line),
-                "order": None if line.order is None else order_number(line.order),
-                "values": [None if math.isnan(v) else v for v in line.values],
-                "ratios": [None if math.isnan(r) else r for r in line.ratios],
-            }
-            for line in result.lines
-        ],
-    }
-
-
-def _key(line: Line) -> str:
-    return f"peak_{line.kind.key}" if line.order is None else line.kind.key
+    """Return `balcli.compare/1`: SI, ratios to the first engine (null where that has none)."""
+    return to_document(result)
 
 
 def rows(result: Comparison, system: System) -> Rows:
     """CSV: a figure a line, a column an engine."""
-    header = ("quantity", "order", "unit", *map(name_cell, result.names))
-    return Rows(header, [_csv_line(line, system) for line in result.lines])
+    header = ("quantity", "order", "unit", *map(name_cell, result.engines))
+    return Rows(header, [_csv_line(line, system) for line in result.figures])
 
 
 def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
     unit = system.unit(line.kind)
     name = line.kind.name if line.order is not None else f"peak {line.kind.name}"
-    order = None if line.order is None else order_number(line.order)
-    return name, order, unit.name, *map(unit.of, line.values)
+    return name, line.order, unit.name, *map(unit.of, line.values)
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
     """Amplitudes, with ratios to the first engine's below their size."""
-    heads = ("", result.names[0], *(head for name in result.names[1:] for head in (name, "ratio")))
+    heads = (
+        "",
+        result.engines[0],
+        *(head for name in result.engines[1:] for head in (name, "ratio")),
+    )
     grids: list[Grid | Text] = []
     nothing: list[str] = []
-    for kind in dict.fromkeys(line.kind for line in result.lines):
-        every = [line for line in result.lines if line.kind == kind]
+    for kind in dict.fromkeys(line.kind for line in result.figures):
+        every = [line for line in result.figures if line.kind == kind]
         lines = every if result.whole else find_lines_that_matter(every)
         if not lines:
             nothing.append(TITLES.get(kind, kind.label))
@@ -89,7 +75,7 @@ def sheet(result: Comparison, system: System) -> Sheet:
 
 def _tell_speeds(result: Comparison) -> Facts:
     """One for all, or each in the order of the engines."""
-    told = [tell_speed(engine) for engine in result.engines]
+    told = [tell_speed(engine) for engine in result.compared]
     one_for_all = len(set(told)) == 1
     return Facts((("speed", told[0]) if one_for_all else ("speeds", "; ".join(told)),))
 

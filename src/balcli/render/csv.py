@@ -24,13 +24,10 @@ class Columns(NamedTuple):
     Attributes:
         values: by name, each a list or an array.
         units: of some of them.
-        axes: by name, the values of the first columns, if all their combinations stand in order,
-            the last one fastest.
     """
 
     values: Mapping[str, Column]
     units: Mapping[str, str] = MappingProxyType({})
-    axes: Mapping[str, Column] = MappingProxyType({})
 
 
 class Rows(NamedTuple):

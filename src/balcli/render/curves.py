@@ -23,9 +23,7 @@ def document(curves: Curves) -> dict[str, Any]:
 
 def columns(curves: Curves) -> Columns:
     """Crank angles, and each quantity that is known; units stand in the names."""
-    return Columns(
-        {"crank_deg": curves.crank_deg, **curves.known()}, {}, {"crank_deg": curves.crank_deg}
-    )
+    return Columns({"crank_deg": curves.crank_deg, **curves.known()})
 
 
 def rows(curves: Curves) -> Rows:

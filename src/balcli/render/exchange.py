@@ -1,9 +1,8 @@
-"""Answers for other libraries: documents, rows, and columns for pandas, xarray and Parquet."""
+"""Answers for other libraries: documents, rows, and columns for pandas and Parquet."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -29,14 +28,14 @@ RENDERERS = {
     "Curves": "curves",
     "FieldBalance": "field_balancing",
     "MountReport": "mounts",
-    "Scatter": "tolerances",
+    "Scatter": "scatter",
     "Search": "search",
-    "Swept": "swept",
+    "Swept": "sweep",
     "Table": "printed_table",
     "TorqueAnalysis": "torque",
     "TorsionAnalysis": "torsion",
 }
-INSTALLED_BY = {"pandas": "pandas", "xarray": "xarray", "pyarrow": "balcli[scale]"}
+INSTALLED_BY = {"pandas": "pandas", "pyarrow": "balcli[scale]"}
 
 
 def find_renderer(result: Result) -> tuple[Any, Any]:
@@ -135,27 +134,6 @@ def make_frame(result: Result) -> Any:
     frame = pandas.DataFrame(dict(found.values))
     frame.attrs["units"] = dict(found.units)
     return frame
-
-
-def make_dataset(result: Result) -> Any:
-    """A Dataset of xarray."""
-    xarray = import_library("xarray", "to_xarray()")
-    found = list_columns(result)
-    axes: Mapping[str, Column] = found.axes
-    length = len(next(iter(found.values.values())))
-    if not axes:
-        axes = {"line" if "row" in found.values else "row": np.arange(length)}
-    shape = tuple(map(len, axes.values()))
-    units = {name: {"units": unit} for name, unit in found.units.items()}
-    return xarray.Dataset(
-        {
-            name: (tuple(axes), np.reshape(np.asarray(column), shape), units.get(name, {}))
-            for name, column in found.values.items()
-            if name not in axes
-        },
-        coords={name: (name, column, units.get(name, {})) for name, column in axes.items()},
-        attrs={"balcli_version": __version__, "summary": result.summary},
-    )
 
 
 def write_parquet(result: Result, path: str | Path) -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
 from html import escape
+from itertools import repeat
 
 from ..engine.build import Engine
 from ..result import Result
@@ -15,7 +15,6 @@ from .exchange import find_renderer, list_columns
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, number
 from .units import SI
 
-WORDS = "text-align: left"
 ENDS = 5  # rows of a long table that are shown, at its head and at its foot
 
 
@@ -54,50 +53,32 @@ def outline(columns: Columns) -> Grid:
 
 
 def html_text(sheet: Sheet) -> str:
-    """A sheet as HTML: tables and paragraphs, without style of their own but what stands left."""
-    return f"<div>\n{''.join(_blocks(sheet))}</div>"
+    """Return a sheet as HTML: tables and paragraphs without style, but words stand left."""
+    blocks = "".join(map(_block, sheet.parts))
+    return f"<div>\n<h4>{escape(sheet.title)}</h4>\n{blocks}</div>"
 
 
-def _blocks(sheet: Sheet) -> Iterator[str]:
-    yield f"<h4>{escape(sheet.title)}</h4>\n"
-    for part in sheet.parts:
-        if part.title:
-            yield f"<p><b>{escape(part.title)}</b></p>\n"
-        match part:
-            case Grid():
-                yield from _table(part)
-            case Facts():
-                yield "<table>\n"
-                for name, value in part.pairs:
-                    yield (
-                        f'<tr><th style="{WORDS}">{escape(name)}</th>'
-                        f'<td style="{WORDS}">{escape(value)}</td></tr>\n'
-                    )
-                yield "</table>\n"
-            case Text():
-                yield from (f"<p>{escape(paragraph)}</p>\n" for paragraph in part.paragraphs)
+def _block(part: Grid | Facts | Text) -> str:
+    text = f"<p><b>{escape(part.title)}</b></p>\n" if part.title else ""
+    if isinstance(part, Text):
+        return text + "".join(f"<p>{escape(paragraph)}</p>\n" for paragraph in part.paragraphs)
+    if isinstance(part, Facts):
+        pairs = (_cell("th", name, "left") + _cell("td", fact, "left") for name, fact in part.pairs)
+        return f"{text}<table>\n{''.join(map(_row, pairs))}</table>\n"
+    sides = ["left" if k in part.words else "" for k in range(len(part.columns))]
+    head = _row("".join(map(_cell, repeat("th"), part.columns, sides)))
+    body = ""
+    for i, row in enumerate(part.rows):
+        marked = [(i, k) in part.marked for k in range(len(row))]
+        body += _row("".join(map(_cell, repeat("td"), row, sides, marked)))
+    text += f"<table>\n<thead>{head}</thead>\n<tbody>\n{body}</tbody>\n</table>\n"
+    return text + (f"<p><small>{escape(part.note)}</small></p>\n" if part.note else "")
 
 
-def _table(grid: Grid) -> Iterator[str]:
-    yield "<table>\n<thead>"
-    yield _line(grid.columns, grid.words, "th")
-    yield "</thead>\n<tbody>\n"
-    for i, row in enumerate(grid.rows):
-        marked = [k for k in range(len(row)) if (i, k) in grid.marked]
-        yield _line(row, grid.words, "td", marked)
-    yield "</tbody>\n</table>\n"
-    if grid.note:
-        yield f"<p><small>{escape(grid.note)}</small></p>\n"
+def _row(cells: str) -> str:
+    return f"<tr>{cells}</tr>\n"
 
 
-def _line(
-    cells: Sequence[str], words: tuple[int, ...], tag: str, marked: Collection[int] = ()
-) -> str:
-    texts = [
-        f"<b>{escape(cell)}</b>" if k in marked else escape(cell) for k, cell in enumerate(cells)
-    ]
-    styles = [f' style="{WORDS}"' if k in words else "" for k in range(len(cells))]
-    joined = "".join(
-        f"<{tag}{style}>{text}</{tag}>" for style, text in zip(styles, texts, strict=True)
-    )
-    return f"<tr>{joined}</tr>\n"
+def _cell(tag: str, text: str, side: str, marked: bool = False) -> str:
+    style = f' style="text-align: {side}"' if side else ""
+    return f"<{tag}{style}>{f'<b>{escape(text)}</b>' if marked else escape(text)}</{tag}>"

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
+from ..documents.records import to_document
 from .csv import Rows
 from .sheet import NAMELESS, UNKNOWN, Grid, Sheet
 from .units import System
@@ -29,11 +30,11 @@ def sheet(result: NamedNumbers, _system: System) -> Sheet:
     quantities = Grid(
         "Quantities: --quantity NAME,... (search --minimise, too)",
         ("name", "unit", "meaning"),
-        tuple((form.pattern, form.unit, form.words) for form in result.quantities),
+        tuple((q.name, q.unit, q.meaning) for q in result.quantities),
         words=(0, 1, 2),
         note="N stands for an order, PART for one of the words after the colon.",
     )
-    return Sheet(result.engine or NAMELESS, (numbers, quantities))
+    return Sheet(result.engine.name or NAMELESS, (numbers, quantities))
 
 
 def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, str]]:
@@ -51,16 +52,8 @@ def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, s
 
 
 def document(result: NamedNumbers) -> dict[str, Any]:
-    """`balcli.numbers/1`."""
-    return {
-        "format": "balcli.numbers/1",
-        "engine": {"name": result.engine},
-        "numbers": [number._asdict() for number in result.numbers],
-        "quantities": [
-            {"name": form.pattern, "unit": form.unit, "meaning": form.words}
-            for form in result.quantities
-        ],
-    }
+    """Return `balcli.numbers/1`."""
+    return to_document(result)
 
 
 def rows(result: NamedNumbers, _system: System) -> Rows:
@@ -68,10 +61,7 @@ def rows(result: NamedNumbers, _system: System) -> Rows:
     return Rows(
         ("kind", "name", "value", "unit", "meaning"),
         [
-            *(("number", *number) for number in result.numbers),
-            *(
-                ("quantity", form.pattern, None, form.unit, form.words)
-                for form in result.quantities
-            ),
+            *(("number", n.path, n.value, n.unit, n.meaning) for n in result.numbers),
+            *(("quantity", q.name, None, q.unit, q.meaning) for q in result.quantities),
         ],
     )

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..forces.kinds import EVERY_KIND, VECTORS
 from ..studies.quantity_names import tell_assumed_speed, tell_speeds
 from .csv import Columns, Rows
 from .sheet import NAMELESS, Grid, Sheet, number
@@ -18,10 +16,6 @@ if TYPE_CHECKING:
     from .units import System
 
 
-_FORWARD = "Counterweights can take the part that turns with the crank; what they cannot take is"
-_AS_BUILT = "Fn, Fn·a: the textbook's units of order n; figures are as built, with rotating masses."
-
-
 def document(result: Search) -> dict[str, Any]:
     """`balcli.search/1`."""
     return {
@@ -29,10 +23,9 @@ def document(result: Search) -> dict[str, Any]:
         "engine": {"name": result.model.name},
         "over": result.over,
         "results": [
-            {**one.design.given(), "objective": one.objective, "quantities": dict(one.figures)}
+            {**one.design, "objective": one.objective, "quantities": dict(one.figures)}
             for one in result.results
         ],
-        **({"locked": [list(ends) for ends in result.locked]} if result.locked else {}),
     }
 
 
@@ -40,36 +33,30 @@ def columns(result: Search) -> Columns:
     """An arrangement a row: angles as numbers, throws and firing orders with hyphens between."""
     first = result.results[0]
     found: dict[str, Any] = {}
-    for key, value in first.design.given().items():
-        settings = [one.design.given()[key] for one in result.results]
+    for key, value in first.design.items():
+        settings = [one.design[key] for one in result.results]
         found[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
     found["objective"] = [one.objective for one in result.results]
     found |= {name: [one.figures[name] for one in result.results] for name in first.figures}
     units = {q.name: q.unit for q in result.objective.quantities}
-    set_in = {key: unit for key in first.design.given() if (unit := result.find_unit(key))}
+    set_in = {key: unit for key in first.design if (unit := result.find_unit(key))}
     return Columns(found, units | set_in)
 
 
 def rows(result: Search, _system: System) -> Rows:
-    """CSV: an arrangement a line, figures in SI units."""
-    first = result.results[0]
-    return Rows(
-        (*first.design.given(), "objective", *first.figures),
-        [
-            (*map(_exactly, one.design.given().values()), one.objective, *one.figures.values())
-            for one in result.results
-        ],
-    )
+    """Return CSV: an arrangement a line, figures in SI units."""
+    found = columns(result).values
+    return Rows([*found], [*zip(*found.values(), strict=True)])
 
 
 def sheet(result: Search, _system: System) -> Sheet:
-    """The best arrangements, a row each: figures in SI units, with those in textbooks' in brackets,
-    F_n of the order, and F_n a of moments. One quantity alone is its own objective.
+    """Return the best arrangements, a row each, with figures in SI units. One quantity alone is its
+    own objective.
     """
     first = result.results[0]
     units = {q.name: q.unit for q in result.objective.quantities}
     heads = [
-        *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design.given()),
+        *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design),
         *(["objective"] if _is_sum(result) else []),
         *(name_with_unit(name, units[name]) for name in first.figures),
     ]
@@ -78,7 +65,7 @@ def sheet(result: Search, _system: System) -> Sheet:
         tuple(heads),
         tuple(_cells(result, one) for one in result.results),
         note=" ".join(_notes(result)),
-        words=tuple(range(len(first.design.given()))),
+        words=tuple(range(len(first.design))),
     )
     return Sheet(result.model.name or NAMELESS, (grid,))
 
@@ -89,11 +76,6 @@ def _in_words(over: str) -> str:
 
 
 def _notes(result: Search) -> Iterator[str]:
-    if result.locked:
-        spans = " and ".join(
-            f"{round(low, 1):g} to {round(high, 1):g}" for low, high in result.locked
-        )
-        yield f"No candidates: at {spans} deg the articulated rods cannot follow the crank."
     if result.refused:
         yield f"Not every value of the range makes an engine; with {result.refused}."
     if result.constant:
@@ -104,51 +86,25 @@ def _notes(result: Search) -> Iterator[str]:
     assumed = tell_assumed_speed(result.model)
     if assumed and "operation.speed" not in result.over.split(", "):
         yield assumed
-    if any(one.figures[name] for one in result.results for name in _textbook(result, one)):
-        yield _AS_BUILT
     if speeds := tell_speeds(q.name for q in result.objective.quantities):
         yield speeds
     added = list(dict.fromkeys(q.unit for q in result.objective.weights))
     if len(added) > 1:
         yield f"Objective: {' and '.join(added)} added as plain numbers; NAME=W weighs them."
-    kinds = {q.kind for q in result.of_engine if q.order == 1 and q.part == "major"}
-    if against := [f"{kind.name}.1.backward" for kind in VECTORS if kind.name in kinds]:
-        yield f"{_FORWARD} {' and '.join(against)}."
 
 
 def _cells(result: Search, one: Found) -> tuple[str, ...]:
-    multiples = _textbook(result, one)
     return (
-        *map(_setting, one.design.given().values()),
+        *map(_setting, one.design.values()),
         *([number(one.objective)] if _is_sum(result) else []),
-        *(_figure(value, multiples.get(name)) for name, value in one.figures.items()),
+        *map(number, one.figures.values()),
     )
-
-
-def _figure(value: float, multiple: tuple[float, str] | None) -> str:
-    """`973.12 (1.333 F1·a)`."""
-    if multiple is None or not value:
-        return number(value)
-    times, unit = multiple
-    return f"{number(value)} ({number(times, 4)} {unit})"
 
 
 def _is_sum(result: Search) -> bool:
     """Whether the objective is more than one of the figures."""
     weights = list(result.objective.weights.values())
     return weights != [1.0]
-
-
-def _textbook(result: Search, one: Found) -> dict[str, tuple[float, str]]:
-    """Forces and moments in the textbook's units, where those tell more than the figures alone."""
-    shown: dict[str, tuple[float, str]] = {}
-    for q in result.of_engine:
-        kind = EVERY_KIND[q.kind]
-        if kind.vector and q.part != "peak":
-            size = result.scale.size(kind, q.order)
-            if not math.isnan(size):
-                shown[q.name] = one.figures[q.name] / size, result.scale.name(kind, q.order)
-    return shown
 
 
 def _setting(value: Any) -> str:

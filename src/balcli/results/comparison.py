@@ -6,19 +6,19 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from ..core.peaks import Peak
 from ..core.phasors import Array
+from ..documents.records import HIDDEN
 from ..engine.build import Engine
 from ..errors import BalcliError
-from ..forces.kinds import GAS, MOMENT, VECTORS, Kind
+from ..forces.kinds import EVERY_KIND, GAS, MOMENT, VECTORS, Kind
 from ..forces.orders import merge_orders
 from ..result import Result
 from .analysis import QUANTITIES, Analysis, analyze
 
 if TYPE_CHECKING:
-    from ..forces.crankshaft import AlongCrank
+    from ..forces.crankshaft import AlongCrank, InnerLoads
     from ..forces.guide_moments import GuideMoments
 
 SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
@@ -33,6 +33,8 @@ WITH_GAS = (  # in the order of `in_bearings.LoadsWithGas`
 )
 GUIDE_H = Kind("guide_h", "H-type guide moment", "M_H", "guide_h_Nm", False, "moment")
 GUIDE_X = Kind("guide_x", "X-type guide moment", "M_X", "guide_x_Nm", False, "moment")
+GUIDES = (GUIDE_H, GUIDE_X)
+KINDS = tuple(EVERY_KIND.values())
 LEFT = {
     kind: kind._replace(
         name=f"{kind.name} with devices",
@@ -43,50 +45,52 @@ LEFT = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Line:
     """One figure of every engine, SI: the amplitude of an order, or the peak of the whole curve.
 
     Attributes:
-        kind: of force or moment.
-        order: None for the peak.
-        values: one an engine; nan for moments that are not known.
-        single: what one cylinder of each engine makes, beside which a value may be negligible;
-            empty or 0 where there is no such measure.
+        quantity: Name of the figure, which ends in its unit.
+        order: Order; null for a peak.
+        values: One an engine; null for moments that are not known.
+        ratios: Ratios to the first engine's value; null where that is 0.
+        kind: Kind of force or moment.
+        single: What one cylinder of each engine makes, next to which a value may be negligible; 0
+            where there is no such measure.
     """
 
-    kind: Kind
+    quantity: str
     order: float | None
     values: tuple[float, ...]
-    single: tuple[float, ...] = ()
-
-    @property
-    def ratios(self) -> tuple[float, ...]:
-        """To the first engine's value; nan where that is 0."""
-        first = self.values[0]
-        return tuple(value / first if first else nan for value in self.values)
+    ratios: tuple[float, ...]
+    kind: Annotated[Kind, HIDDEN]
+    single: Annotated[tuple[float, ...], HIDDEN]
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Comparison(Result):
     """Engines side by side.
 
     Attributes:
-        names: of the engines.
-        engines: each at the speed at which it is compared.
-        lines: one a figure.
-        whole: whether people are shown orders that are negligible, too.
+        format: Name and version of the document.
+        engines: Names of the engines.
+        speeds_rpm: Speed at which each is compared.
+        figures: Figures of all engines.
+        compared: The engines.
+        whole: Whether people are shown negligible orders as well.
     """
 
-    names: tuple[str, ...]
-    engines: tuple[Engine, ...]
-    lines: tuple[Line, ...]
-    whole: bool = False
+    format: Literal["balcli.compare/1"] = "balcli.compare/1"
+    engines: tuple[str, ...]
+    speeds_rpm: tuple[float, ...]
+    figures: tuple[Line, ...]
+    compared: Annotated[tuple[Engine, ...], HIDDEN]
+    whole: Annotated[bool, HIDDEN]
 
     @property
     def summary(self) -> str:
-        """Which engines."""
-        return f"of {', '.join(self.names)}"
+        """The engines."""
+        return f"of {', '.join(self.engines)}"
 
 
 def compare_engines(
@@ -117,7 +121,13 @@ def compare_engines(
         wanted.add(GAS.name)
     analyses = analyze_alike(engines, orders, partial(analyze, only=wanted, beside=engines))
     lines = list_lines(analyses, every_order=orders is not None)
-    return Comparison(tuple(names), tuple(engines), lines, whole or orders is not None)
+    return Comparison(
+        engines=tuple(names),
+        speeds_rpm=tuple(float(engine.speed_rpm) for engine in engines),
+        figures=lines,
+        compared=tuple(engines),
+        whole=whole or orders is not None,
+    )
 
 
 def analyze_alike(
@@ -141,12 +151,33 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
     Args:
         every_order: also orders above 2 of which all of them are free.
     """
-    return (
-        *_compare_orders(analyses, every_order),
-        *_compare_peaks(analyses),
-        *_compare_inner(analyses),
-        *_compare_guide(analyses),
-        *_compare_sizing(analyses),
+    guides = _list_guides(analyses)
+    tables = [
+        {(kind, order): float(size) for kind, order, size in _list_sizes(one, guide)}
+        for one, guide in zip(analyses, guides, strict=True)
+    ]
+    alone = "" if all(guide is None or guide.with_gas for guide in guides) else " of inertia alone"
+    lines = []
+    for kind, order in tables[0]:
+        values = tuple(table.get((kind, order), nan) for table in tables)
+        there = all((kind, order) in table for table in tables)  # one throw has no known bearings
+        least = order is None or order <= 2 if kind in KINDS else order is None or order % 1 == 0
+        if there and (least or any(values) or kind in GUIDES or (every_order and kind in KINDS)):
+            shown = kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind
+            lines.append(_make_line(shown, order, values, analyses))
+    return tuple(lines)
+
+
+def _make_line(
+    kind: Kind, order: float | None, values: tuple[float, ...], analyses: Sequence[Analysis]
+) -> Line:
+    return Line(
+        quantity=f"peak_{kind.key}" if order is None else kind.key,
+        order=order,
+        values=values,
+        ratios=tuple(value / values[0] if values[0] else nan for value in values),
+        kind=kind,
+        single=tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses),
     )
 
 
@@ -160,79 +191,52 @@ def _list_orders(one: Analysis) -> Iterator[Array]:
         yield one.guide.h.orders
 
 
-def _compare_orders(analyses: Sequence[Analysis], every_order: bool) -> Iterator[Line]:
-    known = [one.spectra.with_moment_if(one.moments_known) for one in analyses]
-    for kind, _ in known[0].items():
-        single = _of_one_cylinder(kind, analyses)
-        sizes = [spectra[kind.name].major for spectra in known]
-        for order, *values in zip(analyses[0].orders, *sizes, strict=True):
-            if every_order or order <= 2 or any(values):
-                yield Line(kind, float(order), tuple(map(float, values)), single)
+def _list_sizes(
+    one: Analysis, guide: GuideMoments | None
+) -> Iterator[tuple[Kind, float | None, float]]:
+    """Yield the figures of an analysis: kind, order (None for a peak), and size."""
+    for kind, phasors in one.spectra.with_moment_if(one.moments_known).items():
+        yield from _list_by_order(kind, one.orders, phasors.major)
+    yield from _list_peaks(one)
+    if one.inner is not None:
+        loads = zip((SHEAR, BENDING, BEARING, *WITH_GAS), _list_loads(one.inner), strict=False)
+        for kind, along in loads:
+            if along is not None:
+                sizes = along.phasors.major.max(axis=1)
+                yield from _list_by_order(kind, along.phasors.orders, sizes)
+                yield kind, None, max(peak.value for peak in along.peaks)
+    if guide is not None:
+        for kind, moment in zip(GUIDES, (guide.h, guide.x), strict=True):
+            if moment is not None:
+                yield from _list_by_order(kind, moment.orders, moment.major)
+    if one.sizing is not None:
+        for kind, _, peak in _list_peaks(one.sizing.after):
+            yield LEFT[kind], None, peak
 
 
-def _compare_peaks(analyses: Sequence[Analysis]) -> Iterator[Line]:
-    for same in zip(*(one.peaks for one in analyses), strict=True):
-        kind, _ = same[0]
-        single = _of_one_cylinder(kind, analyses)
-        yield Line(kind, None, tuple(_known_values(kind, same, analyses)), single)
+def _list_peaks(one: Analysis) -> Iterator[tuple[Kind, None, float]]:
+    for kind, peak in one.peaks:
+        yield kind, None, peak.value if one.moments_known or kind is not MOMENT else nan
 
 
-def _of_one_cylinder(kind: Kind, analyses: Sequence[Analysis]) -> tuple[float, ...]:
-    return tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses)
+def _list_by_order(
+    kind: Kind, orders: Array, sizes: Array
+) -> Iterator[tuple[Kind, float | None, float]]:
+    for order, size in zip(orders.tolist(), sizes.tolist(), strict=True):
+        yield kind, int(order) if order % 1 == 0 else order, size
 
 
-def _known_values(
-    kind: Kind, peaks: Iterable[tuple[Kind, Peak]], analyses: Sequence[Analysis]
-) -> Iterator[float]:
-    for (_, peak), one in zip(peaks, analyses, strict=True):
-        yield peak.value if one.moments_known or kind is not MOMENT else nan
+def _list_loads(inner: InnerLoads) -> tuple[AlongCrank | None, ...]:
+    """Return the largest loads along the crank, by order and of all orders."""
+    return inner.shear, inner.bending, inner.bearings, *(inner.with_gas or ())
 
 
-def _compare_inner(analyses: Sequence[Analysis]) -> Iterator[Line]:
-    """The largest along the crank, by order and of all orders."""
-    found = [one.inner for one in analyses if one.inner is not None]
-    gas = [one.with_gas for one in found if one.with_gas is not None]
-    lines: list[tuple[Kind, list[AlongCrank | None]]] = [
-        (SHEAR, [one.shear for one in found]),
-        (BENDING, [one.bending for one in found]),
-        (BEARING, [one.bearings for one in found]),
-    ]
-    lines += [(kind, [loads[k] for loads in gas]) for k, kind in enumerate(WITH_GAS)]
-    for kind, several in lines:
-        there = [along for along in several if along is not None]
-        if not there or len(there) < len(analyses):
-            continue  # a crank with one throw has no bearings that are known
-        sizes = [along.phasors.major.max(axis=1) for along in there]
-        for order, *values in zip(there[0].phasors.orders, *sizes, strict=True):
-            if order % 1 == 0 or any(values):
-                yield Line(kind, float(order), tuple(map(float, values)))
-        peaks = (max(peak.value for peak in along.peaks) for along in there)
-        yield Line(kind, None, tuple(map(float, peaks)))
-
-
-def _compare_guide(analyses: Sequence[Analysis]) -> Iterator[Line]:
-    """With gas where all engines have some, else of inertia alone."""
-    found = _list_guides(analyses)
-    if len({guide.with_gas for guide in found}) > 1:
-        engines = [one.engine for one in analyses]
-        of_inertia = partial(analyze, orders=found[0].h.orders, only="guide", beside=engines)
-        found = _list_guides([of_inertia(replace(engine, gas=None)) for engine in engines])
-    alone = "" if all(guide.with_gas for guide in found) else " of inertia alone"
-    for known, several in ((GUIDE_H, [g.h for g in found]), (GUIDE_X, [g.x for g in found])):
-        kind = known._replace(label=f"{known.label}{alone}")
-        there = [moment for moment in several if moment is not None]
-        if there and len(there) == len(analyses):
-            sizes = [moment.major for moment in there]
-            for order, *values in zip(there[0].orders, *sizes, strict=True):
-                yield Line(kind, float(order), tuple(map(float, values)))
-
-
-def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments]:
-    return [one.guide for one in analyses if one.guide is not None]
-
-
-def _compare_sizing(analyses: Sequence[Analysis]) -> Iterator[Line]:
-    left = [one.sizing.after for one in analyses if one.sizing is not None]
-    for same in zip(*(one.peaks for one in left), strict=True):
-        kind, _ = same[0]
-        yield Line(LEFT[kind], None, tuple(_known_values(kind, same, left)))
+def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments | None]:
+    """Return guide moments with gas where all engines have some, else of inertia alone."""
+    found = [one.guide for one in analyses]
+    known = [guide for guide in found if guide is not None]
+    if len({guide.with_gas for guide in known}) < 2:
+        return found
+    engines = [one.engine for one in analyses]
+    of_inertia = partial(analyze, orders=known[0].h.orders, only="guide", beside=engines)
+    return [of_inertia(replace(engine, gas=None)).guide for engine in engines]

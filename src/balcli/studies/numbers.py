@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Literal
 
 from ..enginefile.fields import RIGID
 from ..enginefile.model import EngineFile, FileTable, Override
 from .parameters import find_numbers
-from .quantities import list_quantities
-from .quantity_names import Form
+from .quantities import NamedEngine, list_quantities
 
 
-class FileNumber(NamedTuple):
-    """A number of a file.
+@dataclass(frozen=True)
+class FileNumber:
+    """A number of an engine file.
 
     Attributes:
-        path: dotted name, as `--vary` takes it.
-        value: in its bare unit, or "rigid"; None: it is not in the file.
-        unit: of the value, as the file has it without one; empty: a plain number.
-        meaning: in words.
+        path: Dotted name, as `--vary` takes it.
+        value: Value in its unit, or "rigid"; null: it is not in the file.
+        unit: Unit of the value, as the file has it without one; empty: a plain number.
+        meaning: Meaning in words.
     """
 
     path: str
@@ -28,22 +29,51 @@ class FileNumber(NamedTuple):
     meaning: str
 
 
-class NamedNumbers(NamedTuple):
-    """Of one file: its numbers, and the quantities that it has."""
+@dataclass(frozen=True)
+class NamedQuantity:
+    """Quantities by a pattern.
 
-    engine: str
+    Attributes:
+        name: N stands for an order, PART for a word of the meaning.
+        unit: SI unit.
+        meaning: Meaning in words.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class NamedNumbers:
+    """What can be varied of an engine file, and what can be asked of it.
+
+    Attributes:
+        format: Name and version of the document.
+        engine: The engine.
+        numbers: Numbers of the file.
+        quantities: Quantities that it has.
+    """
+
+    format: Literal["balcli.numbers/1"] = "balcli.numbers/1"
+    engine: NamedEngine
     numbers: tuple[FileNumber, ...]
-    quantities: tuple[Form, ...]
+    quantities: tuple[NamedQuantity, ...]
 
 
 def name_numbers(model: EngineFile) -> NamedNumbers:
-    """All that `sweep` can vary of a file and ask of it."""
+    """Return all that `sweep` can vary of a file and ask of it."""
     tables = dict(model.tables())
-    numbers = tuple(
-        _describe(path, number.dimension.unit, tables)
-        for path, number in find_numbers(model).items()
+    return NamedNumbers(
+        engine=NamedEngine(model.name),
+        numbers=tuple(
+            _describe(path, number.dimension.unit, tables)
+            for path, number in find_numbers(model).items()
+        ),
+        quantities=tuple(
+            NamedQuantity(form.pattern, form.unit, form.words) for form in list_quantities(model)
+        ),
     )
-    return NamedNumbers(model.name, numbers, tuple(list_quantities(model)))
 
 
 def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:

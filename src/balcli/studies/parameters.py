@@ -21,7 +21,7 @@ from ..enginefile.model import EngineFile, FileTable, Override
 from ..enginefile.units import BARE_FIGURE, convert_exactly
 from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
-from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES
+from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 
@@ -39,7 +39,9 @@ class Parameter:
 
 
 def tell_variant(figures: Mapping[str, float]) -> str:
-    """Which variant it is, for messages: `rod.length = 150, piston.mass = 0.5`."""
+    """Return a variant in words, for messages: `rod.length = 150, piston.mass = 0.5`."""
+    if len(figures) > MOST_PARAMETERS:
+        return "a variant"
     return ", ".join(f"{path} = {value:g}" for path, value in figures.items())
 
 
@@ -207,23 +209,21 @@ def _read_one(path: str, value: Any, number: Number) -> float:
 
 
 def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
-    """With `rod.length` of rod_length, all of a table, or those called so or beginning so; or with
-    the nearest name, or some of the table.
+    """Return what is wrong, with `rod.length` of rod_length, all numbers of a table, those that
+    begin so, or the nearest name.
     """
     if path.startswith("layout.firing_intervals."):
         return f"{path}: firing intervals add up to a cycle, so that none varies alone"
     if _list_idle_paths(model, [path]) and model.gas is not None:
         return f"{path}: changes nothing of the gas in this file"
-    dotted = path.replace("_", ".", 1)
-    own = [name for name in known if name == dotted or name.startswith(f"{path}.")]
-    inside = [name for name in known if f"{name}_".rpartition(".")[2].startswith(f"{path}_")]
-    if near := (" or ".join((own or inside)[:6]) or nearest(path, known)):
-        hint = f"did you mean {near}?"
-    else:
-        first = path.partition(".")[0]
-        alike = [name for name in known if name.partition(".")[0] == first] or list(known)
-        hint = f"there are {', '.join(alike[:6])}{' ...' if len(alike) > 6 else ''}"
-    return f"{path}: unknown parameter; {hint}"
+    dotted, first = path.replace("_", ".", 1), path.partition(".")[0]
+    meant = [name for name in known if name == dotted or name.startswith(f"{path}.")]
+    meant = meant or [name for name in known if f".{path}_" in f"{name}_"]
+    if near := " or ".join(meant[:6]) or nearest(path, known):
+        return f"{path}: unknown parameter; did you mean {near}?"
+    alike = [name for name in known if name.partition(".")[0] == first] or list(known)
+    some = f"{', '.join(alike[:6])}{' ...' if len(alike) > 6 else ''}"
+    return f"{path}: unknown parameter; there are {some}"
 
 
 def _check_bounds(path: str, number: Number, values: NDArray[np.float64]) -> None:

@@ -6,26 +6,26 @@ loaded when one of theirs is asked for.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from importlib import import_module
-from typing import NamedTuple, Protocol, cast
+from typing import Protocol, cast
 
 from ..enginefile.fields import suggest_nearest
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
 from ..forces.quantity import Quantity, parse_quantity
-from ..forces.target_quantity import TargetQuantity
-from .quantity_names import (
-    BEGINNINGS,
-    CHAPTERS,
-    CYCLE,
-    ENGINE,
-    GUIDE,
-    MOUNTS,
-    TORSION,
-    Chapter,
-    Form,
-    find_chapter,
-)
+from .quantity_names import BEGINNINGS, CHAPTERS, ENGINE, Chapter, Form, find_chapter
+
+
+@dataclass(frozen=True)
+class NamedEngine:
+    """The engine that a result is of.
+
+    Attributes:
+        name: Its name in its file.
+    """
+
+    name: str
 
 
 class ChapterQuantity(Protocol):
@@ -144,42 +144,3 @@ def _list_of_chapter(chapter: Chapter, model: EngineFile) -> Iterator[Form]:
     for name in module.list_names(model):
         form = next(form for form in chapter.forms if form.matches(name))
         yield form._replace(pattern=name)
-
-
-class Scattered(NamedTuple):
-    """Quantities that are to scatter: those of one kind, with the tolerances that it has.
-
-    Attributes:
-        by_order: forces and moments, which are evaluated as arrays.
-        of_cycle: of the whole cycle, or of guide-force moments.
-        of_parts: of mounts, or of torsion.
-    """
-
-    by_order: tuple[Quantity, ...] = ()
-    of_cycle: tuple[ChapterQuantity, ...] = ()
-    of_parts: tuple[TargetQuantity, ...] = ()
-
-
-def sort_scattered(wanted: Sequence[AnyQuantity]) -> Scattered:
-    """What scatters, by its kind.
-
-    Raises:
-        BalcliError: there are several kinds.
-    """
-    by_order, groups = choose_of_engine(wanted), group_by_chapter(wanted)
-    of_cycle = tuple(q for q in wanted if find_chapter(q.name) in (CYCLE, GUIDE))
-    of_parts = [groups[chapter] for chapter in (MOUNTS, TORSION) if chapter in groups]
-    kinds = [kind for kind in (by_order, of_cycle, *of_parts) if kind]
-    if len(kinds) > 1:
-        first, second = kinds[0][0].name, kinds[1][0].name
-        if by_order and of_cycle:
-            raise BalcliError(
-                f"{first} and {second} are not drawn together: of the cycle and of guides, engines "
-                "are computed one by one; ask for one after the other"
-            )
-        raise BalcliError(
-            f"{first} and {second} have tolerances of their own; ask for "
-            "quantities of the engine, of its mounts and of torsion one after the other"
-        )
-    parts = tuple(q for kind in of_parts for q in kind)
-    return Scattered(by_order, of_cycle, cast("tuple[TargetQuantity, ...]", parts))

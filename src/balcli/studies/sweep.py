@@ -10,16 +10,18 @@ parameter fastest.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import product
-from typing import NamedTuple
+from itertools import islice, tee
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
 from ..core.phasors import Array
-from ..engine.build import Engine, build
+from ..engine.build import Engine
 from ..engine.gas_figures import concerns_gas
 from ..engine.load import read
 from ..enginefile.model import EngineFile
@@ -28,30 +30,23 @@ from ..errors import BalcliError, InputError, naming_file
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
 from ..forces.quantity import (
     Quantity,
-    evaluate_quantities,
     find_orders,
     leave_out_unknown,
     refuse_unknown,
 )
 from ..forces.spectrum import count_engine_samples
-from ..limits import MOST_PARAMETERS
-from .boxes import Box, BoxSize, divide_grid, divide_into_boxes, divide_into_tiles
+from ..limits import MOST_KEPT_FIGURES, MOST_PARAMETERS
+from ..result import Result
+from .evaluator import Evaluator
 from .parameters import Parameter, parse_parameter, tell_variant
-from .quantities import (
-    AnyQuantity,
-    ChapterQuantity,
-    Variants,
-    choose_of_engine,
-    group_by_chapter,
-    load_chapter,
-    parse_quantities,
-    refuse_unknown_of_chapters,
-)
-from .threads import ALONE_S, share_work
-from .varied_gas import attach_gas_torque
+from .quantities import AnyQuantity, parse_quantities, refuse_unknown_of_chapters
 
+Item = TypeVar("Item")
+Outcome = TypeVar("Outcome")
+Box: TypeAlias = tuple[slice, ...]
+# Yields the outcome of some work for each item, in their order.
+Share: TypeAlias = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]]
 ALONE = 64  # variants at a time where each is computed by itself
-PRODUCTS = 8  # times as many where each is but a product of what is computed for fewer
 CHUNK = 32_768  # variants at a time, at most: enough for what they share
 BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
 _BOXES = 8  # in a block, each with a tenth of a second's work
@@ -80,18 +75,19 @@ class Sweep:
         return [*(p.path for p in self.parameters), *(q.name for q in self.quantities)]
 
     @property
-    def of_engine(self) -> tuple[Quantity, ...]:
-        """Quantities of forces and moments."""
-        return choose_of_engine(self.quantities)
+    def units(self) -> dict[str, str]:
+        """Unit of each column, by its name."""
+        return {p.path: p.unit for p in self.parameters} | {q.name: q.unit for q in self.quantities}
 
     @cached_property
-    def of_chapters(self) -> tuple[tuple[Sequence[ChapterQuantity], Variants], ...]:
-        """Quantities that are computed variant by variant, and what evaluates them."""
-        groups = group_by_chapter(self.quantities).items()
-        return tuple(
-            (members, load_chapter(chapter).Variants(self.file, members))
-            for chapter, members in groups
-        )
+    def evaluator(self) -> Evaluator:
+        """Evaluates the quantities."""
+        return Evaluator(self.file, self.quantities)
+
+    @property
+    def of_engine(self) -> tuple[Quantity, ...]:
+        """Quantities of forces and moments."""
+        return self.evaluator.of_engine
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -113,47 +109,30 @@ class Sweep:
         cuts = zip(self.parameters, box, strict=True)
         return replace(self, parameters=tuple(replace(p, values=p.values[cut]) for p, cut in cuts))
 
-    def engine(self, box: Box) -> Engine:
-        """All variants in a box of the grid, as one engine with an axis for each parameter.
+    @property
+    def figures(self) -> dict[str, Array]:
+        """The figures that vary, each along an axis of its own."""
+        grids = np.meshgrid(*(p.values for p in self.parameters), indexing="ij", sparse=True)
+        return dict(zip((p.path for p in self.parameters), grids, strict=True))
+
+    def engine(self) -> Engine:
+        """Return all variants as one engine with an axis for each parameter.
 
         Raises:
-            InputError: one of them cannot be; it is named.
+            InputError: One of them cannot be; the first such is named.
         """
         try:
-            return self._build(box)
+            return self.evaluator.build(self.figures, len(self.shape))
         except InputError:
-            self._refuse_first_bad(box)
-            raise
-
-    def _refuse_first_bad(self, box: Box) -> None:
-        """Halve a box that has a variant which cannot be, axis by axis, until that is alone.
-
-        Raises:
-            InputError: what is wrong with it, with its figures.
-        """
-        for axis, n in enumerate(self.shape):
-            low, high, _ = box[axis].indices(n)
-            while high - low > 1:
-                middle = (low + high) // 2
-                try:
-                    self._build((*box[:axis], slice(low, middle), *box[axis + 1 :]))
-                    low = middle
-                except InputError:
-                    high = middle
-            box = (*box[:axis], slice(low, high), *box[axis + 1 :])
-        pairs = zip(self.parameters, box, strict=True)
-        figures = {p.path: float(p.values[cut][0]) for p, cut in pairs}
-        with naming_file(f"{self.name}: {tell_variant(figures)}"):
-            self._build(box)
-
-    def _build(self, box: Box) -> Engine:
-        rank = len(self.parameters)
-        arrays = {
-            p.path: p.values[cut].reshape((1,) * k + (-1,) + (1,) * (rank - 1 - k))
-            for k, (p, cut) in enumerate(zip(self.parameters, box, strict=True))
-        }
-        with naming_file(self.name):
-            return attach_gas_torque(build(self.file, arrays, rank=rank), self.file, arrays)
+            axis = next((k for k, n in enumerate(self.shape) if n > 1), None)
+            if axis is None:
+                one = {p.path: float(p.values[0]) for p in self.parameters}
+                with naming_file(f"{self.name}: {tell_variant(one)}"):
+                    raise
+        middle, box = self.shape[axis] // 2, self.whole
+        for half in (slice(0, middle), slice(middle, self.shape[axis])):
+            self.cut((*box[:axis], half, *box[axis + 1 :])).engine()
+        raise AssertionError("one half has a variant that cannot be")
 
 
 def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) -> Sweep:
@@ -222,158 +201,115 @@ def build_corners(sweep: Sweep) -> Engine:
         Parameter(p.path, np.array([p.values.min(), p.values.max()]), p.unit)
         for p in sweep.parameters
     )
-    return Sweep(sweep.file, corners, (), sweep.name).engine((slice(None),) * len(corners))
+    return Sweep(sweep.file, corners, (), sweep.name).engine()
 
 
-def evaluate_box(sweep: Sweep, box: Box, size: BoxSize) -> list[Array]:
-    """Each quantity for all variants of a box, SI or degrees, shape (variants in it,).
-
-    Args:
-        sweep: what to compute.
-        box: of its grid.
-        size: of what is computed at a time, and figures that some axes do not change once.
+def evaluate_sweep(sweep: Sweep) -> list[Array]:
+    """Return each quantity for all variants at once, SI or degrees, shape (variants,).
 
     Raises:
-        InputError: one of them cannot be.
+        InputError, BalcliError: One of them cannot be, with its figures.
     """
-    shape = tuple(len(range(*cut.indices(n))) for cut, n in zip(box, sweep.shape, strict=True))
-    tiles = list(divide_into_tiles(shape, size))
-    if len(tiles) == 1:
-        values = _evaluate_tile(sweep, box)
-        return [np.broadcast_to(one, shape).ravel() for one in values]
-    found = [np.empty(shape) for _ in sweep.quantities]
-    for tile in tiles:
-        here = tuple(
-            slice(cut.start + part.start, cut.start + part.stop)
-            for cut, part in zip(box, tile, strict=True)
-        )
-        for whole, part_of_it in zip(found, _evaluate_tile(sweep, here), strict=True):
-            whole[tile] = part_of_it
-    return [whole.ravel() for whole in found]
-
-
-def _evaluate_tile(sweep: Sweep, box: Box) -> list[Array]:
-    """Each quantity for all variants of a box, of its shape, or of length 1 along some axes."""
-    values: dict[AnyQuantity, Array] = {}
-    if sweep.of_engine:
-        found = _evaluate_engine(sweep, sweep.engine(box))
-        values |= dict(zip(sweep.of_engine, found, strict=True))
-    for members, variants in sweep.of_chapters:
-        evaluated = _evaluate_one_by_one(sweep, box, variants, len(members))
-        values |= dict(zip(members, evaluated, strict=True))
-    return [values[q] for q in sweep.quantities]
-
-
-def _evaluate_engine(sweep: Sweep, engine: Engine) -> list[Array]:
-    """Quantities of forces and moments for all variants of an engine."""
+    engine = sweep.engine() if sweep.of_engine else None
     try:
-        return evaluate_quantities(engine, sweep.of_engine)
-    except InputError as error:  # of the gas of a variant
+        values = sweep.evaluator.evaluate(sweep.figures, sweep.shape, engine)
+    except InputError as error:
         raise InputError(error.problems, f"{sweep.name}: {error.file}") from None
+    except BalcliError as error:
+        raise BalcliError(f"{sweep.name}: {error}") from None
+    return [value.ravel() for value in values]
 
 
-def _evaluate_one_by_one(sweep: Sweep, box: Box, variants: Variants, count: int) -> list[Array]:
-    """So many quantities for all variants of a box, each of the box's shape.
-
-    Args:
-        variants: evaluates them.
-
-    Raises:
-        InputError, BalcliError: one of them cannot be, with its figures.
+def count_at_once(sweep: Sweep) -> int:
+    """Return how many variants to compute at a time, by what those at the corners of the grid need:
+    a box is done in a fraction of a second and in little memory.
     """
-    axes = [p.values[cut] for p, cut in zip(sweep.parameters, box, strict=True)]
-    paths = [p.path for p in sweep.parameters]
-    rows = []
-    for figures in product(*axes):
-        own = dict(zip(paths, map(float, figures), strict=True))
-        try:
-            rows.append(variants.evaluate(own))
-        except InputError as error:
-            raise InputError(error.problems, f"{sweep.name}: {tell_variant(own)}") from None
-        except BalcliError as error:
-            raise BalcliError(f"{sweep.name}: {tell_variant(own)}: {error}") from None
-    table = np.array(rows).reshape(*map(len, axes), count)
-    return list(np.moveaxis(table, -1, 0))
-
-
-def size_boxes(sweep: Sweep) -> BoxSize:
-    """How much to compute at a time, by what the variants at the corners of the grid need: so much
-    that a box is done in a fraction of a second and in little memory.
-    """
+    of_gas = any(q.kind in GAS_KINDS for q in sweep.of_engine)
+    gas_varies = of_gas and any(concerns_gas(p.path) for p in sweep.parameters)
+    most = ALONE if sweep.evaluator.one_by_one or gas_varies else CHUNK
     if not sweep.of_engine:
-        return BoxSize(ALONE, ALONE)
+        return most
     engine = build_corners(sweep)
     orders = find_orders(engine, sweep.of_engine)
     figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_engine_samples(engine) // 2 ** len(sweep.parameters)
-    alone = bool(sweep.of_chapters) or _has_many_cycles(sweep)
-    most = ALONE if alone else CHUNK
-    side = max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
-    peaks = any(q.part == "peak" for q in sweep.of_engine)
-    products = engine.equal and not (alone or peaks or _asks_for_gas(sweep))
-    return BoxSize(PRODUCTS * side if products and len(sweep.shape) > 1 else side, side)
+    return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
 
 
-def _has_many_cycles(sweep: Sweep) -> bool:
-    """Whether gas is asked for, of more variants than are computed one by one at a time."""
-    cycles = math.prod(len(p) for p in sweep.parameters if concerns_gas(p.path))
-    return _asks_for_gas(sweep) and cycles > ALONE
-
-
-def _asks_for_gas(sweep: Sweep) -> bool:
-    return any(q.kind in GAS_KINDS for q in sweep.of_engine)
-
-
-def divide_sweep(sweep: Sweep, size: BoxSize) -> Iterator[Box]:
-    """The boxes of a sweep of which so much is computed at a time, in the order of rows."""
-    if sweep.of_chapters:
-        return divide_grid(sweep.shape, size.variants)
-    return divide_into_boxes(sweep.shape, size)
-
-
-def evaluate_chunks(sweep: Sweep, threads: int = 1, alone_s: float = ALONE_S) -> Iterator[Chunk]:
-    """All variants, box by box, in the order of rows; the same figures by any number of threads.
-
-    Args:
-        sweep: what to compute.
-        threads, alone_s: as of `share_work`.
+def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
+    """Yield the grid in boxes of at most `most` variants, in the order of rows: the last axes
+    whole, one cut into like parts, the first one by one.
     """
-    size = size_boxes(sweep)
-    compute = partial(_evaluate_chunk, sweep, size)
-    return share_work(compute, divide_sweep(sweep, size), threads, alone_s)
+    axis = len(shape) - 1
+    while axis > 0 and math.prod(shape[axis:]) <= most:
+        axis -= 1
+    longest = max(most // math.prod(shape[axis + 1 :]), 1)
+    step = math.ceil(shape[axis] / math.ceil(shape[axis] / longest))
+    for fixed in np.ndindex(shape[:axis]):
+        for start in range(0, shape[axis], step):
+            yield (
+                *(slice(k, k + 1) for k in fixed),
+                slice(start, min(start + step, shape[axis])),
+                *(slice(0, n) for n in shape[axis + 1 :]),
+            )
+
+
+def evaluate_chunks(sweep: Sweep, share: Share = map) -> Iterator[Chunk]:
+    """Return all variants, box by box, in the order of rows; the same figures whoever shares the
+    work.
+    """
+    boxes, parts = tee(divide_grid(sweep.shape, count_at_once(sweep)))
+    return map(Chunk, boxes, share(evaluate_sweep, map(sweep.cut, parts)))
+
+
+# ------------------------------------------------------------------ shared work
+def share_among_threads(
+    work: Callable[[Item], Outcome], items: Iterable[Item], threads: int
+) -> Iterator[Outcome]:
+    """Yield `work(item)` for each item, in their order; a bounded number of items is under way.
+
+    Raises:
+        BalcliError: The system gives no thread.
+    """
+    from concurrent.futures import ThreadPoolExecutor  # most sweeps have one box
+
+    pool = ThreadPoolExecutor(threads)
+    try:
+        yield from run_in_order(pool.submit, work, items, 2 * threads)
+    except RuntimeError as error:
+        raise BalcliError(f"--jobs {threads}: {error}; give fewer, as --jobs 1") from None
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def run_in_order(
+    submit: Callable[..., Any], work: Callable[[Item], Outcome], items: Iterable[Item], ahead: int
+) -> Iterator[Outcome]:
+    """Yield the results of work that `submit` makes futures of; `ahead` of them at a time."""
+    to_do = iter(items)
+    waiting = deque(submit(work, item) for item in islice(to_do, ahead))
+    while waiting:
+        found = waiting.popleft().result()
+        waiting.extend(submit(work, item) for item in islice(to_do, 1))
+        yield found
 
 
 class Block(NamedTuple):
-    """A part of a sweep that is computed and written by itself.
-
-    Attributes:
-        number: from 0, in the order of rows.
-        box: in the whole grid.
-        sweep: the part as a sweep of its own.
+    """A part of a sweep that is computed and written by itself, with its number in the order of
+    rows, from 0.
     """
 
     number: int
-    box: Box
     sweep: Sweep
-
-    def place(self, chunk: Chunk) -> Chunk:
-        """Return a chunk of this part with its box in the whole grid."""
-        pairs = zip(self.box, chunk.box, strict=True)
-        box = (slice(own.start + cut.start, own.start + cut.stop) for own, cut in pairs)
-        return Chunk(tuple(box), chunk.values)
 
 
 def divide_into_blocks(sweep: Sweep, rows: int) -> Iterator[Block]:
     """Yield the blocks of a sweep in the order of rows, of at most so many rows; fewer where a
     variant takes long.
     """
-    most = min(rows, _BOXES * size_boxes(sweep).variants)
+    most = min(rows, _BOXES * count_at_once(sweep))
     for number, box in enumerate(divide_grid(sweep.shape, most)):
-        yield Block(number, box, sweep.cut(box))
-
-
-def _evaluate_chunk(sweep: Sweep, size: BoxSize, box: Box) -> Chunk:
-    return Chunk(box, evaluate_box(sweep, box, size))
+        yield Block(number, sweep.cut(box))
 
 
 def split_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
@@ -388,3 +324,58 @@ def join_chunks(sweep: Sweep, chunks: Iterable[Chunk]) -> list[Array]:
     """
     found = zip(*(chunk.values for chunk in chunks), strict=True)
     return [np.concatenate(parts).reshape(sweep.shape) for parts in found]
+
+
+# ------------------------------------------------------------------ kept results
+@dataclass(frozen=True, eq=False, repr=False)
+class Swept(Result):
+    """Variants of an engine with their figures.
+
+    Attributes:
+        sweep: What was computed: file, parameters with their values, quantities.
+        values: Each quantity on the whole grid, SI or degrees, shape (values of the first
+            parameter, of the second, ...).
+    """
+
+    sweep: Sweep
+    values: tuple[Array, ...]
+
+    @property
+    def summary(self) -> str:
+        """The engine, the parameters and the quantities."""
+        sweep = self.sweep
+        over = ", ".join(f"{p.path} ({len(p)})" for p in sweep.parameters)
+        what = ", ".join(q.name for q in sweep.quantities)
+        return f"of {sweep.file.name or 'an engine'} over {over}: {what}"
+
+    def __iter__(self) -> Iterator[str]:
+        """Yield the names of the parameters, then of the quantities."""
+        return iter(self.sweep.columns)
+
+    def __getitem__(self, name: str) -> Array:
+        """Return a quantity on the whole grid, or the values of a parameter, by its name.
+
+        Raises:
+            KeyError: There is none of this name.
+        """
+        columns = [*(p.values for p in self.sweep.parameters), *self.values]
+        with suppress(ValueError):
+            return columns[self.sweep.columns.index(name)]
+        raise KeyError(f"{name}; there are {', '.join(self)}")
+
+
+def compute_sweep(sweep: Sweep, threads: int) -> Swept:
+    """Return all variants of a sweep.
+
+    Raises:
+        BalcliError: They are too many to keep.
+        InputError: One of them cannot be.
+    """
+    count = sweep.variants * len(sweep.quantities)
+    if count > MOST_KEPT_FIGURES:
+        raise BalcliError(
+            f"{count} figures are too many to keep ({MOST_KEPT_FIGURES} are allowed): balcli sweep "
+            "-o FILE.parquet writes them as they are computed"
+        )
+    share = partial(share_among_threads, threads=threads)
+    return Swept(sweep, tuple(join_chunks(sweep, evaluate_chunks(sweep, share))))

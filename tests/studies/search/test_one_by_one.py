@@ -16,7 +16,6 @@ from support.paths import ENGINES, write
 from balcli.core.telling import tell_nobody
 from balcli.engine.load import parse
 from balcli.studies.search import evaluate
-from balcli.studies.search.designs import Design
 from balcli.studies.search.local import Box, Effort, find_local_optima
 from balcli.studies.search.objective import Merit, parse_objective
 
@@ -269,14 +268,14 @@ def test_mistakes(over, minimise, message):
 def test_no_more_designs_than_can_be_waited_for(monkeypatch):
     monkeypatch.setattr(evaluate, "MOST_DESIGNS_ONE_BY_ONE", 3)
     model, goal = parse(SIX), parse_objective("torque.3.amplitude", with_gas=True)
-    designs = (Design(numbers={"rod.length": 200.0 + k}) for k in range(9))
+    designs = ({"rod.length": 200.0 + k} for k in range(9))
     with pytest.raises(Exception, match="there are more than 3 arrangements"):
         evaluate.rank_one_by_one(model, designs, goal, tell_nobody)
 
 
 def test_who_is_told_may_say_that_it_is_enough():
     model, goal = parse(SIX), parse_objective("torque.3.amplitude", with_gas=True)
-    designs = [Design(numbers={"rod.length": 200.0 + k}) for k in range(4)]
+    designs = [{"rod.length": 200.0 + k} for k in range(4)]
     found = list(evaluate.rank_one_by_one(model, designs, goal, lambda share: share >= 0.5))
     assert len(found) == 2
 

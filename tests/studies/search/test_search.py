@@ -18,7 +18,7 @@ from balcli.forces.quantity import evaluate_quantities
 from balcli.render.search import sheet
 from balcli.render.units import SYSTEMS
 from balcli.studies.quantities import parse_quantities
-from balcli.studies.search.designs import Design, write_design
+from balcli.studies.search.designs import write_design
 from balcli.studies.search.evaluate import fires_evenly
 from balcli.studies.search.objective import parse_objective
 from balcli.studies.search.search import search_arrangements
@@ -34,7 +34,7 @@ def engine(throws: list[float], layout: str = "") -> EngineFile:
 
 def test_in_line_four() -> None:
     found = search_least(load(SHUFFLED), "throws", "moment.1.major,force.1.major=1").results
-    assert [r.design.throws for r in found] == [(0, 180, 180, 0), (0, 180, 0, 180), (0, 0, 180, 180)]
+    assert [r.design["throws"] for r in found] == [[0, 180, 180, 0], [0, 180, 0, 180], [0, 0, 180, 180]]
     assert found[0].objective == 0
 
 
@@ -65,9 +65,9 @@ def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layou
 
 def test_every_arrangement_of_a_five_once() -> None:
     found = search_least(engine([0, 72, 144, 216, 288]), "throws", "moment.1.major", count=100).results
-    keys = {tuple(r.design.throws) for r in found}
+    keys = {tuple(r.design["throws"]) for r in found}
     assert len(keys) == len(found) == 8  # 5!/5 rotations = 24 cranks, 8 but for mirror images
-    assert all(r.design.throws[0] == 0 for r in found)
+    assert all(r.design["throws"][0] == 0 for r in found)
 
 
 def test_eight_distinct_throws_are_all_tried() -> None:
@@ -101,7 +101,7 @@ def test_who_is_told_hears_of_all_arrangements_and_changes_nothing() -> None:
 
 
 def test_who_has_seen_enough_gets_the_best_so_far() -> None:
-    """The first 7! of 9 x 8! arrangements, which are tried at once: none of those is better."""
+    """None of those that begin as the first cranks do is better."""
     file, wanted = engine(NINE), parse_objective("moment.1.major")
     shares: list[float] = []
 
@@ -110,11 +110,9 @@ def test_who_has_seen_enough_gets_the_best_so_far() -> None:
         return True
 
     (best,) = find_best_throws(file, wanted, 1, tell=enough)
-    assert shares == [pytest.approx(1 / (9 * 8))]
-    among = [(0.0, 31.0, *rest) for rest in permutations(NINE[2:])]
-    tried = np.array(among[:: len(among) // 200])
-    values = [evaluate_alone(file, throws) for throws in (best, *tried)]
-    assert values[0] <= min(values[1:])
+    assert 0 < shares[-1] < 0.1
+    (first,) = find_best_throws(file, wanted, 1)
+    assert evaluate_alone(file, first) <= evaluate_alone(file, best) < np.inf
 
 
 def evaluate_alone(file: EngineFile, throws: np.ndarray) -> float:
@@ -135,7 +133,7 @@ def test_limits_are_kept() -> None:
 
 def test_firing_orders_of_a_given_crank_once() -> None:
     found = search_least(load(GOOD), "firing_order", "moment.1.major").results
-    assert [r.design.firing_order for r in found] in ([(1, 3, 4, 2)], [(1, 2, 4, 3)])  # mirror images
+    assert [tuple(r.design["firing_order"]) for r in found] in ([(1, 3, 4, 2)], [(1, 2, 4, 3)])  # mirror images
 
 
 def test_firing_orders_bring_their_cranks() -> None:
@@ -147,13 +145,13 @@ def test_firing_orders_bring_their_cranks() -> None:
         new = load(write_design(changed(("throws = [0, 180, 180, 0]\n", "")).encode(), r.design))
         value = evaluate_quantities(build(new), parse_quantities("moment.1.major"))[0]
         assert float(value) == pytest.approx(r.objective, abs=1e-9)
-        assert new.layout.firing_order == r.design.firing_order
+        assert new.layout.firing_order == tuple(r.design["firing_order"])
 
 
 def test_v8_firing_orders_fit_their_crank() -> None:
     file = engine([0, 90, 270, 180], "bank_angle = 90")
     found = search_least(file, "firing_order", "moment.1.major", count=100).results
-    orders = [r.design.firing_order for r in found]
+    orders = [tuple(r.design["firing_order"]) for r in found]
     assert len(orders) == 4  # 16, but for mirror images
     common, from_the_other_end = (1, 5, 4, 2, 6, 3, 7, 8), (1, 3, 7, 2, 6, 5, 4, 8)
     assert common in orders or from_the_other_end in orders
@@ -202,7 +200,10 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
 
     every = {order for rest in permutations(range(2, count + 1)) if fits(order := (1, *rest))}
     given = load(text(next(iter(every))))
-    found = [r.design.firing_order for r in search_least(given, "firing_order", "moment.1.major", count=1000).results]
+    found = [
+        tuple(r.design["firing_order"])
+        for r in search_least(given, "firing_order", "moment.1.major", count=1000).results
+    ]
     mirrored = {other for order in found for other in _images(order, given)}
     assert every <= mirrored
     assert set(found) <= every
@@ -250,13 +251,13 @@ def test_millions_of_firing_orders_are_no_hindrance() -> None:
 def test_ninety_degree_twin() -> None:
     file = engine([0], "bank_angle = 50")
     (found, *_) = search_least(file, "bank_angle", "force.1.backward").results
-    assert (found.design, found.objective) == (Design(bank_angle=90), 0)
+    assert (found.design, found.objective) == ({"bank_angle": 90}, 0)
 
 
 def test_splay_of_the_90_degree_v6_for_even_firing() -> None:
     file = engine([0, 240, 120], "bank_angle = 90")
     found = search_least(file, "splay", "moment.1.major", even_firing=True).results
-    assert sorted(r.design.splay for r in found) == [-150, -30, 90]
+    assert sorted(r.design["splay"] for r in found) == [-150, -30, 90]
 
 
 def test_even_firing() -> None:
@@ -347,11 +348,11 @@ def test_written_file_keeps_its_comments() -> None:
         + "# the end\n"
     )
     wanted = text.replace("[0, 180, 180, 0]  # deg", "[0.0, 180.0, 0.0, 180.0]  # deg (found by balcli)")
-    assert write_design(text.encode(), Design(throws=(0.0, 180.0, 0.0, 180.0))) == wanted
+    assert write_design(text.encode(), {"throws": [0.0, 180.0, 0.0, 180.0]}) == wanted
 
 
 def test_written_file_drops_a_firing_order_that_no_longer_fits() -> None:
-    new = load(write_design(GOOD.encode(), Design(throws=(0.0, 0.0, 180.0, 180.0))))
+    new = load(write_design(GOOD.encode(), {"throws": [0.0, 0.0, 180.0, 180.0]}))
     assert new.crank.throws == (0, 0, 180, 180)
     assert new.layout.firing_order is None
     build(new)
@@ -371,8 +372,8 @@ def test_articulated_rods_count_once_for_their_throw() -> None:
     angles = np.array([0.0, 100, 190, 250])
     found = tabulate_contributions(file, angles, 0, quantities)
     for q, whole in zip(quantities, evaluate_quantities(build(file), quantities), strict=True):
-        forward, backward = found[q.kind, q.order].add_throws(range(4), np.array([[0, 1, 2, 3]], np.int8))
-        assert found[q.kind, q.order].read(q, forward, backward)[0] == pytest.approx(float(whole), rel=1e-9)
+        sums = found.throws[:, :, range(4), range(4)].sum(axis=2)[..., None]
+        assert found.read(q, sums)[0] == pytest.approx(float(whole), rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -382,21 +383,6 @@ def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool
     found = search_least(load(SHUFFLED), "throws", minimise)
     (grid,) = sheet(found, SYSTEMS["si"]).parts
     assert ("Objective: N·m and N added as plain numbers" in grid.note) is told
-
-
-@pytest.mark.parametrize(
-    ("minimise", "against"),
-    [
-        ("moment.1.major", "moment.1.backward"),
-        ("moment.1.major,force.1.major", "force.1.backward and moment.1.backward"),
-        ("moment.2.major,moment.1.forward", ""),
-        ("couple.1.major", ""),  # no counterweight takes of a couple
-    ],
-)
-def test_what_counterweights_cannot_take_is_named(minimise: str, against: str) -> None:
-    found = search_least(load(SHUFFLED), "throws", minimise)
-    note = sheet(found, SYSTEMS["si"]).parts[0].note
-    assert note.partition("what they cannot take is ")[2].removesuffix(".") == against
 
 
 def test_throws_that_follow_from_the_firing_order_are_permuted_like_those_given():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from ...engine.build import build
 from ...engine.layout import plan_cylinders
@@ -12,6 +12,9 @@ from ...enginefile.edit import set_keys
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError, InputError
 
+# One arrangement: what differs from the file, by key: a key of PATHS, or the dotted name of a
+# number. Throws (deg) and firing orders are lists.
+Design: TypeAlias = Mapping[str, Any]
 PATHS = {
     "throws": "crank.throws",
     "firing_order": "layout.firing_order",
@@ -22,43 +25,18 @@ NOTE = "found by balcli"
 SAME = 1e-9  # relative difference of the objectives of mirror images
 
 
-class Design(NamedTuple):
-    """One arrangement; None: as the file has it.
-
-    Attributes:
-        firing_order: numbers of the cylinders.
-        throws: angles along the crank, deg.
-        bank_angle, splay: deg.
-        numbers: other numbers of the file by dotted name.
-    """
-
-    firing_order: tuple[int, ...] | None = None
-    throws: tuple[float, ...] | None = None
-    bank_angle: float | None = None
-    splay: float | None = None
-    numbers: Mapping[str, float] = {}
-
-    def given(self) -> dict[str, float | list[float] | list[int]]:
-        """Return what differs from the file, by key, as JSON has it."""
-        named = {k: v for k, v in self._asdict().items() if k != "numbers" and v is not None}
-        return {k: list(v) if isinstance(v, tuple) else v for k, v in named.items()} | dict(
-            self.numbers
-        )
-
-    def changes(self) -> dict[str, Any]:
-        """Return the same by dotted keys, as `engine.vary.vary_engine` takes them."""
-        changed: dict[str, Any] = {PATHS.get(key, key): v for key, v in self.given().items()}
-        if self.firing_order is not None:
-            changed["layout.firing_intervals"] = None
-        return changed
-
-
 class Found(NamedTuple):
     """One arrangement, the value of its objective, and its figures by name of quantity."""
 
     design: Design
     objective: float
     figures: Mapping[str, float]
+
+
+def list_changes(design: Design) -> dict[str, Any]:
+    """Return a design by dotted keys, as `engine.vary.vary_engine` takes them."""
+    changed = {PATHS.get(key, key): value for key, value in design.items()}
+    return changed | ({"layout.firing_intervals": None} if "firing_order" in design else {})
 
 
 def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Found]:
@@ -82,13 +60,13 @@ def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple
     """Yield a firing order or throws, their mirror images from the other end and in the other
     sense of rotation, and both.
     """
-    if (order := design.firing_order) is not None:
-        for row in (order, tuple(other_end[number] for number in order)):
+    if (order := design.get("firing_order")) is not None:
+        for row in (order, [other_end[number] for number in order]):
             start = row.index(1)
             turned = row[start:] + row[:start]
-            yield turned
-            yield (turned[0], *reversed(turned[1:]))
-    elif (throws := design.throws) is not None:
+            yield tuple(turned)
+            yield (1, *reversed(turned[1:]))
+    elif (throws := design.get("throws")) is not None:
         for angles in (throws, throws[::-1]):
             for sign in (1, -1):
                 from_first = ((sign * (angle - angles[0])) % 360.0 for angle in angles)
@@ -100,23 +78,22 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
     longer fits is left out.
 
     Args:
-        text: of the file.
-        name: of the file; files that it names are beside it.
+        text: Text of the file.
+        design: Throws, a firing order or angles.
+        name: Name of the file; files that it names are in the same folder.
 
     Raises:
-        BalcliError: the engine needs the firing order, or the design has other numbers.
+        BalcliError: The engine needs the firing order, or the design has other numbers.
     """
-    if design.numbers:
-        settings = ", ".join(f"{path} = {best:.9g}" for path, best in design.numbers.items())
+    if any(key not in PATHS for key in design):
+        settings = ", ".join(f"{path} = {best:.9g}" for path, best in design.items())
         raise BalcliError(
             f"--write takes throws, firing orders and angles; write {settings} by hand"
         )
     new = text.decode("utf-8-sig")
-    for key, value in design.given().items():
-        table, _, last = PATHS[key].partition(".")
+    for path, value in list_changes(design).items():
+        table, _, last = path.partition(".")
         new = set_keys(new, table, {last: value}, NOTE)
-    if design.firing_order is not None:
-        new = set_keys(new, "layout", {"firing_intervals": None}, NOTE)
     if not _is_engine(new, name):
         new = set_keys(new, "layout", {"firing_order": None, "firing_intervals": None}, NOTE)
         if not _is_engine(new, name):

@@ -12,19 +12,18 @@ from ...core.phases import TURN
 from ...core.phasors import Array
 from ...core.telling import Tell
 from ...engine.arrays import ranked
-from ...engine.build import Engine, build
+from ...engine.build import Engine
 from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import cycle_deg, plan_cylinders
 from ...engine.load import parse_dict
 from ...enginefile.model import EngineFile
 from ...enginefile.plain_tables import change_tables
 from ...errors import BalcliError, InputError
-from ...forces.quantity import evaluate_quantities
 from ...limits import MOST_DESIGNS_ONE_BY_ONE
+from ..evaluator import Evaluator
 from ..parameters import tell_variant
-from ..quantities import AnyQuantity, choose_of_engine, group_by_chapter, load_chapter
-from ..varied_gas import attach_gas_torque
-from .designs import Design, Found
+from ..quantities import AnyQuantity
+from .designs import Design, Found, list_changes
 from .objective import Merit, Objective
 
 AT_ONCE = 256  # candidates that are built as one engine
@@ -34,16 +33,17 @@ _EVEN_DEG = 1e-9  # firings that are less uneven are even
 class NumbersJudge:
     """Merits of values of some numbers of an engine file.
 
-    Attributes:
-        alone: whether quantities of mounts, torsion, guides or the cycle are asked for, which take
-            each candidate by itself.
-        refused: the first candidate that makes no engine, and why; empty if all do.
-
     Args:
-        model: the engine file.
-        paths: of the numbers.
-        even_firing: whether the cylinders have to fire evenly.
-        tell: is told how many candidates have been evaluated.
+        model: Engine file.
+        paths: Dotted names of the numbers.
+        objective: Objective of the search.
+        even_firing: Whether the cylinders have to fire evenly.
+        tell: Called with the number of candidates so far.
+
+    Attributes:
+        alone: Whether each candidate takes a computation of its own.
+        refused: Error of the first candidate that makes no engine, with its numbers as `file`;
+            None if all do.
     """
 
     def __init__(
@@ -56,20 +56,14 @@ class NumbersJudge:
     ) -> None:
         self._model, self._paths, self._objective = model, paths, objective
         self._even_firing, self._tell, self._count = even_firing, tell, 0
-        self._of_engine = choose_of_engine(objective.quantities)
-        self._of_chapters = [
-            (members, load_chapter(chapter).Variants(model, members))
-            for chapter, members in group_by_chapter(objective.quantities).items()
-        ]
-        self.alone = bool(self._of_chapters) or not objective.is_sum_over_cylinders
-        self.first_error: InputError | None = None
-        self.refused = ""
+        self._evaluator = Evaluator(model, objective.quantities)
+        self.alone = not objective.is_sum_over_cylinders
+        self.refused: InputError | None = None
 
     def __call__(self, points: Array) -> Merit:
         """Return the merits of points, shape (points, numbers); infinite where no engine is."""
         size = 1 if self.alone else AT_ONCE
-        starts = range(0, len(points), size)
-        return _join([self._judge(points[k : k + size]) for k in starts])
+        return _join([self._judge(points[k : k + size]) for k in range(0, len(points), size)])
 
     def _judge(self, points: Array) -> Merit:
         try:
@@ -77,55 +71,36 @@ class NumbersJudge:
         except InputError as error:
             if len(points) > 1:
                 return _join([self._judge(half) for half in np.array_split(points, 2)])
-            if self.first_error is None:
-                self.first_error = error
-                figures = dict(zip(self._paths, points[0].tolist(), strict=True))
-                self.refused = f"{tell_variant(figures)}: {error.problems[0]}"
+            figures = dict(zip(self._paths, points[0].tolist(), strict=True))
+            self.refused = self.refused or InputError(error.problems, tell_variant(figures))
             merit = Merit(*np.full((2, 1), np.inf))
         self._count += len(points)
         self._tell(self._count)
         return merit
 
     def _judge_engines(self, points: Array) -> Merit:
-        values = self.evaluate(points)
-        merit = self._objective.judge(values)
+        merit = self._objective.judge(self.evaluate(points))
         if not self._even_firing:
             return merit
-        uneven = find_unevenness(self._build(points), self._model)
+        columns = dict(zip(self._paths, points.T, strict=True))
+        uneven = find_unevenness(self._evaluator.build(columns, 1), self._model)
         missed = np.where(uneven > _EVEN_DEG, 1 + uneven, 0.0)
         return Merit(np.maximum(merit.excess, missed), merit.cost)
-
-    def _build(self, points: Array) -> Engine:
-        columns = dict(zip(self._paths, points.T, strict=True))
-        return attach_gas_torque(build(self._model, columns), self._model, columns)
 
     def evaluate(self, points: Array) -> dict[AnyQuantity, Array]:
         """Return each quantity, shape (points,).
 
         Raises:
-            InputError: one of the points makes no engine.
+            InputError: One of the points makes no engine.
         """
-        found: dict[AnyQuantity, Array] = {}
-        if self._of_engine or self._even_firing:
-            values = evaluate_quantities(self._build(points), self._of_engine)
-            found |= {
-                q: np.broadcast_to(value, len(points))
-                for q, value in zip(self._of_engine, values, strict=True)
-            }
-        rows = [dict(zip(self._paths, point, strict=True)) for point in points.tolist()]
-        for members, variants in self._of_chapters:
-            columns = np.array([variants.evaluate(row) for row in rows]).T
-            found |= dict(zip(members, columns, strict=True))
-        return found
+        columns = dict(zip(self._paths, points.T, strict=True))
+        values = self._evaluator.evaluate(columns, (len(points),))
+        return dict(zip(self._objective.quantities, values, strict=True))
 
 
 def _join(parts: Sequence[Merit]) -> Merit:
     """Return the merits of all candidates together."""
-    none = np.empty(0)
-    return Merit(
-        np.concatenate([none, *(each.excess for each in parts)]),
-        np.concatenate([none, *(each.cost for each in parts)]),
-    )
+    return Merit(*np.concatenate([np.empty((2, 0)), *parts], axis=1))
 
 
 def find_unevenness(engine: Engine, model: EngineFile) -> Array:
@@ -155,30 +130,29 @@ def drop_firing_order(model: EngineFile) -> EngineFile:
     return model.with_table("layout", firing_order=None, firing_intervals=None)
 
 
-def build_throws(model: EngineFile, throws: Array) -> Engine:
-    """Return engines with these throws, shape (candidates, throws), deg, as one engine."""
-    columns = {f"crank.throws.{n}": column for n, column in enumerate(throws.T, 1)}
-    return build(model, columns)
+def name_throws(throws: Array) -> dict[str, Array]:
+    """Return throws, shape (candidates, throws), deg, as figures of the file."""
+    return {f"crank.throws.{n}": column for n, column in enumerate(throws.T, 1)}
 
 
 def rank_throws(model: EngineFile, throws: Array, objective: Objective) -> Iterator[Found]:
     """Yield throws that keep the limits, best first, by the figures of the whole engine."""
     if not len(throws):
         return
-    wanted = choose_of_engine(objective.quantities)
-    found = evaluate_quantities(build_throws(model, throws), wanted)
-    values: Mapping[AnyQuantity, Array] = {
-        q: np.broadcast_to(v, len(throws)) for q, v in zip(wanted, found, strict=True)
-    }
-    designs = [Design(throws=tuple(row)) for row in throws.tolist()]
-    yield from rank_designs(designs, values, objective)
+    found = Evaluator(model, objective.quantities).evaluate(name_throws(throws), throws.shape[:1])
+    designs = [{"throws": row} for row in throws.tolist()]
+    yield from rank_designs(designs, dict(zip(objective.quantities, found, strict=True)), objective)
 
 
 def rank_designs(
     designs: Sequence[Design], values: Mapping[AnyQuantity, Array], objective: Objective
 ) -> Iterator[Found]:
-    """Yield the designs that keep the limits, best first, with their figures; `values`: of each
-    quantity, shape (designs,).
+    """Yield the designs that keep the limits, best first, with their figures.
+
+    Args:
+        designs: Arrangements.
+        values: Each quantity, shape (designs,).
+        objective: Objective of the search.
     """
     merit = objective.judge(values)
     for k in Merit(merit.excess, ranked(merit.cost)).rank():
@@ -194,10 +168,13 @@ def rank_one_by_one(
     """Return the designs that keep the limits, best first, each computed by itself.
 
     Args:
-        tell: is told the share that is done, and returns whether that is enough.
+        model: Engine file.
+        designs: Arrangements.
+        objective: Objective of the search.
+        tell: Called with the share that is done; returns whether to stop.
 
     Raises:
-        BalcliError: more than MOST_DESIGNS_ONE_BY_ONE.
+        BalcliError: More than MOST_DESIGNS_ONE_BY_ONE.
     """
     every = list(islice(designs, MOST_DESIGNS_ONE_BY_ONE + 1))
     if len(every) > MOST_DESIGNS_ONE_BY_ONE:
@@ -205,16 +182,13 @@ def rank_one_by_one(
             f"there are more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, and each takes a "
             "computation of its own: give crank.throws, or look for what inertia alone does"
         )
-    rows = []
+    rows: list[list[Array]] = []
     for k, design in enumerate(every, 1):
-        changed = parse_dict(change_tables(model, design.changes()), model.folder)
-        rows.append(_evaluate(changed, objective))
+        changed = parse_dict(change_tables(model, list_changes(design)), model.folder)
+        rows.append(Evaluator(changed, objective.quantities).evaluate({}, (1,)))
         if tell(k / len(every)):
             break
-    values = {q: np.array([row[q] for row in rows]) for q in objective.quantities} if rows else {}
-    return rank_designs(every[: len(rows)], values, objective) if rows else iter(())
-
-
-def _evaluate(model: EngineFile, objective: Objective) -> dict[AnyQuantity, float]:
-    judge = NumbersJudge(model, (), objective, False, lambda _: False)
-    return {q: float(v[0]) for q, v in judge.evaluate(np.empty((1, 0))).items()}
+    values = np.array(rows).reshape(-1, len(objective.quantities)).T
+    return rank_designs(
+        every[: len(rows)], dict(zip(objective.quantities, values, strict=True)), objective
+    )

@@ -166,5 +166,5 @@ def search_firing_order(model: EngineFile, objective: Objective) -> Iterator[Fou
     """Yield the even firing orders with their cranks, best first."""
     slots, cranks = find_slots(model)
     for one in rank_throws(drop_firing_order(model), cranks, objective):
-        for order in slots.find_orders(one.design.throws or ()):
-            yield one._replace(design=one.design._replace(firing_order=order))
+        for order in slots.find_orders(one.design["throws"]):
+            yield one._replace(design={"firing_order": [*order], **one.design})

@@ -181,55 +181,38 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, exact: float) -> Ar
     covariance. Lengths are shares of the box. Starts that do not converge return their best.
     """
     count, k = mean.shape
-    drawn, most = 8 + 4 * k, 200 + 100 * k
-    weights = math.log(drawn / 2 + 0.5) - np.log(np.arange(1, drawn // 2 + 1))
-    weights /= weights.sum()
-    effective = 1 / (weights**2).sum()
-    by_step = (effective + 2) / (k + effective + 5)
-    damping = 1 + by_step + 2 * max(0.0, math.sqrt((effective - 1) / (k + 1)) - 1)
-    by_path = (4 + effective / k) / (k + 4 + 2 * effective / k)
-    rank_one = 2 / ((k + 1.3) ** 2 + effective)
-    rank_mu = min(1 - rank_one, 2 * (effective - 2 + 1 / effective) / ((k + 2) ** 2 + effective))
-    usual = math.sqrt(k) * (1 - 1 / (4 * k) + 1 / (21 * k**2))
+    drawn, most = 8 + 4 * k, 300 + 100 * k
+    half = drawn // 4
     random = np.random.default_rng(0)
     size = np.full(count, step)
     covariance = np.tile(np.eye(k), (count, 1, 1))
-    step_path, path = np.zeros((count, k)), np.zeros((count, k))
-    best, reached = mean.copy(), judge(mean)
+    learned = 1 + k * (k + 1) / (2 * half)
+    mean, best, reached = mean.copy(), mean.copy(), judge(mean)
     for _ in range(most):
         squares, axes = np.linalg.eigh(covariance)
         widths = np.sqrt(np.maximum(squares, 1e-28))
         live = np.flatnonzero(size * widths[:, -1] > exact)
         if not len(live):
             break
-        axes, widths, here = axes[live], widths[live], size[live, None]
+        sizes = size[live, None] * np.exp(
+            random.standard_normal((len(live), drawn)) / math.sqrt(2 * k)
+        )
         z = random.standard_normal((len(live), drawn, k))
-        moves = np.einsum("sij,slj->sli", axes, z * widths[:, None])
-        points = box.bring_inside(mean[live, None] + here[..., None] * moves * box.span)
-        moves = box.subtract(points, mean[live, None]) / here[..., None]
-        judged = judge(points.reshape(-1, k))
-        merits = Merit(*(each.reshape(len(live), drawn) for each in judged))
-        order = merits.rank()[:, : len(weights)]
-        rows = np.arange(len(live))[:, None]
+        moves = np.einsum("sij,slj->sli", axes[live], z * widths[live, None])
+        points = box.bring_inside(mean[live, None] + sizes[..., None] * moves * box.span)
+        merits = Merit(*(each.reshape(sizes.shape) for each in judge(points.reshape(-1, k))))
+        rows, order = np.arange(len(live))[:, None], merits.rank()[:, :half]
         first = merits.take((rows[:, 0], order[:, 0]))
         better = ~reached.take(live).is_at_most(first)
         best[live[better]] = points[rows[:, 0], order[:, 0]][better]
         for whole, part in zip(reached, first, strict=True):
             whole[live[better]] = part[better]
-        chosen = moves[rows, order]
-        move = np.einsum("l,sli->si", weights, chosen)
-        mean[live] = box.bring_inside(mean[live] + here * move * box.span)
-        white = np.einsum("sij,sj->si", axes, np.einsum("sji,sj->si", axes, move) / widths)
-        step_path[live] *= 1 - by_step
-        step_path[live] += math.sqrt(by_step * (2 - by_step) * effective) * white
-        length = np.sqrt((step_path[live] ** 2).sum(axis=1)) / usual
-        steady = (length < 1.4 + 2 / (k + 1))[:, None]
-        path[live] *= 1 - by_path
-        path[live] += steady * math.sqrt(by_path * (2 - by_path) * effective) * move
-        covariance[live] *= 1 - rank_one - rank_mu
-        covariance[live] += rank_one * path[live][:, :, None] * path[live][:, None, :]
-        covariance[live] += rank_mu * np.einsum("l,sli,slj->sij", weights, chosen, chosen)
-        size[live] *= np.exp(by_step / damping * (length - 1))
+        steps = box.subtract(points, mean[live, None])[rows, order]
+        mean[live] = box.bring_inside(mean[live] + steps.mean(axis=1) * box.span)
+        chosen = steps / sizes[rows, order][..., None]
+        size[live] = sizes[rows, order].mean(axis=1)
+        spread = np.einsum("sli,slj->sij", chosen, chosen) / half
+        covariance[live] += (spread - covariance[live]) / learned
     return best
 
 

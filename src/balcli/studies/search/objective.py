@@ -78,17 +78,26 @@ class Objective:
 
 
 def parse_objective(
-    goal: str, limits: Sequence[str] = (), *, maximise: bool = False, with_gas: bool = False
+    minimise: str | None,
+    limits: Sequence[str] = (),
+    *,
+    maximise: str | None = None,
+    with_gas: bool = False,
 ) -> Objective:
     """Read `moment.1.major,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
 
     Args:
-        maximise: whether the sum is maximised.
-        with_gas: whether the engine has gas.
+        minimise: Weighted sum that should be small.
+        limits: What quantities must stay below.
+        maximise: Weighted sum that should be large; exactly one of both is given.
+        with_gas: Whether the engine has gas.
 
     Raises:
-        BalcliError: an unknown quantity, or a wrong weight or limit.
+        BalcliError: An unknown quantity, or a wrong weight or limit.
     """
+    if (minimise is None) == (maximise is None):
+        raise BalcliError("give exactly one of --minimise and --maximise")
+    goal = maximise or minimise or ""
     weights: dict[AnyQuantity, float] = {}
     for term in goal.split(","):
         name, _, weight = term.partition("=")
@@ -103,7 +112,7 @@ def parse_objective(
                 '"moment.2.major<100"'
             )
         bounds |= dict.fromkeys(_parse_sizes(name, with_gas), _parse_positive(bound, text))
-    return Objective(weights, bounds, maximise)
+    return Objective(weights, bounds, maximise is not None)
 
 
 def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:

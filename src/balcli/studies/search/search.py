@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from typing import NamedTuple
@@ -19,17 +19,15 @@ from ...engine.vary import vary_engine
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...enginefile.plain_tables import change_tables
-from ...errors import BalcliError, check_type
-from ...forces.orders import merge_orders
-from ...forces.quantity import Quantity, refuse_unknown
-from ...forces.textbook import TextbookUnits, find_textbook_units
+from ...errors import BalcliError, InputError, check_type
+from ...forces.quantity import refuse_unknown
 from ...result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
 from ..quantities import choose_of_engine, refuse_unknown_of_chapters
-from .designs import PATHS, Design, Found, drop_mirror_images
+from .designs import PATHS, Design, Found, drop_mirror_images, list_changes
 from .evaluate import NumbersJudge, drop_firing_order, fires_evenly, rank_designs, rank_one_by_one
 from .firing_orders import find_slots, search_firing_order
-from .local import Box, Effort, LocalOptima, find_local_optima
+from .local import Box, Effort, find_local_optima
 from .objective import Objective
 from .throws import give_throws, list_throws, search_throws
 
@@ -67,9 +65,7 @@ class Search(Result):
         over: what was arranged: `throws`, or numbers with commas between.
         objective: the quantities, their weights and limits.
         results: best first, each with its `design`, the value of its `objective` and its `figures`.
-        scale: units of forces and moments in textbooks.
         ranges: the numbers that were searched over.
-        locked: from where to where (deg) a bank angle makes the mechanism lock.
         constant: whether the numbers change nothing of the objective.
         refused: values of the numbers that make no engine, and why; empty if all do.
     """
@@ -78,9 +74,7 @@ class Search(Result):
     over: str
     objective: Objective
     results: tuple[Found, ...]
-    scale: TextbookUnits
     ranges: tuple[SearchRange, ...] = ()
-    locked: tuple[tuple[float, float], ...] = ()
     constant: bool = False
     refused: str = ""
 
@@ -91,10 +85,10 @@ class Search(Result):
         """
         if self.constant:
             return ()
-        numbers, best = find_numbers(self.model), self.results[0].design.numbers
+        numbers, best = find_numbers(self.model), self.results[0].design
         named = []
         for one in self.ranges:
-            if one.key not in best:
+            if one.key in ANGLES:
                 continue
             last = numbers[one.key].least, numbers[one.key].most
             near = NEAR_AN_END * (one.ends[1] - one.ends[0])
@@ -112,11 +106,6 @@ class Search(Result):
         found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
 
-    @property
-    def of_engine(self) -> tuple[Quantity, ...]:
-        """Those quantities of its objective that are of forces and moments."""
-        return choose_of_engine(self.objective.quantities)
-
     def engine(self, rank: int = 1) -> Engine:
         """Return the engine with the arrangement of this rank, the best being 1. A firing order
         that its throws no longer fit is left out.
@@ -128,7 +117,7 @@ class Search(Result):
         check_type("rank", rank, (int, np.integer), "give a whole number from 1")
         if not 1 <= rank <= len(self.results):
             raise IndexError(f"rank {rank}: there are {len(self.results)}, from 1")
-        return vary_engine(build(self.model), self.results[rank - 1].design.changes())
+        return vary_engine(build(self.model), list_changes(self.results[rank - 1].design))
 
 
 def search_arrangements(
@@ -161,10 +150,9 @@ def search_arrangements(
     refuse_unknown_of_chapters(model, objective.quantities)
     ranges = read_ranges(model, wanted)
     named = ", ".join(one.key for one in ranges) or wanted[0]
-    numbers = NumbersFound((), ())
+    constant, refused = False, ""
     if ranges:
-        numbers = _search_numbers(model, ranges, objective, even_firing, tell)
-        candidates = iter(numbers.found)
+        candidates, constant, refused = _search_numbers(model, ranges, objective, even_firing, tell)
     elif objective.is_sum_over_cylinders:
         if named == "throws":
             base = drop_firing_order(give_throws(model))
@@ -180,9 +168,7 @@ def search_arrangements(
         asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         words = named if "." in named else named.replace("_", " ")
         raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
-    orders = merge_orders(q.order for q in choose_of_engine(objective.quantities))
-    scale = find_textbook_units(engine, orders)
-    return Search(model, named, objective, found, scale, ranges, *numbers[1:])
+    return Search(model, named, objective, found, ranges, constant, refused)
 
 
 # ------------------------------------------------------------------ throws and firing orders
@@ -192,11 +178,11 @@ def _list_designs(model: EngineFile, what: str, even_firing: bool) -> Iterator[D
         slots, cranks = find_slots(model)
         for throws in cranks.tolist():
             for order in slots.find_orders(throws):
-                yield Design(firing_order=order, throws=tuple(throws))
+                yield {"firing_order": [*order], "throws": throws}
         return
     free = drop_firing_order(model)
     for design in list_throws(give_throws(model)):
-        changed = parse_dict(change_tables(free, design.changes()), free.folder)
+        changed = parse_dict(change_tables(free, list_changes(design)), free.folder)
         if not even_firing or fires_evenly(build(changed), changed).all():
             yield design
 
@@ -261,23 +247,15 @@ def _check_angle(model: EngineFile, key: str) -> None:
         )
 
 
-class NumbersFound(NamedTuple):
-    """Result of a search over numbers; attributes as of `Search`."""
-
-    found: Iterable[Found]
-    locked: tuple[tuple[float, float], ...]
-    constant: bool = False
-    refused: str = ""
-
-
 def _search_numbers(
     model: EngineFile,
     ranges: Sequence[SearchRange],
     objective: Objective,
     even_firing: bool,
     tell: Tell,
-) -> NumbersFound:
-    """Return the local optima over some numbers, best first.
+) -> tuple[Iterator[Found], bool, str]:
+    """Return the local optima over some numbers, best first; whether the numbers change nothing;
+    and which values make no engine, and why.
 
     Raises:
         InputError: no values make an engine.
@@ -296,20 +274,18 @@ def _search_numbers(
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
     optima = find_local_optima(judge, box, effort)
-    if not np.isfinite(optima.merits.excess).any() and judge.first_error is not None:
-        raise judge.first_error
-    designs = [_name_numbers(ranges, place) for place in optima.places.tolist()]
-    values = judge.evaluate(optima.places) if designs else {}
+    refused = judge.refused
+    if not np.isfinite(optima.merits.excess).any() and refused is not None:
+        raise InputError(refused.problems)
+    designs = [
+        dict(zip((one.key for one in ranges), place, strict=True))
+        for place in optima.places.tolist()
+    ]
+    found = rank_designs(designs, judge.evaluate(optima.places), objective) if designs else iter(())
     costs = optima.merits.cost
     same = np.ptp(costs) <= _ROUNDING * np.abs(costs).max()
-    constant = bool(same and spans.all() and not judge.refused)
-    locked = _find_locked(model, ranges, optima)
-    return NumbersFound(
-        rank_designs(designs, values, objective) if designs else [],
-        locked,
-        constant,
-        "" if locked else judge.refused,
-    )
+    why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
+    return found, bool(same and spans.all() and not why), why
 
 
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
@@ -320,23 +296,3 @@ def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
         return Effort(_SPREAD, 24, 1e-15)
     highest = max(q.order for q in choose_of_engine(objective.quantities))
     return Effort(max(_GRID, 16 * (math.ceil(highest) + 1)), _GRID, 1e-13)
-
-
-def _name_numbers(ranges: Sequence[SearchRange], place: Sequence[float]) -> Design:
-    named = {one.key: value for one, value in zip(ranges, place, strict=True)}
-    angles = {key: named.pop(key) for key in ANGLES if key in named}
-    return Design(**angles, numbers=named)  # type: ignore[arg-type]
-
-
-def _find_locked(
-    model: EngineFile, ranges: Sequence[SearchRange], optima: LocalOptima
-) -> tuple[tuple[float, float], ...]:
-    """Return from where to where a bank angle leaves articulated rods that cannot follow, deg, to
-    the step of the grid.
-    """
-    if model.articulation is None or [one.key for one in ranges] != ["bank_angle"]:
-        return ()
-    bad = np.flatnonzero(~np.isfinite(optima.merits.excess))
-    runs = np.split(bad, np.flatnonzero(np.diff(bad) > 1) + 1) if len(bad) else []
-    spans = [optima.points[[run[0], run[-1]], 0].tolist() for run in runs]
-    return tuple((low, high) for low, high in spans)

@@ -1,0 +1,340 @@
+"""Spread of quantities over random variants of an engine file, whose parts deviate within
+tolerances. Every variant is analyzed as `sweep` would.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from typing import Annotated, Literal, NamedTuple
+
+import numpy as np
+
+from ..core.phasors import Array
+from ..core.telling import Tell, tell_nobody
+from ..documents.records import HIDDEN
+from ..engine.arrays import column
+from ..engine.build import Engine, build
+from ..engine.gas_figures import concerns_gas
+from ..enginefile.fields import Number, shorten
+from ..enginefile.model import EngineFile
+from ..enginefile.units import ANGLE, BARE_FIGURE
+from ..errors import BalcliError, InputError
+from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
+from ..forces.quantity import leave_out_unknown, refuse_unknown
+from ..limits import MOST_SINGLE_SAMPLES, MOST_TOLERANCE_SAMPLES
+from ..result import Result
+from .deviating_parts import (
+    THROW_MASS,
+    Tolerances,
+    list_mounts,
+    list_parts,
+    list_shafting,
+    spell_out_shafting,
+    spell_out_throws,
+)
+from .evaluator import Evaluator
+from .quantities import (
+    NamedEngine,
+    choose_of_engine,
+    parse_quantities,
+    refuse_unknown_of_chapters,
+)
+from .quantity_names import MOUNTS, TORSION, find_chapter
+
+RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default number of samples, as arrays or one by one
+CHUNK, AT_ONCE = 8_192, 400_000  # samples at a time; deviations at a time
+_EQUAL = 1e-8  # of the largest effect: effects that differ by less are equal
+_ROUNDING = 1e-12  # of a figure: a smaller change of it is none
+_LEAST = -0.99  # relative deviation: a normal one makes no mass and no spring negative
+_DEGREES = Number(ANGLE, least=0, most=90)
+Shape = Literal["uniform", "normal"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spread:
+    """One quantity over all samples, in its SI unit.
+
+    Attributes:
+        nominal: Value without deviations.
+        mean: Mean of the samples.
+        p05: 5th percentile.
+        p50: Median.
+        p95: 95th percentile.
+        max: Largest value.
+        bound: The nominal value and the sizes of all changes added up, to first order.
+        sensitivity: Change that the tolerance of each part alone makes, largest first.
+    """
+
+    nominal: float
+    mean: float
+    p05: float
+    p50: float
+    p95: float
+    max: float
+    bound: float
+    sensitivity: dict[str, float]
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Scatter(Result):
+    """How quantities spread when masses and lengths vary within their tolerances.
+
+    Attributes:
+        format: Name and version of the document.
+        engine: The engine.
+        samples: Number of random variants.
+        distribution: Of each deviation.
+        quantities: Spread of each quantity, by its name.
+        model: The engine file.
+        units: SI unit of each quantity, by its name.
+        varied: What the variants are, for tables: engines.
+    """
+
+    format: Literal["balcli.scatter/1"] = "balcli.scatter/1"
+    engine: NamedEngine
+    samples: int
+    distribution: Shape
+    quantities: dict[str, Spread]
+    model: Annotated[EngineFile, HIDDEN]
+    units: Annotated[dict[str, str], HIDDEN]
+    varied: Annotated[str, HIDDEN]
+
+    @property
+    def summary(self) -> str:
+        """The engine and the number of samples."""
+        return f"of {self.model.name or 'an engine'}: {self.samples} samples"
+
+
+# ------------------------------------------------------------------ tolerances as users give them
+def read_tolerances(
+    mass: float | str, length: float | str, angle: float | str, stiffness: float | str | None
+) -> Tolerances:
+    """Return tolerances, given as `0.005` or `"0.5%"`, angles as `0.2` or `"0.2 deg"`.
+
+    Raises:
+        BalcliError: The option, and a value that is neither, negative or too large.
+    """
+    if isinstance(angle, str) and re.fullmatch(BARE_FIGURE, angle.strip(), re.ASCII):
+        angle = float(angle)
+    try:
+        angle_deg = _DEGREES.read(angle)
+    except ValueError as error:
+        raise BalcliError(f"--angle-scatter: {error}") from None
+    return Tolerances(
+        _read_share("--mass-scatter", mass),
+        _read_share("--length-scatter", length),
+        angle_deg,
+        None if stiffness is None else _read_share("--stiffness-scatter", stiffness),
+    )
+
+
+def _read_share(option: str, value: float | str) -> float:
+    """Return a share of 0 to 1."""
+    if isinstance(value, str):
+        number, percent, rest = value.strip().partition("%")
+        bare = re.fullmatch(BARE_FIGURE, number.strip(), re.ASCII)
+        if bare and percent and not rest and 0 <= float(number) < 100:
+            return float(number) / 100
+        raise BalcliError(f'{option} "{value}": give a percentage of 0 to 100, such as 0.5%')
+    real = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+    if not real or not 0 <= value < 1:
+        raise BalcliError(
+            f'{option} {shorten(value)}: give a share from 0 to 1, such as 0.005 or "0.5%"'
+        )
+    return float(value)
+
+
+# ------------------------------------------------------------------ random variants
+class Drawing(NamedTuple):
+    """What is drawn at random.
+
+    Attributes:
+        samples: Number of variants; None: the default.
+        seed: Of the random numbers, to repeat them.
+        shape: Uniform within the tolerances, or normal with a third of them as standard deviation.
+        tell: Called with the number of samples so far; returns whether to stop.
+    """
+
+    samples: int | None = None
+    seed: int | None = None
+    shape: Shape = "uniform"
+    tell: Tell = tell_nobody
+
+
+class Variants:
+    """Variants of an engine file, and the quantities to compute for them.
+
+    Args:
+        model: Engine file.
+        names: Names of the quantities with commas between; None: force and moment of orders 1 and
+            2, as far as they are known.
+        within: Tolerances.
+
+    Attributes:
+        usual: Default number of samples.
+
+    Raises:
+        InputError, BalcliError: The file is wrong or lacks what is asked for; quantities of several
+            kinds; no tolerance.
+    """
+
+    def __init__(self, model: EngineFile, names: str | None, within: Tolerances) -> None:
+        asked = parse_quantities(names or DEFAULT_QUANTITIES, with_gas=model.gas is not None)
+        if names is None:
+            asked = leave_out_unknown(build(model), choose_of_engine(asked))
+        self.asked, of_engine = asked, choose_of_engine(asked)
+        kinds = {find_chapter(q.name) for q in asked}
+        apart = kinds & {MOUNTS, TORSION}
+        if apart and len(kinds) > 1:
+            raise BalcliError(
+                f"{' and '.join(q.name for q in asked[:2])} have tolerances of their own; ask for "
+                "quantities of the engine, of its mounts and of torsion one after the other"
+            )
+        if within.stiffness is not None and not apart:
+            raise BalcliError(
+                "--stiffness-scatter: is of mounts and shafts, and none of these quantities asks"
+            )
+        if angles := [q.name for q in of_engine if q.unit == "deg"]:
+            raise BalcliError(f"{angles[0]} is a direction, which has no mean; ask for sizes")
+        if of_engine:
+            refuse_unknown(build(model), of_engine)
+        refuse_unknown_of_chapters(model, asked)
+        self.varied, give = "engines", "--mass-scatter 0.5%"
+        if MOUNTS in kinds:
+            self.varied, give = "sets of mounts", "--stiffness-scatter 15%"
+            sources = list_mounts(model, within)
+        elif TORSION in kinds:
+            self.varied, give = "crankshafts", "--stiffness-scatter 15%"
+            model = spell_out_shafting(model)
+            sources = list_shafting(model, within)
+        else:
+            model = spell_out_throws(model) if within.angle_deg else model
+            sources = list_parts(model, within)
+        self.model, self.sources = model, tuple(each for each in sources if each.tolerance)
+        if not self.sources:
+            raise BalcliError(f"nothing deviates; give a tolerance, such as {give}")
+        self._evaluator = Evaluator(model, asked)
+        paths = [path for source in self.sources for path in source.figures]
+        of_gas = any(q.kind in GAS_KINDS for q in of_engine)
+        self._slow = self._evaluator.one_by_one or (of_gas and any(map(concerns_gas, paths)))
+        self.usual = RANDOM_SINGLES if self._slow else RANDOM_ENGINES
+
+    def evaluate(self, deviations: Array) -> Array:
+        """Return all quantities, shape (samples, quantities), SI.
+
+        Args:
+            deviations: Of the sources, relative or in degrees, shape (samples, sources).
+
+        Raises:
+            BalcliError: One of the variants cannot be.
+        """
+        figures = {
+            path: line.value + line.slope * column
+            for source, column in zip(self.sources, deviations.T, strict=True)
+            for path, line in source.figures.items()
+        }
+        of_file = {k: v for k, v in figures.items() if not k.startswith(THROW_MASS)}
+        shape = (len(deviations),)
+        try:
+            engine = None
+            if self._evaluator.of_engine:
+                engine = self._weigh_throws(self._evaluator.build(of_file, 1), figures)
+            return np.stack(self._evaluator.evaluate(of_file, shape, engine), axis=1)
+        except InputError as error:
+            raise BalcliError(
+                f"within these tolerances an engine cannot be ({error.problems[0].message}); give "
+                "smaller ones"
+            ) from None
+
+    def _weigh_throws(self, engine: Engine, figures: dict[str, Array]) -> Engine:
+        """Return the engine with the masses of its throws, of which the file has but one."""
+        nominal, c = self.model.crank.throw_mass, engine.cylinders
+        throws = [w.throw for w in engine.weighed]
+        changes = [figures.get(f"{THROW_MASS}{k + 1}", nominal) - nominal for k in throws]
+        shares = [change / throws.count(k) for change, k in zip(changes, throws, strict=True)]
+        return replace(engine, cylinders=replace(c, rotating=c.rotating + column(shares, 1)))
+
+    def draw(self, drawing: Drawing) -> Scatter:
+        """Return the spread of the quantities over random variants.
+
+        Raises:
+            BalcliError: Too many samples, or none; a variant that cannot be.
+        """
+        samples = self.usual if drawing.samples is None else drawing.samples
+        most = MOST_SINGLE_SAMPLES if self._slow else MOST_TOLERANCE_SAMPLES
+        if not 1 <= samples <= most:
+            why = f"{self.asked[0].name} is computed one by one, " if self._slow else ""
+            raise BalcliError(f"{samples} samples: {why}from 1 to {most} are allowed")
+        tolerances = np.array([source.tolerance for source in self.sources])
+        ends = np.diag(tolerances)
+        nominal = np.array(self._evaluator.evaluate({}, (1,)))[:, 0]
+        changes = _find_changes(nominal, self.evaluate(ends), self.evaluate(-ends))
+        values = self._evaluate_random(samples, tolerances, drawing)
+        spreads = map(self._spread, nominal, values.T, changes.T)
+        names = [q.name for q in self.asked]
+        return Scatter(
+            engine=NamedEngine(self.model.name),
+            samples=len(values),
+            distribution=drawing.shape,
+            quantities=dict(zip(names, spreads, strict=True)),
+            model=self.model,
+            units={q.name: q.unit for q in self.asked},
+            varied=self.varied,
+        )
+
+    def _evaluate_random(self, samples: int, tolerances: Array, drawing: Drawing) -> Array:
+        """Return the quantities of random variants, shape (samples, quantities)."""
+        random = np.random.default_rng(drawing.seed)
+        least = [_LEAST if source.relative else -np.inf for source in self.sources]
+        at_once = 1 if self._slow else min(CHUNK, max(AT_ONCE // len(tolerances), 1))
+        chunks: list[Array] = []
+        done = 0
+        while done < samples:
+            size = min(at_once, samples - done), len(tolerances)
+            if drawing.shape == "uniform":
+                deviations = tolerances * (2 * random.random(size) - 1)
+            else:
+                deviations = np.maximum(tolerances / 3 * random.standard_normal(size), least)
+            chunks.append(self.evaluate(deviations))
+            done += size[0]
+            if drawing.tell(done):
+                break
+        return np.concatenate(chunks)
+
+    def _spread(self, nominal: float, values: Array, changes: Array) -> Spread:
+        p05, p50, p95 = np.percentile(values, [5, 50, 95]).tolist()
+        unit = np.abs(changes).max() * _EQUAL or 1.0
+        ranked = sorted(
+            zip(self.sources, changes.tolist(), strict=True),
+            key=lambda pair: -round(abs(pair[1]) / unit),
+        )
+        return Spread(
+            nominal=float(nominal),
+            mean=float(values.mean()),
+            p05=p05,
+            p50=p50,
+            p95=p95,
+            max=float(values.max()),
+            bound=float(nominal + np.abs(changes).sum()),
+            sensitivity={source.name: change for source, change in ranked},
+        )
+
+
+def _find_changes(nominal: Array, above: Array, below: Array) -> Array:
+    """Return what each tolerance changes, shape (sources, quantities): half the difference between
+    its ends, or the larger change where both ends lead to the same side, as from an amplitude of 0.
+    """
+    up, down = above - nominal, below - nominal
+    larger = np.where(np.abs(up) >= np.abs(down), up, down)
+    change = np.where(up * down > 0, larger, (up - down) / 2)
+    return np.where(np.abs(change) <= _ROUNDING * np.abs(nominal), 0.0, change)
+
+
+def scatter_engine(
+    model: EngineFile, names: str | None, within: Tolerances, drawing: Drawing
+) -> Scatter:
+    """Return the spread of quantities over random variants; arguments and errors as of `Variants`
+    and `Variants.draw`.
+    """
+    return Variants(model, names, within).draw(drawing)

@@ -1,0 +1,272 @@
+"""Scatter: random variants against exact derivatives and against engines written out."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from support.commands import refusal, run_here
+from support.engines import GOOD, RADIAL, build_text, changed
+from support.gas_engines import PETROL_FOUR
+from support.paths import ENGINES
+
+import balcli
+from balcli.engine.build import build
+from balcli.engine.load import parse as load
+from balcli.errors import BalcliError
+from balcli.forces.quantity import evaluate_quantities
+from balcli.studies.quantities import parse_quantities
+from balcli.studies.scatter import Drawing, Spread, Tolerances, Variants, read_tolerances, scatter_engine
+
+FORCES = "force.1.major,force.2.major,moment.1.major"
+TWIN = changed(
+    ("[0, 180, 180, 0]", "[0, 180]"),
+    ("throw_mass = 0.8", ""),
+    ("mass = 0.6\ncg = 45\n", ""),
+    ("[layout]\nfiring_order = [1, 3, 4, 2]\n", ""),
+)
+WHOLE = 0.5 * 0.045 * (3000 * math.pi / 30) ** 2  # force of order 1 of one of the twin's pistons
+UNEVEN = changed(  # nothing of it is balanced
+    ("[0, 180, 180, 0]", "[0, 100, 220, 30]"), ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")
+)
+FOUR = PETROL_FOUR.replace("[rod]", "inertia = 90000\n[rod]") + "[cylinder]\n"
+ARTICULATED = RADIAL.replace("radial = 7", "radial = 5").replace("cg = 90", "cg = 30")
+ROTARY = ARTICULATED[: ARTICULATED.index("[articulation]")] + "rotary = true\n"
+
+
+def evaluate(text: str, name: str) -> float:
+    """A quantity of the engine of a file."""
+    return float(evaluate_quantities(build(load(text)), parse_quantities(name))[0])
+
+
+def scatter(text: str, name: str, within: Tolerances, samples: int = 10, shape: str = "uniform") -> list[Spread]:
+    """The spreads of quantities of a file."""
+    return [*scatter_engine(load(text), name, within, Drawing(samples, 1, shape)).quantities.values()]
+
+
+def test_two_pistons_alone_have_a_triangular_difference() -> None:
+    """The free force of order 1 is |d1 - d2| m r w^2; with uniform d of +-t its mean is 2t/3."""
+    t, samples = 0.01, 200_000
+    (spread,) = scatter(TWIN, "force.1.major", Tolerances(mass=t), samples)
+    deviation = t * math.sqrt(2 / 9) / math.sqrt(samples)  # of the mean of |d1 - d2|
+    assert spread.mean == pytest.approx(2 * t / 3 * WHOLE, abs=6 * deviation * WHOLE)
+    assert spread.p50 == pytest.approx(t * (2 - math.sqrt(2)) * WHOLE, rel=0.02)
+    assert spread.bound == pytest.approx(2 * t * WHOLE, rel=1e-12)
+    assert spread.bound * 0.98 < spread.max <= spread.bound
+    assert spread.nominal == 0
+    (normal,) = scatter(TWIN, "force.1.major", Tolerances(mass=t), 100_000, "normal")
+    assert normal.mean == pytest.approx(2 * t / 3 / math.sqrt(math.pi) * WHOLE, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "within", "source", "own", "close"),
+    [
+        (GOOD, "force.2.major", Tolerances(0.01), "piston mass 2", "[cylinder.2]\npiston_mass = 0.505\n", 1e-9),
+        (
+            changed(("mass = 0.6\ncg = 45\n", "small_end = 0.17\nbig_end = 0.43\n")),
+            *("force.2.major", Tolerances(length=1e-6), "rod length 3", "[cylinder.3]\nrod_length = 160.00016\n", 1e-4),
+        ),
+        (
+            ARTICULATED,
+            *("force.1.major", Tolerances(0.005), "rod mass 3", "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n", 1e-3),
+        ),
+    ],
+    ids=["piston", "length", "articulated"],
+)
+def test_effects_are_what_a_changed_file_gives(text, name, within, source, own, close):
+    (spread,) = scatter(text, name, within)
+    nominal = evaluate(text, name)
+    assert spread.nominal == pytest.approx(nominal, rel=1e-14)
+    assert spread.sensitivity[source] == pytest.approx(evaluate(text + own, name) - nominal, rel=close)
+
+
+def test_a_throw_angle_that_changes_nothing_to_first_order() -> None:
+    (spread,) = scatter(GOOD, "force.2.major", Tolerances(angle_deg=1e-5))
+    assert abs(spread.sensitivity["throw angle 2"]) < 1e-9 * spread.nominal
+
+
+def test_devices_stay_where_they_are_when_the_first_throw_moves() -> None:
+    """Throws 1 and 4 of an in-line four with two shafts are alike."""
+    shafts = "".join(f"[[shaft]]\nratio = {n}\nunbalance = 9000\nangle = 30\n" for n in (2, -2))
+    weight = "[[counterweight]]\nunbalance = 7000\nangle = 180\n"
+    text = UNEVEN.replace("[0, 100, 220, 30]", "[0, 180, 180, 0]") + shafts + weight
+    for spread in scatter(text, "force.1.forward,force.2.forward,force.2.backward", Tolerances(angle_deg=0.1)):
+        one, four = (spread.sensitivity[f"throw angle {k}"] for k in (1, 4))
+        assert one == pytest.approx(four, rel=1e-9)
+
+
+def test_a_rod_deviates_without_its_shells() -> None:
+    """What a rod's tolerance does is the same with shells and oil on the pins as without."""
+    shells = "[bobweight]\nrod_bearing = 0.05\noil = 0.01\n"
+    without, loaded = (scatter(text, "force.1.forward", Tolerances(0.01))[0] for text in (GOOD, GOOD + shells))
+    assert loaded.bound == pytest.approx(without.bound, rel=1e-12)
+
+
+def test_a_throw_has_a_mass_of_its_own() -> None:
+    (spread,) = scatter(GOOD, "force.1.forward", Tolerances(0.01))
+    assert spread.sensitivity["throw mass 2"] == pytest.approx(0.01 * 0.8 * 0.045 * (3000 * math.pi / 30) ** 2)
+
+
+def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
+    """The centre of mass keeps its distance c from the big end. Of one cylinder the first order
+    turns against the crank with (m_p + m c/l) r w^2 / 2, and the couple is H D_1 w^2 with
+    H = m c (l - c) - J and D_1 = lambda, but for lambda cubed.
+    """
+    text = (
+        "[crank]\nstroke = 4\n[rod]\nlength = 200\nmass = 0.6\ncg = 45\ninertia = 3000\n"
+        "[piston]\nmass = 0.5\n[operation]\nspeed = 3000\n"
+    )
+    against, couple = scatter(text, "force.1.backward,couple.1.amplitude", Tolerances(length=1e-4))
+    w2 = (3000 * math.pi / 30) ** 2
+    expected = -1e-4 * 0.6 * 0.045 / 0.2 * 0.002 * w2 / 2
+    assert against.sensitivity["rod length 1"] == pytest.approx(expected, rel=1e-3)
+    h = 0.6 * 0.045 * 0.155 - 0.003
+    change = 1e-4 * (0.6 * 0.045 * 0.2 - h) * 0.01 * w2  # of H lambda, lambda = r/l
+    assert couple.sensitivity["rod length 1"] == pytest.approx(change, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        (UNEVEN.replace("cg = 45", "cg = 45\ninertia = 3000"), 3),
+        (UNEVEN.replace("cg = 45", 'cg = 45\npendulum = {pivot = "small_end", period = 0.75}'), 3),
+        (UNEVEN.replace("length = 160", "ratio = 0.28") + "[cylinder.3]\nrod_cg = 60\n", 3),
+        (RADIAL, 2),
+    ],
+    ids=["inertia", "pendulum", "ratio", "articulated"],
+)
+def test_heavier_rods_and_pistons_are_those_of_a_changed_file(text: str, number: int) -> None:
+    """Every mass of a rod grows with it, and its inertia."""
+    names = "force.1.forward,force.2.backward,couple.1.amplitude"
+    spreads, step = scatter(text, names, Tolerances(mass=1e-3)), 1e-3
+    w = dict(zip((e := build(load(text))).numbers, e.weighed, strict=True))[number]
+    up, down = (
+        evaluate_quantities(
+            build(load(text), {f"cylinder.{number}.piston_mass": w.piston * x}), parse_quantities(names)
+        )
+        for x in (1 + step, 1 - step)
+    )
+    for spread, more, less in zip(spreads, up, down, strict=True):
+        size = max(map(abs, spread.sensitivity.values()))
+        expected = (float(more.item()) - float(less.item())) / 2
+        assert spread.sensitivity[f"piston mass {number}"] == pytest.approx(expected, rel=1e-5, abs=1e-6 * size)
+
+
+def test_pistons_of_a_rotary_engine_deviate() -> None:
+    (spread,) = scatter(ROTARY, "force.1.major", Tolerances(0.005))
+    heavier = evaluate(ROTARY + "[cylinder.3]\npiston_mass = 1.3065\n", "force.1.major")
+    assert spread.sensitivity["piston mass 3"] == pytest.approx(heavier - spread.nominal, rel=1e-6)
+
+
+@pytest.mark.parametrize("text", [GOOD, RADIAL], ids=["plain", "articulated"])
+def test_rods_that_might_lock_are_refused(text: str) -> None:
+    with pytest.raises(BalcliError, match=r"^within these tolerances an engine cannot be \(.*give smaller ones$"):
+        scatter(text, "force.2.major", Tolerances(length=0.8))
+    scatter(text, "force.2.major", Tolerances(length=0.1))
+
+
+def test_percentiles_rise_and_a_seed_repeats() -> None:
+    runs = [
+        scatter_engine(load(GOOD), FORCES, Tolerances(0.02), Drawing(20_000, seed)).quantities for seed in (7, 7, 8)
+    ]
+    assert runs[0] == runs[1]
+    assert runs[0]["force.1.major"].mean != runs[2]["force.1.major"].mean
+    for s in runs[0].values():
+        assert s.p05 <= s.p50 <= s.p95 <= s.max <= s.bound * (1 + 1e-12)
+
+
+# ------------------------------------------------------------------ the whole cycle
+def deviated(found: dict[str, float]) -> str:
+    """The file with these deviations, by the names of their sources."""
+    own, throws = [], []
+    for k, throw in enumerate((0, 180, 180, 0), 1):
+        throws.append(throw + found.get(f"throw angle {k}", 0.0))
+        piston = 0.5 * (1 + found.get(f"piston mass {k}", 0.0))
+        rod = 0.6 * (1 + found.get(f"rod mass {k}", 0.0))
+        length = 150 * (1 + found.get(f"rod length {k}", 0.0))
+        own.append(f"{k} = {{piston_mass = {piston!r}, rod_mass = {rod!r}, rod_length = {length!r}}}")
+    return "\n".join([FOUR.replace("[0, 180, 180, 0]", repr(throws)), *own])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("length", [0.0, 0.003])
+def test_a_variant_is_the_engine_of_its_own_file(length):
+    """Torque over the cycle, uneven speed, guide moments and torque by order."""
+    names = "torque.max,torque.min,torque.mean,fluctuation,guide.2.H,guide.2.X,torque.2.amplitude,force.2.major"
+    variants = Variants(load(FOUR), names, Tolerances(0.02, length, 0.4))
+    tolerances = [source.tolerance for source in variants.sources]
+    drawn = np.random.default_rng(3).uniform(-1, 1, (2, len(tolerances))) * tolerances
+    for found, row in zip(variants.evaluate(drawn), drawn.tolist(), strict=True):
+        named = {source.name: value for source, value in zip(variants.sources, row, strict=True)}
+        engine = build_text(deviated(named))
+        expected = balcli.sweep(engine, {"operation.speed": engine.speed_rpm}, names)
+        assert found == pytest.approx([expected[name][0] for name in names.split(",")], rel=1e-9)
+
+
+def test_what_is_0_by_design_has_a_bound():
+    """X of order 2 is nothing in four equal cylinders; every deviation makes some."""
+    found = balcli.scatter(balcli.load_example("i4_wiebe"), "guide.2.X", samples=30, seed=2).quantities["guide.2.X"]
+    assert found.nominal == 0.0
+    assert 0 < found.max <= found.bound
+    assert all(change >= 0 for change in found.sensitivity.values())
+    assert next(iter(found.sensitivity.values())) > 0
+
+
+def test_masses_leave_the_gas_alone():
+    (total, gas) = scatter(FOUR, "torque.2.amplitude,gas.2.amplitude", Tolerances(0.01), 2000)
+    assert gas.mean == pytest.approx(gas.nominal, rel=1e-12)
+    assert gas.max == pytest.approx(gas.nominal, rel=1e-12)
+    assert total.p95 > total.p05
+
+
+# ------------------------------------------------------------------ what users give
+def test_tolerances_in_words() -> None:
+    assert read_tolerances("0.5%", "0 %", "0.2 deg", None) == Tolerances(0.005, 0.0, 0.2)
+    assert read_tolerances("1%", 0.01, "0.1", "15%") == Tolerances(0.01, 0.01, 0.1, 0.15)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (("much", "0%", "0"), '--mass-scatter "much": give a percentage of 0 to 100, such as 0.5%'),
+        (("0.5", "0%", "0"), '--mass-scatter "0.5": give a percentage of 0 to 100, such as 0.5%'),
+        (("1%", "-1%", "0"), '--length-scatter "-1%": give a percentage of 0 to 100, such as 0.5%'),
+        (("1%", "0%", "wide"), '--angle-scatter: "wide" is not a number followed by a unit'),
+    ],
+)
+def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
+    with pytest.raises(BalcliError) as caught:
+        read_tolerances(*given, None)
+    assert str(caught.value).startswith(message)
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "message"),
+    [
+        (GOOD, ("--mass-scatter", "0%"), "nothing deviates; give a tolerance, such as --mass-scatter 0.5%"),
+        (GOOD, ("-q", "force.1.axis"), "force.1.axis is a direction, which has no mean"),
+        (GOOD, ("--samples", "0"), "0 samples: from 1 to 2000000 are allowed"),
+        (GOOD, ("-q", "torque.max"), "torque.max: the engine file has no [gas]"),
+        (GOOD, ("-q", "gas.2.amplitude"), "gas.2.amplitude: the engine file has no [gas]"),
+        (
+            FOUR,
+            ("-q", "torque.max", "--samples", "30000"),
+            "30000 samples: torque.max is computed one by one, from 1 to 20000 are allowed",
+        ),
+        (
+            FOUR.replace("inertia = 90000\n", ""),
+            ("-q", "fluctuation"),
+            "fluctuation: the file gives no inertia",
+        ),
+    ],
+)
+def test_what_cannot_be_scattered_is_refused(text, options, message):
+    assert refusal("scatter", "-", *options, stdin=text).startswith(message)
+
+
+def test_a_table_names_what_varies():
+    out = run_here("scatter", ENGINES / "i4_wiebe.toml", "-q", "fluctuation,force.2.major", "--samples", "2").out
+    assert "Spread of 2 engines" in out
+    assert "\nfluctuation        0.005377" in out
+    assert "a variant may go a little beyond" in out
