@@ -22,7 +22,7 @@ from .speed_range import Speeds, parse_speeds
 if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..enginefile.model import EngineFile
-    from ..mounting.report import MountReport
+    from ..mounting.records import MountReport
 
 Orders = Annotated[
     str | None,

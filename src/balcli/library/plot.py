@@ -14,7 +14,7 @@ from ..enginefile.fields import nearest
 from ..errors import BalcliError, check_type, wrong_type
 from ..field_balancing.balance import FieldBalance
 from ..forces.orders import check_orders
-from ..mounting.report import MountReport
+from ..mounting.records import MountReport
 from ..render.plot import OF_GAS, OF_TORSION, PAGES
 from ..render.plot.field_balancing import make_field
 from ..render.plot.mounts import make_mounts

@@ -25,7 +25,7 @@ from .view import ON_A_PAGE
 if TYPE_CHECKING:
     from markupsafe import Markup
 
-    from ..mounting.report import MountReport
+    from ..mounting.records import MountReport
     from ..torque.pictures import Running
     from ..torsion.analysis import TorsionAnalysis
 
