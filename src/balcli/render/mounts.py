@@ -24,6 +24,7 @@ _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
 _ROWS = 9  # speeds of a table
 _NEAR = 0.05  # distance of a speed from that at which an order meets a mode
+_SAME = 0.005  # change of a force that is none
 _SHARE = 1e-3  # of the largest free load: less is not worth a line
 
 
@@ -135,7 +136,8 @@ def _compare(own: BodyResponse, other: BodyResponse, force: Kind, motion: Kind) 
     for kind in (force, motion) if own.points else (force,):
         before, (after, told) = kind.tell_highest(own)[0].value, kind.tell_highest(other)
         change = after.value / (before or 1.0) - 1
-        less = f": {abs(change):.0%} {'less' if change < 0 else 'more'}" if before else ""
+        size = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
+        less = f": {size if abs(change) >= _SAME else 'as much'}" if before else ""
         if kind is force:
             yield f"the largest force of any mount is {told}{less}"
         else:
