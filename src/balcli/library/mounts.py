@@ -34,8 +34,8 @@ def analyze_mounts(
     and motion of points over a range of speeds.
 
     Args:
-        source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or a
-            dict of its tables, which may also describe the body and mounts alone.
+        source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or
+            a dict of its tables, which may also describe the body and mounts alone.
         speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this.
         orders: Orders of the load; default: all that are not negligible.
         scheme: Balance scheme; with its devices the response is `fitted`.
