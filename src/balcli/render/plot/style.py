@@ -10,7 +10,6 @@ import re
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from functools import lru_cache
 from io import BytesIO
 from textwrap import wrap
 from threading import RLock
@@ -31,68 +30,43 @@ INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
 BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
 # Looks of up to twelve curves.
 MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
-NAMES = {
-    INK: "ink",
-    SOFT: "soft",
-    FAINT: "faint",
-    PAPER: "paper",
-    BLUE: "blue",
-    RED: "red",
-    GREEN: "green",
-}
+COLOURS = (INK, SOFT, FAINT, PAPER, BLUE, RED, GREEN)
+NAMES = dict(zip(COLOURS, ["ink", "soft", "faint", "paper", "blue", "red", "green"], strict=True))
 _LETTER, _WIDE_LETTER = 0.1, 0.19  # width in a title, inches
 
+_INKED = ("text.color", "axes.labelcolor", "axes.titlecolor", "xtick.labelcolor")
 STYLE: Any = {
+    **dict.fromkeys((*_INKED, "ytick.labelcolor", "legend.labelcolor"), INK),
+    **dict.fromkeys(("axes.edgecolor", "xtick.color", "ytick.color"), SOFT),
     "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
     "font.size": 9,
     "axes.titlesize": 9.5,
     "axes.titleweight": "bold",
     "axes.labelsize": 8.5,
-    "legend.fontsize": 8,
-    "xtick.labelsize": 8,
-    "ytick.labelsize": 8,
+    **dict.fromkeys(("legend.fontsize", "xtick.labelsize", "ytick.labelsize"), 8),
     "figure.titlesize": 12,
     "figure.titleweight": "bold",
     "text.parse_math": False,
-    "text.color": INK,
-    "axes.labelcolor": INK,
-    "axes.titlecolor": INK,
-    "axes.edgecolor": SOFT,
-    "xtick.color": SOFT,
-    "ytick.color": SOFT,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "legend.labelcolor": INK,
     "grid.color": FAINT,
     "grid.linewidth": 0.6,
     "axes.grid": True,
     "axes.axisbelow": True,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
+    **dict.fromkeys(("axes.spines.top", "axes.spines.right"), False),
     "axes.titlelocation": "left",
     "axes.titlepad": 17,
     "lines.linewidth": 1.6,
     "legend.frameon": False,
     "hatch.linewidth": 0.6,
     "hatch.color": PAPER,
-    "figure.facecolor": PAPER,
     "axes.facecolor": "none",
-    "savefig.facecolor": PAPER,
+    **dict.fromkeys(("figure.facecolor", "savefig.facecolor"), PAPER),
     "savefig.dpi": 160,
     "svg.fonttype": "none",
     "svg.hashsalt": "balcli",
     "pdf.fonttype": 42,
 }
-# Font families with Chinese, Japanese and Korean glyphs.
-_EASTERN = (
-    "Noto Sans CJK SC",
-    "Noto Sans CJK JP",
-    "Source Han Sans SC",
-    "WenQuanYi Micro Hei",
-    "Microsoft YaHei",
-    "PingFang SC",
-    "Arial Unicode MS",
-)
+# Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.
+_EASTERN = ("Noto Sans CJK SC", "Microsoft YaHei", "PingFang SC", "Arial Unicode MS")
 _UNDATED: Any = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 _one_at_a_time = RLock()
 
@@ -118,23 +92,15 @@ def in_our_style() -> Iterator[None]:
         logger.setLevel(logging.ERROR)  # "building the font cache" does not concern the user
         try:
             import matplotlib
+            from matplotlib.font_manager import get_font_names
 
+            eastern = [family for family in _EASTERN if family in get_font_names()][:1]
             with matplotlib.rc_context():
                 matplotlib.rcdefaults()
-                families = ["sans-serif", *_find_eastern_family()]
-                matplotlib.rcParams.update(STYLE | {"font.family": families})
+                matplotlib.rcParams.update(STYLE | {"font.family": ["sans-serif", *eastern]})
                 yield
         finally:
             logger.setLevel(level)
-
-
-@lru_cache(1)
-def _find_eastern_family() -> list[str]:
-    """Return the first installed font family with Eastern glyphs, or an empty list."""
-    from matplotlib.font_manager import get_font_names
-
-    installed = get_font_names()
-    return [family for family in _EASTERN if family in installed][:1]
 
 
 def save_figure(figure: Figure, form: Form) -> bytes:
