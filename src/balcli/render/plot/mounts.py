@@ -46,10 +46,15 @@ def make_mounts(result: MountReport, system: System) -> Figure:
         if response is not None:
             halves: Any = fig.subfigures(2, 1, height_ratios=(2.1, 1))
             upper, lower = halves
-            axes = upper.subplots(1, 3 if response.points else 2)
-            _draw_meetings(axes[1], result, response)
-            for ax, kind in zip(axes[::2], list_kinds(system), strict=False):
-                _draw_curves(ax, result, kind)
+            meet = any(mode.meets for mode in result.modes)
+            count = 1 + meet + bool(response.points)
+            axes = iter(upper.subplots(1, count, squeeze=False)[0])
+            force, motion = list_kinds(system)
+            _draw_curves(next(axes), result, force)
+            if meet:
+                _draw_meetings(next(axes), result, response)
+            if response.points:
+                _draw_curves(next(axes), result, motion)
         for k, (ax, mode) in enumerate(zip(lower.subplots(1, 6), result.modes, strict=True), 1):
             _draw_mode(ax, k, mode, result)
         return fig
@@ -117,7 +122,7 @@ def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
                 ax.plot(*flat[[i, j]].T, color=colour, linewidth=width)
     rest, away = places @ PROJECTION.T, (places + scale * carried) @ PROJECTION.T
     ax.plot(*rest.T, "o", color=SOFT, markersize=3, markerfacecolor=PAPER)
-    ax.plot(*np.stack([rest, away]).T, color=SOFT, linewidth=0.8)
+    ax.plot(*np.stack([rest.T, away.T], axis=1), color=SOFT, linewidth=0.8)
     ax.plot(*away.T, "o", color=RED, markersize=3)
     ax.set_aspect("equal")
     ax.set_axis_off()
