@@ -11,7 +11,15 @@ import numpy as np
 from ..core.vibration import Real
 from ..documents.records import to_document as document
 from ..engine.arrays import find_first_largest
-from ..mounting.records import BodyResponse, MountReport, Passed
+from ..mounting.records import (
+    BodyResponse,
+    MountForce,
+    MountReport,
+    Passed,
+    PointMotion,
+    WorstForce,
+    WorstMotion,
+)
 from .csv import Rows, name_cell
 from .engine_facts import list_silent
 from .figures import clean, silent_entries
@@ -43,37 +51,23 @@ class Kind(NamedTuple):
     peak: str
     unit: ShownUnit
 
-    def show(self, value: float) -> str:
-        """Return a value of a record as a table shows it."""
-        return number(self.unit.of(value), 4)
+    def places(self, response: BodyResponse) -> tuple[MountForce | PointMotion, ...]:
+        """Return the mounts or the points."""
+        return response.mounts if self.part == "mount" else response.points
 
-    def list_worst(self, response: BodyResponse) -> list[Worst]:
-        """Return the largest value of each place."""
-        return [
-            Worst(
-                *(place.name, getattr(place.worst, self.key), place.worst.speed_rpm),
-                *(place.worst.order, getattr(place.worst, f"order_{self.key}"), place.worst.mode),
-            )
-            for place in getattr(response, f"{self.part}s")
-        ]
+    def show(self, record: object, key: str) -> str:
+        """Return a figure of a record as a table shows it."""
+        return number(self.unit.of(getattr(record, key)), 4)
 
-    def tell_highest(self, response: BodyResponse) -> tuple[Worst, str]:
-        """Return the largest value of all places, of equal ones the first, and it in words."""
-        each = self.list_worst(response)
-        highest = each[int(find_first_largest([one.value for one in each]))]
-        told = f"{self.show(highest.value)} {self.unit.name} at {number(highest.speed_rpm, 4)} rpm"
-        return highest, told
-
-
-class Worst(NamedTuple):
-    """The largest value of a mount or point over all speeds, in the unit of its record."""
-
-    name: str
-    value: float
-    speed_rpm: float
-    order: float
-    alone: float
-    mode: int
+    def tell_highest(self, response: BodyResponse) -> tuple[MountForce | PointMotion, float, str]:
+        """Return the place with the largest value, of equal ones the first, the value, and it in
+        words.
+        """
+        values = [getattr(place.worst, self.key) for place in self.places(response)]
+        row = int(find_first_largest(values))
+        place = self.places(response)[row]
+        shown, rpm = self.show(place.worst, self.key), number(place.worst.speed_rpm, 4)
+        return place, values[row], f"{shown} {self.unit.name} at {rpm} rpm"
 
 
 def list_kinds(system: System) -> tuple[Kind, Kind]:
@@ -105,18 +99,19 @@ def _answer(
     result: MountReport, response: BodyResponse, force: Kind, motion: Kind
 ) -> Iterator[str]:
     """In words: where it is worst, and why; what a scheme is worth there."""
-    worst, told = force.tell_highest(response)
-    if worst.value:
+    place, value, told = force.tell_highest(response)
+    if value:
+        worst = place.worst
         yield (
-            f"The mount {worst.name} feels most: {told}, of which order {order_name(worst.order)} "
-            f"alone makes {force.show(worst.alone)} {force.unit.name}. "
+            f"The mount {place.name} feels most: {told}, of which order {order_name(worst.order)} "
+            f"alone makes {force.show(worst, 'order_force_N')} {force.unit.name}. "
             f"{_explain(result, response, worst)}"
         )
     else:
         yield "The mounts feel nothing of the orders that count."
     if response.points:
-        moved, told = motion.tell_highest(response)
-        yield f"The point {moved.name} moves most: {told}."
+        place, _, told = motion.tell_highest(response)
+        yield f"The point {place.name} moves most: {told}."
     if response.loads.fired:
         silent = _tell_silent(response)
         yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
@@ -134,14 +129,14 @@ def _compare(own: BodyResponse, other: BodyResponse, force: Kind, motion: Kind) 
     counts in the one and not in the other.
     """
     for kind in (force, motion) if own.points else (force,):
-        before, (after, told) = kind.tell_highest(own)[0].value, kind.tell_highest(other)
-        change = after.value / (before or 1.0) - 1
+        (_, before, _), (place, after, told) = map(kind.tell_highest, (own, other))
+        change = after / (before or 1.0) - 1
         size = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
         less = f": {size if abs(change) >= _SAME else 'as much'}" if before else ""
-        if kind is force:
-            yield f"the largest force of any mount is {told}{less}"
-        else:
-            yield f"; the point {after.name} moves most, {told}{less}"
+        where = "the largest force of any mount is"
+        if kind is motion:
+            where = f"; the point {place.name} moves most,"
+        yield f"{where} {told}{less}"
     if other.loads.fired != own.loads.fired:
         yield ", its gas included" if other.loads.fired else ", of inertia alone"
     if (silent := _tell_silent(other)) != _tell_silent(own):
@@ -154,7 +149,7 @@ def _tell_silent(response: BodyResponse) -> str:
     return "".join(f"; {what} {numbers}" for what, numbers in silent)
 
 
-def _explain(result: MountReport, response: BodyResponse, worst: Worst) -> str:
+def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | WorstMotion) -> str:
     """Why it is worst at this speed."""
     speeds, hertz = response.speeds_rpm, worst.order * worst.speed_rpm / 60
     mode = result.modes[worst.mode]
@@ -173,12 +168,12 @@ def _grid_worst(result: MountReport, kind: Kind) -> Grid:
     for other in result.beside:
         heads += [f"with {other.name}", "at, rpm"]
     rows = []
-    for first, *beside in zip(*map(kind.list_worst, result.responses), strict=True):
-        cells = [first.name, kind.show(first.value), number(first.speed_rpm, 4)]
-        cells += [order_name(first.order), kind.show(first.alone)]
-        for other in beside:
-            cells += [kind.show(other.value), number(other.speed_rpm, 4)]
-        rows.append(tuple(cells))
+    for first, *others in zip(*map(kind.places, result.responses), strict=True):
+        cells = [first.name]
+        for worst in (each.worst for each in (first, *others)):
+            cells += [kind.show(worst, kind.key), number(worst.speed_rpm, 4)]
+        own = [order_name(first.worst.order), kind.show(first.worst, f"order_{kind.key}")]
+        rows.append((*cells[:3], *own, *cells[3:]))
     note = (
         "The largest value over the cycle, orders added up in time; over all speeds of the range."
     )
@@ -265,7 +260,7 @@ def _grid_speeds(result: MountReport, response: BodyResponse, force: Kind) -> Gr
     heads += [f"{name}, {other.name}" for other in result.beside for name in names]
     peaks = [mount.peak_N for each in result.responses for mount in each.mounts]
     rows = [
-        (number(rpm[s], 4), *(force.show(peak[s]) for peak in peaks))
+        (number(rpm[s], 4), *(number(force.unit.of(peak[s]), 4) for peak in peaks))
         for s in _pick(len(rpm), _ROWS)
     ]
     title = f"Force of each mount by speed, all orders together, {force.unit.name}"
@@ -338,9 +333,11 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]
 def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[Any, ...]]:
     """Yield every mount, or point, by speed and order."""
     figure, unit = kind.figure, kind.unit
-    for place in getattr(response, f"{kind.part}s"):
+    for place in kind.places(response):
         head = (f"{label}{kind.part}", name_cell(place.name))
-        curves = [(each.order, figure, getattr(each, kind.key)) for each in place.orders]
+        curves: list[tuple[float | None, str, Real]] = [
+            (each.order, figure, getattr(each, kind.key)) for each in place.orders
+        ]
         curves.append((None, f"peak {figure}", getattr(place, kind.peak)))
         for s, rpm in enumerate(response.speeds_rpm):
             for order, name, curve in curves:

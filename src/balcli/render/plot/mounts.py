@@ -66,8 +66,7 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
     """
     labels = ["", *(f", {fit_name(other.name, 20)}" for other in result.beside)]
     for label, response in zip(labels, result.responses, strict=True):
-        places = getattr(response, f"{kind.part}s")
-        for place, (line, colour) in zip(places, MANY_LOOKS, strict=False):
+        for place, (line, colour) in zip(kind.places(response), MANY_LOOKS, strict=False):
             ax.plot(
                 response.speeds_rpm,
                 kind.unit.of(getattr(place, kind.peak)),

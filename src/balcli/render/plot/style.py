@@ -11,6 +11,7 @@ import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from io import BytesIO
+from pathlib import Path
 from textwrap import wrap
 from threading import RLock
 from typing import TYPE_CHECKING, Any, Literal
@@ -30,41 +31,11 @@ INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
 BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
 # Looks of up to twelve curves.
 MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
-COLOURS = (INK, SOFT, FAINT, PAPER, BLUE, RED, GREEN)
-NAMES = dict(zip(COLOURS, ["ink", "soft", "faint", "paper", "blue", "red", "green"], strict=True))
+_WORDS = ("ink", "soft", "faint", "paper", "blue", "red", "green")
+NAMES = dict(zip((INK, SOFT, FAINT, PAPER, BLUE, RED, GREEN), _WORDS, strict=True))
 _LETTER, _WIDE_LETTER = 0.1, 0.19  # width in a title, inches
 
-_INKED = ("text.color", "axes.labelcolor", "axes.titlecolor", "xtick.labelcolor")
-STYLE: Any = {
-    **dict.fromkeys((*_INKED, "ytick.labelcolor", "legend.labelcolor"), INK),
-    **dict.fromkeys(("axes.edgecolor", "xtick.color", "ytick.color"), SOFT),
-    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
-    "font.size": 9,
-    "axes.titlesize": 9.5,
-    "axes.titleweight": "bold",
-    "axes.labelsize": 8.5,
-    **dict.fromkeys(("legend.fontsize", "xtick.labelsize", "ytick.labelsize"), 8),
-    "figure.titlesize": 12,
-    "figure.titleweight": "bold",
-    "text.parse_math": False,
-    "grid.color": FAINT,
-    "grid.linewidth": 0.6,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    **dict.fromkeys(("axes.spines.top", "axes.spines.right"), False),
-    "axes.titlelocation": "left",
-    "axes.titlepad": 17,
-    "lines.linewidth": 1.6,
-    "legend.frameon": False,
-    "hatch.linewidth": 0.6,
-    "hatch.color": PAPER,
-    "axes.facecolor": "none",
-    **dict.fromkeys(("figure.facecolor", "savefig.facecolor"), PAPER),
-    "savefig.dpi": 160,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "balcli",
-    "pdf.fonttype": 42,
-}
+STYLE = Path(__file__).with_name("balcli.mplstyle")
 # Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.
 _EASTERN = ("Noto Sans CJK SC", "Microsoft YaHei", "PingFang SC", "Arial Unicode MS")
 _UNDATED: Any = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
@@ -94,10 +65,11 @@ def in_our_style() -> Iterator[None]:
             import matplotlib
             from matplotlib.font_manager import get_font_names
 
-            eastern = [family for family in _EASTERN if family in get_font_names()][:1]
             with matplotlib.rc_context():
                 matplotlib.rcdefaults()
-                matplotlib.rcParams.update(STYLE | {"font.family": ["sans-serif", *eastern]})
+                matplotlib.rc_file(STYLE, use_default_template=False)
+                eastern = [family for family in _EASTERN if family in get_font_names()][:1]
+                matplotlib.rcParams["font.family"] = ["sans-serif", *eastern]
                 yield
         finally:
             logger.setLevel(level)
@@ -152,14 +124,5 @@ def put_title(fig: Figure, text: str) -> None:
 
 def put_legend_above(ax: Axes, columns: int = 4) -> None:
     """Put the legend between the axes and their title."""
-    legend = ax.legend(
-        loc="lower left",
-        bbox_to_anchor=(0, 1),
-        ncols=columns,
-        handlelength=1.6,
-        columnspacing=1,
-        borderpad=0,
-        borderaxespad=0.3,
-        handletextpad=0.5,
-    )
+    legend = ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
     legend.set_in_layout(False)  # a long legend must not narrow the axes
