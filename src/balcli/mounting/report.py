@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -19,14 +18,13 @@ from ..forces.orders import check_orders
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
-from .build import MountedBody, build_mounted_body
+from .build import build_mounted_body
 from .loads import find_loads
-from .modes import BodyModes, find_mounted_modes, settle
+from .modes import find_mounted_modes, settle
 from .motions import AXES
 from .records import (
     AtRest,
     BodyMode,
-    BodyResponse,
     Fitted,
     Meeting,
     MountAtRest,
@@ -76,46 +74,28 @@ def report_mounts(
     title = model.name
     if engine is None and others:
         (title, engine), *others = others
-    modes, centre = find_mounted_modes(mounted), mounted.body.centre
-    if engine is None:
-        return _make_report(title, mounted, modes)
+    modes, found, remedy = find_mounted_modes(mounted), [], None
     try:
         asked = None if orders is None else check_orders(orders)
         if asked is not None and asked[0] == 0:
             raise BalcliError(
                 "order 0 does not vibrate: what is steady is told as rest; leave it out"
             )
-        remedy = None if scheme is None else size(engine, scheme, options)
-        fitted = [] if remedy is None else [fit_devices(engine, remedy)]
-        rpm = choose_mount_speeds(engine) if speeds_rpm is None else speeds_rpm
-        engines = [engine, *fitted, *(other for _, other in others)]
-        found = []
-        for each in engines:
-            running = RunningBody.of(mounted, modes, find_loads(each, centre, asked))
-            found.append(respond(mounted, running, rpm * RPM))
-            tell(len(found) / len(engines))
+        engines = [] if engine is None else [engine]
+        if engine is not None and scheme is not None:
+            remedy = size(engine, scheme, options)
+            engines.append(fit_devices(engine, remedy))
+        for each in (*engines, *(other for _, other in others)):
+            rpm = choose_mount_speeds(engines[0]) if speeds_rpm is None else speeds_rpm
+            loads = find_loads(each, mounted.body.centre, asked)
+            found.append(respond(mounted, RunningBody.of(mounted, modes, loads), rpm * RPM))
+            tell(len(found) / (len(engines) + len(others)))
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
-    response, *rest = found
-    report = _make_report(title, mounted, modes, response)
-    labels = (label for label, _ in others)
-    return replace(
-        report,
-        fitted=None if remedy is None else Fitted(remedy.scheme, rest.pop(0), remedy),
-        others=tuple(map(Other, labels, rest)) or None,
-        assumed_rpm=float(engine.speed_rpm)
-        if speeds_rpm is None and engine.speed_assumed
-        else None,
-    )
-
-
-def _make_report(
-    title: str, mounted: MountedBody, modes: BodyModes, response: BodyResponse | None = None
-) -> MountReport:
-    """Return modes and rest, and the response if there is one."""
+    assumed = engine is not None and engine.speed_assumed and speeds_rpm is None
+    response = found.pop(0) if found else None
     settled = settle(mounted, response.loads.mean if response else 0.0)
-    met = [] if response is None else list_meetings(modes, response.loads, response.speeds_rpm)
-    places = zip(mounted.names, settled.forces, 1e3 * settled.travel, strict=True)
+    met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
     stiffness = modes.stiffness.real
     return MountReport(
         name=title,
@@ -126,16 +106,17 @@ def _make_report(
                 shape * np.copysign(1.0, shape[find_first_largest(share)]),
                 modes.motions[k],
                 float(modes.loss[k]),
-                tuple(
-                    Meeting(plain_order(order), speed) for mode, order, speed in met if mode == k
-                ),
+                tuple(Meeting(plain_order(order), rpm) for mode, order, rpm in met if mode == k),
             )
             for k, (shape, share) in enumerate(zip(modes.modes.shapes, modes.shares, strict=True))
         ),
         roll_axis=roll_axis(mounted.body),
         elastic_centre_mm=1e3 * elastic_centre(stiffness, mounted.body.centre).point,
-        static=AtRest(tuple(MountAtRest(*place) for place in places)),
+        static=AtRest(tuple(map(MountAtRest, mounted.names, settled.forces, 1e3 * settled.travel))),
         stiffness_N_per_m=stiffness,
         response=response,
+        fitted=Fitted(remedy.scheme, found.pop(0), remedy) if remedy else None,
+        others=tuple(map(Other, (label for label, _ in others), found)) or None,
         mounted=mounted,
+        assumed_rpm=float(engine.speed_rpm) if engine and assumed else None,
     )

@@ -15,7 +15,6 @@ from ..mounting.records import (
     BodyResponse,
     MountForce,
     MountReport,
-    Passed,
     PointMotion,
     WorstForce,
     WorstMotion,
@@ -272,16 +271,15 @@ def _grid_passed(response: BodyResponse, system: System) -> Grid:
     speeds = _pick(len(rpm), _COLUMNS - 1)
     heads = ["order", "load", f"rigid, {number(float(rpm[-1]), 4)} rpm"]
     heads += [f"{number(rpm[s], 4)} rpm" for s in speeds]
-    units = {"force": system.force, "moment": system.moment}
-    largest = dict.fromkeys(units, 0.0)
-    for _, kind, _, load in _list_passed(response):
-        largest[kind] = max(largest[kind], load[-1])
+    loads = [(each, key, load) for each in response.passed for key, load in each.rigid.items()]
     rows = []
-    for passed, kind, key, load in _list_passed(response):
-        if load[-1] > _SHARE * largest[kind]:
-            name = "roll z" if key == "moment_z_Nm" else f"{kind} {key.split('_')[1]}"
+    for passed, key, load in loads:
+        kind, axis, _ = key.split("_")
+        unit = system.force if kind == "force" else system.moment
+        if load[-1] > _SHARE * max(each[-1] for _, other, each in loads if kind in other):
+            name = "roll z" if key == "moment_z_Nm" else f"{kind} {axis}"
             through = passed.on_mounts.get(key, np.zeros(len(rpm)))
-            size = f"{number(units[kind].of(load[-1]), 4)} {units[kind].name}"
+            size = f"{number(unit.of(load[-1]), 4)} {unit.name}"
             shares = (f"{through[s] / load[s]:.1%}" for s in speeds)
             rows.append((order_name(passed.order), name, size, *shares))
     note = (
@@ -289,13 +287,6 @@ def _grid_passed(response: BodyResponse, system: System) -> Grid:
         "it stood rigidly; moments about the centre of gravity."
     )
     return Grid("Passed on to the frame", tuple(heads), tuple(rows), note, words=(0, 1))
-
-
-def _list_passed(response: BodyResponse) -> Iterator[tuple[Passed, str, str, Real]]:
-    """Yield the loads of the rigid engine by order, with their kind ("force") and key."""
-    for passed in response.passed:
-        for key, load in passed.rigid.items():
-            yield passed, key.partition("_")[0], key, load
 
 
 # ------------------------------------------------------------------ CSV
@@ -335,10 +326,10 @@ def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tup
     figure, unit = kind.figure, kind.unit
     for place in kind.places(response):
         head = (f"{label}{kind.part}", name_cell(place.name))
-        curves: list[tuple[float | None, str, Real]] = [
-            (each.order, figure, getattr(each, kind.key)) for each in place.orders
+        curves = [
+            *((each.order, figure, getattr(each, kind.key)) for each in place.orders),
+            (None, f"peak {figure}", getattr(place, kind.peak)),
         ]
-        curves.append((None, f"peak {figure}", getattr(place, kind.peak)))
         for s, rpm in enumerate(response.speeds_rpm):
             for order, name, curve in curves:
                 yield *head, order, clean(rpm), name, clean(unit.of(curve[s])), unit.name

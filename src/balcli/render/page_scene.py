@@ -13,7 +13,7 @@ from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Phasors
 from ..engine.build import Engine
-from ..forces.kinds import MOMENT, VECTORS, Kind
+from ..forces.kinds import MOMENT, VECTORS
 from ..results.analysis import Analysis
 from .figures import clean
 from .sheet import NEGLIGIBLE, order_number
@@ -35,7 +35,14 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
         "rotary": isinstance(engine.cylinders.linkage, Rotary),
         "cylinders": _cylinder_entries(engine),
         "variants": [_variant_entry(name, each, system, bore) for name, each in shown.items()],
-        "units": {kind.name: _unit_entry(system.unit(kind), kind, now) for kind in VECTORS},
+        "units": {
+            kind.name: {
+                "name": (unit := system.unit(kind)).name,
+                "thousand": f"k{unit.name}" if unit.size == 1 else "",
+                "least": unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),  # that counts
+            }
+            for kind in VECTORS
+        },
         "orders": [
             order_number(n) for n in now.orders if any(_shakes(each, n) for each in shown.values())
         ],
@@ -88,16 +95,6 @@ def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
     parts = (phasors.orders, forward.real, forward.imag, backward.real, backward.imag)
     rows: list[list[float]] = (np.stack(parts, axis=-1) + 0.0).tolist()
     return rows
-
-
-def _unit_entry(unit: ShownUnit, kind: Kind, now: Analysis) -> dict[str, Any]:
-    """Names of the unit and of its thousand, and the value below which all is negligible."""
-    least = unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name])
-    return {
-        "name": unit.name,
-        "thousand": f"k{unit.name}" if unit.size == 1 else "",
-        "least": least,
-    }
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...core.phasors import Array, Phasors
+from ...forces.crankshaft import AlongCrank
 from ...forces.kinds import EVERY_KIND, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
 from ...results.analysis import Analysis
 from ...studies.pictures import Study
@@ -245,24 +246,23 @@ def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
     """Shear, bending and bearings along the crankshaft; with gas bending of both, and bearings."""
     bent, system = subject.study.bent, subject.system
     gas = [inner.with_gas for inner in bent if inner.with_gas is not None]
-    pictures: dict[str, tuple[Sequence[Any], str]]  # curves by title, and how points are joined
+    # Curves by title, and how points are joined.
+    pictures: dict[str, tuple[Sequence[AlongCrank], str]] = {
+        "Shear force along the crankshaft": ([b.shear for b in bent], "steps-post"),
+        "Bending moment": ([b.bending for b in bent], "default"),
+        "Inertia load of each main bearing": ([b.bearings for b in bent if b.bearings], ""),
+    }
     if gas:
         pictures = {
             "Bending moment in the crankshaft, with gas": ([b.bending for b in gas], "default"),
             "Bending moment in the block, with gas": ([b.block_bending for b in gas], "default"),
             "Load of each main bearing, with gas": ([b.bearings for b in gas], ""),
         }
-    else:
-        pictures = {
-            "Shear force along the crankshaft": ([b.shear for b in bent], "steps-post"),
-            "Bending moment": ([b.bending for b in bent], "default"),
-            "Inertia load of each main bearing": ([b.bearings for b in bent if b.bearings], ""),
-        }
     missing = [title for title, (curves, _) in pictures.items() if not curves]
-    shown = {title: each for title, each in pictures.items() if each[0]}
-    fig.set_figheight(0.4 + 2.4 * len(shown))
-    axes = fig.subplots(len(shown), 1, sharex=True)
-    for ax, (title, (curves, steps)) in zip(axes, shown.items(), strict=True):
+    fig.set_figheight(0.4 + 2.4 * (3 - len(missing)))
+    axes = fig.subplots(3 - len(missing), 1, sharex=True)
+    shown = ((title, *each) for title, each in pictures.items() if each[0])
+    for ax, (title, curves, steps) in zip(axes, shown, strict=True):
         what = "moment" if "moment" in title else "force"
         draw_along(ax, curves, what, system, steps, "the cycle" if gas else "a revolution")
         ax.set_title(title)
@@ -271,9 +271,11 @@ def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
     return "".join(f"{title}: one throw, bearings not known" for title in missing)
 
 
-def _lay_out_gas(fig: Figure, subject: PageSubject) -> None:
+def _lay_out_gas(fig: Figure, subject: PageSubject, *, over_volume: bool = False) -> None:
     system = subject.system
     match subject.study.gas:
+        case Pressures() as found if over_volume:
+            draw_p_v(fig.subplots(), found, system)
         case Pressures() as found:
             draw_pressure(fig.subplots(), found, system.pressure)
         case Torques() as found:
@@ -282,11 +284,6 @@ def _lay_out_gas(fig: Figure, subject: PageSubject) -> None:
             draw_pin(fig, found, system.force)
         case MainLoads() as found:
             draw_main(fig, found, system.force)
-
-
-def _lay_out_p_v(fig: Figure, subject: PageSubject) -> None:
-    if isinstance(subject.study.gas, Pressures):
-        draw_p_v(fig.subplots(), subject.study.gas, subject.system)
 
 
 # Width and height in inches, which some layouts change.
@@ -301,7 +298,7 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
     "pressure": (7.2, 4.4, _lay_out_gas),
-    "p-v": (6.4, 4.8, _lay_out_p_v),
+    "p-v": (6.4, 4.8, partial(_lay_out_gas, over_volume=True)),
     "torque": (8.4, 4.8, _lay_out_gas),
     "pin": (9.6, 5.9, _lay_out_gas),
     "main": (9.6, 6.4, _lay_out_gas),

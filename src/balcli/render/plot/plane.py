@@ -75,16 +75,14 @@ def draw_locus(
     ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw where the tip of a vector goes in a revolution, dashed where it went `before`."""
-    angles = np.arange(find_period_deg(curve) + 1.0)
-    path = curve.values(np.radians(angles))
-    old = np.zeros(0, complex)
-    if before is not None:
-        old = before.values(np.radians(np.arange(find_period_deg(before) + 1)))
-    largest, most = np.abs(path).max(), np.abs([*path, *old]).max()
+    shown = [curve] if before is None else [curve, before]
+    paths = [each.values(np.radians(np.arange(find_period_deg(each) + 1))) for each in shown]
+    largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
     s = unit.fit(float(most))
     limit = set_up_plane(ax, float(most) / s.size, what, s.name)
-    path, old = path / s.size, old / s.size
-    if before is not None:
+    path, *others = (each / s.size for each in paths)
+    angles = np.arange(len(path), dtype=float)
+    for old in others:
         ax.plot(old.imag, old.real, color=SOFT, linewidth=1, linestyle=(0, (4, 2)), label="before")
         ax.plot([], [], color=BLUE, label="after")
         put_legend_above(ax)
