@@ -89,11 +89,8 @@ class Variants:
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         self._model, self._quantities = model, quantities
         targets = _name_targets(model)
-        curves = [("mount", name) for name in targets["mount"]]
-        curves += [("point", name) for name in targets["point"]]
-        self._place = {  # number of the mount, or of the point after all mounts
-            q: curves.index((q.kind, q.target)) for q in quantities if q.kind != "mode"
-        }
+        places = [(kind, name) for kind in ("mount", "point") for name in targets[kind]]
+        self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
         self._curves = sorted({self._place[q] for q in quantities if q.part in _RUNS})
         # The mean torque of the gas, less friction, leans on the mounts at rest.
         self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
@@ -121,12 +118,13 @@ class Variants:
                 worst = find_worst(running, omega, running.find_peaks(omega))
                 largest = dict(zip(self._curves, worst.value.tolist(), strict=True))
         rest = np.linalg.norm(settle(mounted, mean).forces, axis=-1).tolist()
-        return [
-            _read_mode(modes, q)
-            if q.kind == "mode"
-            else (rest if q.part == "static" else largest)[self._place[q]]
-            for q in self._quantities
-        ]
+        found = []
+        for q in self._quantities:
+            if q.kind == "mode":
+                found.append(_read_mode(modes, q))
+            else:
+                found.append((rest if q.part == "static" else largest)[self._place[q]])
+        return found
 
 
 def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:

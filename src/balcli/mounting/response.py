@@ -4,8 +4,8 @@ up in time, at every speed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeVar
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -43,7 +43,6 @@ from .records import (
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
 _COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz"))
-_Place = TypeVar("_Place")
 
 
 class RunningBody(NamedTuple):
@@ -221,22 +220,17 @@ def respond(mounted: MountedBody, running: RunningBody, omega: Real) -> BodyResp
     worst = find_worst(running, omega, peak)
     numbers = [plain_order(order) for order in orders]
 
-    def list_places(
-        names: Sequence[str],
-        first: int,
-        unit: float,
-        kinds: tuple[Callable[..., _Place], Callable[..., object], Callable[..., object]],
-    ) -> tuple[_Place, ...]:
-        """Return a record for each curve from the first one on; figures in this unit (SI)."""
-        place, of_order, largest = kinds
-        found = []
-        for k, name in enumerate(names, first):
-            each = (of_order(n, by_order[row, :, k] / unit) for row, n in enumerate(numbers))
-            value, at, order, alone, mode = (column[k].item() for column in worst)
-            highest = largest(value / unit, at / RPM, plain_order(order), alone / unit, mode)
-            found.append(place(name, tuple(each), peak[:, k] / unit, highest))
-        return tuple(found)
-
+    kinds: list[tuple[Any, Any, Any, float]] = [
+        *[(MountForce, ForceOfOrder, WorstForce, 1.0)] * len(mounts),
+        *[(PointMotion, MotionOfOrder, WorstMotion, 1e-3)] * len(points),
+    ]
+    places = []
+    for k, (name, kind) in enumerate(zip((*mounts, *points), kinds, strict=True)):
+        place, of_order, largest, unit = kind
+        each = (of_order(n, by_order[row, :, k] / unit) for row, n in enumerate(numbers))
+        value, at, order, alone, mode = (column[k].item() for column in worst)
+        highest = largest(value / unit, at / RPM, plain_order(order), alone / unit, mode)
+        places.append(place(name, tuple(each), peak[:, k] / unit, highest))
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
     rigid, rpm = np.abs(loads.at(omega)), omega / RPM
@@ -245,8 +239,8 @@ def respond(mounted: MountedBody, running: RunningBody, omega: Real) -> BodyResp
         no_gas_in=loads.silent.without_gas or None,
         no_burning_in=loads.silent.without_burning or None,
         speeds_rpm=np.where(short * RPM == omega, short, rpm),
-        mounts=list_places(mounts, 0, 1.0, (MountForce, ForceOfOrder, WorstForce)),
-        points=list_places(points, len(mounts), 1e-3, (PointMotion, MotionOfOrder, WorstMotion)),
+        mounts=tuple(places[: len(mounts)]),
+        points=tuple(places[len(mounts) :]),
         passed=tuple(
             Passed(number, _name_components(rigid[n]), _name_components(on_mounts[n]))
             for n, number in enumerate(numbers)

@@ -117,13 +117,10 @@ def draw_factors(
     """
     share, moments = [row.factor for row in rows], np.array([row.moment for row in rows])
     s = force.fit(max(row.force for row in rows))
-    lines = {
-        "force": [row.force for row in rows],
-        "along the first bank": [row.along for row in rows],
-        "across it": [row.across for row in rows],
-    }
-    for (label, values), look in zip(lines.items(), _LOOKS, strict=True):
-        ax.plot(share, np.array(values) / s.size, color=look[0], linestyle=look[1], label=label)
+    forces = np.array([(row.force, row.along, row.across) for row in rows]).T / s.size
+    labels = ("force", "along the first bank", "across it")
+    for values, label, look in zip(forces, labels, _LOOKS, strict=True):
+        ax.plot(share, values, color=look[0], linestyle=look[1], label=label)
     best = min(rows, key=lambda row: row.cost)
     least = size_text(best.force, force)
     if best.by_moment and moment is not None:

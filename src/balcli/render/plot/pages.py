@@ -130,18 +130,12 @@ def make_page(subject: PageSubject, what: str) -> Figure:
 
 
 def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
-    """Return one picture of one quantity, or words in its place, as an SVG for an HTML page."""
-    words = subject.find_words(quantity)
-    width, height = (4.2, 4.0) if what == "polar" else (5.2, 3.1)
-    with open_figure(width, 0.6 if words else height) as fig:
+    """Return one picture of one quantity as an SVG for an HTML page, or words in its place."""
+    if words := subject.find_words(quantity):
+        return f"<p><b>{subject.title(what, quantity)}</b><br>{words}</p>"
+    with open_figure(*((4.2, 4.0) if what == "polar" else (5.2, 3.1))) as fig:
         fig.set_facecolor("none")
-        ax = fig.subplots()
-        if words:
-            ax.set_axis_off()
-            ax.set_title(subject.title(what, quantity), pad=6)
-            ax.text(0, 1, words, va="top", transform=ax.transAxes)
-        else:
-            _draw(ax, subject, what, quantity)
+        _draw(fig.subplots(), subject, what, quantity)
         name = f"{what}-{quantity}{'-after' if subject.study.before else ''}"
         return inline_svg(save_figure(fig, "svg"), name)
 
