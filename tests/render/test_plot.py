@@ -66,11 +66,6 @@ def test_before_and_after(what, four):
     assert ("before" in " ".join(compared.itertext())) == (what != "orders")
 
 
-@pytest.mark.parametrize("form", get_args(style.Form))
-def test_every_form_says_what_it_is(form, drawn):
-    assert drawn("all", form).startswith(MAGIC[form])
-
-
 @pytest.mark.stress
 @pytest.mark.parametrize("form", get_args(style.Form))
 def test_the_same_picture_is_the_same_bytes(form, drawn, four):
@@ -83,6 +78,7 @@ def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         data = draw_page(subject, "polar", form)
+    assert data.startswith(MAGIC[form])
     if form == "svg":
         root = ET.fromstring(data)
         assert not [e for e in root.iter() if e.tag.endswith("script")]
