@@ -97,7 +97,7 @@ def sheet(result: MountReport, system: System) -> Sheet:
 def _answer(
     result: MountReport, response: BodyResponse, force: Kind, motion: Kind
 ) -> Iterator[str]:
-    """In words: where it is worst, and why; what a scheme is worth there."""
+    """Yield sentences: where force and motion are largest, why, and what a scheme changes."""
     place, value, told = force.tell_highest(response)
     if value:
         worst = place.worst
@@ -124,8 +124,8 @@ def _answer(
 
 
 def _compare(own: BodyResponse, other: BodyResponse, force: Kind, motion: Kind) -> Iterator[str]:
-    """What is worst of another response, how much less than of the engine's own, and whether gas
-    counts in the one and not in the other.
+    """Yield parts of a sentence: the largest values of another response, how much less they are
+    than the engine's own, and whether its gas and its cylinders differ.
     """
     for kind in (force, motion) if own.points else (force,):
         (_, before, _), (place, after, told) = map(kind.tell_highest, (own, other))
@@ -143,13 +143,13 @@ def _compare(own: BodyResponse, other: BodyResponse, force: Kind, motion: Kind) 
 
 
 def _tell_silent(response: BodyResponse) -> str:
-    """Which cylinders do not fire, each after a semicolon."""
+    """Return the cylinders that do not fire in words, each kind after a semicolon."""
     silent = list_silent(response.loads.silent)
     return "".join(f"; {what} {numbers}" for what, numbers in silent)
 
 
 def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | WorstMotion) -> str:
-    """Why it is worst at this speed."""
+    """Return the reason why a value is largest at its speed."""
     speeds, hertz = response.speeds_rpm, worst.order * worst.speed_rpm / 60
     mode = result.modes[worst.mode]
     named = f"mode {worst.mode + 1} ({mode.motion}, {number(mode.frequency_Hz, 3)} Hz)"
@@ -162,7 +162,7 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
 
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
-    """A row for each mount or point: of the engine itself, then of all beside it."""
+    """Return a row for each mount or point: its largest value, then those of other responses."""
     heads = [kind.part, "all orders", "at, rpm", "largest order", "alone"]
     for other in result.beside:
         heads += [f"with {other.name}", "at, rpm"]
