@@ -41,11 +41,6 @@ class MountedBody(NamedTuple):
     points: Real
     carries_load: bool = False
 
-    @property
-    def up(self) -> Real:
-        """(3,) unit vector against the weight."""
-        return -self.weight / np.linalg.norm(self.weight)
-
 
 def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
     """Return the body and the mounts of a file.

@@ -48,7 +48,7 @@ class BodyModes(NamedTuple):
 def find_mounted_modes(mounted: MountedBody) -> BodyModes:
     """Return the equations of motion and the natural modes of a body on its mounts."""
     body, mounts = mounted.body, mounted.dynamic
-    modes, names = find_body_modes(body, mounts), name_motions(mounted.up)
+    modes, names = find_body_modes(body, mounts), name_motions(-mounted.weight)
     stiffness, damping = stiffness_matrix(body, mounts), damping_matrix(body, mounts)
     shares = share_energy(modes, body)
     motions = tuple(name_mode(share, names) for share in shares)

@@ -23,10 +23,10 @@ def name_motions(up: Real) -> tuple[str, ...]:
     is up and down.
 
     Args:
-        up: Unit vector against the weight, shape (3,).
+        up: Vector against the weight, shape (3,).
     """
     upright = int(np.argmax(np.abs(up)))
-    steep = abs(float(up[upright])) >= _STEEP
+    steep = abs(up[upright]) >= _STEEP * np.linalg.norm(up)
     if upright == 2 or not steep:
         along = "up and down" if steep else "along z"
         return "along x", "along y", along, "turn about x", "turn about y", "roll"

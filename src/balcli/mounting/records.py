@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from ..core.speeds import RPM
 from ..core.vibration import Complex, Real
 from ..documents.records import HIDDEN, Axes
 from ..enginefile.fields import printable
@@ -307,12 +308,11 @@ class MountReport(Result):
         if self.response is None:
             return ()
         stiffness, loss, damping = self.mounted.dynamic[2:]
-        travels = []
-        for k, mount in enumerate(self.response.mounts):
-            frequency = mount.worst.order * mount.worst.speed_rpm * np.pi / 30
-            spring = stiffness[k] * (1 + 1j * loss[k]) + 1j * frequency * damping[k]
-            travels.append(mount.worst.force_N / np.abs(spring).max())
-        farthest = int(np.argmax(travels))
+        worst = [mount.worst for mount in self.response.mounts]
+        frequency = np.array([[each.order * each.speed_rpm * RPM] for each in worst])
+        springs = np.abs(stiffness * (1 + 1j * loss) + 1j * frequency * damping).max(axis=1)
+        travels = np.array([each.force_N for each in worst]) / springs
+        farthest = int(travels.argmax())
         if travels[farthest] <= TRAVEL_MOST:
             return ()
         mount = self.response.mounts[farthest]

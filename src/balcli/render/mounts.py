@@ -218,13 +218,13 @@ def _grid_rest(result: MountReport, system: System, motion: Kind) -> Grid:
         (name, *(number(v, 4) for v in force[k]), *(number(v, 3) for v in travel[k]))
         for k, name in enumerate(mount.name for mount in mounts)
     ]
-    mean = 0.0 if result.response is None else result.response.loads.mean
-    moment = f"{number(system.moment.of(abs(mean)), 4)} {system.moment.name}"
+    mean = abs(result.response.loads.mean) if result.response else 0.0
+    moment = f"load's mean torque of {number(system.moment.of(mean), 4)} {system.moment.name}"
     leaning = within = ""
     if mean and result.mounted.carries_load:
-        within = f" The load's mean torque of {moment} acts within the body."
+        within = f" The {moment} acts within the body."
     elif mean:
-        leaning = f" and the reaction to the load's mean torque of {moment}"
+        leaning = f" and the reaction to the {moment}"
     note = f"Of the body on its mounts, under its weight{leaning}; static stiffness.{within}"
     return Grid("At rest", tuple(heads), tuple(rows), note)
 

@@ -124,17 +124,17 @@ def sizing_in_brief(sizing: Sizing, system: System) -> Text:
         what = "Orders 1 and 2 need" if known else "The forces of orders 1 and 2 need"
         unknown = "" if known else "; moments are not known"
         return Text("Sizing", (f"{what} no counterweight and no shaft{unknown}.",))
-    texts, places = [], []
+    texts: dict[str, str] = {}
     for kind, group in groupby(sizing.remedy.devices, _tell_place):
         devices = list(group)
         planes = sorted({device.position for device in devices})
         at = ", ".join(number(system.length.of(z / 1e3)) for z in planes)
-        texts.append(f"{kind} {tell_sizes(map(find_unbalance, devices), system.unbalance)}")
-        places.append(f"at z = {at} {system.length.name}")
-    if len(texts) > 1 and len(set(places)) == 1:
+        sizes = tell_sizes(map(find_unbalance, devices), system.unbalance)
+        texts[f"{kind} {sizes}"] = f"at z = {at} {system.length.name}"
+    places = [*texts.values()]
+    fitted = "; ".join(map(" ".join, texts.items()))
+    if len(places) > 1 and len(set(places)) == 1:
         fitted = "; ".join((*texts, f"all {places[0]}"))
-    else:
-        fitted = "; ".join(map(" ".join, zip(texts, places, strict=True)))
     left = "no free force or moment" if known else "no free force (moments are not known)"
     steady = " at steady speed" if sizing.after.engine.ripple else ""
     result = f"They leave {left} of orders 1 and 2{steady}. Details: balcli balance."

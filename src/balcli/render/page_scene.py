@@ -137,5 +137,5 @@ def _device_entry(device: Device, drawn: complex | None) -> dict[str, Any]:
 
 
 def _shakes(result: Analysis, order: float) -> bool:
-    rows = [p.select_orders([order]) for _, p in result.spectra.vectors() if order in p.orders]
-    return any(not row.balanced[0] for row in rows)
+    vectors = (phasors for _, phasors in result.spectra.vectors())
+    return any(np.any((p.orders == order) & ~p.balanced) for p in vectors)
