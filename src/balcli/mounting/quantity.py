@@ -15,9 +15,8 @@ from ..enginefile.changed_figures import change_figures
 from ..enginefile.model import EngineFile, label_table
 from ..errors import BalcliError
 from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
-from .build import build_mounted_body
+from .build import BodyModes, build_mounted_body, find_mounted_modes, settle
 from .loads import find_loads
-from .modes import BodyModes, find_mounted_modes, settle
 from .motions import AXES, ROLL
 from .report import choose_mount_speeds
 from .response import RunningBody, find_worst

@@ -18,9 +18,8 @@ from ..forces.orders import check_orders
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
-from .build import build_mounted_body
+from .build import build_mounted_body, find_mounted_modes, settle
 from .loads import find_loads
-from .modes import find_mounted_modes, settle
 from .motions import AXES
 from .records import (
     AtRest,

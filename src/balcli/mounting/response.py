@@ -26,9 +26,8 @@ from ..core.vibration import (
 from ..engine.arrays import find_first_largest
 from ..errors import BalcliError
 from ..limits import MOST_MOUNT_RESULTS
-from .build import MountedBody
+from .build import BodyModes, MountedBody
 from .loads import BodyLoads
-from .modes import BodyModes
 from .records import (
     BodyResponse,
     ForceOfOrder,
