@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from .library.tables import tables
     from .library.torque import analyze_torque
     from .library.torsion import analyze_torsion
-    from .mounting.report import MountReport
+    from .mounting.records import MountReport
     from .printed_tables.recomputed import Table
     from .result import Result
     from .results.analysis import Analysis, analyze
@@ -106,7 +106,7 @@ _ROOMS = {
     "load_example": "library.examples",
     "FieldBalance": "field_balancing.balance",
     "balance_rotor": "library.rotor",
-    "MountReport": "mounting.report",
+    "MountReport": "mounting.records",
     "plot": "library.plot",
     "analyze_mounts": "library.mounts",
     "Result": "result",

@@ -16,7 +16,7 @@ from balcli.errors import BalcliError
 from balcli.forces.guide_moments import compute_guide_moments
 from balcli.forces.orders import choose_orders, is_order, list_gas_orders, mark_considerable, merge_orders, parse_order
 from balcli.forces.spectrum import Spectra
-from balcli.mounting.response import find_loads
+from balcli.mounting.loads import find_loads
 from balcli.render.gas_torque import tell_rocking
 from balcli.render.units import SI
 from balcli.results.analysis import analyze

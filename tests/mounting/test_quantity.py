@@ -63,12 +63,6 @@ def test_figures_of_the_engine_vary_with_those_of_the_mounts(four, tmp_path):
         assert row["mount.left.force"] == pytest.approx(largest, rel=1e-9)
 
 
-def test_what_varies_nothing_is_not_computed_again(four):
-    one, two = sweep(four, "--vary", "mount.left.loss=0.1,0.2", "-q", "mode.roll.Hz,mode.roll.damping")
-    assert one["mode.roll.Hz"] == two["mode.roll.Hz"]
-    assert one["mode.roll.damping"] < two["mode.roll.damping"]
-
-
 WRONG = [
     ("mode.7.Hz", "mode.7.Hz is no quantity: after mode comes its number from 1 to 6, or its motion"),
     ("mode.3.hz", "mode.3.hz is no quantity: give mode.3.Hz or mode.3.share or mode.3.damping"),

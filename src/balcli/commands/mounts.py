@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from ..enginefile.toml_text import name_file
 from ..errors import warn
@@ -18,11 +17,6 @@ from .output import refuse_overwriting, show, write_figure
 from .progress import reporting
 from .scheme_options import choose_beside, parse_scheme_options
 from .speed_range import Speeds, parse_speeds
-
-if TYPE_CHECKING:
-    from ..engine.build import Engine
-    from ..enginefile.model import EngineFile
-    from ..mounting.report import MountReport
 
 Orders = Annotated[
     str | None,
@@ -60,7 +54,7 @@ def mounts(
 
     The file has [body], [[mount]] and, if motion of points is wanted, [[point]]; `balcli new
     mounts` writes one to start from. Without an engine in it, modes and rest are told. Engines of
-    further files are put on the same mounts and shown beside.
+    further files are put on the same mounts and shown next to it.
 
     \b
     Example:
@@ -72,47 +66,29 @@ def mounts(
     rpm, asked = parse_speeds(speeds), parse_orders(orders)
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
     scheme = choose_beside(scheme, options)
+    from ..mounting.read import read_mounted
     from ..mounting.report import report_mounts
     from ..render import mounts as renderer
+    from .inputs import name_engines, read_engine, silence_cylinders, warn_each
 
-    model, engine, beside = _read_files(paths, misfire or ())
+    name, silent = name_file(paths[0]), misfire or ()
+    model, engine, doubts = read_mounted(paths[0])
+    warn_each(doubts, name)
+    if engine is not None:
+        engine = silence_cylinders(engine, silent, paths[0])
+    others = [silence_cylinders(read_engine(path).engine, silent, path) for path in paths[1:]]
+    names = name_engines([model.name, *(other.name for other in others)], paths)
+    beside = list(zip(names[1:], others, strict=True))
     with reporting("work") as tell:
-        result = report_mounts(
-            model, engine, rpm, asked, scheme, beside, name_file(paths[0]), tell, options
+        result = report_mounts(model, engine, rpm, asked, scheme, beside, name, tell, options)
+    if result.response is None and any((speeds, orders, scheme, misfire)):
+        warn(
+            f"{name}: nothing shakes this body, so speeds, orders, misfires and schemes say "
+            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
         )
-    _warn(result, name_file(paths[0]), asked=any((speeds, orders, scheme, misfire)))
+    warn_each(result.doubts, name)
     if plot is not None and drawn is not None:
         from ..render.plot.mounts import make_mounts  # brings matplotlib
 
         write_figure(make_mounts(result, SYSTEMS[units]), drawn, plot)
     show([result], renderer, form, output, units)
-
-
-def _warn(result: MountReport, file: str, *, asked: bool) -> None:
-    """What is unlikely of the answer, and where there is none to what was `asked` of an engine."""
-    from .inputs import warn_each
-
-    if asked and result.response is None:
-        warn(
-            f"{file}: nothing shakes this body, so speeds, orders, misfires and schemes say "
-            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
-        )
-    warn_each(result.doubts, file)
-
-
-def _read_files(
-    paths: Sequence[str], misfires: Sequence[int]
-) -> tuple[EngineFile, Engine | None, list[tuple[str, Engine]]]:
-    """A body on its mounts with its engine, if there is one, and engines to show beside by name;
-    each with these cylinders without gas.
-    """
-    from ..mounting.read import read_mounted
-    from .inputs import name_engines, read_engine, silence_cylinders, warn_each
-
-    model, engine, doubts = read_mounted(paths[0])
-    warn_each(doubts, name_file(paths[0]))
-    if engine is not None:
-        engine = silence_cylinders(engine, misfires, paths[0])
-    others = [silence_cylinders(read_engine(path).engine, misfires, path) for path in paths[1:]]
-    names = name_engines([model.name, *(other.name for other in others)], paths)
-    return model, engine, list(zip(names[1:], others, strict=True))

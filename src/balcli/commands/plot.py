@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from ..enginefile.fields import nearest
-from ..errors import BalcliError
 from ..render.formats import Units
-from ..render.plot.names import OF_TORSION, PAGES
+from ..render.plot.names import OF_TORSION, PAGES, check_page
 from . import scheme_options
 from .declare import optional
 from .file_names import choose_target, picture_form
 from .options import EnginePath, Orders, Speed, Target, UnitsOption
 from .output import refuse_overwriting
 from .scheme_options import parse_scheme_options
-
-if TYPE_CHECKING:
-    from ..render.plot.style import Form
 
 
 def complete_pages(typed: str) -> list[str]:
@@ -81,7 +76,12 @@ def plot(
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = choose_target(target, output, "X.svg")
     form, pages = picture_form(output), parse_pages(what)
-    files = _name_files(path, pages, output, form)
+    files = [output]  # of one page, and of a PDF
+    if len(pages) > 1 and form != "pdf":
+        files = [output.with_stem(f"{output.stem}-{page}") for page in pages]
+    readings = len({page in OF_TORSION for page in pages})
+    writes = dict(zip(map("--what {}".format, pages), files, strict=False))
+    refuse_overwriting(reads=[path] * readings, writes=writes)
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
     from .plot_figures import Asked, make_figures, write_pages
 
@@ -90,30 +90,6 @@ def plot(
 
 
 def parse_pages(text: str) -> tuple[str, ...]:
-    """Return the pages of `--what`, each once.
-
-    Raises:
-        BalcliError: there is no such page.
-    """
-    words = tuple(dict.fromkeys(word.strip().lower() for word in text.split(",") if word.strip()))
-    for word in words or ("",):
-        if word not in PAGES:
-            near = nearest(word, PAGES)
-            hint = f"; did you mean {near}?" if near else ""
-            raise BalcliError(f'--what "{word[:60]}": choose from {", ".join(PAGES)}{hint}')
-    return words
-
-
-def _name_files(path: str, pages: tuple[str, ...], output: Path, form: Form) -> list[Path]:
-    """Return the file of each page: `output` for one page and for a PDF, else a file with the name
-    of the page at its end (`v8-pin.svg`).
-
-    Raises:
-        BalcliError: one is the engine file, or standard input would have to be read twice.
-    """
-    one = len(pages) == 1 or form == "pdf"
-    files = [output] if one else [output.with_stem(f"{output.stem}-{page}") for page in pages]
-    readings = len({page in OF_TORSION for page in pages})
-    writes = dict(zip(map("--what {}".format, pages), files, strict=False))
-    refuse_overwriting(reads=[path] * readings, writes=writes)
-    return files
+    """Return the pages of `--what`, each once; raise BalcliError if there is no such page."""
+    words = dict.fromkeys(word.strip().lower() for word in text.split(",") if word.strip())
+    return tuple(check_page(word) for word in words or ("",))

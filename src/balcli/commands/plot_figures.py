@@ -49,29 +49,29 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
     found: dict[str, Figure] = {}
     of_torsion = [page for page in pages if page in OF_TORSION]
     others = [page for page in pages if page not in OF_TORSION]
-    if asked.speeds is not None and not of_torsion:
-        warn("--speeds counts for pages of torsion alone; the speed of the others is --speed")
-    if asked.speed is not None and not others:
-        warn("--speed counts for nothing here; pages of torsion take a range, --speeds A:B")
     if of_torsion:
         refuse_scheme(choose_beside(asked.scheme, asked.options), of_torsion[0])
         drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, asked.units)
         found |= zip(of_torsion, drawn, strict=True)
+    elif asked.speeds is not None:
+        warn("--speeds counts for pages of torsion alone; the speed of the others is --speed")
     if others:
         found |= zip(others, _make_pages(path, others, asked), strict=True)
+    elif asked.speed is not None:
+        warn("--speed counts for nothing here; pages of torsion take a range, --speeds A:B")
     return [found[page] for page in pages]
 
 
 def _make_pages(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
-    compared = choose_beside(asked.scheme, asked.options) if {*pages} != {"factor"} else None
+    beside = choose_beside(asked.scheme, asked.options) if {*pages} != {"factor"} else None
     orders = parse_orders(asked.orders)
-    shown = tuple(_SHOWN[page] for page in pages) if all(p in _SHOWN for p in pages) else None
+    shown = tuple(_SHOWN[page] for page in pages) if {*pages} <= {*_SHOWN} else None
     engine = read_engine(path, parse_speed(asked.speed), shown).engine
     if any(page in OF_GAS for page in pages):
         require_gas(engine, path)
     figures = []
     for page in pages:
-        scheme = asked.scheme if page == "factor" else compared
+        scheme = asked.scheme if page == "factor" else beside
         study = compute_study(engine, page, orders, scheme, asked.options)
         figures.append(make_page(PageSubject(study, SYSTEMS[asked.units]), page))
     return figures
@@ -81,11 +81,11 @@ def write_pages(figures: Sequence[Figure], files: Sequence[Path], form: Form) ->
     """Write all pages into one PDF, or each page into its own file.
 
     Raises:
-        BalcliError: a file cannot be written.
+        BalcliError: A file cannot be written.
     """
     if len(files) < len(figures):
-        write_file(save_pages(figures), files[0])
-        return
-    contents = [save_figure(figure, form) for figure in figures]
+        contents = [save_pages(figures)]
+    else:
+        contents = [save_figure(figure, form) for figure in figures]
     for content, file in zip(contents, files, strict=True):
         write_file(content, file)

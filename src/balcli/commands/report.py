@@ -20,7 +20,7 @@ from .scheme_options import choose_scheme, parse_scheme_options
 if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..enginefile.model import EngineFile
-    from ..mounting.report import MountReport
+    from ..mounting.records import MountReport
     from ..sizing.options import SchemeOptions
     from ..torsion.analysis import TorsionAnalysis
 

@@ -11,7 +11,7 @@ DOCUMENTS = {
     "curves": "studies",
     "field": "field",
     "marine": "analysis",
-    "mounts": "vibration",
+    "mounts": "mounting.records:MountReport",
     "numbers": "studies.numbers:NamedNumbers",
     "scatter": "studies.scatter:Scatter",
     "search": "studies",

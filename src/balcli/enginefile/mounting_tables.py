@@ -37,24 +37,13 @@ class _AlikeOrEach:
 
 
 _Stiffness, _Damping = (Number(dimension, least=0, most=1e12) for dimension in (STIFFNESS, DAMPING))
-Tensor = Annotated[
-    tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], Field(min_length=6, max_length=6)
-]
-Direction = Annotated[
-    tuple[Annotated[float, Number(PLAIN, most=1e9)], ...], Field(min_length=3, max_length=3)
-]
-Directions = Annotated[tuple[Direction, ...], Field(min_length=2, max_length=2)]
-Turns = Annotated[tuple[Angle, ...], Field(min_length=3, max_length=3)]
-Stiffnesses = Annotated[
-    tuple[Annotated[float, _Stiffness], ...],
-    Field(min_length=3, max_length=3),
-    _AlikeOrEach(_Stiffness),
-]
-Dampings = Annotated[
-    tuple[Annotated[float, _Damping], ...],
-    Field(min_length=3, max_length=3),
-    _AlikeOrEach(_Damping),
-]
+_two, _three, _six = (Field(min_length=count, max_length=count) for count in (2, 3, 6))
+Tensor = Annotated[tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], _six]
+Direction = Annotated[tuple[Annotated[float, Number(PLAIN, most=1e9)], ...], _three]
+Directions = Annotated[tuple[Direction, ...], _two]
+Turns = Annotated[tuple[Angle, ...], _three]
+Stiffnesses = Annotated[tuple[Annotated[float, _Stiffness], ...], _three, _AlikeOrEach(_Stiffness)]
+Dampings = Annotated[tuple[Annotated[float, _Damping], ...], _three, _AlikeOrEach(_Damping)]
 
 _PERPENDICULAR = 1e-6  # cosine between two axes that are
 
@@ -97,30 +86,24 @@ class Body(FileTable):
 
 
 def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
-    """Which elements of an inertia tensor (xx, yy, zz, xy, yz, zx) no body can have."""
-    moments = dict(zip(("xx", "yy", "zz"), inertia, strict=False))
-    products = dict(zip(("xy", "yz", "zx"), inertia[3:], strict=True))
-    faults = [
-        f"inertia {name} is {value:g}; a moment of inertia is above 0"
-        for name, value in moments.items()
-        if value <= 0
-    ]
-    if not faults:
-        for name, value in products.items():
-            most = math.sqrt(moments[2 * name[0]] * moments[2 * name[1]])
-            if abs(value) >= most:
-                faults.append(
-                    f"inertia {name} is {value:g}; beside {2 * name[0]} and {2 * name[1]} it must "
-                    f"be within {most:g}"
-                )
-    if not faults:
-        (a, b, c), (d, e, f) = moments.values(), products.values()
-        if a * b * c + 2 * d * e * f <= a * e**2 + b * f**2 + c * d**2:
-            faults.append(
-                "inertia xy, yz and zx are together too large: the tensor is not positive definite "
-                "(they are elements of the matrix: products of inertia with minus)"
+    """Yield the first fault of an inertia tensor (xx, yy, zz, xy, yz, zx)."""
+    a, b, c, d, e, f = inertia
+    for name, value in zip(("xx", "yy", "zz"), inertia, strict=False):
+        if value <= 0:
+            yield f"inertia {name} is {value:g}; a moment of inertia is above 0"
+            return
+    for name, value, square in (("xy", d, a * b), ("yz", e, b * c), ("zx", f, c * a)):
+        if value**2 >= square:
+            yield (
+                f"inertia {name} is {value:g}; beside {2 * name[0]} and {2 * name[1]} it must be "
+                f"within {math.sqrt(square):g}"
             )
-    yield from faults
+            return
+    if a * b * c + 2 * d * e * f <= a * e**2 + b * f**2 + c * d**2:
+        yield (
+            "inertia xy, yz and zx are together too large: the tensor is not positive definite "
+            "(they are elements of the matrix: products of inertia with minus)"
+        )
 
 
 class Mount(FileTable):

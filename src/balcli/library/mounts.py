@@ -16,7 +16,8 @@ from ..enginefile.read import check_tables
 from ..errors import check_type
 from ..forces.orders import check_orders
 from ..mounting.read import check_mounted
-from ..mounting.report import MountReport, report_mounts
+from ..mounting.records import MountReport
+from ..mounting.report import report_mounts
 from .arguments import check_mapping, check_speeds, tell_arguments
 
 
@@ -33,25 +34,25 @@ def analyze_mounts(
     and motion of points over a range of speeds.
 
     Args:
-        source: an Engine whose file has [body] and [[mount]]; or the path of such a file, its text
-            or a dict of its tables, which may also describe the body and mounts alone.
-        speeds_rpm: in any order; default: from an eighth of the file's speed to this.
-        orders: that count; default: all that are not negligible.
-        scheme: a balance scheme; the response is then also that with its devices (`fitted`).
-        others: engines by name, put on the same mounts and told beside.
+        source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or
+            a dict of its tables, which may also describe the body and mounts alone.
+        speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this.
+        orders: Orders of the load; default: all that are not negligible.
+        scheme: Balance scheme; with its devices the response is `fitted`.
+        others: Engines by name that are put on the same mounts.
 
     Returns:
-        `modes.six` (`hertz`, `motion`, shapes), `response` (`force`, N, shape (orders, speeds,
-        mounts), `motion`, m, shape (orders, speeds, points), at `speeds_rpm`; `worst_force` and
-        `worst_motion`, the largest of the range; None without an engine), `fitted`, `others`.
+        The document of `balcli mounts` as records: `modes` (`frequency_Hz`, `motion`, ...),
+        `response` (`mounts` and `points`, with `peak_N` or `peak_mm` over `speeds_rpm` and the
+        `worst` of the range; None without an engine), `fitted`, `others`.
 
     Raises:
-        BalcliError: a resonance without damping; a scheme that cannot be fitted.
-        InputError: every mistake of the file; a motion that no mount holds.
-        TypeError: the source is none of these; what is no number, no dict of engines.
+        BalcliError: A mode without damping is driven within the range; the scheme cannot be fitted.
+        InputError: The file has mistakes, or a motion is held by no mount.
+        TypeError: The source or an argument has a wrong type.
 
     Example:
-        >>> [mode.hertz for mode in analyze_mounts("i4_mounts.toml").modes.six]
+        >>> [mode.frequency_Hz for mode in analyze_mounts("i4_mounts.toml").modes]
     """
     speeds = check_speeds("analyze_mounts", speeds_rpm)
     beside = {} if others is None else check_mapping("analyze_mounts", others, '{"V8": engine}')

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from types import NoneType
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..engine.build import Engine, take_model
-from ..enginefile.fields import nearest
-from ..errors import BalcliError, check_type, wrong_type
+from ..errors import check_type, wrong_type
 from ..field_balancing.balance import FieldBalance
 from ..forces.orders import check_orders
-from ..mounting.report import MountReport
+from ..mounting.records import MountReport
 from ..render.plot.field_balancing import make_field
 from ..render.plot.mounts import make_mounts
-from ..render.plot.names import OF_GAS, OF_TORSION, PAGES
+from ..render.plot.names import OF_GAS, OF_TORSION, PAGES, check_page
 from ..render.plot.pages import PageSubject, make_page
 from ..render.plot.torsion import make_torsion
 from ..render.sweep_plot import check_drawable, make_sweep
@@ -85,15 +84,13 @@ def plot(
             asked = shown.orders if orders is None else orders
             return _plot_engine(shown.engine, what or "overview", asked, scheme, speeds_rpm)
         case Balance():
-            page = _choose(what or "overview", PAGES[:6])
             study = Study(shown.after, shown.before, shown.remedy)
-            return make_page(PageSubject(study), page)
+            return make_page(PageSubject(study), check_page(what or "overview", PAGES[:6]))
         case TorqueAnalysis(engine=Engine() as engine):
-            page = _choose(what or "torque", OF_GAS)
-            return _plot_engine(engine, page, None, None, None)
+            return _plot_engine(engine, check_page(what or "torque", OF_GAS))
         case TorsionAnalysis():
             return _plot_torsion(shown, what or "all")
-    _choose(what or "all", ("all",))
+    check_page(what or "all", ("all",))
     match shown:
         case Swept():
             check_drawable(shown.sweep)
@@ -105,27 +102,16 @@ def plot(
     raise wrong_type("plot", shown, _DRAWN)
 
 
-def _choose(what: str, known: Sequence[str]) -> str:
-    """Return the name of a page; raise BalcliError if there is no such page."""
-    if what not in known:
-        near = nearest(str(what), known)
-        hint = f"; did you mean {near}?" if near else ""
-        raise BalcliError(f"plot: there is no {what!r} of it; choose from {', '.join(known)}{hint}")
-    return what
-
-
 def _plot_engine(
     engine: Engine,
     what: str,
-    orders: Iterable[float] | None,
-    scheme: str | None,
-    speeds_rpm: ArrayLike | None,
+    orders: Iterable[float] | None = None,
+    scheme: str | None = None,
+    speeds_rpm: ArrayLike | None = None,
 ) -> Figure:
-    _choose(what, PAGES)
-    if what not in OF_TORSION:
+    if check_page(what) not in OF_TORSION:
         asked = None if orders is None else check_orders(orders).tolist()
-        study = compute_study(engine, what, asked, scheme)
-        return make_page(PageSubject(study), what)
+        return make_page(PageSubject(compute_study(engine, what, asked, scheme)), what)
     exciting = check_torsion_orders(orders)
     source = make_source(take_model(engine), engine, engine.name, exciting)
     speeds = check_speeds("plot", speeds_rpm)
@@ -136,4 +122,4 @@ def _plot_engine(
 
 def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
     known = ("all", *(OF_TORSION if result.response is not None else OF_TORSION[:2]))
-    return make_torsion(result, _choose(what, known))
+    return make_torsion(result, check_page(what, known))

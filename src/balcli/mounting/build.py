@@ -1,28 +1,36 @@
-"""Tables of an engine file -> a rigid body on its mounts, SI, checked."""
+"""Tables of an engine file -> a rigid body on its mounts, SI, checked; its natural modes."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.rigid_body import Body, Mounts, complete_axes, find_free_motions, turn_axes
-from ..core.vibration import Real
-from ..enginefile.fields import counted, printable, shorten
+from ..core.rigid_body import (
+    Body,
+    Mounts,
+    Settled,
+    complete_axes,
+    damping_matrix,
+    find_body_modes,
+    find_free_motions,
+    mass_matrix,
+    settle_body,
+    share_energy,
+    stiffness_matrix,
+    turn_axes,
+)
+from ..core.vibration import Complex, Modes, Real, modal_loss
+from ..enginefile.fields import printable, shorten
 from ..enginefile.model import EngineFile
-from ..enginefile.mounting_tables import Body as BodyTable
 from ..enginefile.mounting_tables import Mount, Point
 from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import InputError, Problem
 from ..limits import MOST_MOUNTS
-from .motions import describe_free_motion
+from .motions import describe_free_motion, name_mode, name_motions
 
-_STIFFNESS = 1e3  # N/m of N/mm
-_DAMPING = 1e3  # N s/m of N s/mm
-_INERTIA = 1e-6  # kg m2 of kg mm2
-_LENGTH = 1e-3  # m of mm
+_MM = 1e-3  # m
 
 
 class MountedBody(NamedTuple):
@@ -46,101 +54,128 @@ class MountedBody(NamedTuple):
     points: Real
     carries_load: bool = False
 
-    @property
-    def up(self) -> Real:
-        """(3,) unit vector against the weight."""
-        return -self.weight / np.linalg.norm(self.weight)
-
 
 def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
-    """The body and the mounts of a file; `name` is that of the file, for messages.
+    """Return the body and the mounts of a file.
+
+    Args:
+        model: Engine file.
+        name: Name of the file, for messages.
 
     Raises:
-        InputError: what is missing or does not fit together; a motion that no mount holds.
+        InputError: Tables are missing or do not fit together; no mount holds a motion.
     """
-    problems = list(find_mounting_faults(model))
-    if problems or model.body is None:
+    problems, table, mounts = list(find_mounting_faults(model)), model.body, model.mount
+    if problems or table is None:
         raise InputError(problems, name)
-    body, weight = _build_body(model.body)
-    static = _build_mounts(model.mount)
-    factors = np.array([mount.dynamic_factor for mount in model.mount])[:, None]
-    mounted = MountedBody(
-        body,
-        static,
-        static._replace(stiffness=static.stiffness * factors),
-        tuple(mount.name for mount in model.mount),
-        weight,
-        tuple(point.name for point in model.point),
-        _LENGTH * np.array([point.at for point in model.point], float).reshape(-1, 3),
-        model.body.carries_load,
+    xx, yy, zz, xy, yz, zx = table.inertia
+    tensor = 1e-6 * np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])  # kg m2 of kg mm2
+    body, down = Body(table.mass, _MM * np.array(table.cg), tensor), np.array(table.gravity)
+    static = Mounts(
+        _MM * np.array([mount.at for mount in mounts]),
+        np.array([_find_axes(mount) for mount in mounts]),
+        1e3 * np.array([mount.stiffness for mount in mounts]),  # N/m of N/mm
+        np.array([[mount.loss] * 3 for mount in mounts]),
+        1e3 * np.array([mount.damping for mount in mounts]),
     )
     free = find_free_motions(body, static)
     if len(free):
-        others = f", and {counted(len(free) - 1, 'other motion')}" if len(free) > 1 else ""
         message = (
-            f"nothing holds the body against {describe_free_motion(free[0], body.centre)}{others}; "
-            "give a mount that does, or stiffness along another axis"
+            f"nothing holds the body against {describe_free_motion(free[0], body.centre)}; give a "
+            "mount that does, or stiffness along another axis"
         )
         raise InputError([Problem("mount", message)], name)
-    return mounted
+    factors = np.array([[mount.dynamic_factor] for mount in mounts])
+    return MountedBody(
+        body,
+        static,
+        static._replace(stiffness=static.stiffness * factors),
+        tuple(mount.name for mount in mounts),
+        table.mass * STANDARD_GRAVITY * down / np.linalg.norm(down),
+        tuple(point.name for point in model.point),
+        _MM * np.array([point.at for point in model.point]).reshape(-1, 3),
+        table.carries_load,
+    )
+
+
+def _find_axes(mount: Mount) -> Real:
+    """Return the axes of a mount as the columns of a matrix (3, 3)."""
+    if mount.axes is not None:
+        return complete_axes(*mount.axes)
+    return turn_axes(*np.radians(mount.angles or (0.0, 0.0, 0.0)))
 
 
 def find_mounting_faults(
     model: EngineFile, legible: frozenset[str] = frozenset({"body", "mount", "point"})
 ) -> Iterator[Problem]:
-    """What is missing of a body on its mounts, or said twice.
+    """Yield what is missing of a body on its mounts, and names that come twice.
 
     Args:
-        legible: tables that could be read.
+        model: Engine file.
+        legible: Tables that could be read.
     """
     if "body" in legible and model.body is None:
-        example = "mass = 163.9"
-        yield Problem.of_missing("body", f'give it, such as "[body]" and "{example}" below it')
+        yield Problem.of_missing("body", 'give it, such as "[body]" and "mass = 163.9" below it')
     if "mount" in legible and not model.mount:
         yield Problem.of_missing("mount", "write [[mount]] for every mount")
     lists: dict[str, Sequence[Mount | Point]] = {"mount": model.mount, "point": model.point}
     for key, tables in lists.items():
-        if key in legible:
-            yield from _find_list_faults(key, tables)
+        if len(tables) > MOST_MOUNTS:
+            yield Problem(key, f"stands {len(tables)} times; at most {MOST_MOUNTS} are taken")
+        met: dict[str, int] = {}
+        for number, table in enumerate(tables if key in legible else (), 1):
+            if (first := met.setdefault(table.name, number)) != number:
+                message = (
+                    f"{shorten(printable(table.name))} is also the name of {key}.{first}; each "
+                    "needs one of its own"
+                )
+                yield Problem(f"{key}.{number}.name", message)
 
 
-def _find_list_faults(key: str, tables: Sequence[Mount | Point]) -> Iterator[Problem]:
-    """Too many tables of a kind, and names that come twice."""
-    if len(tables) > MOST_MOUNTS:
-        yield Problem(key, f"stands {len(tables)} times; at most {MOST_MOUNTS} are taken")
-    met: dict[str, int] = {}
-    for number, table in enumerate(tables, 1):
-        first = met.setdefault(table.name, number)
-        if first != number:
-            message = (
-                f"{shorten(printable(table.name))} is also the name of {key}.{first}; each needs "
-                "one of its own"
-            )
-            yield Problem(f"{key}.{number}.name", message)
+# ------------------------------------------------------------------ equations of motion
+class BodyModes(NamedTuple):
+    """Equations `(K + i w C - w^2 M) q = f` about the center of gravity, and their natural modes.
+
+    Attributes:
+        stiffness, damping, mass: K (dynamic), C and M, SI, shape (6, 6).
+        modes: Modes without damping, lowest first.
+        loss: Loss factor of each mode, shape (6,).
+        shares: Share of the kinetic energy of each mode in each motion, shape (modes, 6).
+        motions: Each mode in words.
+    """
+
+    stiffness: Complex
+    damping: Real
+    mass: Real
+    modes: Modes
+    loss: Real
+    shares: Real
+    motions: tuple[str, ...]
+
+    @property
+    def hertz(self) -> Real:
+        """Natural frequencies, Hz, shape (6,)."""
+        return self.modes.omega / (2 * np.pi)
 
 
-def _build_body(table: BodyTable) -> tuple[Body, Real]:
-    """The body that a file tells of, and its weight (3,), N."""
-    xx, yy, zz, xy, yz, zx = table.inertia
-    tensor = np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
-    body = Body(table.mass, _LENGTH * np.array(table.cg, float), _INERTIA * tensor)
-    down = np.array(table.gravity, float)
-    return body, table.mass * STANDARD_GRAVITY * down / np.linalg.norm(down)
+def find_mounted_modes(mounted: MountedBody) -> BodyModes:
+    """Return the equations of motion and the natural modes of a body on its mounts."""
+    body, mounts = mounted.body, mounted.dynamic
+    modes, names = find_body_modes(body, mounts), name_motions(-mounted.weight)
+    stiffness, damping = stiffness_matrix(body, mounts), damping_matrix(body, mounts)
+    shares = share_energy(modes, body)
+    motions = tuple(name_mode(share, names) for share in shares)
+    loss = modal_loss(modes, stiffness, damping)
+    return BodyModes(stiffness, damping, mass_matrix(body), modes, loss, shares, motions)
 
 
-def _build_mounts(mounts: Sequence[Mount]) -> Mounts:
-    return Mounts(
-        _LENGTH * np.array([mount.at for mount in mounts], float),
-        np.array([_find_axes(mount) for mount in mounts]),
-        _STIFFNESS * np.array([mount.stiffness for mount in mounts], float),
-        np.array([[mount.loss] * 3 for mount in mounts], float),
-        _DAMPING * np.array([mount.damping for mount in mounts], float),
-    )
+def settle(mounted: MountedBody, torque: float = 0.0) -> Settled:
+    """Return the body at rest under its weight, with static stiffness.
 
-
-def _find_axes(mount: Mount) -> Real:
-    """(3, 3), columns: its own axes."""
-    if mount.axes is not None:
-        return complete_axes(*mount.axes)
-    about_x, about_y, about_z = map(math.radians, mount.angles or (0.0, 0.0, 0.0))
-    return turn_axes(about_x, about_y, about_z)
+    Args:
+        torque: Mean torque about the crankshaft's axis on the body, N m; it has no effect where the
+            body carries the load, for then it acts between parts of the body.
+    """
+    leaning = 0.0 if mounted.carries_load else torque
+    load = np.concatenate([mounted.weight, [0.0, 0.0, leaning]])
+    return settle_body(mounted.body, mounted.static, load)

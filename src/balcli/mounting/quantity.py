@@ -15,11 +15,11 @@ from ..enginefile.model import EngineFile, label_table
 from ..enginefile.read import change_figures
 from ..errors import BalcliError
 from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
-from .build import build_mounted_body
-from .modes import BodyModes, find_mounted_modes
+from .build import BodyModes, build_mounted_body, find_mounted_modes, settle
+from .loads import find_loads
 from .motions import AXES, ROLL
 from .report import choose_mount_speeds
-from .response import LargestAmplitude, find_largest_amplitudes, find_loads
+from .response import RunningBody, find_worst
 
 _SUBJECTS = {
     "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
@@ -27,20 +27,20 @@ _SUBJECTS = {
     "point": Subject("lever", {"motion": "m"}),
 }
 _MOTIONS = {axis: k for k, axis in enumerate(AXES)} | {"roll": ROLL}
-_NUMBERS = tuple("123456")
+_MODES = (*"123456", *_MOTIONS)
 _TABLES = ("body", "mount", "point")  # of the file, which no engine has
 _RUNS = ("force", "motion")  # what takes an engine that runs
 
 
 def parse_quantity(text: str) -> TargetQuantity:
-    """`mode.3.Hz` and its like; of a mode, its number, or the motion of which it has the largest
-    share.
+    """Return the quantity of this name; a mode is named by its number, or by the motion of which it
+    has the largest share.
 
     Raises:
-        BalcliError: anything else, with what there is.
+        BalcliError: There is no such quantity.
     """
     found = parse_target_quantity(text, _SUBJECTS)
-    if found.kind == "mode" and found.target not in (*_MOTIONS, *_NUMBERS):
+    if found.kind == "mode" and found.target not in _MODES:
         raise BalcliError(
             f"{text} is no quantity: after mode comes its number from 1 to 6, or its motion: "
             f"{', '.join(_MOTIONS)}"
@@ -49,25 +49,24 @@ def parse_quantity(text: str) -> TargetQuantity:
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Those that a file has."""
-    named = _name_targets(model) | {"mode": [*_NUMBERS, *_MOTIONS]}
-    for kind, subject in _SUBJECTS.items():
-        yield from (f"{kind}.{target}.{part}" for target in named[kind] for part in subject.units)
+    """Yield the names of all quantities that a file has."""
+    for kind, targets in _name_targets(model).items():
+        yield from (
+            f"{kind}.{target}.{part}" for target in targets for part in _SUBJECTS[kind].units
+        )
 
 
 def _name_targets(model: EngineFile) -> dict[str, list[str]]:
     return {
+        "mode": [*_MODES],
         "mount": [label_table(table, k) for k, table in enumerate(model.mount, 1)],
         "point": [label_table(table, k) for k, table in enumerate(model.point, 1)],
     }
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Nothing, unless one of these is of a mount or point that the file does not have, or it has no
-    body on mounts.
-
-    Raises:
-        BalcliError: the quantity, and the nearest name.
+    """Raise BalcliError if a quantity names a mount or point that the file does not have, or if the
+    file has no body on mounts.
     """
     if model.body is None or not model.mount:
         raise BalcliError(
@@ -76,71 +75,64 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         )
     names = _name_targets(model)
     for q in quantities:
-        if q.kind in names:
-            refuse_stranger(q, names[q.kind])
+        refuse_stranger(q, names[q.kind])
 
 
 class Variants:
     """Evaluates quantities of variants of a file one by one; what does not vary is computed once.
 
     Args:
-        model: with [body] and [[mount]].
+        model: File with [body] and [[mount]].
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         self._model, self._quantities = model, quantities
-        self._runs = any(q.part in _RUNS for q in quantities)
+        targets = _name_targets(model)
+        places = [(kind, name) for kind in ("mount", "point") for name in targets[kind]]
+        self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
+        self._curves = sorted({self._place[q] for q in quantities if q.part in _RUNS})
         # The mean torque of the gas, less friction, leans on the mounts at rest.
         self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
-        self._engines, self._targets = EngineVariants(model), _name_targets(model)
+        self._engines = EngineVariants(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """The value of each quantity for one variant, by the figures that vary.
+        """Return the value of each quantity for one variant, by the figures that vary.
 
         Raises:
-            InputError, BalcliError: it cannot be.
+            InputError, BalcliError: The variant cannot be.
         """
         mounted = build_mounted_body(change_figures(self._model, values, _TABLES))
-        if not (self._runs or self._leans):
-            modes = find_mounted_modes(mounted)
-            return [self._read(q, modes, {}) for q in self._quantities]
-        own = {
-            path: value for path, value in values.items() if path.partition(".")[0] not in _TABLES
-        }
-        engine = self._engines.build(own)
-        loads = find_loads(engine, mounted.body.centre)
-        modes = find_mounted_modes(mounted, loads.mean)
-        largest: Mapping[int, LargestAmplitude] = {}
-        if self._runs:
-            omega = choose_mount_speeds(engine) * RPM
-            curves = sorted({self._number(q) for q in self._quantities if q.part in _RUNS})
-            found = find_largest_amplitudes(mounted, modes, loads, omega, curves)
-            largest = dict(zip(curves, found, strict=True))
-        return [self._read(q, modes, largest) for q in self._quantities]
-
-    def _read(
-        self, q: TargetQuantity, modes: BodyModes, largest: Mapping[int, LargestAmplitude]
-    ) -> float:
-        """Return the value of a quantity; `largest` holds the curves by `_number`."""
-        if q.kind == "mode":
-            return _read_mode(modes, q)
-        if q.part == "static":
-            return float(np.linalg.norm(modes.settled.forces[self._number(q)]))
-        return largest[self._number(q)].value
-
-    def _number(self, q: TargetQuantity) -> int:
-        """Return the number of a mount, or of a point after all mounts."""
-        first = 0 if q.kind == "mount" else len(self._targets["mount"])
-        return first + self._targets[q.kind].index(q.target)
+        modes, mean, largest = find_mounted_modes(mounted), 0.0, {}
+        if self._curves or self._leans:
+            engine = self._engines.build(
+                {path: v for path, v in values.items() if path.partition(".")[0] not in _TABLES}
+            )
+            loads = find_loads(engine, mounted.body.centre)
+            mean = loads.mean
+            if self._curves:
+                omega = choose_mount_speeds(engine) * RPM
+                running = RunningBody.of(mounted, modes, loads)
+                running.refuse_resonance(omega)
+                running = running.select(self._curves)
+                worst = find_worst(running, omega, running.find_peaks(omega))
+                largest = dict(zip(self._curves, worst.value.tolist(), strict=True))
+        rest = np.linalg.norm(settle(mounted, mean).forces, axis=-1).tolist()
+        found = []
+        for q in self._quantities:
+            if q.kind == "mode":
+                found.append(_read_mode(modes, q))
+            else:
+                found.append((rest if q.part == "static" else largest)[self._place[q]])
+        return found
 
 
 def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:
     if q.target in _MOTIONS:
         motion = _MOTIONS[q.target]
-        mode = max(modes.six, key=lambda one: one.shares[motion])
+        mode = int(modes.shares[:, motion].argmax())
     else:
-        mode = modes.six[int(q.target) - 1]
-        motion = int(find_first_largest(mode.shares))
+        mode = int(q.target) - 1
+        motion = int(find_first_largest(modes.shares[mode]))
     if q.part == "Hz":
-        return mode.hertz
-    return float(100 * mode.shares[motion] if q.part == "share" else 50 * mode.loss)
+        return float(modes.hertz[mode])
+    return float(100 * modes.shares[mode, motion] if q.part == "share" else 50 * modes.loss[mode])

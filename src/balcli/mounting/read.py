@@ -12,7 +12,7 @@ from ..engine.build import Engine
 from ..engine.load import build_named
 from ..engine.rules import find_contradictions
 from ..enginefile.model import EngineFile
-from ..enginefile.mounting_tables import Body, Mount, Point
+from ..enginefile.mounting_tables import Mount, Point
 from ..enginefile.read import REQUIRED, Draft, read_tables
 from ..enginefile.suspicious import NO_DISTANCE, doubt_losses
 from ..enginefile.table_reader import refuse
@@ -53,52 +53,15 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
         contradictions = find_contradictions(whole) if has_engine and draft.problems else []
         raise refuse([*draft.problems, *contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
-    of_engine = () if engine is None else engine.unlikely
-    body, mounts = draft.model.body, draft.model.mount
-    of_body = () if body is None else (*_doubt_tensor(body), *_doubt_size(body, mounts))
-    of_mounts = () if body is None else (*_doubt_sag(body, mounts), *_doubt_places(draft.model))
-    losses = doubt_losses((f"mount.{k}.loss", mount.loss) for k, mount in enumerate(mounts, 1))
-    return MountedFile(draft.model, engine, (*of_engine, *of_body, *of_mounts, *losses))
+    doubts = () if engine is None else engine.unlikely
+    return MountedFile(draft.model, engine, (*doubts, *_find_doubts(draft.model)))
 
 
-def _doubt_sag(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
-    """Mounts that hold the body as no mounts do: a stiffness in N/m, most likely."""
-    sag = STANDARD_GRAVITY * body.mass / sum(sum(m.stiffness) / 3 for m in mounts)
-    if not SAG_LEAST <= sag <= SAG_MOST:
-        yield (
-            f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
-            f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
-        )
-
-
-def _doubt_places(model: EngineFile) -> Iterator[str]:
-    """Mounts and points within the crankshaft, but not at its middle: in metres, most likely."""
-    named: list[tuple[str, Mount | Point]] = [
-        *((f"mount.{number}", mount) for number, mount in enumerate(model.mount, 1)),
-        *((f"point.{number}", point) for number, point in enumerate(model.point, 1)),
-    ]
-    for path, each in named:
-        away = max(map(abs, each.at))
-        if NO_DISTANCE < away < NEAR_THE_ORIGIN:
-            yield (
-                f"{path}.at of '{each.name}' is within {away:.3g} mm of the origin; "
-                f"{ask_unit('mm', f'{away:.3g} m')}"
-            )
-
-
-def _doubt_size(body: Body, mounts: Sequence[Mount]) -> Iterator[str]:
-    """A body far smaller than the distance of its mounts: an inertia in kg m2, most likely."""
-    mass, centre, largest = body.mass, body.cg, max(body.inertia[:3])
-    across, farthest = math.sqrt(largest / mass), max(math.dist(m.at, centre) for m in mounts)
-    if across < SMALL_BODY * farthest:
-        yield (
-            f"body.inertia: {largest:g} kg mm^2 is that of {mass:g} kg within {across:.2g} mm, and "
-            f"a mount stands {farthest:.3g} mm away; {ask_unit('kg mm^2', f'{largest:g} kg m^2')}"
-        )
-
-
-def _doubt_tensor(body: Body) -> Iterator[str]:
-    """Moments of inertia of which one is more than the other two together: no body has such."""
+def _find_doubts(model: EngineFile) -> Iterator[str]:
+    """Yield what no body and no mounts have: most likely a figure in another unit."""
+    body, mounts = model.body, model.mount
+    if body is None:
+        return
     moments = dict(zip(("xx", "yy", "zz"), body.inertia, strict=False))
     for name, value in moments.items():
         first, second = (other for other in moments if other != name)
@@ -108,3 +71,28 @@ def _doubt_tensor(body: Body) -> Iterator[str]:
                 f"body.inertia: {name} of {value:g} is more than {first} and {second} together "
                 f"({together:g}), which no body has; are the axes right? z is the crankshaft's"
             )
+    largest = max(moments.values())
+    across = math.sqrt(largest / body.mass)
+    farthest = max(math.dist(mount.at, body.cg) for mount in mounts)
+    if across < SMALL_BODY * farthest:
+        yield (
+            f"body.inertia: {largest:g} kg mm^2 is that of {body.mass:g} kg within {across:.2g} "
+            f"mm, and a mount stands {farthest:.3g} mm away; "
+            f"{ask_unit('kg mm^2', f'{largest:g} kg m^2')}"
+        )
+    sag = STANDARD_GRAVITY * body.mass / sum(sum(mount.stiffness) / 3 for mount in mounts)
+    if not SAG_LEAST <= sag <= SAG_MOST:
+        yield (
+            f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
+            f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
+        )
+    lists: dict[str, Sequence[Mount | Point]] = {"mount": mounts, "point": model.point}
+    for key, tables in lists.items():
+        for number, each in enumerate(tables, 1):
+            away = max(map(abs, each.at))
+            if NO_DISTANCE < away < NEAR_THE_ORIGIN:
+                yield (
+                    f"{key}.{number}.at of '{each.name}' is within {away:.3g} mm of the origin; "
+                    f"{ask_unit('mm', f'{away:.3g} m')}"
+                )
+    yield from doubt_losses((f"mount.{k}.loss", mount.loss) for k, mount in enumerate(mounts, 1))

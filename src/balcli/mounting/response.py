@@ -5,28 +5,18 @@ up in time, at every speed.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.close_peaks import find_highest
 from ..core.peaks import find_longest, largest_of_ellipse
-from ..core.rigid_body import (
-    apply_couplings,
-    carry_points,
-    couple_mounts,
-    damping_matrix,
-    load_at_centre,
-    mass_matrix,
-    stiffness_matrix,
-)
+from ..core.rigid_body import carry_points, couple_mounts
 from ..core.speeds import RPM
-from ..core.telling import Tell, tell_nobody
 from ..core.vibration import (
     UNDAMPED,
     Complex,
+    Indices,
     Real,
     UndampedResonanceError,
     find_resonances,
@@ -34,392 +24,231 @@ from ..core.vibration import (
     solve_response,
 )
 from ..engine.arrays import find_first_largest
-from ..engine.build import NONE_SILENT, Engine, SilentCylinders
-from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
-from ..forces.in_time import compute_spectra_in_time
-from ..forces.orders import choose_orders, find_relevant_orders, list_gas_orders, merge_orders
-from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import MOST_MOUNT_RESULTS
-from .build import MountedBody
-from .modes import BodyModes
-from .motions import ROLL
+from .build import BodyModes, MountedBody
+from .loads import BodyLoads
+from .records import (
+    BodyResponse,
+    ForceOfOrder,
+    MotionOfOrder,
+    MountForce,
+    Passed,
+    PointMotion,
+    WorstForce,
+    WorstMotion,
+)
 
-_KINDS = ("force", "moment", "roll")
-_SPEEDS_AT_A_TIME = 512  # whose curves are sampled together
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
+_COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz"))
 
 
-@dataclass(frozen=True, eq=False)
-class BodyLoads:
-    """What an engine does to the body, by order.
-
-    Attributes:
-        orders: (orders,), all above 0.
-        inertia: (orders, 6) force (N) and moment about the centre of gravity (N m) at `omega`; they
-            grow with the square of the speed.
-        omega: rad/s, mean over the time, as all speeds here are.
-        gas: (orders, 6), the same at every speed: what the gas torque leaves as roll; None where
-            the file says nothing of gas.
-        mean: N m about the crankshaft's axis on the body, steady: the reaction to a constant load,
-            which takes the mean of the gas torque over the crank angle, at uneven speed too, less
-            the share that goes into friction, for that acts between parts of the body.
-        silent: cylinders of the engine that do not fire.
-    """
-
-    orders: Real
-    inertia: Complex
-    omega: float
-    gas: Complex | None = None
-    mean: float = 0.0
-    silent: SilentCylinders = NONE_SILENT
-
-    def at(self, omega: Real) -> Complex:
-        """(orders, *speeds, 6) at speeds (rad/s, any shape)."""
-        square = (np.asarray(omega) / self.omega) ** 2
-        shape = (len(self.orders), *(1,) * square.ndim, 6)
-        inertia = self.inertia.reshape(shape) * square[..., None]
-        return np.asarray(inertia if self.gas is None else inertia + self.gas.reshape(shape))
-
-    @property
-    def there(self) -> NDArray[np.bool_]:
-        """(orders,): which orders have any load."""
-        parts = [self.inertia] if self.gas is None else [self.inertia, self.gas]
-        return np.any(np.concatenate(parts, axis=1), axis=1)
-
-
-class Meeting(NamedTuple):
-    """An order that meets a mode: which mode (from 0), order, and crank speed (rad/s)."""
-
-    mode: int
-    order: float
-    omega: float
-
-    @property
-    def speed_rpm(self) -> float:
-        return self.omega / RPM
-
-
-class LargestAmplitude(NamedTuple):
-    """The largest value over all speeds.
+class RunningBody(NamedTuple):
+    """A body on its mounts that an engine shakes. Its curves are the forces of mounts (N) and after
+    them the motion of points (m), of three components each.
 
     Attributes:
-        value: N or m, of all orders together.
-        omega: rad/s, where it is reached.
-        order: which is the largest there by itself.
-        alone: N or m, that order's own.
-        mode: whose motion makes most of that, from 0.
+        modes: Equations of motion and natural modes.
+        loads: Load of the engine.
+        couplings: Curves for a unit of each motion of the body and of each of its speeds, shape
+            (curves, 3, 12).
     """
 
-    value: float
-    omega: float
-    order: float
-    alone: float
-    mode: int
-
-    @property
-    def speed_rpm(self) -> float:
-        return self.omega / RPM
-
-
-@dataclass(frozen=True, eq=False)
-class MountingResponse:
-    """Of the body to its engine; speeds in rad/s.
-
-    Attributes:
-        loads: on the body. omega: (speeds,).
-        force: (orders, speeds, mounts) N, the largest of each order, of the body on its mounts.
-        force_peak: (speeds, mounts) N, of all orders, over the cycle.
-        motion: (orders, speeds, points) m. motion_peak: (speeds, points) m.
-        free, passed: (orders, speeds, 6) amplitudes of the load about the centre of gravity, of the
-            engine on the body and of the body on the ground: N, N m.
-        worst_force: of each mount. worst_motion: of each point.
-        body: (orders, speeds, 6) motion of the centre of gravity, m and rad.
-    """
-
+    modes: BodyModes
     loads: BodyLoads
-    omega: Real
-    force: Real
-    force_peak: Real
-    motion: Real
-    motion_peak: Real
-    free: Real
-    passed: Real
-    worst_force: tuple[LargestAmplitude, ...]
-    worst_motion: tuple[LargestAmplitude, ...]
-    body: Complex
-
-    @property
-    def speeds_rpm(self) -> Real:
-        """(speeds,); short decimals as they were asked for, which rad/s keep but for rounding."""
-        rpm = self.omega / RPM
-        short = np.round(rpm, 9)
-        return np.where(short * RPM == self.omega, short, rpm)
-
-
-def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> BodyLoads:
-    """Free forces and moments of an engine as a load on the body, about its centre of gravity.
-
-    Args:
-        engine: without trailing axes.
-        centre: (3,) m. orders: default: all that are considerable.
-
-    Raises:
-        BalcliError: the file does not say where the throws stand.
-    """
-    if not engine.places_known:
-        raise BalcliError(MOMENTS_UNKNOWN)
-    of_gas = () if engine.gas is None else list_gas_orders(engine)
-    wanted = merge_orders(find_relevant_orders(engine), of_gas) if orders is None else orders
-    kinds = _KINDS if engine.gas is None else (*_KINDS, "gas")
-    found, turns = _compute_spectra(engine, wanted[wanted > 0], kinds)
-    if orders is None:
-        found = found.select_orders(choose_orders(found, engine))
-    reference = np.array([float(value) for value in engine.reference_m])
-    inertia = _find_load(found, reference, centre)
-    loads = BodyLoads(found.orders, inertia, turns * float(engine.omega))
-    if engine.gas is not None:
-        gas = np.zeros_like(inertia)
-        gas[:, ROLL] = -found["gas"].x
-        indicated = compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real
-        efficiency = engine.mechanical_efficiency or 1.0
-        mean = -efficiency * float(indicated)
-        loads = replace(loads, gas=gas, mean=mean, silent=engine.silent)
-    return loads if orders is not None else _leave_out_none(loads)
-
-
-def _compute_spectra(engine: Engine, orders: Real, kinds: Sequence[str]) -> tuple[Spectra, float]:
-    """By orders of the time, and how much faster than over the angle the crank turns over time."""
-    if not engine.ripple:
-        return compute_spectra(engine, orders, kinds), 1.0
-    return compute_spectra_in_time(engine, np.asarray(orders, float), kinds)
-
-
-def _leave_out_none(loads: BodyLoads) -> BodyLoads:
-    """Without orders that have no load, as far as some have."""
-    there = loads.there
-    if not there.any():
-        return loads
-    gas = None if loads.gas is None else loads.gas[there]
-    return replace(loads, orders=loads.orders[there], inertia=loads.inertia[there], gas=gas)
-
-
-def _find_load(found: Spectra, reference: Real, centre: Real) -> Complex:
-    """(orders, 6): force, and moment about the centre of gravity."""
-    along = np.zeros(len(found.orders), complex)
-    force = np.stack([found["force"].x, found["force"].y, along], axis=-1)
-    moment = np.stack([found["moment"].x, found["moment"].y, found["roll"].x], axis=-1)
-    return load_at_centre(force, moment, reference, centre)
-
-
-class _Couplings(NamedTuple):
-    """Matrices of a body on its mounts, and what its motion does at places: forces of mounts (N),
-    then motion of points (m), each a curve of three components.
-
-    Attributes:
-        stiffness, damping, mass: (6, 6) about the centre of gravity.
-        direct: (curves, 3, 6) for a unit of each motion of the body.
-        by_speed: (curves, 3, 6) for a unit of each of its speeds.
-    """
-
-    stiffness: Complex
-    damping: Real
-    mass: Real
-    direct: Complex
-    by_speed: Real
+    couplings: Complex
 
     @classmethod
-    def of(cls, mounted: MountedBody) -> _Couplings:
-        body, mounts = mounted.body, mounted.dynamic
-        springs, dashpots = couple_mounts(body, mounts)
-        points = carry_points(mounted.points, body.centre)
-        return cls(
-            stiffness_matrix(body, mounts),
-            damping_matrix(body, mounts),
-            mass_matrix(body),
-            np.concatenate([springs, points]),
-            np.concatenate([dashpots, np.zeros_like(points)]),
-        )
+    def of(cls, mounted: MountedBody, modes: BodyModes, loads: BodyLoads) -> RunningBody:
+        """Return the running body with the curves of all mounts and points."""
+        mounts = np.concatenate(couple_mounts(mounted.body, mounted.dynamic), axis=-1)
+        points = carry_points(mounted.points, mounted.body.centre)
+        still = np.concatenate([points, np.zeros_like(points)], axis=-1)
+        return cls(modes, loads, np.concatenate([mounts, still]))
 
-    def select(self, curves: Sequence[int] | NDArray[np.intp]) -> _Couplings:
-        """Return the couplings of some of the curves."""
-        return self._replace(direct=self.direct[curves], by_speed=self.by_speed[curves])
+    def select(self, curves: Sequence[int]) -> RunningBody:
+        """Return the running body with some of its curves."""
+        return self._replace(couplings=self.couplings[curves])
 
-    def move(self, loads: BodyLoads, omega: Real) -> Complex:
-        """Return the motion (orders, *speeds, 6) of the body at speeds (rad/s, any shape)."""
-        w = frequencies(loads.orders, omega)
+    def move(self, omega: Real) -> Complex:
+        """Return the motion of the body and its rate, shape (orders, *speeds, 12).
+
+        Args:
+            omega: Speeds, rad/s, any shape.
+        """
+        w, own = frequencies(self.loads.orders, omega), self.modes
         try:
-            return solve_response(self.stiffness, self.damping, self.mass, w, loads.at(omega))
+            motion = solve_response(
+                own.stiffness, own.damping, own.mass, w, self.loads.at(np.asarray(omega))
+            )
         except UndampedResonanceError as error:  # resonances are refused before
             raise BalcliError(
                 f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in "
                 "rounding errors, so far apart are stiffness and damping of the mounts: is damping "
                 "in N s/mm?"
             ) from None
+        return _with_rate(motion, w)
 
-    def read_all(self, frequency: Real, motion: Complex) -> Complex:
-        """Return all curves (*frequency, curves, 3) of a motion (*frequency, 6)."""
-        direct, by_speed = (apply_couplings(one, motion) for one in (self.direct, self.by_speed))
-        return direct + 1j * frequency[..., None, None] * by_speed
-
-    def read_each(self, frequency: Real, motion: Complex, curve: NDArray[np.intp]) -> Complex:
-        """Return the curve (some,) at each place of the last axis: (*frequency, 3) of a motion
-        (*frequency, 6), both with a last axis (some,) of frequencies.
+    def read(self, motion: Complex, curve: Indices | slice = slice(None)) -> Complex:
+        """Return curves, shape (..., curves, 3), of a motion with its rate, shape (..., curves, 12)
+        or (..., 1, 12).
         """
-        direct, by_speed = (
-            np.einsum("sij,...sj->...si", one[curve], motion)
-            for one in (self.direct, self.by_speed)
-        )
-        return direct + 1j * frequency[..., None] * by_speed
+        return np.asarray(np.einsum("cij,...cj->...ci", self.couplings[curve], motion))
 
-    def find_peaks(self, loads: BodyLoads, omega: Real) -> Real:
-        """Return the longest that each curve is, (speeds, curves), some speeds at a time."""
-        parts: list[Real] = [np.zeros((0, len(self.direct)))]
-        for start in range(0, len(omega), _SPEEDS_AT_A_TIME):
-            some = omega[start : start + _SPEEDS_AT_A_TIME]
-            curves = self.read_all(frequencies(loads.orders, some), self.move(loads, some))
-            parts.append(find_longest(loads.orders, curves).value)
-        return np.concatenate(parts)
+    def find_peaks(self, omega: Real) -> Real:
+        """Return the largest length of each curve over the cycle, shape (speeds, curves)."""
+        curves = self.read(self.move(omega)[..., None, :])
+        return find_longest(self.loads.orders, curves).value
+
+    def refuse_resonance(self, omega: Real) -> None:
+        """Raise BalcliError if the engine drives an undamped mode at its own frequency in the range
+        of speeds (rad/s, rising), with mode, order and speed.
+        """
+        modes, loads = self.modes, self.loads
+        met = find_resonances(modes.modes, modes.loss, loads.orders, omega, loads.at(omega))
+        if met:
+            first = min(met, key=lambda one: one.speed)
+            motion, hertz = modes.motions[first.mode], modes.hertz[first.mode]
+            raise BalcliError(
+                f"mode {first.mode + 1} ({motion}, {hertz:.4g} Hz) is not damped, and order "
+                f"{first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its motion has "
+                "no bound; give the mounts a loss, such as loss = 0.1, or a range without that "
+                "speed"
+            )
 
 
-def respond(
-    mounted: MountedBody, modes: BodyModes, loads: BodyLoads, omega: Real, tell: Tell = tell_nobody
-) -> MountingResponse:
+def list_meetings(modes: BodyModes, loads: BodyLoads, rpm: Real) -> list[tuple[int, float, float]]:
+    """Return modes (from 0), orders that meet them within a range of speeds (rpm, rising), and
+    the speeds (rpm) at which they do, by mode and order.
+    """
+    met = [
+        (k, float(order), float(natural / order) / RPM)
+        for k, natural in enumerate(modes.modes.omega)
+        for order in loads.orders[loads.there]
+    ]
+    return [each for each in met if rpm[0] <= each[2] <= rpm[-1]]
+
+
+class Worst(NamedTuple):
+    """The largest value of each curve over all speeds, shape (curves,).
+
+    Attributes:
+        value: Largest value, all orders together, N or m.
+        omega: Speed at which it is reached, rad/s.
+        order: Largest single order at this speed.
+        alone: Value of this order, N or m.
+        mode: Number of the mode that makes most of it, from 0.
+    """
+
+    value: Real
+    omega: Real
+    order: Real
+    alone: Real
+    mode: Indices
+
+
+def find_worst(running: RunningBody, omega: Real, peaks: Real) -> Worst:
+    """Return the highest value of each curve, between the given speeds as well.
+
+    Every peak that may be the highest is approached. A resonance with little damping is narrower
+    than the step of the speeds: the speeds at which an order meets a mode are looked at as well,
+    and speeds next to them as far as the resonance is wide.
+
+    Args:
+        omega: Speeds, rad/s, rising, shape (speeds,).
+        peaks: Largest lengths over the cycle at these speeds, shape (speeds, curves).
+    """
+    modes, orders = running.modes, running.loads.orders
+    met = list_meetings(modes, running.loads, omega / RPM)
+    lossy = [(rpm * RPM, modes.loss[k]) for k, _, rpm in met if modes.loss[k] > UNDAMPED]
+    at, loss = np.array(lossy).reshape(-1, 2).T
+    about = (at * (1 + loss * _BESIDE[:, None])).ravel()
+    about = np.setdiff1d(about[(about > omega[0]) & (about < omega[-1])], omega)
+    speeds = np.concatenate([omega, about])
+    rising = np.argsort(speeds)
+    heights = np.concatenate([peaks, running.find_peaks(about)])[rising]
+
+    def judge(at: Real, curve: Indices) -> Real:
+        return find_longest(orders, running.read(running.move(at), curve)).value
+
+    best, value = find_highest(judge, speeds[rising], heights, heights.max(axis=0), _NEAR)
+    each, motion = np.arange(len(best)), running.move(best)
+    alone = largest_of_ellipse(running.read(motion))
+    leading = find_first_largest(alone)
+    shapes = modes.modes.shapes
+    shares = (shapes @ modes.mass @ motion[leading, each, :6].T)[..., None] * shapes[:, None]
+    of_modes = running.read(_with_rate(shares, orders[leading] * best))
+    mode = find_first_largest(np.linalg.norm(of_modes, axis=-1))
+    return Worst(value, best, orders[leading], alone[leading, each], mode)
+
+
+def _with_rate(motion: Complex, w: Real) -> Complex:
+    """Return motions, shape (..., 6), at frequencies w (rad/s), with their rates, (..., 12)."""
+    return np.concatenate([motion, 1j * w[..., None] * motion], axis=-1)
+
+
+def plain_order(order: float) -> float:
+    """Return an order for documents: a whole one as an int."""
+    return int(order) if order == int(order) else float(order)
+
+
+def respond(mounted: MountedBody, running: RunningBody, omega: Real) -> BodyResponse:
     """Return the response at every order and speed.
 
     Args:
-        omega: (speeds,) rad/s, rising.
-        tell: is called with 1 when all speeds are done.
+        omega: Speeds, rad/s, rising, shape (speeds,).
 
     Raises:
-        BalcliError: too many results; an undamped mode that the engine drives at its own frequency
-            within the range of speeds, with mode, order and speed.
+        BalcliError: There are too many results; the engine drives an undamped mode at its own
+            frequency within the range of speeds.
     """
-    _refuse_too_many(loads, omega, mounted)
-    refuse_mount_resonance(modes, loads, omega)
-    couplings, count = _Couplings.of(mounted), len(mounted.names)
-    motion = couplings.move(loads, omega)
-    curves = couplings.read_all(frequencies(loads.orders, omega), motion)
-    free, peak = loads.at(omega), find_longest(loads.orders, curves).value
-    tell(1.0)
-    arms = carry_points(mounted.dynamic.at, mounted.body.centre)
-    passed = np.einsum("pij,nspi->nsj", arms, curves[:, :, :count])
-    by_order = largest_of_ellipse(curves)
-    worst = _find_worst(couplings, modes, loads, omega, peak)
-    return MountingResponse(
-        loads,
-        omega,
-        by_order[:, :, :count],
-        peak[:, :count],
-        by_order[:, :, count:],
-        peak[:, count:],
-        np.abs(free),
-        np.abs(passed),
-        worst[:count],
-        worst[count:],
-        motion,
-    )
-
-
-def _refuse_too_many(loads: BodyLoads, omega: Real, mounted: MountedBody) -> None:
-    count = len(loads.orders) * len(omega) * (len(mounted.names) + len(mounted.point_names))
+    loads, mounts, points = running.loads, mounted.names, mounted.point_names
+    orders = loads.orders
+    count = len(orders) * len(omega) * (len(mounts) + len(points))
     if count > MOST_MOUNT_RESULTS:
         raise BalcliError(
-            f"{len(loads.orders)} orders at {len(omega)} speeds of {len(mounted.names)} mounts and "
-            f"{len(mounted.point_names)} points are {count} results, and at most "
-            f"{MOST_MOUNT_RESULTS} are computed; take fewer --speeds or --orders"
+            f"{len(orders)} orders at {len(omega)} speeds of {len(mounts)} mounts and "
+            f"{len(points)} points are {count} results, and at most {MOST_MOUNT_RESULTS} are "
+            "computed; take fewer --speeds or --orders"
         )
+    running.refuse_resonance(omega)
+    motion = running.move(omega)
+    curves = running.read(motion[..., None, :])
+    by_order, peak = largest_of_ellipse(curves), find_longest(orders, curves).value
+    worst = find_worst(running, omega, peak)
+    numbers = [plain_order(order) for order in orders]
 
-
-def refuse_mount_resonance(modes: BodyModes, loads: BodyLoads, omega: Real) -> None:
-    """Nothing, unless the engine drives an undamped mode at its own frequency within the range.
-
-    Raises:
-        BalcliError: it does, with mode, order and speed.
-    """
-    met = find_resonances(modes.modes, modes.loss, loads.orders, omega, loads.at(omega))
-    if not met:
-        return
-    first = min(met, key=lambda one: one.speed)
-    mode = modes.six[first.mode]
-    raise BalcliError(
-        f"mode {first.mode + 1} ({mode.motion}, {mode.hertz:.4g} Hz) is not damped, and order "
-        f"{first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its motion has no "
-        "bound; give the mounts a loss, such as loss = 0.1, or a range without that speed"
-    )
-
-
-def find_largest_amplitudes(
-    mounted: MountedBody,
-    modes: BodyModes,
-    loads: BodyLoads,
-    omega: Real,
-    curves: Sequence[int],
-) -> tuple[LargestAmplitude, ...]:
-    """Return the largest value of some curves over a range of speeds (rad/s, rising), as `respond`
-    has them.
-
-    Args:
-        curves: numbers of forces of mounts, from 0, then of motion of points, after the mounts.
-
-    Raises:
-        BalcliError: an undamped mode that is driven within the range.
-    """
-    refuse_mount_resonance(modes, loads, omega)
-    couplings = _Couplings.of(mounted).select(curves)
-    return _find_worst(couplings, modes, loads, omega, couplings.find_peaks(loads, omega))
-
-
-def find_meetings(modes: BodyModes, loads: BodyLoads, omega: Real) -> tuple[Meeting, ...]:
-    """Orders that meet modes within a range of speeds (rad/s, rising), by mode and order."""
-    met = [
-        Meeting(k, float(order), mode.omega / float(order))
-        for k, mode in enumerate(modes.six)
-        for order in loads.orders[loads.there]
+    kinds: list[tuple[Any, Any, Any, float]] = [
+        *[(MountForce, ForceOfOrder, WorstForce, 1.0)] * len(mounts),
+        *[(PointMotion, MotionOfOrder, WorstMotion, 1e-3)] * len(points),
     ]
-    return tuple(one for one in met if omega[0] <= one.omega <= omega[-1])
-
-
-def _find_worst(
-    couplings: _Couplings, modes: BodyModes, loads: BodyLoads, omega: Real, peaks: Real
-) -> tuple[LargestAmplitude, ...]:
-    """Return the highest value of each curve (speeds, curves) of peaks, closer than the speeds are:
-    every peak that may be the highest is approached. Where damping is little, a resonance is
-    narrower than their step: the speeds at which an order meets a mode are looked at as well, and
-    speeds next to them as far as the resonance is wide.
-    """
-    met = [one for one in find_meetings(modes, loads, omega) if modes.loss[one.mode] > UNDAMPED]
-    at_modes, loss = np.array([(one.omega, modes.loss[one.mode]) for one in met]).reshape(-1, 2).T
-    about = (at_modes * (1 + loss * _BESIDE[:, None])).ravel()
-    about = np.setdiff1d(about[(about > omega[0]) & (about < omega[-1])], omega)
-    heights = np.concatenate([peaks, couplings.find_peaks(loads, about)])
-    rising = np.argsort(np.concatenate([omega, about]))
-    speeds, heights = np.concatenate([omega, about])[rising], heights[rising]
-
-    def read(at: Real, curve: NDArray[np.intp]) -> tuple[Complex, Complex]:
-        motion = couplings.move(loads, at)
-        return motion, couplings.read_each(frequencies(loads.orders, at), motion, curve)
-
-    def judge(at: Real, curve: NDArray[np.intp]) -> Real:
-        return find_longest(loads.orders, read(at, curve)[1]).value
-
-    best, _ = find_highest(judge, speeds, heights, heights.max(axis=0), _NEAR)
-    each = np.arange(len(best))
-    motion, own = read(best, each)
-    value, alone = find_longest(loads.orders, own).value, largest_of_ellipse(own)
-    leading = find_first_largest(alone)
-    orders, shapes = loads.orders[leading], modes.modes.shapes
-    shares = (shapes @ couplings.mass @ motion[leading, each].T)[..., None] * shapes[:, None]
-    every = np.broadcast_to(orders * best, shares.shape[:2])
-    mode = find_first_largest(np.linalg.norm(couplings.read_each(every, shares, each), axis=-1))
-    return tuple(
-        LargestAmplitude(
-            float(value[k]),
-            float(best[k]),
-            float(orders[k]),
-            float(alone[leading[k], k]),
-            int(mode[k]),
-        )
-        for k in range(len(best))
+    places = []
+    for k, (name, kind) in enumerate(zip((*mounts, *points), kinds, strict=True)):
+        place, of_order, largest, unit = kind
+        each = (of_order(n, by_order[row, :, k] / unit) for row, n in enumerate(numbers))
+        value, at, order, alone, mode = (column[k].item() for column in worst)
+        highest = largest(value / unit, at / RPM, plain_order(order), alone / unit, mode)
+        places.append(place(name, tuple(each), peak[:, k] / unit, highest))
+    arms = carry_points(mounted.dynamic.at, mounted.body.centre)
+    on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
+    rigid, rpm = np.abs(loads.at(omega)), omega / RPM
+    short = np.round(rpm, 9)  # as speeds were given, which rad/s keep but for rounding
+    return BodyResponse(
+        no_gas_in=loads.silent.without_gas or None,
+        no_burning_in=loads.silent.without_burning or None,
+        speeds_rpm=np.where(short * RPM == omega, short, rpm),
+        mounts=tuple(places[: len(mounts)]),
+        points=tuple(places[len(mounts) :]),
+        passed=tuple(
+            Passed(number, _name_components(rigid[n]), _name_components(on_mounts[n]))
+            for n, number in enumerate(numbers)
+        ),
+        loads=loads,
+        body=motion[..., :6],
     )
+
+
+def _name_components(load: Real) -> dict[str, Real]:
+    """Return the amplitudes by speed of a load (speeds, 6), as far as there is any."""
+    return {key: load[:, k] for k, key in enumerate(_COMPONENTS) if load[:, k].any()}

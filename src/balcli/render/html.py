@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
     from ..engine.build import Engine
-    from ..mounting.report import MountReport
+    from ..mounting.records import MountReport
     from ..torsion.analysis import TorsionAnalysis
 
 FOLDER = Path(__file__).with_name("page")

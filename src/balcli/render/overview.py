@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -49,26 +50,20 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
 
 
 def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> Grid:
-    """Force and moment side by side, with the parts of each that turn with the crank and against
-    it; the other orders in one line, with a hint how to see them.
+    """Return force and moment side by side, with the parts of each that turn with the crank and
+    against it; the other orders in one line, with a hint how to see them.
     """
     chosen = spectra.select_orders(shown)
-    vectors = [(kind, p, fit_largest(system.unit(kind), p)) for kind, p in chosen.vectors()]
-
-    def row(k: int) -> Iterator[str]:
-        yield order_name(chosen.orders[k])
-        for _, phasors, unit in vectors:
-            yield from _vector_cells(phasors, k, unit)
-
-    heads = [
-        head
-        for kind, _, unit in vectors
-        for head in (f"{kind.name}, {unit.name}", "with crank", "against")
-    ]
+    heads = ["order"]
+    columns: list[Sequence[str]] = [[order_name(order) for order in chosen.orders]]
+    for kind, phasors in chosen.vectors():
+        unit = fit_largest(system.unit(kind), phasors)
+        heads += [f"{kind.name}, {unit.name}", "with crank", "against"]
+        columns += zip(*(_vector_cells(phasors, k, unit) for k in range(len(shown))), strict=True)
     return Grid(
         "Largest by order, and its parts that turn with the crank and against it",
-        ("order", *heads),
-        tuple(tuple(row(k)) for k in range(len(shown))),
+        tuple(heads),
+        tuple(zip(*columns, strict=True)),
         tell_others([spectra], shown, system, hints=hints),
     )
 
@@ -124,42 +119,31 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
 
 def sizing_in_brief(sizing: Sizing, system: System) -> Text:
     """Which devices leave nothing of orders 1 and 2, in one sentence."""
-    devices = sizing.remedy.devices
     known = sizing.after.moments_known
-    left = "no free force or moment" if known else "no free force (moments are not known)"
-    if not devices:
+    if not sizing.remedy.devices:
         what = "Orders 1 and 2 need" if known else "The forces of orders 1 and 2 need"
         unknown = "" if known else "; moments are not known"
         return Text("Sizing", (f"{what} no counterweight and no shaft{unknown}.",))
-    groups = [list(group) for _, group in groupby(devices, _tell_place)]
-    places = [_tell_planes(group, system.length) for group in groups]
-    alike = len(groups) > 1 and len(set(places)) == 1
-    told = [
-        f"{_tell_place(group[0])} {tell_sizes(map(find_unbalance, group), system.unbalance)}"
-        for group in groups
-    ]
-    if alike:
-        told.append(f"all {places[0]}")
-    else:
-        told = [f"{text} {place}" for text, place in zip(told, places, strict=True)]
-    fitted = "; ".join(told)
+    texts: dict[str, str] = {}
+    for kind, group in groupby(sizing.remedy.devices, _tell_place):
+        devices = list(group)
+        planes = sorted({device.position for device in devices})
+        at = ", ".join(number(system.length.of(z / 1e3)) for z in planes)
+        sizes = tell_sizes(map(find_unbalance, devices), system.unbalance)
+        texts[f"{kind} {sizes}"] = f"at z = {at} {system.length.name}"
+    places = [*texts.values()]
+    fitted = "; ".join(map(" ".join, texts.items()))
+    if len(places) > 1 and len(set(places)) == 1:
+        fitted = "; ".join((*texts, f"all {places[0]}"))
+    left = "no free force or moment" if known else "no free force (moments are not known)"
     steady = " at steady speed" if sizing.after.engine.ripple else ""
     result = f"They leave {left} of orders 1 and 2{steady}. Details: balcli balance."
     return Text("Sizing", (f"{capitalized(fitted)}.", result))
 
 
-def _tell_planes(devices: Iterable[DeviceTable], unit: ShownUnit) -> str:
-    """`at z = -48, 48 mm`."""
-    planes = sorted({device.position for device in devices})
-    return f"at z = {', '.join(number(unit.of(z / 1e3)) for z in planes)} {unit.name}"
-
-
 def tell_sizes(unbalances: Iterable[float], unit: ShownUnit) -> str:
-    """`2 x 35057 g mm`, in the order in which they stand."""
-    counted: dict[str, int] = {}
-    for unbalance in unbalances:
-        text = size_text(unbalance, unit)
-        counted[text] = counted.get(text, 0) + 1
+    """Return unbalances as `2 x 35057 g mm`, in the order in which they stand."""
+    counted = Counter(size_text(unbalance, unit) for unbalance in unbalances)
     return " + ".join(f"{count} × {text}" for text, count in counted.items())
 
 

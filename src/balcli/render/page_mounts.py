@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ..mounting.report import MountReport
+from ..mounting.records import MountReport
 from .body_block import PROJECTION, find_corners
-from .sheet import order_number
 
 _SPEEDS = 48  # of the range, that the page has
 
@@ -21,7 +20,7 @@ def rocking(result: MountReport) -> dict[str, Any] | None:
     if response is None:
         return None
     body = result.mounted.body
-    count = len(response.omega)
+    count = len(response.speeds_rpm)
     rows = np.linspace(0, count - 1, min(count, _SPEEDS)).round().astype(int)
     motion = np.moveaxis(response.body[:, rows], 1, 0) * np.repeat([1e3, 1.0], 3)
     parts = np.concatenate([motion.real, -motion.imag], axis=-1)
@@ -30,6 +29,6 @@ def rocking(result: MountReport) -> dict[str, Any] | None:
         "corners": (1e3 * find_corners(body)).round(3).tolist(),
         "mounts": (1e3 * (result.mounted.dynamic.at - body.centre)).round(3).tolist(),
         "speeds": [float(f"{rpm:.5g}") for rpm in response.speeds_rpm[rows]],
-        "orders": [order_number(order) for order in response.loads.orders],
+        "orders": [passed.order for passed in response.passed],
         "motion": [[[float(f"{v:.5g}") for v in order] for order in speed] for speed in parts],
     }

@@ -13,7 +13,7 @@ from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Phasors
 from ..engine.build import Engine
-from ..forces.kinds import VECTORS, Kind
+from ..forces.kinds import MOMENT, VECTORS
 from ..results.analysis import Analysis
 from .figures import clean
 from .sheet import NEGLIGIBLE, order_number
@@ -28,20 +28,23 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
     bore = bore or ASSUMED_BORE * stroke
-    variants = [_variant_entry("as in the file", now, system, bore)]
-    if after is not None:
-        variants.append(_variant_entry("with the devices fitted", after, system, bore))
+    shown = {"as in the file": now} | ({} if after is None else {"with the devices fitted": after})
     return {
         "stroke": stroke,
         "bore": bore,
         "rotary": isinstance(engine.cylinders.linkage, Rotary),
         "cylinders": _cylinder_entries(engine),
-        "variants": variants,
-        "units": {kind.name: _unit_entry(system.unit(kind), kind, now) for kind in VECTORS},
+        "variants": [_variant_entry(name, each, system, bore) for name, each in shown.items()],
+        "units": {
+            kind.name: {
+                "name": (unit := system.unit(kind)).name,
+                "thousand": f"k{unit.name}" if unit.size == 1 else "",
+                "least": unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),  # that counts
+            }
+            for kind in VECTORS
+        },
         "orders": [
-            order_number(n)
-            for n in now.orders
-            if _shakes(now, n) or (after is not None and _shakes(after, n))
+            order_number(n) for n in now.orders if any(_shakes(each, n) for each in shown.values())
         ],
     }
 
@@ -52,64 +55,46 @@ def _cylinder_entries(engine: Engine) -> list[dict[str, Any]]:
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
-    axes = c.axis_of_each_deg
-    lengths, offsets = (
-        np.broadcast_to(np.ravel(v) * 1e3, c.count) for v in (c.radius / c.lam, c.offset)
-    )
-    found = []
-    for row, number in enumerate(engine.numbers):
-        entry: dict[str, Any] = {
-            "number": number,
-            "axis": float(axes[row]),
-            "phase": float(c.angle_deg[row]),
-            "z": float(c.z[row]) * 1e3,
-            "rod": float(lengths[row]),
-            "offset": float(offsets[row]),
-        }
-        if isinstance(rods, Articulated) and rods.master[row] != row:
-            pin = complex(rods.knuckle[row]) * float(c.radius) * 1e3
-            entry |= {
-                "master": int(rods.master[row]),
-                "knuckle": [pin.real, pin.imag],
-                "lead": float(rods.lead_deg[row]),
-            }
-        found.append(entry)
+    columns = {
+        "number": engine.numbers,
+        "axis": c.axis_of_each_deg,
+        "phase": c.angle_deg,
+        "z": c.z * 1e3,
+        "rod": np.broadcast_to(np.ravel(c.radius / c.lam) * 1e3, c.count),
+        "offset": np.broadcast_to(np.ravel(c.offset) * 1e3, c.count),
+    }
+    lists = [np.asarray(column).tolist() for column in columns.values()]
+    found = [dict(zip(columns, values, strict=True)) for values in zip(*lists, strict=True)]
+    if isinstance(rods, Articulated):
+        pins = np.ravel(rods.knuckle) * float(c.radius) * 1e3
+        for row, entry in enumerate(found):
+            if rods.master[row] != row:
+                entry |= {
+                    "master": int(rods.master[row]),
+                    "knuckle": [float(pins[row].real), float(pins[row].imag)],
+                    "lead": float(rods.lead_deg[row]),
+                }
     return found
 
 
 def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> dict[str, Any]:
-    force, moment = result.spectra.force, result.spectra.moment
     drawn = place_beside(result.engine, bore / 1e3)
-    return {
-        "label": label,
-        "devices": [
-            _device_entry(device, drawn.get(row))
-            for row, device in enumerate(result.engine.devices)
-        ],
-        "force": [] if force is None else _vector_rows(force, system.force),
-        "moment": []
-        if moment is None or not result.moments_known
-        else _vector_rows(moment, system.moment),
+    devices = enumerate(result.engine.devices)
+    entry: dict[str, Any] = {"force": [], "moment": []} | {
+        kind.name: _vector_rows(phasors, system.unit(kind))
+        for kind, phasors in result.spectra.vectors()
+        if result.moments_known or kind is not MOMENT
     }
+    entry["devices"] = [_device_entry(device, drawn.get(row)) for row, device in devices]
+    return {"label": label, **entry}
 
 
 def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
-    """A row an order: the order, forward x and y, backward x and y."""
-    vectors = zip(phasors.orders, phasors.forward, phasors.backward, strict=True)
-    return [
-        [float(n), *(unit.of(float(v)) + 0.0 for v in (f.real, f.imag, b.real, b.imag))]
-        for n, f, b in vectors
-    ]
-
-
-def _unit_entry(unit: ShownUnit, kind: Kind, now: Analysis) -> dict[str, Any]:
-    """Names of the unit and of its thousand, and the value below which all is negligible."""
-    least = unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name])
-    return {
-        "name": unit.name,
-        "thousand": f"k{unit.name}" if unit.size == 1 else "",
-        "least": least,
-    }
+    """Return a row an order: the order, forward x and y, backward x and y."""
+    forward, backward = phasors.forward / unit.size, phasors.backward / unit.size
+    parts = (phasors.orders, forward.real, forward.imag, backward.real, backward.imag)
+    rows: list[list[float]] = (np.stack(parts, axis=-1) + 0.0).tolist()
+    return rows
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
@@ -152,5 +137,5 @@ def _device_entry(device: Device, drawn: complex | None) -> dict[str, Any]:
 
 
 def _shakes(result: Analysis, order: float) -> bool:
-    rows = [p.select_orders([order]) for _, p in result.spectra.vectors() if order in p.orders]
-    return any(not row.balanced[0] for row in rows)
+    vectors = (phasors for _, phasors in result.spectra.vectors())
+    return any(np.any((p.orders == order) & ~p.balanced) for p in vectors)

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..errors import BalcliError
 from ..limits import MOST_PICTURE_VARIANTS
 from .plot import style
@@ -49,35 +51,43 @@ def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
     Args:
         values: each quantity on the whole grid.
     """
-    several = _varied_parameters(sweep)
+    several, shown = _varied_parameters(sweep), zip(sweep.quantities, values, strict=True)
+    name = style.fit_name(sweep.file.name)
     if len(several) == 1:
         names = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))
         with style.open_figure(7, 1.2 + 3 * len(names)) as page:
             places = page.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
-            for axes, name in zip(places, names, strict=True):
-                _draw_curves(axes, sweep, values, name)
+            for axes, unit in zip(places, names, strict=True):
+                _draw_curves(axes, several[0], sweep, values, unit)
                 axes.label_outer()
-            places[0].set_title(style.fit_name(sweep.file.name))
+            places[0].set_title(name)
         return page
+    first, second = several
     with style.open_figure(6 * len(values), 5.1) as page:
-        style.put_title(page, style.fit_name(sweep.file.name))
+        style.put_title(page, name)
         places = page.subplots(1, len(values), squeeze=False)[0]
-        for axes, quantity, value in zip(places, sweep.quantities, values, strict=True):
-            unit = _fit(quantity.unit, value)
-            title = name_with_unit(quantity.name, unit.name)
-            _draw_contours(page, axes, several, value.squeeze() / unit.size, title)
+        for axes, (quantity, value) in zip(places, shown, strict=True):
+            fit = _fit(quantity.unit, value)
+            filled = axes.contourf(second.values, first.values, value.squeeze() / fit.size, LEVELS)
+            page.colorbar(filled, ax=axes)
+            axes.set(
+                xlabel=name_with_unit(second.path, second.unit),
+                ylabel=name_with_unit(first.path, first.unit),
+                title=name_with_unit(quantity.name, fit.name),
+            )
     return page
 
 
-def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array], name: str) -> None:
+def _draw_curves(
+    axes: Any, parameter: Parameter, sweep: Sweep, values: Sequence[Array], name: str
+) -> None:
     """Draw the quantities of one unit, all in the one that fits the largest of them."""
-    (parameter,) = _varied_parameters(sweep)
     shown = [
         (quantity.name, value.ravel())
         for quantity, value in zip(sweep.quantities, values, strict=True)
         if quantity.unit == name
     ]
-    unit = max((_fit(name, value) for _, value in shown), key=lambda fitting: fitting.size)
+    unit = _fit(name, np.concatenate([value for _, value in shown]))
     for (label, value), (line, colour) in zip(shown, cycle(style.MANY_LOOKS), strict=False):
         axes.plot(parameter.values, value / unit.size, color=colour, linestyle=line, label=label)
     axes.set(xlabel=name_with_unit(parameter.path, parameter.unit), ylabel=unit.name)
@@ -86,16 +96,5 @@ def _draw_curves(axes: Any, sweep: Sweep, values: Sequence[Array], name: str) ->
 
 
 def _fit(name: str, value: Array) -> ShownUnit:
-    """The unit for the largest of these values, which are in SI units of this name."""
-    return unit_of_name(name).fit(float(abs(value[value == value]).max(initial=0)))
-
-
-def _draw_contours(figure: Any, axes: Any, parameters: Any, value: Array, title: str) -> None:
-    first, second = parameters
-    filled = axes.contourf(second.values, first.values, value, LEVELS)
-    figure.colorbar(filled, ax=axes)
-    axes.set(
-        xlabel=name_with_unit(second.path, second.unit),
-        ylabel=name_with_unit(first.path, first.unit),
-        title=title,
-    )
+    """Return the unit for the largest of these values, which are in SI units of this name."""
+    return unit_of_name(name).fit(float(np.nan_to_num(abs(value)).max(initial=0)))

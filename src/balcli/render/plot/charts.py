@@ -27,7 +27,7 @@ def draw_vector_bars(
     ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw the largest value of each order as a bar: the part that turns with the crank, and on top
-    the part that turns against it; dashed the largest value `before`.
+    the part that turns against it; dashed the largest value `before`, of the same orders.
     """
     shown = visible_rows(curve, before)
     s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
@@ -35,16 +35,12 @@ def draw_vector_bars(
     against = np.abs(curve.backward[shown]) / s.size
     places = np.arange(len(shown))
     if before is not None:
-        old = _largest_values(before, curve.orders[shown]) / s.size
         look: Any = {"facecolor": "none", "edgecolor": SOFT, "linestyle": (0, (3, 2))}
-        ax.bar(places, old, 0.72, label="before", **look)
+        ax.bar(places, before.major[shown] / s.size, 0.72, label="before", **look)
     ax.bar(places, ahead, 0.56, color=BLUE, label="with the crank")
-    ax.bar(places, against, 0.56, bottom=ahead, color=RED, hatch="////", label="against it")
-    for place, top in zip(places, ahead + against, strict=True):
-        label = number(float(top), 3)
-        ax.annotate(
-            label, (place, top), (0, 2), textcoords="offset points", ha="center", fontsize=7
-        )
+    upper = ax.bar(places, against, 0.56, bottom=ahead, color=RED, hatch="////", label="against it")
+    labels = [number(float(top), 3) for top in ahead + against]
+    ax.bar_label(upper, labels, padding=2, fontsize=7)
     _finish_bars(ax, curve.orders[shown], f"{what}, {s.name}")
 
 
@@ -61,18 +57,10 @@ def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -
 
 def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
     """Return the rows of orders 1 and 2 and of those large enough to be seen; at most ten."""
-    major = curve.major
-    if before is not None:
-        major = np.maximum(major, _largest_values(before, curve.orders))
+    major = curve.major if before is None else np.maximum(curve.major, before.major)
     always = (curve.orders == 1) | (curve.orders == 2)
     due = np.flatnonzero(always | (major > VISIBLE * major.max(initial=0)))
     return sorted(due[np.argsort(-major[due], kind="stable")[:10]].tolist())
-
-
-def _largest_values(curve: Phasors, orders: Array) -> Array:
-    """Return the largest values of these orders, 0 for an order that the curve does not have."""
-    there = dict(zip(curve.orders.tolist(), curve.major.tolist(), strict=True))
-    return np.array([there.get(n, 0.0) for n in orders.tolist()])
 
 
 def _finish_bars(ax: Axes, orders: Array, label: str) -> None:
@@ -127,34 +115,28 @@ def draw_factors(
     Args:
         moment: None if moments are not known.
     """
-    share = [row.factor for row in rows]
+    share, moments = [row.factor for row in rows], np.array([row.moment for row in rows])
     s = force.fit(max(row.force for row in rows))
-    lines = {
-        "force": [row.force for row in rows],
-        "along the first bank": [row.along for row in rows],
-        "across it": [row.across for row in rows],
-    }
-    for (label, values), look in zip(lines.items(), _LOOKS, strict=True):
-        ax.plot(share, np.array(values) / s.size, color=look[0], linestyle=look[1], label=label)
+    forces = np.array([(row.force, row.along, row.across) for row in rows]).T / s.size
+    labels = ("force", "along the first bank", "across it")
+    for values, label, look in zip(forces, labels, _LOOKS, strict=True):
+        ax.plot(share, values, color=look[0], linestyle=look[1], label=label)
     best = min(rows, key=lambda row: row.cost)
+    least = size_text(best.force, force)
+    if best.by_moment and moment is not None:
+        least = f"moment {size_text(best.moment, moment)}"
     ax.plot(best.factor, best.force / s.size, "o", color=BLUE)
     ax.set(
         xlabel="balance factor: share of the reciprocating mass in the counterweights",
         ylabel=f"largest over a revolution, {s.name}",
         xlim=(share[0], share[-1]),
+        ylim=(0, None),
+        title=f"Largest free force over the balance factor; best at {best.factor:.4g} ({least})",
     )
-    ax.set_ylim(bottom=0)
-    least = size_text(best.force, force)
-    if best.by_moment and moment is not None:
-        least = f"moment {size_text(best.moment, moment)}"
-    ax.set_title(f"Largest free force over the balance factor; best at {best.factor:.4g} ({least})")
-    moments = np.array([row.moment for row in rows])
     if moment is not None and moments.max() > 0:
-        t = moment.fit(float(moments.max()))
-        right = ax.twinx()
+        t, right = moment.fit(float(moments.max())), ax.twinx()
         right.plot(share, moments / t.size, **_DASHED)
-        right.set_ylabel(f"moment (dashed grey), {t.name}")
-        right.set_ylim(bottom=0)
+        right.set(ylabel=f"moment (dashed grey), {t.name}", ylim=(0, None))
         right.grid(False)
     put_legend_above(ax)
 
@@ -182,6 +164,5 @@ def draw_along(
             ax.plot(z, sizes / s.size, drawstyle=steps, label=label, **look)
         else:
             ax.vlines(z, 0, sizes / s.size, label=label, **look)
-    ax.set_ylabel(f"{what}, {s.name}")
-    ax.set_ylim(bottom=0)
+    ax.set(ylabel=f"{what}, {s.name}", ylim=(0, None))
     put_legend_above(ax)

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...core.phasors import Array, Phasors
+from ...forces.crankshaft import AlongCrank
 from ...forces.kinds import EVERY_KIND, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
 from ...results.analysis import Analysis
-from ...sizing.remedy import Remedy
 from ...studies.pictures import Study
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
 from ..bobweights import percent
@@ -57,35 +58,43 @@ class PageSubject:
         return self.study.now
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
-        """Return a force or moment now, and before the devices of a scheme were fitted."""
+        """Return a force, a moment or the roll now, and before the devices were fitted."""
+        name = ROLL.name if quantity == ABOUT else quantity
         before = self.study.before
-        return self.now.spectra[quantity], None if before is None else before.spectra[quantity]
+        return self.now.spectra[name], None if before is None else before.spectra[name]
 
     def unit(self, quantity: str) -> ShownUnit:
+        """Return the unit in which a quantity is drawn."""
         return self.system.moment if quantity == ABOUT else self.system.unit(KINDS[quantity])
 
     def list_scalars(self, *, with_gas: bool) -> dict[str, Phasors]:
         """Return the moments about the crank by label, the roll last."""
-        kinds = [kind.name for kind in SCALARS]
+        kinds = SCALARS
         if with_gas and self.now.spectra.gas is not None:
-            kinds = [TORQUE.name, GAS.name, ROLL_TOTAL.name]
-        return {EVERY_KIND[name].label: self.now.spectra[name] for name in kinds}
+            kinds = (TORQUE, GAS, ROLL_TOTAL)
+        return {EVERY_KIND[kind.name].label: self.now.spectra[kind.name] for kind in kinds}
 
     def find_words(self, quantity: str) -> str:
-        """Return what is said of a quantity without a picture, which is unknown, balanced or
-        negligible; empty if there is a picture.
+        """Return a word for a quantity without a picture, which is unknown, balanced or negligible;
+        empty if there is a picture.
         """
         if quantity == "moment" and not self.now.moments_known:
             return "not known: crank.spacing is missing"
+        curves: Sequence[Phasors | None] = self.phasors(quantity)
         if quantity == ABOUT:
             curves = list(self.list_scalars(with_gas=True).values())
-        else:
-            curves = [curve for curve in self.phasors(quantity) if curve is not None]
-        largest = float(max(np.abs(c.values(_divide_cycle(c))).max(initial=0) for c in curves))
+        there = [curve for curve in curves if curve is not None]
+        largest = float(max(np.abs(c.values(_divide_cycle(c))).max(initial=0) for c in there))
         kind = ROLL.name if quantity == ABOUT else quantity
         if not largest or largest < NEGLIGIBLE * self.now.of_one_cylinder[kind]:
             return small_text(largest, self.unit(quantity))
         return ""
+
+    def find_pictured(self, quantities: Sequence[str]) -> tuple[list[str], str]:
+        """Return the quantities that have a picture, and a line about the others."""
+        words = {quantity: self.find_words(quantity) for quantity in quantities}
+        line = "; ".join(f"{_TITLES[each]}: {said}" for each, said in words.items() if said)
+        return [quantity for quantity, said in words.items() if not said], line
 
     def title(self, what: str, quantity: str) -> str:
         """Return the title of one of the pictures of a quantity."""
@@ -104,84 +113,61 @@ def _divide_cycle(*curves: Phasors | None) -> Array:
 def make_page(subject: PageSubject, what: str) -> Figure:
     """Return a page of pictures; `what` is one of `PAGES` that is not of torsion."""
     width, height, lay_out = _LAYOUTS[what]
-    engine = subject.now.engine
+    engine, remedy = subject.now.engine, subject.study.remedy
     title = f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm"
+    if remedy is not None:
+        share = f" {percent(remedy.card[0].factor)}" if remedy.card else ""
+        order = "" if remedy.order is None else f", order {remedy.order}"
+        title += f"\nwith scheme {remedy.scheme}{share}{order}"
     with open_figure(width, height) as fig:
         fig.set_layout_engine("constrained", h_pad=0.1)
-        words = lay_out(fig, subject) or ""
-        if words:
+        if words := lay_out(fig, subject):
             fig.supxlabel(words, x=0.01, ha="left", fontsize=9)
         if not fig.axes:
             fig.set_size_inches(6.4, 0.7)
-        put_title(fig, f"{title}{_describe_devices(subject.study.remedy)}")
+        put_title(fig, title)
         return fig
 
 
-def _describe_devices(remedy: Remedy | None) -> str:
-    """Return a line with the scheme whose devices are fitted, if there are any."""
-    if remedy is None:
-        return ""
-    share = f" {percent(remedy.card[0].factor)}" if remedy.card else ""
-    order = "" if remedy.order is None else f", order {remedy.order}"
-    return f"\nwith scheme {remedy.scheme}{share}{order}"
-
-
 def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
-    """Return one picture of one quantity, or words in its place, as an SVG for an HTML page."""
-    words = subject.find_words(quantity)
-    width, height = (4.2, 4.0) if what == "polar" else (5.2, 3.1)
-    with open_figure(width, 0.6 if words else height) as fig:
+    """Return one picture of one quantity as an SVG for an HTML page, or words in its place."""
+    if words := subject.find_words(quantity):
+        return f"<p><b>{subject.title(what, quantity)}</b><br>{words}</p>"
+    with open_figure(*((4.2, 4.0) if what == "polar" else (5.2, 3.1))) as fig:
         fig.set_facecolor("none")
-        ax = fig.subplots()
-        if words:
-            ax.set_axis_off()
-            ax.set_title(subject.title(what, quantity), pad=6)
-            ax.text(0, 1, words, va="top", transform=ax.transAxes)
-        else:
-            _draw(ax, subject, what, quantity)
+        _draw(fig.subplots(), subject, what, quantity)
         name = f"{what}-{quantity}{'-after' if subject.study.before else ''}"
         return inline_svg(save_figure(fig, "svg"), name)
 
 
 # ------------------------------------------------------------------ forces and moments
 def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
-    """Draw one picture of a force or moment, or of what acts about the crank."""
-    unit = subject.unit(quantity)
-    ax.set_title(subject.title(what, quantity))
+    """Draw one picture of a force or moment, or of the moments about the crank."""
+    unit, (curve, before) = subject.unit(quantity), subject.phasors(quantity)
+    scalars = {}
     if quantity == ABOUT:
         scalars = subject.list_scalars(with_gas=what == "spectrum")
-        if what == "spectrum":
-            draw_scalar_bars(ax, scalars, unit)
-            return
-        before = subject.phasors(ROLL.name)[1]
-        crank = _divide_cycle(*scalars.values(), before)
-        lines = {label: curve.values(crank).real for label, curve in scalars.items()}
-        old = None if before is None else before.values(crank).real
-        draw_curves(ax, crank, lines, "moment", unit, old)
-        return
-    curve, before = subject.phasors(quantity)
+    ax.set_title(subject.title(what, quantity))
     if what == "polar":
         draw_locus(ax, curve, quantity, unit, before)
+    elif what == "spectrum" and scalars:
+        draw_scalar_bars(ax, scalars, unit)
     elif what == "spectrum":
         draw_vector_bars(ax, curve, quantity, unit, before)
     else:
-        crank = _divide_cycle(curve, before)
-        values = curve.values(crank)
-        lines = {"along x": values.real, "along y": values.imag, "size": np.abs(values)}
-        old = None if before is None else np.abs(before.values(crank))
-        draw_curves(ax, crank, lines, quantity, unit, old)
-
-
-def _find_pictured(subject: PageSubject, quantities: Sequence[str]) -> tuple[list[str], str]:
-    """Return the quantities that have a picture, and a line about the others."""
-    words = {quantity: subject.find_words(quantity) for quantity in quantities}
-    line = "; ".join(f"{_TITLES[each]}: {said}" for each, said in words.items() if said)
-    return [quantity for quantity, said in words.items() if not said], line
+        crank = _divide_cycle(*scalars.values(), curve, before)
+        read = np.real if scalars else np.abs
+        lines = {label: each.values(crank).real for label, each in scalars.items()}
+        if not scalars:
+            values = curve.values(crank)
+            lines = {"along x": values.real, "along y": values.imag, "size": np.abs(values)}
+        old = None if before is None else read(before.values(crank))
+        draw_curves(ax, crank, lines, "moment" if scalars else quantity, unit, old)
 
 
 def _lay_out_overview(fig: Figure, subject: PageSubject) -> str:
     """The locus of the force, or of the moment where no force is left, and the orders."""
-    shown, words = _find_pictured(subject, PICTURED)
+    shown, words = subject.find_pictured(PICTURED)
     loci = [quantity for quantity in shown if quantity in _VECTORS][:1]
     fig.set_size_inches(5.2 + 5.6 * len(loci), max(3.4, 2.2 * len(shown) + 0.4, 6.0 * len(loci)))
     grid = fig.add_gridspec(len(shown) or 1, 1 + len(loci))
@@ -192,13 +178,13 @@ def _lay_out_overview(fig: Figure, subject: PageSubject) -> str:
     return words
 
 
-def _lay_out_all(fig: Figure, subject: PageSubject) -> str:
-    """A row for each quantity: locus, orders, and curves over the crank angle."""
-    shown, words = _find_pictured(subject, PICTURED)
-    fig.set_size_inches(11.7, 0.5 + 3.6 * len(shown))
+def _lay_out_rows(fig: Figure, subject: PageSubject, *, whats: Sequence[str], height: float) -> str:
+    """A row of pictures for each quantity; what acts about the crank has no locus."""
+    shown, words = subject.find_pictured(PICTURED)
+    fig.set_figheight(0.5 + height * len(shown))
     grid = fig.add_gridspec(len(shown) or 1, 6)
     for row, quantity in enumerate(shown):
-        pictures = ("spectrum", "curves") if quantity == ABOUT else ("polar", "spectrum", "curves")
+        pictures = [what for what in whats if what != "polar" or quantity != ABOUT]
         span = 6 // len(pictures)
         for k, what in enumerate(pictures):
             _draw(fig.add_subplot(grid[row, k * span : (k + 1) * span]), subject, what, quantity)
@@ -206,29 +192,16 @@ def _lay_out_all(fig: Figure, subject: PageSubject) -> str:
 
 
 def _lay_out_polar(fig: Figure, subject: PageSubject) -> str:
-    shown, words = _find_pictured(subject, _VECTORS)
+    shown, words = subject.find_pictured(_VECTORS)
     fig.set_size_inches(max(4.8 * len(shown), 5.2), 5.6)
-    for k, quantity in enumerate(shown):
-        _draw(fig.add_subplot(1, len(shown), k + 1), subject, "polar", quantity)
+    for k, quantity in enumerate(shown, 1):
+        _draw(fig.add_subplot(1, len(shown), k), subject, "polar", quantity)
     return words
-
-
-def _lay_out_rows(what: str, height: float) -> Callable[[Figure, PageSubject], str]:
-    """Return a layout with one picture of each quantity, below one another."""
-
-    def lay_out(fig: Figure, subject: PageSubject) -> str:
-        shown, words = _find_pictured(subject, PICTURED)
-        fig.set_figheight(0.5 + height * len(shown))
-        for k, quantity in enumerate(shown):
-            _draw(fig.add_subplot(len(shown), 1, k + 1), subject, what, quantity)
-        return words
-
-    return lay_out
 
 
 def _lay_out_orders(fig: Figure, subject: PageSubject) -> str:
     """The largest four orders of force and of moment."""
-    shown, words = _find_pictured(subject, _VECTORS)
+    shown, words = subject.find_pictured(_VECTORS)
     found = []
     for quantity in shown:
         curve = subject.phasors(quantity)[0]
@@ -265,48 +238,38 @@ def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
 
 def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
     """Shear, bending and bearings along the crankshaft; with gas bending of both, and bearings."""
-    bent, system, words = subject.study.bent, subject.system, ""
+    bent, system = subject.study.bent, subject.system
     gas = [inner.with_gas for inner in bent if inner.with_gas is not None]
-    pictures: list[tuple[str, str, list[Any], str]]
+    # Curves by title, and how points are joined.
+    pictures: dict[str, tuple[Sequence[AlongCrank], str]] = {
+        "Shear force along the crankshaft": ([b.shear for b in bent], "steps-post"),
+        "Bending moment": ([b.bending for b in bent], "default"),
+        "Inertia load of each main bearing": ([b.bearings for b in bent if b.bearings], ""),
+    }
     if gas:
-        pictures = [
-            (
-                "Bending moment in the crankshaft, with gas",
-                "moment",
-                [b.bending for b in gas],
-                "default",
-            ),
-            (
-                "Bending moment in the block, with gas",
-                "moment",
-                [b.block_bending for b in gas],
-                "default",
-            ),
-            ("Load of each main bearing, with gas", "force", [b.bearings for b in gas], ""),
-        ]
-    else:
-        shear, bending = [b.shear for b in bent], [b.bending for b in bent]
-        pictures = [
-            ("Shear force along the crankshaft", "force", shear, "steps-post"),
-            ("Bending moment", "moment", bending, "default"),
-        ]
-        if loads := [b.bearings for b in bent if b.bearings]:
-            pictures.append(("Inertia load of each main bearing", "force", loads, ""))
-        else:
-            words = "Inertia load of each main bearing: one throw, bearings not known"
-    fig.set_figheight(0.4 + 2.4 * len(pictures))
-    axes = fig.subplots(len(pictures), 1, sharex=True)
-    for ax, (title, what, curves, joints) in zip(axes, pictures, strict=True):
-        draw_along(ax, curves, what, system, joints, "the cycle" if gas else "a revolution")
+        pictures = {
+            "Bending moment in the crankshaft, with gas": ([b.bending for b in gas], "default"),
+            "Bending moment in the block, with gas": ([b.block_bending for b in gas], "default"),
+            "Load of each main bearing, with gas": ([b.bearings for b in gas], ""),
+        }
+    missing = [title for title, (curves, _) in pictures.items() if not curves]
+    fig.set_figheight(0.4 + 2.4 * (3 - len(missing)))
+    axes = fig.subplots(3 - len(missing), 1, sharex=True)
+    shown = ((title, *each) for title, each in pictures.items() if each[0])
+    for ax, (title, curves, steps) in zip(axes, shown, strict=True):
+        what = "moment" if "moment" in title else "force"
+        draw_along(ax, curves, what, system, steps, "the cycle" if gas else "a revolution")
         ax.set_title(title)
         ax.label_outer()
     axes[-1].set_xlabel(f"z, {system.length.name} (free end on the left)")
-    return words
+    return "".join(f"{title}: one throw, bearings not known" for title in missing)
 
 
-def _lay_out_gas(fig: Figure, subject: PageSubject) -> None:
+def _lay_out_gas(fig: Figure, subject: PageSubject, *, over_volume: bool = False) -> None:
     system = subject.system
     match subject.study.gas:
+        case Pressures() as found if over_volume:
+            draw_p_v(fig.subplots(), found, system)
         case Pressures() as found:
             draw_pressure(fig.subplots(), found, system.pressure)
         case Torques() as found:
@@ -317,23 +280,19 @@ def _lay_out_gas(fig: Figure, subject: PageSubject) -> None:
             draw_main(fig, found, system.force)
 
 
-def _lay_out_p_v(fig: Figure, subject: PageSubject) -> None:
-    if isinstance(subject.study.gas, Pressures):
-        draw_p_v(fig.subplots(), subject.study.gas, subject.system)
-
-
+# Width and height in inches, which some layouts change.
 _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | None]]] = {
     "overview": (10.8, 6.4, _lay_out_overview),
-    "all": (11.7, 8.3, _lay_out_all),
+    "all": (11.7, 8, partial(_lay_out_rows, whats=("polar", "spectrum", "curves"), height=3.6)),
     "polar": (9.6, 5.6, _lay_out_polar),
     "orders": (11.7, 7.4, _lay_out_orders),
-    "spectrum": (6.5, 8.0, _lay_out_rows("spectrum", 2.5)),
-    "curves": (7.5, 8.6, _lay_out_rows("curves", 2.7)),
+    "spectrum": (6.5, 8.0, partial(_lay_out_rows, whats=("spectrum",), height=2.5)),
+    "curves": (7.5, 8.6, partial(_lay_out_rows, whats=("curves",), height=2.7)),
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
     "pressure": (7.2, 4.4, _lay_out_gas),
-    "p-v": (6.4, 4.8, _lay_out_p_v),
+    "p-v": (6.4, 4.8, partial(_lay_out_gas, over_volume=True)),
     "torque": (8.4, 4.8, _lay_out_gas),
     "pin": (9.6, 5.9, _lay_out_gas),
     "main": (9.6, 6.4, _lay_out_gas),

@@ -25,13 +25,15 @@ _BOX: Any = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
-def set_up_plane(ax: Axes, largest: float, up: str, right: str) -> float:
-    """Make the axes a square with the origin in its middle; returns half its side.
+def set_up_plane(ax: Axes, largest: float, what: str = "", unit: str = "") -> float:
+    """Make the axes a square with the origin in its middle; return half its side.
 
     Args:
-        largest: size of the largest vector, in the unit of the axes.
-        up, right: labels of the axes.
+        ax: Axes of the picture.
+        largest: Size of the largest vector, in the unit of the axes.
+        what, unit: Quantity and unit for the labels of the axes; empty: no labels.
     """
+    up, right = (f"{what} along {axis}, {unit}" if what else "" for axis in "xy")
     limit = 1.25 * (largest or 1.0)
     ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel=right, ylabel=up)
     ax.locator_params(nbins=5)
@@ -73,37 +75,33 @@ def draw_locus(
     ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw where the tip of a vector goes in a revolution, dashed where it went `before`."""
-    angles = np.arange(find_period_deg(curve) + 1.0)
-    path = curve.values(np.radians(angles))
-    old = np.zeros(0, complex)
-    if before is not None:
-        old = before.values(np.radians(np.arange(find_period_deg(before) + 1)))
-    largest, most = np.abs(path).max(), np.abs([*path, *old]).max()
+    shown = [curve] if before is None else [curve, before]
+    paths = [each.values(np.radians(np.arange(find_period_deg(each) + 1))) for each in shown]
+    largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
     s = unit.fit(float(most))
-    limit = set_up_plane(
-        ax, float(most) / s.size, f"{what} along x, {s.name}", f"{what} along y, {s.name}"
-    )
-    path, old = path / s.size, old / s.size
-    if before is not None:
+    limit = set_up_plane(ax, float(most) / s.size, what, s.name)
+    path, *others = (each / s.size for each in paths)
+    angles = np.arange(len(path), dtype=float)
+    for old in others:
         ax.plot(old.imag, old.real, color=SOFT, linewidth=1, linestyle=(0, (4, 2)), label="before")
         ax.plot([], [], color=BLUE, label="after")
         put_legend_above(ax)
     if largest > 0.15 * most:
         draw_path(ax, path, angles, angles[-1] / 12, limit)
-        _draw_arrow(ax, path, limit)
+        start = len(path) // 25
+        way = path[start + 1] - path[start]
+        tip = path[start] + 0.02 * limit * way / (abs(way) or 1)
+        _draw_arrow(ax, path[start], tip, color=BLUE, linewidth=1.2, mutation_scale=13)
         return
     ax.plot(path.imag, path.real, color=BLUE)  # crank angles would overlap
     size = f"at most {size_text(float(largest), unit, 3)}" if largest else NOTHING
     ax.text(0, float(largest) / s.size + 0.06 * limit, size, ha="center", va="bottom", bbox=_BOX)
 
 
-def _draw_arrow(ax: Axes, path: Complex, limit: float) -> None:
-    """Draw the direction in which the tip goes along its path."""
-    start = len(path) // 25
-    way = path[start + 1] - path[start]
-    tip = path[start] + 0.02 * limit * way / (abs(way) or 1)
-    look: Any = {"arrowstyle": "-|>", "color": BLUE, "linewidth": 1.2, "mutation_scale": 13}
-    ax.annotate("", (tip.imag, tip.real), (path[start].imag, path[start].real), arrowprops=look)
+def _draw_arrow(ax: Axes, start: complex, tip: complex, **look: Any) -> None:
+    """Draw an arrow between two places of the plane."""
+    ends = (tip.imag, tip.real), (start.imag, start.real)
+    ax.annotate("", *ends, arrowprops={"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0, **look})
 
 
 def find_period_deg(curve: Phasors) -> int:
@@ -119,9 +117,7 @@ def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> 
     s = unit.fit(float(curve.major[k]))
     forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size
     path = forward * np.exp(1j * _FINE) + backward * np.exp(-1j * _FINE)
-    set_up_plane(
-        ax, float(np.abs(path).max()), f"{what} along x, {s.name}", f"{what} along y, {s.name}"
-    )
+    set_up_plane(ax, float(np.abs(path).max()), what, s.name)
     ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
     ax.plot(path.imag, path.real, color=INK)
     start = 0j
@@ -133,11 +129,10 @@ def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> 
             continue
         ring, tip = start + vector * np.exp(1j * _FINE), start + vector
         ax.plot(ring.imag, ring.real, color=colour, linewidth=0.7, linestyle=":")
-        look: Any = {"arrowstyle": "-|>", "color": colour, "linestyle": style, "shrinkA": 0}
-        look |= {"linewidth": 1.5, "shrinkB": 0, "mutation_scale": 11}
-        ax.annotate("", (tip.imag, tip.real), (start.imag, start.real), arrowprops=look)
+        look: Any = {"color": colour, "linestyle": style}
+        _draw_arrow(ax, start, tip, linewidth=1.5, mutation_scale=11, **look)
         label = f"{number(abs(vector), 3)} {s.name} {way}"
-        ax.plot([], [], color=colour, linestyle=style, label=label)
+        ax.plot([], [], label=label, **look)
         start = tip
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, columnspacing=1)
 
@@ -151,9 +146,7 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
     ahead, against = banks.force.forward[0, shown], banks.force.backward[0, shown]
     turn = np.exp(1j * _FINE)
     paths = (ahead[:, None] * turn + against[:, None] / turn) / s.size
-    set_up_plane(
-        ax, float(np.abs(paths).max()), f"force along x, {s.name}", f"force along y, {s.name}"
-    )
+    set_up_plane(ax, float(np.abs(paths).max()), "force", s.name)
     for path, angle, shade in zip(paths, _BANKS_DEG, np.linspace(0, 0.9, 7), strict=True):
         colour = colormaps["viridis"](shade)
         ax.plot(

@@ -10,8 +10,8 @@ import re
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from functools import lru_cache
 from io import BytesIO
+from pathlib import Path
 from textwrap import wrap
 from threading import RLock
 from typing import TYPE_CHECKING, Any, Literal
@@ -31,68 +31,13 @@ INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
 BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
 # Looks of up to twelve curves.
 MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
-NAMES = {
-    INK: "ink",
-    SOFT: "soft",
-    FAINT: "faint",
-    PAPER: "paper",
-    BLUE: "blue",
-    RED: "red",
-    GREEN: "green",
-}
+_WORDS = ("ink", "soft", "faint", "paper", "blue", "red", "green")
+NAMES = dict(zip((INK, SOFT, FAINT, PAPER, BLUE, RED, GREEN), _WORDS, strict=True))
 _LETTER, _WIDE_LETTER = 0.1, 0.19  # width in a title, inches
 
-STYLE: Any = {
-    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
-    "font.size": 9,
-    "axes.titlesize": 9.5,
-    "axes.titleweight": "bold",
-    "axes.labelsize": 8.5,
-    "legend.fontsize": 8,
-    "xtick.labelsize": 8,
-    "ytick.labelsize": 8,
-    "figure.titlesize": 12,
-    "figure.titleweight": "bold",
-    "text.parse_math": False,
-    "text.color": INK,
-    "axes.labelcolor": INK,
-    "axes.titlecolor": INK,
-    "axes.edgecolor": SOFT,
-    "xtick.color": SOFT,
-    "ytick.color": SOFT,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "legend.labelcolor": INK,
-    "grid.color": FAINT,
-    "grid.linewidth": 0.6,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.titlelocation": "left",
-    "axes.titlepad": 17,
-    "lines.linewidth": 1.6,
-    "legend.frameon": False,
-    "hatch.linewidth": 0.6,
-    "hatch.color": PAPER,
-    "figure.facecolor": PAPER,
-    "axes.facecolor": "none",
-    "savefig.facecolor": PAPER,
-    "savefig.dpi": 160,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "balcli",
-    "pdf.fonttype": 42,
-}
-# Font families with Chinese, Japanese and Korean glyphs.
-_EASTERN = (
-    "Noto Sans CJK SC",
-    "Noto Sans CJK JP",
-    "Source Han Sans SC",
-    "WenQuanYi Micro Hei",
-    "Microsoft YaHei",
-    "PingFang SC",
-    "Arial Unicode MS",
-)
+STYLE = Path(__file__).with_name("balcli.mplstyle")
+# Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.
+_EASTERN = ("Noto Sans CJK SC", "Microsoft YaHei", "PingFang SC", "Arial Unicode MS")
 _UNDATED: Any = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 _one_at_a_time = RLock()
 
@@ -118,23 +63,16 @@ def in_our_style() -> Iterator[None]:
         logger.setLevel(logging.ERROR)  # "building the font cache" does not concern the user
         try:
             import matplotlib
+            from matplotlib.font_manager import get_font_names
 
             with matplotlib.rc_context():
                 matplotlib.rcdefaults()
-                families = ["sans-serif", *_find_eastern_family()]
-                matplotlib.rcParams.update(STYLE | {"font.family": families})
+                matplotlib.rc_file(STYLE, use_default_template=False)
+                eastern = [family for family in _EASTERN if family in get_font_names()][:1]
+                matplotlib.rcParams["font.family"] = ["sans-serif", *eastern]
                 yield
         finally:
             logger.setLevel(level)
-
-
-@lru_cache(1)
-def _find_eastern_family() -> list[str]:
-    """Return the first installed font family with Eastern glyphs, or an empty list."""
-    from matplotlib.font_manager import get_font_names
-
-    installed = get_font_names()
-    return [family for family in _EASTERN if family in installed][:1]
 
 
 def save_figure(figure: Figure, form: Form) -> bytes:
@@ -186,14 +124,5 @@ def put_title(fig: Figure, text: str) -> None:
 
 def put_legend_above(ax: Axes, columns: int = 4) -> None:
     """Put the legend between the axes and their title."""
-    legend = ax.legend(
-        loc="lower left",
-        bbox_to_anchor=(0, 1),
-        ncols=columns,
-        handlelength=1.6,
-        columnspacing=1,
-        borderpad=0,
-        borderaxespad=0.3,
-        handletextpad=0.5,
-    )
+    legend = ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
     legend.set_in_layout(False)  # a long legend must not narrow the axes
