@@ -8,6 +8,7 @@ import numpy as np
 from support.engines import engine_text
 
 from balcli.core.phasors import Phasors
+from balcli.documents.records import remove_unit
 from balcli.engine.build import Engine
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
@@ -17,7 +18,12 @@ from balcli.sizing.sizing import size
 
 def figures(remedy: Remedy, group: str = "") -> dict[str, Any]:
     """The details of a group by their labels, SI."""
-    return {detail.label: detail.value for detail in remedy.details if detail.group == group}
+    found = remedy.details[group.replace(" ", "_")] if group else remedy.details
+    sizes = {key: 1e-3 if key.endswith(("_mm", "_g")) else 1 for key in found}
+    return {
+        remove_unit(key).removesuffix("_g").replace("_", " "): value if sizes[key] == 1 else value * sizes[key]
+        for key, value in found.items()
+    }
 
 
 def size_scheme(engine: Engine, scheme: str = "auto", **options: Any) -> Remedy:

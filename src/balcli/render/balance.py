@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..core.peaks import Peak
+from ..documents.records import list_figures, remove_unit, to_document, write_each
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..results.balance import Balance
-from ..sizing.device_tables import name_kind
+from ..sizing.device_tables import find_unbalance, name_kind
 from ..studies.quantity_names import tell_assumed_speed
 from .analysis_document import brief_document
 from .csv import Columns, Rows
@@ -21,15 +22,12 @@ from .devices import (
     device_rows,
     holes_grid,
     number_devices,
-    practical_columns,
-    practical_entry,
     practical_grid,
 )
 from .figures import assumptions, figure_rows
 from .order_tables import fit_largest
 from .overview import find_orders_that_matter, name_column, tell_others
-from .scheme_details import details_parts, tell_growing_rolls
-from .scheme_details_document import details_document
+from .scheme_details import details_document, details_parts, tell_growing_rolls
 from .sheet import (
     NAMELESS,
     NEGLIGIBLE,
@@ -116,14 +114,16 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
     if result.permitted is None:
         return
     remedy, length = result.remedy, system.length
-    each, rpm = result.permitted.each, result.before.engine.speed_rpm
+    each, rpm = result.permitted.each_g_mm / 1e6, result.before.engine.speed_rpm
     if remedy.needs:
         head, what, last = f"plane at z, {length.name}", "missing", "of permitted"
-        found = [(number(length.of(need.z)), abs(need.missing)) for need in remedy.needs]
+        found = [
+            (number(length.of(need.position_mm / 1e3)), abs(need.missing)) for need in remedy.needs
+        ]
     else:
         head, what, last = "counterweight", "unbalance", "tolerance"
-        weights = result.practical[: len(remedy.counterweights)]
-        found = [(str(k), weight.unbalance) for k, weight in enumerate(weights, 1)]
+        weights = map(find_unbalance, remedy.counterweights)
+        found = [(str(k), unbalance) for k, unbalance in enumerate(weights, 1)]
     unit = system.unbalance.fit(max(size for _, size in found))
     rows = tuple(
         (
@@ -138,7 +138,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
         (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
         rows,
-        f"A crankshaft of {number(system.mass.of(result.permitted.mass))} {system.mass.name} at "
+        f"A crankshaft of {number(system.mass.of(result.permitted.mass_kg))} {system.mass.name} at "
         f"{rpm:g} rpm; all share alike.",
     )
 
@@ -227,38 +227,36 @@ def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
 
 # ------------------------------------------------------------------ JSON and CSV
 def document(result: Balance) -> dict[str, Any]:
-    """`balcli.balance/1`."""
+    """Return `balcli.balance/1`."""
     remedy, permitted = result.remedy, result.permitted
     document = {
         "format": "balcli.balance/1",
         "scheme": remedy.scheme,
         "order": remedy.order,
         **device_entries(remedy),
-        "reasons": list(remedy.reasons),
-        "practical": [practical_entry(p) for p in result.practical],
+        "reasons": remedy.reasons,
+        "practical": result.practical,
         "details": details_document(result),
         **assumptions(result.before),
         "before": brief_document(result.before),
         "after": brief_document(result.after),
     }
     if permitted is not None:
-        document["permitted"] = {
-            "grade": permitted.grade,
-            "mass_kg": permitted.mass,
-            "each_g_mm": 1e6 * permitted.each,
-        }
-    return document
+        document["permitted"] = permitted
+    return write_each(document)
 
 
 def columns(result: Balance) -> Columns:
-    """A new device a row: as an engine file says it, and the workshop's figures. What is left with
-    them is `after`, an analysis with columns of its own.
+    """Return a new device a row: as an engine file describes it, and the workshop's figures. What
+    is left with them is `after`, an analysis with columns of its own.
     """
     units: dict[str, str] = {"device": ""}
     lines: list[dict[str, Any]] = []
     for device, practical in zip(result.remedy.devices, result.practical, strict=True):
         line: dict[str, Any] = {"device": name_kind(device)}
-        for name, value, unit in (*device_rows(device, SI), *practical_columns(practical)):
+        figures = list_figures(to_document(practical), ("unbalance_kg_m",))
+        others = ((remove_unit(name), value, unit) for name, value, unit in figures)
+        for name, value, unit in (*device_rows(device, SI), *others):
             line[name], units[name] = value, unit
         lines.append(line)
     values = {name: [line.get(name) for line in lines] for name in units}
@@ -266,8 +264,8 @@ def columns(result: Balance) -> Columns:
 
 
 def rows(result: Balance, system: System) -> Rows:
-    """CSV: a figure a line: those of the devices, the scheme's other figures (SI, as in JSON: their
-    names say the unit), and those of the engine without and with the devices.
+    """Return CSV, a figure a line: those of the devices, the scheme's other figures (SI, as in
+    JSON: their names have the unit), and those of the engine without and with the devices.
     """
     header = ("part", "quantity", "order", "figure", "value", "unit")
     return Rows(header, _all_rows(result, system))
@@ -278,20 +276,23 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
     for (part, device), practical in zip(devices, result.practical, strict=True):
         for figure in device_rows(device, system):
             yield part, "", "", *figure
-        for name, value in _with_paths(practical_entry(practical)):
-            yield part, "", "", name, value, ""
-    for name, value in _with_paths(details_document(result)):
-        yield "details", "", "", name, value, ""
-    for name, value in _with_paths(document(result).get("permitted", {})):
-        yield "permitted", "", "", name, value, ""
+        yield from _rows_of(part, practical)
+    yield from _rows_of("details", details_document(result))
+    if result.permitted is not None:
+        yield from _rows_of("permitted", result.permitted)
     for state, analysis in (("before", result.before), ("after", result.after)):
         for row in figure_rows(analysis, system):
             yield state, row.quantity, row.order, row.figure, row.value, row.unit
 
 
+def _rows_of(part: str, record: Any) -> Iterator[tuple[Any, ...]]:
+    for name, value in _with_paths(write_each(record)):
+        yield part, "", "", name, value, ""
+
+
 def _with_paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
-    """Members of tables and lists by their paths: `card.1.bobweight_g`."""
-    if isinstance(value, Mapping):
+    """Yield members of tables and lists by their paths: `card.1.bobweight_g`."""
+    if isinstance(value, dict):
         members: Iterable[tuple[Any, Any]] = value.items()
     elif isinstance(value, list):
         members = enumerate(value, 1)

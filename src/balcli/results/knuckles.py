@@ -17,7 +17,6 @@ from ..engine.build import build
 from ..engine.layout import plan_cylinders
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
-from ..sizing.details import Detail, Range
 from ..sizing.remedy import Remedy
 from ..sizing.schemes import KNUCKLES
 from .balance import Balance, analyze_both
@@ -112,12 +111,12 @@ def balance_knuckles(
     remedy = Remedy(
         KNUCKLES,
         reasons=found.reasons,
-        details=(
-            Detail("even", "", goal),
-            Detail("knuckle angles", "angle", found.angles_deg),
-            Detail("stroke", "length", _find_range(found.after.stroke)),
-            Detail("top", "angle", _find_range(found.after.top_deg)),
-        ),
+        details={
+            "even": goal,
+            "knuckle_angles_deg": list(found.angles_deg),
+            "stroke_mm": _find_range(1e3 * found.after.stroke),
+            "top_deg": _find_range(found.after.top_deg),
+        },
         knuckle_angles_deg=found.angles_deg,
     )
     old, new = build(model), build(found.model)
@@ -127,8 +126,8 @@ def balance_knuckles(
     return Balance(remedy, before, after, every_order=orders is not None)
 
 
-def _find_range(values: Array) -> Range:
-    return Range(float(values.min()), float(values.max()))
+def _find_range(values: Array) -> dict[str, float]:
+    return {"least": float(values.min()), "largest": float(values.max())}
 
 
 def _turn_knuckles(c: Cylinders, linkage: Articulated, turn_deg: Array) -> Travel:

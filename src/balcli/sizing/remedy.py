@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
-from .details import Detail
 from .device_tables import KINDS, DeviceTable, find_free
 
 if TYPE_CHECKING:
-    from .scheme_figures import Bobweight, FactorPeaks, Optima, PlaneNeed
+    from .balance_factor import FactorPeaks, PlaneNeed
+    from .bobweight_card import Bobweight
 
 T = TypeVar("T")
 
@@ -26,12 +26,12 @@ class Remedy(NamedTuple):
         order: the order that is balanced, where the scheme has one.
         reasons: why each device is fitted, in the order of `devices`; of a remedy without devices,
             what else is changed and why.
-        details: figures of the scheme that are no device.
+        details: figures of the scheme that are no device, as JSON has them: keys end in the unit,
+            those of one order stand in a dict of their own.
         note: what to know besides, such as why nothing is fitted.
         card: bobweights of all crank pins (scheme factor).
         needs: what each plane has and lacks, where the file has counterweights (scheme factor).
         sweep: what each of several factors leaves (scheme factor).
-        optima: best shafts of variable speed (scheme eccentric-slider).
         knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
         beyond: devices that no engine file can describe, SI.
     """
@@ -42,12 +42,11 @@ class Remedy(NamedTuple):
     shafts: tuple[Shaft, ...] = ()
     sliders: tuple[Slider, ...] = ()
     reasons: tuple[str, ...] = ()
-    details: tuple[Detail, ...] = ()
+    details: Mapping[str, Any] = {}
     note: str = ""
     card: tuple[Bobweight, ...] = ()
     needs: tuple[PlaneNeed, ...] = ()
     sweep: tuple[FactorPeaks, ...] = ()
-    optima: Optima | None = None
     knuckle_angles_deg: tuple[float, ...] = ()
     beyond: tuple[Device, ...] = ()
 
@@ -76,10 +75,16 @@ class Remedy(NamedTuple):
             reasons=tuple(reason for _, reason in pairs),
         )
 
-    def add_details(self, *added: Detail) -> Remedy:
-        """The remedy with further details; one of the same group and label is replaced."""
-        details = {(d.group, d.label): d for d in (*self.details, *added)}
-        return self._replace(details=tuple(details.values()))
+    def add_details(self, group: str = "", **figures: Any) -> Remedy:
+        """Return the remedy with further details.
+
+        Args:
+            group: Name of the dict in which they stand, such as `order_2`; empty: in none.
+            figures: Details by their keys.
+        """
+        if group:
+            figures = {group: {**self.details.get(group, {}), **figures}}
+        return self._replace(details={**self.details, **figures})
 
 
 def fit_devices(engine: Engine, remedy: Remedy) -> Engine:

@@ -14,7 +14,6 @@ from ..enginefile.exclusive import join_words
 from ..errors import BalcliError
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
-from .details import Detail
 from .options import SchemeOptions
 
 PartKind = Literal["force", "moment", "roll"]  # names of kinds
@@ -92,7 +91,7 @@ class NothingToBalanceError(Exception):
     `details`: figures of what is there nevertheless.
     """
 
-    def __init__(self, text: str, details: tuple[Detail, ...] = ()) -> None:
+    def __init__(self, text: str, **details: float) -> None:
         super().__init__(text)
         self.details = details
 
@@ -145,11 +144,11 @@ def choose_residual(
     if _has_any(residual, kinds, senses):
         return residual
     rest = _tell_rest(residual, kinds, senses)
-    with_crank = Detail("force with crank left", "force", residual.size(FORWARD_FORCE))
+    with_crank = residual.size(FORWARD_FORCE) if 1 not in senses else 0.0
     raise NothingToBalanceError(
         f"order {options.order} has no free {' or '.join(kinds)}{_turning(senses)}: "
         + "; ".join(["nothing to balance", *rest]),
-        (with_crank,) if with_crank.value and 1 not in senses else (),
+        **({"force_with_crank_left_N": with_crank} if with_crank else {}),
     )
 
 

@@ -12,7 +12,6 @@ import math
 
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .details import Detail
 from .effects import Slot
 from .fitting import Fitting
 from .options import SchemeOptions
@@ -75,11 +74,9 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
         reason = explain_one_eccentric(residual, sense, whole, more, halves=len(slots) > 1)
         fitting = fitting.add(slots, unbalances, reason)
     left = fitting.find_residual(residual.order)
-    group = f"order {residual.order}"
-    return fitting.add_details(
-        *_describe_places(places, group),
-        Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT), group),
-    ).describe_roll(residual, group)
+    group, moment = f"order_{residual.order}", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
+    fitting = fitting.add_details(group, **_describe_places(places), moment_left_Nm=moment)
+    return fitting.describe_roll(residual, group)
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
@@ -149,17 +146,16 @@ def _find_roll_about_crank(residual: Residual) -> complex:
     return residual.roll - 1j * moved
 
 
-def _describe_places(places: Places, group: str) -> list[Detail]:
-    """Distance from the crank axis and direction of the shafts of each sense, and the ratio of the
-    distances (with the crank : against it).
+def _describe_places(places: Places) -> dict[str, float]:
+    """Return distance from the crank axis and direction of the shafts of each sense, and the ratio
+    of the distances (with the crank : against it).
     """
-    details = []
-    for sense, name in ((1, "with crank"), (-1, "against crank")):
+    details = {}
+    for sense, name in ((1, "with_crank"), (-1, "against_crank")):
         for place in places.get(sense, ())[:1]:
-            details.append(Detail(f"radius {name}", "length", abs(place), group))
+            details[f"radius_{name}_mm"] = 1e3 * abs(place)
             if place:  # on the crank axis there is no direction
-                direction = math.degrees(cmath.phase(place))
-                details.append(Detail(f"direction {name}", "angle", direction, group))
+                details[f"direction_{name}_deg"] = math.degrees(cmath.phase(place))
     if len(places) == 2 and (against := abs(places[-1][0])):
-        details.append(Detail("radius ratio", "", abs(places[1][0]) / against, group))
+        details["radius_ratio"] = abs(places[1][0]) / against
     return details

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.phasors import Array, Phasors
 from ...forces.crankshaft import AlongCrank
-from ...sizing.scheme_figures import FactorPeaks
+from ...sizing.balance_factor import FactorPeaks
 from ..order_tables import fit_largest
 from ..sheet import number, order_name, size_text
 from ..units import ShownUnit, System
@@ -128,27 +128,27 @@ def draw_factors(
         moment: None if moments are not known.
     """
     share = [row.factor for row in rows]
-    s = force.fit(max(row.force for row in rows))
+    s = force.fit(max(row.peak_force_N for row in rows))
     lines = {
-        "force": [row.force for row in rows],
-        "along the first bank": [row.along for row in rows],
-        "across it": [row.across for row in rows],
+        "force": [row.peak_force_N for row in rows],
+        "along the first bank": [row.along_N for row in rows],
+        "across it": [row.across_N for row in rows],
     }
     for (label, values), look in zip(lines.items(), _LOOKS, strict=True):
         ax.plot(share, np.array(values) / s.size, color=look[0], linestyle=look[1], label=label)
     best = min(rows, key=lambda row: row.cost)
-    ax.plot(best.factor, best.force / s.size, "o", color=BLUE)
+    ax.plot(best.factor, best.peak_force_N / s.size, "o", color=BLUE)
     ax.set(
         xlabel="balance factor: share of the reciprocating mass in the counterweights",
         ylabel=f"largest over a revolution, {s.name}",
         xlim=(share[0], share[-1]),
     )
     ax.set_ylim(bottom=0)
-    least = size_text(best.force, force)
+    least = size_text(best.peak_force_N, force)
     if best.by_moment and moment is not None:
-        least = f"moment {size_text(best.moment, moment)}"
+        least = f"moment {size_text(best.peak_moment_Nm, moment)}"
     ax.set_title(f"Largest free force over the balance factor; best at {best.factor:.4g} ({least})")
-    moments = np.array([row.moment for row in rows])
+    moments = np.array([row.peak_moment_Nm for row in rows])
     if moment is not None and moments.max() > 0:
         t = moment.fit(float(moments.max()))
         right = ax.twinx()
