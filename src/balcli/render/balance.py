@@ -229,7 +229,7 @@ def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
 def document(result: Balance) -> dict[str, Any]:
     """Return `balcli.balance/1`."""
     remedy, permitted = result.remedy, result.permitted
-    document = {
+    document: dict[str, Any] = {
         "format": "balcli.balance/1",
         "scheme": remedy.scheme,
         "order": remedy.order,
@@ -243,7 +243,8 @@ def document(result: Balance) -> dict[str, Any]:
     }
     if permitted is not None:
         document["permitted"] = permitted
-    return write_each(document)
+    found: dict[str, Any] = write_each(document)
+    return found
 
 
 def columns(result: Balance) -> Columns:

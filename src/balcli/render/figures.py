@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Phasors
-from ..engine.build import SilentCylinders
+from ..engine.build import Engine, SilentCylinders
 from ..forces.kinds import EVERY_KIND, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
@@ -46,6 +46,24 @@ class FigureRow(NamedTuple):
     figure: str
     value: float | bool | str | None
     unit: str
+
+
+def describe_engine(engine: Engine) -> dict[str, Any]:
+    """Return the entry `engine` of JSON."""
+    return {
+        "name": engine.name,
+        "cylinders": engine.cylinders.count,
+        "displacement_m3": clean(engine.displacement_m3),
+    }
+
+
+def describe_state(engine: Engine) -> dict[str, Any]:
+    """Return the entries of JSON on its speed, cylinders without gas, and point of reference."""
+    return {
+        "speed_rpm": clean(engine.speed_rpm),
+        **silent_entries(engine.silent),
+        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
+    }
 
 
 def assumptions(result: Located, inferred: Sequence[str] = ()) -> dict[str, list[str]]:

@@ -91,7 +91,7 @@ class Fitting(NamedTuple):
             details["roll_with_gas_before_Nm"] = _size_total_roll(self.engine, order)
         return self.add_details(group, **details)
 
-    def add_details(self, group: str = "", **figures: Any) -> Fitting:
+    def add_details(self, group: str = "", /, **figures: Any) -> Fitting:
         """Return the fitting with further details in the remedy: `Remedy.add_details`."""
         return self._replace(remedy=self.remedy.add_details(group, **figures))
 

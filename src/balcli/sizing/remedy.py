@@ -75,7 +75,7 @@ class Remedy(NamedTuple):
             reasons=tuple(reason for _, reason in pairs),
         )
 
-    def add_details(self, group: str = "", **figures: Any) -> Remedy:
+    def add_details(self, group: str = "", /, **figures: Any) -> Remedy:
         """Return the remedy with further details.
 
         Args:
