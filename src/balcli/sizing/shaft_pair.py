@@ -68,11 +68,10 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
     for sense, standing in places.items():
         z = choose_plane(fitting.engine, options, residual, sense)
         slots = [Slot("shaft", residual.order, sense, z, place) for place in standing]
-        share = 1 / len(slots)
-        unbalances = [-residual.force(sense) * share for _ in slots]
         whole, more = takes_moment(residual, sense, z), "takes eccentrics in two planes"
         reason = explain_one_eccentric(residual, sense, whole, more, halves=len(slots) > 1)
-        fitting = fitting.add(slots, unbalances, reason)
+        share = -residual.force(sense) / len(slots)
+        fitting = fitting.add(slots, [share] * len(slots), reason)
     left = fitting.find_residual(residual.order)
     group, moment = f"order_{residual.order}", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
     fitting = fitting.add_details(group, **_describe_places(places), moment_left_Nm=moment)
@@ -80,16 +79,20 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
-    """Where the shafts of each sense stand: as asked for; what is not said, such that the pair adds
-    no roll, or with `roll` such that none is left.
+    """Return where the shafts of each sense stand: as asked for; what is not given, such that the
+    pair adds no roll, or with `roll` such that none is left.
+
+    A pair makes minus a roll (kg m^2) where `conj(p_B) V+ - p_A conj(V-) = i roll`
+    (docs/theory.md). Without a place that was given, those nearest to the crank are taken (least
+    squares).
     """
-    at = options.at or ()
+    at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
         raise BalcliError(
             "--at: a pair of shafts has two places, first that of the shaft turning against the "
             "crank"
         )
-    if not (residual.force(1) and residual.force(-1)):
+    if not (forward and backward):
         return _choose_place_of_one(residual, options)
     if len(at) == 2 and options.roll:
         raise BalcliError(
@@ -97,16 +100,15 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
         )
     if len(at) == 2:
         return {-1: (at[0],), 1: (at[1],)}
-    if options.roll and not at:
-        return _find_nearest_places(residual, _find_roll_about_crank(residual))
-    first = at[0] if at else 0j
-    roll = _find_roll_about_crank(residual) if options.roll else 0j
-    return {-1: (first,), 1: (_find_second_place(first, residual, roll),)}
+    wanted = 1j * _find_roll_about_crank(residual) if options.roll else 0j
+    against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
+    with_crank = (wanted + against * backward.conjugate()) / forward
+    return {-1: (against,), 1: (with_crank.conjugate(),)}
 
 
 def _choose_place_of_one(residual: Residual, options: SchemeOptions) -> Places:
-    """Of a force that turns in one sense alone: one shaft on the crank axis, or two halves at the
-    place asked for and opposite to it.
+    """Return places for a force that turns in one sense alone: one shaft on the crank axis, or two
+    halves at the place asked for and opposite to it.
     """
     sense = 1 if residual.force(1) else -1
     if options.roll:
@@ -117,26 +119,6 @@ def _choose_place_of_one(residual: Residual, options: SchemeOptions) -> Places:
         )
     place = options.at[0] if options.at else 0j
     return {sense: (place, -place) if place else (0j,)}
-
-
-def _find_second_place(first: complex, residual: Residual, roll: complex) -> complex:
-    """p_B for p_A = `first`, such that the pair makes minus this roll (kg m^2); without a roll it
-    is `conj(p_A) V-/conj(V+)` (docs/theory.md).
-    """
-    forward, backward = residual.force(1), residual.force(-1)
-    return ((1j * roll + first * backward.conjugate()) / forward).conjugate()
-
-
-def _find_nearest_places(residual: Residual, roll: complex) -> Places:
-    """Of all places at which the pair makes minus this roll (kg m^2), those nearest to the crank:
-    least squares of `conj(p_B) V+ - p_A conj(V-) = i roll` in conj(p_B) and p_A.
-    """
-    forward, backward = residual.force(1), residual.force(-1)
-    wanted = 1j * roll
-    size = abs(forward) ** 2 + abs(backward) ** 2
-    against = -wanted * backward / size
-    with_crank = (wanted * forward.conjugate() / size).conjugate()
-    return {-1: (against,), 1: (with_crank,)}
 
 
 def _find_roll_about_crank(residual: Residual) -> complex:
