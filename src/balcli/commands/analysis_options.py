@@ -32,25 +32,21 @@ AnalysisFormatOption = Annotated[
     list[AnalysisFormat] | None,
     format_option(
         AnalysisFormat,
-        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
-        ".json, .csv, .md), else table. marine: external forces and moments (M1V, M1H, M2V), "
-        "guide moments and torque by order; with -f csv or -o X.csv beside it, so written.",
+        "How to write the result; default: by the ending of -o, else table. marine: external "
+        "forces and moments, guide moments and torque by order; with -f csv beside it, so written.",
     ),
 ]
 SpeedsOption = Annotated[
     str | None,
     optional(
         "RPM|RPM:RPM:STEP|RPM,...",
-        "Crank speed instead of the file's, rpm; of several, such as 60:124:8, a sheet over speed.",
+        "Crank speed instead of the file's, rpm, or several, such as 60:124:8.",
         "--speed",
         "--rpm",
     ),
 ]
 By = Annotated[str, optional("cylinder", "cylinder: also each cylinder's share.", "--by")]
-Why = Annotated[
-    bool,
-    typer.Option("--why", help="Also print what is balanced by symmetry, and what by chance."),
-]
+Why = Annotated[bool, typer.Option("--why", help="Print what is balanced by symmetry or chance.")]
 
 
 class Request(NamedTuple):

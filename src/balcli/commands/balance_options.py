@@ -40,8 +40,8 @@ FormatOption = Annotated[
     BalanceFormat | None,
     format_option(
         BalanceFormat,
-        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
-        ".json, .csv, .md), else table. card: a page for the wall of a shop, per pin, in g and oz.",
+        "How to write the result; default: by the ending of -o, else table. card: a page for the "
+        "wall of a shop, per pin, in g and oz.",
     ),
 ]
 Scheme = Annotated[
@@ -72,68 +72,23 @@ def _list_schemes(wanted: bool) -> None:
 
 
 Schemes = Annotated[
-    bool,
-    typer.Option(
-        "--schemes",
-        callback=_list_schemes,
-        is_eager=True,
-        help="Say what each scheme does and which options it takes.",
-    ),
+    bool, typer.Option("--schemes", callback=_list_schemes, is_eager=True, help="List all schemes.")
 ]
-Radius = Annotated[
-    str | None,
-    optional(
-        "MM", "Radius at which masses are stated, in mm or as '2.5 in'; default: crank radius."
-    ),
-]
-Thickness = Annotated[
-    str | None,
-    optional("MM", "Thickness of the semicircular steel discs that are stated; default 20."),
-]
+Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: crank radius.")]
+Thickness = Annotated[str | None, optional("MM", "Thickness of half discs of steel; default 20.")]
 Disc = Annotated[str | None, optional("MM", "Radius of those discs, instead of their thickness.")]
-Drill = Annotated[
-    str | None,
-    optional(
-        "MM",
-        "Diameter of a drill: also say where radial holes from --radius inwards belong, how "
-        "many and how deep, to remove as much.",
-    ),
-]
+Drill = Annotated[str | None, optional("MM", "Drill: list radial holes, from --radius inwards.")]
 MaxDepth = Annotated[str | None, optional("MM", "Deepest hole, for --drill; default: to the axis.")]
 Slug = Annotated[
-    str | None,
-    optional(
-        "METAL",
-        "With --drill: fill the holes with slugs of tungsten (heavy alloy, 17 g/cm3), lead, or "
-        "of a density in g/cm3: they add weight where drilling would remove it.",
-    ),
+    str | None, optional("METAL", "With --drill: slugs of tungsten, lead, or of a density, g/cm3.")
 ]
-Even = Annotated[
-    str | None,
-    optional(
-        "dead-centres|strokes",
-        "What --scheme knuckles makes even; default: dead-centres.",
-        "--even",
-    ),
-]
+Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
 Grade = Annotated[
-    str | None,
-    optional(
-        "G",
-        "Balance quality grade of ISO 21940-11, such as G16: say what may be left beside each "
-        "counterweight.",
-    ),
+    str | None, optional("G", "Balance grade of ISO 21940-11, such as G16: what may be left.")
 ]
-Mass = Annotated[
-    str | None, optional("KG", "Mass of the crankshaft as it is balanced, for --grade.")
-]
+Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
 Write = Annotated[
-    Path | None,
-    optional(
-        "OUT.toml",
-        "Write the engine with the devices fitted, and with the speed of --speed.",
-        "--write",
-    ),
+    Path | None, optional("OUT.toml", "Write the engine with these devices, and with --speed.")
 ]
 
 

@@ -19,25 +19,17 @@ Scheme = Annotated[
     str | None,
     optional(
         "NAME",
-        "Also with the devices of a balance scheme, such as auto: before and after.",
-        "--scheme",
+        "Also with the devices of a balance scheme, such as auto.",
         autocompletion=complete_schemes,
     ),
 ]
 Order = Annotated[
-    int | None,
-    optional(
-        "N",
-        "Order to balance; default: the lowest that has what the scheme takes (single-shaft: a "
-        "force turning against the crank); a note says what it leaves at lower ones.",
-    ),
+    int | None, optional("N", "Order to balance; default: the lowest that the scheme can balance.")
 ]
 At = Annotated[
     list[str] | None,
     optional(
-        "X,Y",
-        "Place in mm of the shaft; of a pair, of the one turning against the crank. Given "
-        "twice: of that one, then of the other.",
+        "X,Y", "Place of the shaft, mm; given twice: first of that against the crank."
     ),
 ]
 Position = Annotated[str | None, optional("Z", "Axial place of new devices, mm.")]
@@ -45,31 +37,20 @@ Planes = Annotated[
     str | None,
     optional(
         "ends|throws|Z,Z...",
-        "Where along the crank: at its end throws, at every throw, or at these z in mm. With a "
-        "factor the default is where the counterweights of the file stand, else every throw.",
+        "Where along the crank: at its end throws, at every throw, or at these z in mm.",
     ),
 ]
 Factor = Annotated[
     str | None,
     optional(
-        "K|K:K:STEP",
-        "Share of the reciprocating mass that counterweights take, such as 51% or 0.51; "
-        "default 50%. A range such as 50%:54%:1% gives a table, and fits the best.",
+        "K|K:K:STEP", "Share of the reciprocating mass, such as 51% or a range 50%:54%:1%."
     ),
 ]
 Measured = Annotated[
-    str | None,
-    optional(
-        "MASS",
-        'Instead of --factor: what balances each bare pin, such as "812 g" (a bare number is '
-        "g): says which factor that is.",
-    ),
+    str | None, optional("MASS", 'Instead of --factor: what balances a bare pin, such as "812 g".')
 ]
 Roll = Annotated[
-    str | None,
-    optional(
-        "zero", "Place two shafts such that they cancel the roll of inertia of this order, too."
-    ),
+    str | None, optional("zero", "Place two shafts such that they cancel the roll of inertia, too.")
 ]
 
 

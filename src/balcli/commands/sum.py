@@ -22,28 +22,13 @@ from .options import (
 from .output import refuse_overwriting, show
 
 Phase = Annotated[
-    str,
-    typer.Option(
-        metavar="DEG",
-        help="Crank angle by which the second engine leads; with gas in four strokes over two "
-        "revolutions.",
-    ),
+    str, typer.Option(metavar="DEG", help="Crank angle by which the second engine leads.")
 ]
-At = Annotated[
-    str, typer.Option(metavar="X,Y,Z", help="Place of its origin in the first one's axes, mm.")
-]
+At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Place of the second engine's origin, mm.")]
 Turn = Annotated[str, typer.Option(metavar="DEG", help="How far it is turned about z.")]
-Reverse = Annotated[
-    bool, typer.Option("--reverse", help="Its crank turns against the first one's.")
-]
+Reverse = Annotated[bool, typer.Option("--reverse", help="Its crank turns the other way.")]
 LoadOption = Annotated[
-    str,
-    typer.Option(
-        "--load",
-        metavar="first|second|both",
-        help="With --reverse: the crank that has flywheel and load, and so bears the inertia "
-        "torque of both engines; both: each bears its own.",
-    ),
+    str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")
 ]
 
 

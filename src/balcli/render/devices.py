@@ -171,25 +171,11 @@ def tell_rim(tools: Tools, radius: str) -> str:
 
 
 def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit) -> Iterator[str]:
-    """Yield how long the largest row of holes is, and that they go deep where nobody has limited
-    their depth.
-    """
-    planned = [
-        (p.holes, p.drill_depth_mm)
-        for p in practical
-        if p.holes and p.drill_depth_mm is not None and not math.isnan(p.drill_depth_mm)
-    ]
-    most = max((number for number, _ in planned), default=0)
+    """Yield how long the largest row of holes is."""
+    most = max((p.holes for p in practical if p.holes and p.holes <= MOST_HOLES), default=0)
     if most > 1 and tools.drill is not None:
         length = f"{number(unit.of(most * tools.drill), 3)} {unit.name}"
         yield f"{most} holes side by side take {length} along the axis at the least."
-    deepest = max((depth for _, depth in planned), default=0.0)
-    if tools.max_depth is None and deepest > practical[0].radius_mm / 2:
-        depth, rim = (_length(way, unit, 3) for way in (deepest, practical[0].radius_mm))
-        yield (
-            f"They go {depth} of {rim} {unit.name} towards the axis: --max-depth says how deep "
-            "they may."
-        )
 
 
 # ------------------------------------------------------------------ for programs

@@ -10,7 +10,7 @@ and of the parts that are to vanish.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 from ..core import least_squares
 from ..core.cylinders import Device
 from ..core.phasors import EPS, unit
+from ..enginefile.model import Counterweight, Shaft, Slider
 from ..errors import BalcliError
-from .device_tables import DeviceTable, make_counterweight, make_shaft, make_slider
+from .device_tables import DeviceTable, as_millimetres, measure_direction
 from .residual import ReferencePoint, Residual, ResidualPart
 
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
@@ -53,14 +54,22 @@ class Slot(NamedTuple):
         return Device(self.order, forward, backward, self.place, self.z)
 
     def make_table(self, unbalance: complex, first_axis_deg: float) -> DeviceTable:
-        """The same as a table of the engine file; a counterweight's angle counts from cylinder 1's
-        crank pin at `first_axis_deg`.
+        """Return the device of this unbalance (kg m; its direction at crank angle 0 counts from x)
+        as a table of the engine file; a counterweight's angle counts from cylinder 1's crank pin at
+        `first_axis_deg`.
         """
+        origin_deg = first_axis_deg if self.kind == "counterweight" else 0.0
+        values: dict[str, Any] = {
+            "unbalance": abs(unbalance) * 1e6,
+            "angle": measure_direction(unbalance, origin_deg),
+            "position": as_millimetres(self.z),
+        }
         if self.kind == "counterweight":
-            return make_counterweight(unbalance, self.z, first_axis_deg)
+            return Counterweight.model_construct(**values)
+        values["at"] = (as_millimetres(self.place.real), as_millimetres(self.place.imag))
         if self.kind == "shaft":
-            return make_shaft(unbalance, self.sense * self.order, self.z, self.place)
-        return make_slider(unbalance, self.order, self.direction_deg, self.z, self.place)
+            return Shaft.model_construct(ratio=self.sense * self.order, **values)
+        return Slider.model_construct(order=self.order, direction=self.direction_deg, **values)
 
 
 class Fit(NamedTuple):
