@@ -28,9 +28,7 @@ Order = Annotated[
 ]
 At = Annotated[
     list[str] | None,
-    optional(
-        "X,Y", "Place of the shaft, mm; given twice: first of that against the crank."
-    ),
+    optional("X,Y", "Place of the shaft, mm; given twice: first of that against the crank."),
 ]
 Position = Annotated[str | None, optional("Z", "Axial place of new devices, mm.")]
 Planes = Annotated[
@@ -42,9 +40,7 @@ Planes = Annotated[
 ]
 Factor = Annotated[
     str | None,
-    optional(
-        "K|K:K:STEP", "Share of the reciprocating mass, such as 51% or a range 50%:54%:1%."
-    ),
+    optional("K|K:K:STEP", "Share of the reciprocating mass, such as 51% or a range 50%:54%:1%."),
 ]
 Measured = Annotated[
     str | None, optional("MASS", 'Instead of --factor: what balances a bare pin, such as "812 g".')

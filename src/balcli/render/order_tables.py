@@ -215,7 +215,7 @@ def _direction_table(spectra: Spectra, system: System, every: bool) -> Grid:
         for phasors, unit in vectors:
             for c in (phasors.x[k], phasors.y[k]):
                 yield size_cell(abs(c), unit)
-                yield degrees(float(phase_deg(c))) if c else ""
+                yield degrees(phase_deg(complex(c))) if c else ""
 
     phasors = [phasors for phasors, _ in vectors]
     axes = [kind.symbol + axis for kind, _ in spectra.vectors() for axis in "xy"]
