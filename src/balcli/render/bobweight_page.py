@@ -98,12 +98,15 @@ def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
     yield from wrap(capitalized(name_pins(pins)), WIDTH)
     yield _line("", "quantity × each", "g", "oz")
     yield _RULE
-    yield "Rotating"
-    yield from _list_parts(one, rotates=True)
-    yield _sum("rotating", one.rotating_g)
-    yield "Reciprocating"
-    yield from _list_parts(one, rotates=False)
-    yield _sum("reciprocating", one.reciprocating_g)
+    for kind, total in (("Rotating", one.rotating_g), ("Reciprocating", one.reciprocating_g)):
+        yield kind
+        for line in one.lines:
+            if line.rotates == (kind == "Rotating") and line.sum_g:
+                part, how = _INDENT + line.part, multiply(line)
+                if len(part) + len(how) >= _NAMES:
+                    how = f"{len(line.each_g)}, weighed one by one"
+                yield _line(part, how, *_weight(line.sum_g))
+        yield _line(f"{_INDENT}{kind.lower()} sum", "=", *_weight(total))
     share = f"{number(one.reciprocating_g)} × {percent(one.factor)}"
     yield _line(f"{_INDENT}balanced share", share, *_weight(one.factor * one.reciprocating_g))
     yield _HEAVY
@@ -115,19 +118,6 @@ def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
         yield _line("counterweight opposite", "", *_weight(one.bobweight_g + one.throw_g))
     else:
         yield from wrap(f"The throw itself {NO_THROW}.", WIDTH)
-
-
-def _list_parts(one: Bobweight, *, rotates: bool) -> Iterator[str]:
-    for line in one.lines:
-        if line.rotates == rotates and line.sum_g:
-            part, how = _INDENT + line.part, multiply(line)
-            if len(part) + len(how) >= _NAMES:
-                how = f"{len(line.each_g)}, weighed one by one"
-            yield _line(part, how, *_weight(line.sum_g))
-
-
-def _sum(name: str, grams: float) -> str:
-    return _line(f"{_INDENT}{name} sum", "=", *_weight(grams))
 
 
 # ------------------------------------------------------------------ what to do
