@@ -55,13 +55,13 @@ def sum(  # noqa: A001 (the command's name)
     refuse_overwriting(reads=[first, second], writes={"--output": output})
     form = text_format(output, form)
     from ..render import two_engines as renderer
-    from ..results.two_engines import arrange, combine_engines
+    from ..results.two_engines import Arrangement, combine_engines
     from .inputs import named_by_file, read_engine
 
     rpm, asked = parse_speed(speed), parse_orders(orders)
     x, y, z = read_lengths("--at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
     lead, turned = read_angle("--phase", phase), read_angle("--turn", turn)
-    arrangement = arrange(lead, (x, y, z), turned, reverse, load)
+    arrangement = Arrangement(lead, (x, y, z), turned, reverse, load)
     engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
     result = combine_engines(engines[0], engines[1], arrangement, asked)
     show([result], renderer, form, output, units)

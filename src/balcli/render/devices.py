@@ -35,27 +35,30 @@ _KEYS = {
 
 # ------------------------------------------------------------------ for people
 def device_grid(remedy: Remedy, system: System) -> Grid:
-    """One row a device."""
-    unit = system.unbalance.fit(max(map(find_unbalance, remedy.devices), default=0.0))
-    heads = (
-        "device",
-        "speed ratio",
-        unit.name,
-        "angle, deg",
-        f"x, y, {system.length.name}",
-        f"z, {system.length.name}",
-    )
-    free = remedy.free
-    rows = tuple(
-        _grid_row(device, anywhere, unit, system.length)
-        for device, anywhere in zip(remedy.devices, free, strict=True)
-    )
-    note = " ".join([ANGLES, *_explain_places(remedy.devices, free)])
-    return Grid("", heads, rows, note, words=(0, 3, 4))
+    """Return one row a device."""
+    devices, length = remedy.devices, system.length
+    unit = system.unbalance.fit(max(map(find_unbalance, devices), default=0.0))
+
+    def cells(device: DeviceTable, anywhere: bool) -> tuple[str, ...]:
+        turns, angle, place = "1", degrees(device.angle), "crank axis"
+        if isinstance(device, Counterweight):
+            angle += " from pin 1"
+        else:
+            place = "free" if anywhere else ", ".join(_length(v, length) for v in device.at)
+            turns = f"{device.ratio:+d}" if isinstance(device, Shaft) else str(device.order)
+        if isinstance(device, Slider):
+            angle += f" along {degrees(device.direction)}"
+        unbalance, z = number(unit.of(find_unbalance(device))), _length(device.position, length)
+        return name_kind(device), turns, unbalance, angle, place, z
+
+    heads = ("speed ratio", unit.name, "angle, deg", f"x, y, {length.name}", f"z, {length.name}")
+    rows = tuple(cells(*each) for each in zip(devices, remedy.free, strict=True))
+    note = " ".join([ANGLES, *_explain_places(devices, remedy.free)])
+    return Grid("", ("device", *heads), rows, note, words=(0, 3, 4))
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
-    """What to know of shafts: how they stand, and where, if nobody has said so."""
+    """Yield what to know of shafts: how they stand, and where, if nobody has given a place."""
     if any(isinstance(device, Shaft) for device in devices):
         yield (
             "Shafts stand so at crank angle 0; angles of those that turn against the crank count "
@@ -71,28 +74,6 @@ def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Ite
             "At 0, 0, the crank's centre line, a shaft adds no roll about it; elsewhere, where a "
             "real one stands, it does."
         )
-
-
-def _grid_row(
-    device: DeviceTable, free: bool, unit: ShownUnit, length: ShownUnit
-) -> tuple[str, ...]:
-    match device:
-        case Counterweight():
-            turns, angle = "1", f"{degrees(device.angle)} from pin 1"
-            place = "crank axis"
-        case Shaft():
-            turns, angle = f"{device.ratio:+d}", degrees(device.angle)
-            place = "free" if free else _place(device.at, length)
-        case Slider():
-            turns = str(device.order)
-            angle = f"{degrees(device.angle)} along {degrees(device.direction)}"
-            place = _place(device.at, length)
-    unbalance = number(unit.of(find_unbalance(device)))
-    return (name_kind(device), turns, unbalance, angle, place, _length(device.position, length))
-
-
-def _place(at: tuple[float, ...], unit: ShownUnit) -> str:
-    return ", ".join(_length(coordinate, unit) for coordinate in at)
 
 
 def _length(millimetres: float, unit: ShownUnit, digits: int | None = None) -> str:

@@ -23,12 +23,7 @@ _ROLLS = (
     ("roll_with_gas_before_Nm", "roll_with_gas_left_Nm"),
 )
 # How well a system was solved, and the like: in JSON and CSV only.
-_FOR_PROGRAMS = {
-    "condition_number",
-    "relative_error_bound",
-    "axial_distance_mm",
-    "improvement",
-}
+_FOR_PROGRAMS = {"condition_number", "relative_error_bound", "axial_distance_mm", "improvement"}
 
 
 class _Figure(NamedTuple):
@@ -213,15 +208,8 @@ def _line_cell(bobweight: Bobweight, part: str) -> str:
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
     force, moment = system.force, system.moment
     unbalance = system.unbalance.fit(max(abs(row.counterweight_kg_m) for row in sweep))
-    heads = (
-        "factor",
-        "bobweight, g",
-        f"weight, {unbalance.name}",
-        f"force, {force.name}",
-        "along",
-        "across",
-        f"moment, {moment.name}",
-    )
+    weight = ("bobweight, g", f"weight, {unbalance.name}")
+    heads = ("factor", *weight, f"force, {force.name}", "along", "across", f"moment, {moment.name}")
     rows = tuple(
         (
             percent(row.factor),

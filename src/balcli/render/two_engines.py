@@ -21,11 +21,11 @@ from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Grid, Sheet, number
 
 if TYPE_CHECKING:
-    from ..results.two_engines import Combined, Load
+    from ..results.two_engines import Combined
     from .units import ShownUnit, System
 
 _GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
-_ROLL: dict[Load, str] = {
+_ROLL = {
     "first": f"{_GEARED} It drives the load, and the roll is C − T.",
     "second": f"{_GEARED} The second one drives the load, against its sense: the roll is C + T.",
     "both": f"{_GEARED} Each has its own flywheel and load: the roll is C − T1 + T2.",

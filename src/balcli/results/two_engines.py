@@ -27,6 +27,7 @@ from ..result import Result
 from .analysis import DEFAULT_ORDERS
 
 Load = Literal["first", "second", "both"]
+LOADS: tuple[str, ...] = get_args(Load)
 
 
 @dataclass(frozen=True)
@@ -49,38 +50,28 @@ class Arrangement:
     at_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     turn_deg: float = 0.0
     reverse: bool = False
-    load: Load = "first"
+    load: str = "first"
 
-
-def arrange(
-    phase_deg: float,
-    at_m: tuple[float, float, float],
-    turn_deg: float,
-    reverse: bool,
-    load: str,
-) -> Arrangement:
-    """Return an arrangement that can be.
-
-    Raises:
-        BalcliError: something infinite or too far, an unknown load, or one that makes no
-            difference.
-    """
-    for option, value in (("phase", phase_deg), ("turn", turn_deg)):
-        if not abs(value) <= FARTHEST_DEG:
+    def __post_init__(self) -> None:
+        """Raise BalcliError for something infinite or too far, an unknown load, or a load that
+        makes no difference.
+        """
+        for option, value in (("phase", self.phase_deg), ("turn", self.turn_deg)):
+            if not abs(value) <= FARTHEST_DEG:
+                raise BalcliError(
+                    f"--{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
+                )
+        if not all(abs(value) <= FARTHEST_M for value in self.at_m):
             raise BalcliError(
-                f"--{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
+                f"--at: the place of the second engine may be up to {FARTHEST_M:g} m off"
             )
-    if not all(abs(value) <= FARTHEST_M for value in at_m):
-        raise BalcliError(f"--at: the place of the second engine may be up to {FARTHEST_M:g} m off")
-    known = next((one for one in get_args(Load) if one == load), None)
-    if known is None:
-        raise BalcliError(f'--load "{load[:60]}": choose from {", ".join(get_args(Load))}')
-    if known != "first" and not reverse:
-        raise BalcliError(
-            f"--load {load}: cranks that turn alike roll the frame alike, whichever drives the "
-            "load; it matters with --reverse"
-        )
-    return Arrangement(phase_deg, at_m, turn_deg, reverse, known)
+        if self.load not in LOADS:
+            raise BalcliError(f'--load "{self.load[:60]}": choose from {", ".join(LOADS)}')
+        if self.load != "first" and not self.reverse:
+            raise BalcliError(
+                f"--load {self.load}: cranks that turn alike roll the frame alike, whichever "
+                "drives the load; it matters with --reverse"
+            )
 
 
 @dataclass(frozen=True, repr=False)

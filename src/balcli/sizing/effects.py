@@ -9,7 +9,7 @@ and of the parts that are to vanish.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -112,16 +112,15 @@ def size_unbalances(
     Args:
         least_arm: moments and roll are divided by this (m) where no slot has a longer arm.
     """
-    arm = max(least_arm, _find_longest_arm(slots, residual.reference))
-    weights = np.repeat([1.0 if part.kind == "force" else 1 / arm for part in parts], 2)
+    weights = _weigh(parts, max(least_arm, _find_longest_arm(slots, residual.reference)))
     columns = [
         find_effect(slot.make_device(u), parts, residual.reference)
         for slot in slots
         for u in (1 + 0j, 1j)
     ]
-    matrix = np.column_stack([_as_real(column) for column in columns])
-    target = -_as_real(np.array([residual.parts[part] for part in parts]))
-    found = least_squares.solve(matrix, target, weights)
+    target = -np.array([residual.parts[part] for part in parts], complex)
+    matrix = np.array(columns).view(float).T  # real and imaginary parts in turn
+    found = least_squares.solve(matrix, target.view(float), np.repeat(weights, 2))
     rounding = 4 * EPS * np.abs(found.x).max()
     x = np.where(np.abs(found.x) <= rounding, 0, found.x)
     return Fit(tuple(complex(a, b) for a, b in x.reshape(-1, 2)), found.condition, found.left)
@@ -137,9 +136,9 @@ def solve_exactly(
     condition number if they are too much alike.
     """
     fit = size_unbalances(slots, residual, parts)
-    arm = _find_longest_arm(slots, residual.reference)
-    size = _find_largest(residual.parts, parts, arm)
-    noise = _find_largest(residual.noise, parts, arm)
+    weights = _weigh(parts, _find_longest_arm(slots, residual.reference))
+    size = float(max(weights * [abs(residual.parts[part]) for part in parts]))
+    noise = float(max(weights * [residual.noise[part] for part in parts]))
     if fit.condition == np.inf and fit.left * size > noise:
         raise BalcliError(reason)
     largest = max(map(abs, fit.unbalances))
@@ -163,13 +162,6 @@ def _find_longest_arm(slots: Sequence[Slot], reference: ReferencePoint) -> float
     return max(along + across) or 1.0
 
 
-def _find_largest(
-    values: Mapping[ResidualPart, complex], parts: Sequence[ResidualPart], arm: float
-) -> float:
-    """The largest of these parts, moments measured by the force that makes them at this arm."""
-    return max(abs(values[part]) / (1 if part.kind == "force" else arm) for part in parts)
-
-
-def _as_real(parts: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """Real and imaginary parts in turn."""
-    return np.asarray(parts, complex).view(float)
+def _weigh(parts: Sequence[ResidualPart], arm: float) -> NDArray[np.float64]:
+    """Return weights by which moments are measured by the force that makes them at this arm."""
+    return np.array([1.0 if part.kind == "force" else 1 / arm for part in parts])
