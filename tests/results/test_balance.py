@@ -221,7 +221,7 @@ def test_a_hole_ends_at_the_axis():
 
 def test_sliders_move_at_their_order():
     """n times the crank's speed, n^2 times the force."""
-    remedy = Remedy("", sliders=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))
+    remedy = Remedy("", devices=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))
     (figures,) = find_practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
     assert (figures.mass_kg, figures.speed_rpm) == (2, 9000)
     assert figures.force_N == pytest.approx((9000 * math.pi / 30) ** 2, rel=1e-14)
@@ -230,7 +230,7 @@ def test_sliders_move_at_their_order():
 
 # ------------------------------------------------------------------ holes
 def plan_holes(grams_mm: float, **tools: float) -> Practical:
-    weight = Remedy("", counterweights=(Counterweight(unbalance=grams_mm, angle=150, position=0),))
+    weight = Remedy("", devices=(Counterweight(unbalance=grams_mm, angle=150, position=0),))
     (figures,) = find_practical(engine(), weight, Tools(radius=0.08, **tools))
     assert figures.holes is not None
     return figures

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
-from .device_tables import KINDS, DeviceTable, find_free
+from .device_tables import KINDS, DeviceTable, find_free, name_kind
 
 if TYPE_CHECKING:
     from .balance_factor import FactorPeaks, PlaneNeed
     from .bobweight_card import Bobweight
-
-T = TypeVar("T")
 
 
 class Remedy(NamedTuple):
@@ -24,6 +22,7 @@ class Remedy(NamedTuple):
 
     Attributes:
         order: the order that is balanced, where the scheme has one.
+        devices: counterweights, shafts and sliders, in this order.
         reasons: why each device is fitted, in the order of `devices`; of a remedy without devices,
             what else is changed and why.
         details: figures of the scheme that are no device, as JSON has them: keys end in the unit,
@@ -38,9 +37,7 @@ class Remedy(NamedTuple):
 
     scheme: str
     order: int | None = None
-    counterweights: tuple[Counterweight, ...] = ()
-    shafts: tuple[Shaft, ...] = ()
-    sliders: tuple[Slider, ...] = ()
+    devices: tuple[DeviceTable, ...] = ()
     reasons: tuple[str, ...] = ()
     details: Mapping[str, Any] = {}
     note: str = ""
@@ -51,9 +48,19 @@ class Remedy(NamedTuple):
     beyond: tuple[Device, ...] = ()
 
     @property
-    def devices(self) -> tuple[DeviceTable, ...]:
-        """Counterweights, shafts and sliders, in this order."""
-        return (*self.counterweights, *self.shafts, *self.sliders)
+    def counterweights(self) -> tuple[Counterweight, ...]:
+        """Devices on the crankshaft."""
+        return tuple(device for device in self.devices if isinstance(device, Counterweight))
+
+    @property
+    def shafts(self) -> tuple[Shaft, ...]:
+        """Eccentrics of balancer shafts."""
+        return tuple(device for device in self.devices if isinstance(device, Shaft))
+
+    @property
+    def sliders(self) -> tuple[Slider, ...]:
+        """Devices that go to and fro."""
+        return tuple(device for device in self.devices if isinstance(device, Slider))
 
     @property
     def free(self) -> tuple[bool, ...]:
@@ -61,18 +68,12 @@ class Remedy(NamedTuple):
         return find_free(self.devices)
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
-        """The remedy with further devices, all for the same reason."""
-        pairs = [
-            *zip(self.devices, self.reasons, strict=True),
-            *((device, reason) for device in added),
-        ]
+        """Return the remedy with further devices, all for the same reason."""
+        pairs = list(zip(self.devices, self.reasons, strict=True))
+        pairs += [(device, reason) for device in added]
         pairs.sort(key=lambda pair: KINDS.index(type(pair[0])))
-        tables = [device for device, _ in pairs]
         return self._replace(
-            counterweights=_of_kind(Counterweight, tables),
-            shafts=_of_kind(Shaft, tables),
-            sliders=_of_kind(Slider, tables),
-            reasons=tuple(reason for _, reason in pairs),
+            devices=tuple(device for device, _ in pairs), reasons=tuple(why for _, why in pairs)
         )
 
     def add_details(self, group: str = "", /, **figures: Any) -> Remedy:
@@ -101,14 +102,8 @@ def _fit_model(model: EngineFile | None, remedy: Remedy) -> EngineFile | None:
     """The file with the devices of a remedy; None where none can describe them."""
     if model is None or remedy.beyond:
         return None
-    new = {
-        "counterweight": remedy.counterweights,
-        "shaft": remedy.shafts,
-        "slider": remedy.sliders,
-    }
-    added = {key: (*getattr(model, key), *tables) for key, tables in new.items() if tables}
+    added: dict[str, tuple[DeviceTable, ...]] = {}
+    for device in remedy.devices:
+        kind = name_kind(device)
+        added[kind] = (*added.get(kind, getattr(model, kind)), device)
     return model.model_copy(update=added)
-
-
-def _of_kind(kind: type[T], tables: Iterable[DeviceTable]) -> tuple[T, ...]:
-    return tuple(table for table in tables if isinstance(table, kind))
