@@ -19,11 +19,8 @@ from balcli.sizing.sizing import size
 def figures(remedy: Remedy, group: str = "") -> dict[str, Any]:
     """The details of a group by their labels, SI."""
     found = remedy.details[group.replace(" ", "_")] if group else remedy.details
-    sizes = {key: 1e-3 if key.endswith(("_mm", "_g")) else 1 for key in found}
-    return {
-        remove_unit(key).removesuffix("_g").replace("_", " "): value if sizes[key] == 1 else value * sizes[key]
-        for key, value in found.items()
-    }
+    labels = {key: remove_unit(key).removesuffix("_g").replace("_", " ") for key in found}
+    return {labels[key]: value / 1e3 if key.endswith(("_mm", "_g")) else value for key, value in found.items()}
 
 
 def size_scheme(engine: Engine, scheme: str = "auto", **options: Any) -> Remedy:
