@@ -9,10 +9,9 @@ import pytest
 import balcli
 
 
-SHAFTS = [("i3", "couple-shaft", 1, 6000), ("i4", "two-shaft", 2, 7000)]
-
-
-@pytest.mark.parametrize(("example", "scheme", "order", "rpm"), SHAFTS)
+@pytest.mark.parametrize(
+    ("example", "scheme", "order", "rpm"), [("i3", "couple-shaft", 1, 6000), ("i4", "two-shaft", 2, 7000)]
+)
 def test_the_mass_at_its_radius_has_the_unbalance_and_makes_the_force(example, scheme, order, rpm):
     """Of balancer shafts, both as the device itself says it; they turn at `order` times crank speed."""
     found = balcli.balance(balcli.load_example(example), scheme)
