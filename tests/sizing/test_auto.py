@@ -28,7 +28,7 @@ def test_nothing_is_fitted_where_nothing_is_left():
 
 def test_own_devices_count():
     engine = build_text(write_engine(0, 180, 180, 0))
-    half = Remedy("", shafts=size_auto(engine).shafts[:1])
+    half = Remedy("", devices=size_auto(engine).shafts[:1])
     assert [s.ratio for s in size_auto(fit_devices(engine, half)).shafts] == [-2]
 
 

@@ -17,6 +17,7 @@ from support.remedies import SMALL, figures, size_scheme, write_engine
 
 from balcli.core.phasors import unit
 from balcli.errors import BalcliError
+from balcli.sizing.balance_factor import name_one_cylinder
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
 from balcli.sizing.sizing import size
@@ -190,7 +191,7 @@ position = 25
     remedy = fit(FORD + own, 0.51, planes=(-0.2, 0.25))
     bare = fit(FORD, 0.51, planes=(-0.2, 0.25))
     front, rear = remedy.needs
-    assert (front.z, rear.z) == (-0.2, 0.25)
+    assert (front.position_mm, rear.position_mm) == (-200, 250)
     assert front.present == pytest.approx(26e-3j, rel=1e-12)
     assert rear.present == pytest.approx(-4e-3j, rel=1e-12)
     for need, whole, left in zip(remedy.needs, bare.counterweights, remedy.counterweights, strict=True):
@@ -211,7 +212,7 @@ def test_what_is_missing_is_told_where_the_counterweights_of_the_file_stand():
     )
     chosen, asked = fit(FORD + ends), fit(FORD + ends, planes=(-0.2286, 0.2286))
     assert chosen.devices == asked.devices
-    assert [need.z for need in chosen.needs] == [-0.2286, 0.2286]
+    assert [need.position_mm for need in chosen.needs] == [-228.6, 228.6]
     assert chosen.note == (
         "these planes are where the counterweights of the file stand; --planes throws asks what "
         "is missing at every throw instead"
@@ -278,7 +279,7 @@ def test_a_weight_in_a_plane_counts_in_that_plane_alone():
         for slip in (-1, 0, 1):
             here = plane * (1 + slip * 2e-16)
             needs = fit(FORD + weight, 0.5, planes=(here, 0.05)).needs
-            at = {abs(need.z - plane) < 1e-9: abs(need.present) for need in needs}
+            at = {abs(need.position_mm / 1e3 - plane) < 1e-9: abs(need.present) for need in needs}
             assert at == {True: pytest.approx(0.03, rel=1e-12), False: 0}
 
 
@@ -356,11 +357,9 @@ def test_the_same_weight_by_both_definitions():
 
 def test_one_cylinder_of_unequal_ones_is_told_as_their_mean():
     """50 % of 720 and 550 g are 88 % of the first, and 100 % of 635 g."""
-    two = fit(TWIN + "[cylinder.2]\npiston_mass = 0.33\n", 0.5)
-    (detail,) = (one for one in two.details if one.label == "factor of one cylinder")
-    assert detail.what == "of one cylinder's reciprocating mass, in the mean: the same weight"
-    (detail,) = (one for one in fit(TWIN, 0.5).details if one.label == "factor of one cylinder")
-    assert detail.what == "of one cylinder's reciprocating mass: the same weight"
+    unequal = build_text(TWIN + "[cylinder.2]\npiston_mass = 0.33\n")
+    assert name_one_cylinder(unequal) == "one cylinder's reciprocating mass, in the mean"
+    assert name_one_cylinder(build_text(TWIN)) == "one cylinder's reciprocating mass"
 
 
 def test_what_was_measured_is_the_factor_it_stands_for():
@@ -515,12 +514,12 @@ def test_a_piston_a_little_heavier_does_not_decide_which_factor_is_best():
     vee = write_engine(0, 240, 120, layout="bank_angle = 90") + "[cylinder.2]\npiston_mass = 1.01\n"
     factors = (0.4, 0.5, 0.6)
     found = size_scheme(build_text(vee), "factor", factor=factors, planes="ends")
-    forces, moments = ([getattr(peaks, name) for peaks in found.sweep] for name in ("force", "moment"))
+    forces, moments = ([getattr(peaks, name) for peaks in found.sweep] for name in ("peak_force_N", "peak_moment_Nm"))
     assert max(forces) - min(forces) < 0.03 * find_cylinder_force(vee)
     assert moments[1] < 0.9 * min(moments[0], moments[2])
     assert figures(found)["factor"] == 0.5
     one = size_scheme(build_text(SMALL["one"]), "factor", factor=factors)
-    best = min(one.sweep, key=lambda peaks: peaks.force)
+    best = min(one.sweep, key=lambda peaks: peaks.peak_force_N)
     assert figures(one)["factor"] == best.factor
 
 

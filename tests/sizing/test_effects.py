@@ -78,9 +78,7 @@ def test_effect_is_what_the_analysis_says(slot):
     reference = ReferencePoint(complex(*engine.reference_m[:2]), float(engine.reference_m[2]))
     u = cmath.rect(2e-3, 0.4)
     table = slot.make_table(u, 0.0)
-    with_it = fit_devices(
-        engine, Remedy("", sliders=(table,)) if slot.kind == "slider" else Remedy("", shafts=(table,))
-    )
+    with_it = fit_devices(engine, Remedy("", devices=(table,)))
     parts = [ResidualPart(q, s) for q in ("force", "moment") for s in (1, -1)] + [ROLL]
     before, after = find_residual(engine, 2), find_residual(with_it, 2)
     change = np.array([after.parts[p] - before.parts[p] for p in parts])

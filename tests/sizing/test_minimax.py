@@ -46,7 +46,7 @@ def test_minimax_puts_its_angles_in_order_after_they_are_wrapped(monkeypatch):
     found = circle.Circle(3 + 4j, 1e3, np.array([1.0, 4.0, 2 * np.pi - 1e-14]), 0.0)
     monkeypatch.setattr(circle, "enclose_curve", lambda curve: found)
     told = figures(size(build_text(SMALL["one"]), "minimax"))
-    assert told["reached"] == (0, round(math.degrees(1), 9), round(math.degrees(4), 9))
+    assert told["reached"] == [0, round(math.degrees(1), 9), round(math.degrees(4), 9)]
 
 
 def test_minimax_with_nothing_to_fit_says_so_and_fits_no_rounding():

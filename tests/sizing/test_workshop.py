@@ -18,5 +18,5 @@ def test_the_mass_at_its_radius_has_the_unbalance_and_makes_the_force(example, s
     omega = order * rpm * math.pi / 30
     assert found.practical
     for device, figures in zip(found.remedy.devices, found.practical, strict=True):
-        assert figures.mass * figures.radius == pytest.approx(device.unbalance / 1e6)
-        assert figures.force == pytest.approx(device.unbalance / 1e6 * omega**2)
+        assert figures.mass_kg * figures.radius_mm / 1e3 == pytest.approx(device.unbalance / 1e6)
+        assert figures.force_N == pytest.approx(device.unbalance / 1e6 * omega**2)

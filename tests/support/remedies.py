@@ -8,6 +8,7 @@ import numpy as np
 from support.engines import engine_text
 
 from balcli.core.phasors import Phasors
+from balcli.documents.records import remove_unit
 from balcli.engine.build import Engine
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
@@ -17,7 +18,9 @@ from balcli.sizing.sizing import size
 
 def figures(remedy: Remedy, group: str = "") -> dict[str, Any]:
     """The details of a group by their labels, SI."""
-    return {detail.label: detail.value for detail in remedy.details if detail.group == group}
+    found = remedy.details[group.replace(" ", "_")] if group else remedy.details
+    labels = {key: remove_unit(key).removesuffix("_g").replace("_", " ") for key in found}
+    return {labels[key]: value / 1e3 if key.endswith(("_mm", "_g")) else value for key, value in found.items()}
 
 
 def size_scheme(engine: Engine, scheme: str = "auto", **options: Any) -> Remedy:

@@ -138,9 +138,9 @@ def test_factor_sweep_trades_along_for_across():
     unit = M * R * e.omega**2
     for row in remedy.sweep:
         share = row.factor
-        assert row.along == pytest.approx((1 - share) * unit, abs=1e-6 * unit)
-        assert row.across == pytest.approx(share * unit, abs=1e-6 * unit)
-        assert row.force == pytest.approx(max(share, 1 - share) * unit, abs=1e-6 * unit)
+        assert row.along_N == pytest.approx((1 - share) * unit, abs=1e-6 * unit)
+        assert row.across_N == pytest.approx(share * unit, abs=1e-6 * unit)
+        assert row.peak_force_N == pytest.approx(max(share, 1 - share) * unit, abs=1e-6 * unit)
     assert figures(remedy)["factor"] == 0.5
 
 

@@ -176,17 +176,14 @@ def test_eccentric_slider_of_any_mass_in_any_direction():
     assert many.force.backward / unit[1] == pytest.approx(one.force.backward / unit[0] * turn, rel=1e-9, abs=1e-13)
     assert np.abs(many.moment.major).max() <= 1e-14 * unit[1]
     assert one.force.forward[0] == 0
-    optima = remedy.optima
-    assert optima.unit_force == pytest.approx(unit[1], rel=1e-12)
-    fitted = optima.found[0]
-    assert (fitted.design, fitted.criterion, fitted.engine_force, fitted.k) == (
-        "a",
-        "largest",
-        "orders 1+2",
-        pytest.approx(8.016007),
-    )
-    assert optima.find_unbalance(fitted) == pytest.approx(fitted.mu * mass * R, rel=1e-12)
-    assert {(found.design, found.criterion, found.engine_force) for found in optima.found} == {
+    told = remedy.details
+    assert told["unit_force_N"] == pytest.approx(unit[1], rel=1e-12)
+    fitted = told["fitted"]
+    assert fitted == told["optima"][0]
+    assert (fitted["design"], fitted["criterion"], fitted["engine_force"]) == ("a", "largest", "orders 1+2")
+    assert fitted["k"] == pytest.approx(8.016007)
+    assert fitted["unbalance_kg_m"] == pytest.approx(fitted["mu"] * mass * R, rel=1e-12)
+    assert {(found["design"], found["criterion"], found["engine_force"]) for found in told["optima"]} == {
         (design, by, of) for design in "ab" for by in ("largest", "mean") for of in ("orders 1+2", "all orders")
     }
 

@@ -11,10 +11,10 @@ import typer
 
 from ..errors import BalcliError, warn
 from ..limits import MOST_ANALYSED_SPEEDS
-from ..render.formats import Format, Units
+from ..render.formats import Format
 from .declare import optional
 from .file_names import format_option, text_format
-from .options import PARTS, parse_guide_height, parse_orders, parse_parts, parse_speed
+from .options import PARTS, parse_speed
 from .speed_range import parse_speeds
 
 
@@ -32,40 +32,37 @@ AnalysisFormatOption = Annotated[
     list[AnalysisFormat] | None,
     format_option(
         AnalysisFormat,
-        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
-        ".json, .csv, .md), else table. marine: external forces and moments (M1V, M1H, M2V), "
-        "guide moments and torque by order; with -f csv or -o X.csv beside it, so written.",
+        "How to write the result; default: by the ending of -o, else table. marine: external "
+        "forces and moments, guide moments and torque by order; with -f csv beside it, so written.",
     ),
 ]
 SpeedsOption = Annotated[
     str | None,
     optional(
         "RPM|RPM:RPM:STEP|RPM,...",
-        "Crank speed instead of the file's, rpm; of several, such as 60:124:8, a sheet over speed.",
+        "Crank speed instead of the file's, rpm, or several, such as 60:124:8.",
         "--speed",
         "--rpm",
     ),
 ]
 By = Annotated[str, optional("cylinder", "cylinder: also each cylinder's share.", "--by")]
-Why = Annotated[
-    bool,
-    typer.Option("--why", help="Also print what is balanced by symmetry, and what by chance."),
-]
+Why = Annotated[bool, typer.Option("--why", help="Print what is balanced by symmetry or chance.")]
 
 
 class Request(NamedTuple):
     """What is asked of every engine.
 
     Attributes:
-        speeds_rpm: at which speeds; empty: at the file's.
-        orders: which; None: those that there are.
-        quantities: what to compute; None: what there is of every engine.
-        parts: words of `--only`; empty: none was given.
-        whole: every table and every order.
-        by_cylinder, why: whether these were asked for.
-        height_m: from the crankshaft to the middle of the guides; None: the rods' lengths.
-        misfires: numbers of the cylinders without gas.
-        marine: whether it is the sheet of marine builders.
+        speeds_rpm: Crank speeds; empty: the file's.
+        orders: Orders to show; None: those that there are.
+        quantities: Quantities to compute; None: what there is of every engine.
+        parts: Words of `--only`; empty: none was given.
+        whole: Whether every table and every order is shown.
+        by_cylinder: Whether each cylinder's share is asked for.
+        why: Whether reasons are asked for.
+        height_m: Distance from the crankshaft to the middle of the guides; None: the rods' lengths.
+        misfires: Numbers of the cylinders without gas.
+        marine: Whether it is the sheet of marine builders.
     """
 
     speeds_rpm: tuple[float, ...]
@@ -86,14 +83,44 @@ class Request(NamedTuple):
 
     @property
     def words(self) -> frozenset[str] | None:
-        """What was named, for warnings; None: nothing in particular."""
+        """Words that were named, for warnings; None: nothing in particular."""
         return None if self.quantities is None else self.parts
+
+    def check(self) -> Request:
+        """Return the request; options that would have no effect are refused or warned about.
+
+        Raises:
+            BalcliError: two options that do not go together.
+        """
+        given = {"--by": self.by_cylinder}
+        if self.marine:
+            given |= {"--only": bool(self.parts), "--why": self.why}
+        named = [option for option, is_given in given.items() if is_given]
+        if self.marine and named:
+            raise BalcliError(
+                f"--format marine: {named[0]} adds nothing to this sheet; leave one of them out"
+            )
+        if self.over_speed and named:
+            raise BalcliError(
+                f"--speed: {named[0]} is of one speed; give one, such as --speed 3000"
+            )
+        if self.over_speed and (texts := sorted(self.parts.intersection(PARTS))):
+            raise BalcliError(
+                f"--only {texts[0]}: is of one speed; over several there are force, moment, "
+                "couple, torque, roll, gas, peak, sizing, inner and guide"
+            )
+        if self.height_m is not None and not (self.marine or self.whole or "guide" in self.parts):
+            warn(
+                "--guide-height changes guide-force moments alone: ask for them with --only guide, "
+                "--all or --format marine"
+            )
+        return self
 
 
 def choose_analysis_format(
     output: Path | None, asked: Sequence[AnalysisFormat] | None
 ) -> tuple[Format, bool]:
-    """How to write, and whether it is the marine sheet; errors as `file_names.format_of`."""
+    """Return how to write, and whether it is the marine sheet; errors as `file_names.format_of`."""
     given = asked or ()
     plain = [Format(one) for one in given if one is not AnalysisFormat.MARINE]
     if len(plain) > 1:
@@ -101,47 +128,8 @@ def choose_analysis_format(
     return text_format(output, plain[-1] if plain else None), AnalysisFormat.MARINE in given
 
 
-def parse_request(
-    speed: str | None,
-    orders: str | None,
-    only: str | None,
-    whole: bool,
-    by: str,
-    why: bool,
-    guide_height: str | None,
-    misfire: Sequence[int] | None,
-    units: Units,
-    marine: bool,
-) -> Request:
-    """What the options ask for.
-
-    Raises:
-        BadParameter, BalcliError: one that cannot be read, or that does not go with another.
-    """
-    quantities, parts = parse_parts(only)
-    asked = Request(
-        _parse_speeds(speed),
-        parse_orders(orders),
-        quantities,
-        parts,
-        whole,
-        _is_by_cylinder(by),
-        why,
-        parse_guide_height(guide_height, units),
-        tuple(misfire or ()),
-        marine,
-    )
-    _refuse_what_does_not_go_together(asked)
-    if asked.height_m is not None and not (marine or whole or "guide" in parts):
-        warn(
-            "--guide-height changes guide-force moments alone: ask for them with --only guide, "
-            "--all or --format marine"
-        )
-    return asked
-
-
-def _parse_speeds(text: str | None) -> tuple[float, ...]:
-    """One speed, or a range or list of them."""
+def parse_analysed_speeds(text: str | None) -> tuple[float, ...]:
+    """Return one speed, or a range or list of them, rpm."""
     if text is not None and (":" in text or "," in text):
         several = parse_speeds(text, "--speed", MOST_ANALYSED_SPEEDS)
         return () if several is None else tuple(several.tolist())
@@ -149,8 +137,8 @@ def _parse_speeds(text: str | None) -> tuple[float, ...]:
     return () if one is None else (one,)
 
 
-def _is_by_cylinder(by: str) -> bool:
-    """Whether --by asks for each cylinder's share.
+def is_by_cylinder(by: str) -> bool:
+    """Return whether --by asks for each cylinder's share.
 
     Raises:
         BadParameter: it asks for something else.
@@ -158,26 +146,3 @@ def _is_by_cylinder(by: str) -> bool:
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
     return bool(by)
-
-
-def _refuse_what_does_not_go_together(asked: Request) -> None:
-    """Options that would be passed over in silence are refused.
-
-    Raises:
-        BalcliError: with both.
-    """
-    given = {"--by": asked.by_cylinder}
-    if asked.marine:
-        given |= {"--only": bool(asked.parts), "--why": asked.why}
-    named = [option for option, is_given in given.items() if is_given]
-    if asked.marine and named:
-        raise BalcliError(
-            f"--format marine: {named[0]} adds nothing to this sheet; leave one of them out"
-        )
-    if asked.over_speed and named:
-        raise BalcliError(f"--speed: {named[0]} is of one speed; give one, such as --speed 3000")
-    if asked.over_speed and (texts := sorted(asked.parts.intersection(PARTS))):
-        raise BalcliError(
-            f"--only {texts[0]}: is of one speed; over several there are force, moment, couple, "
-            "torque, roll, gas, peak, sizing, inner and guide"
-        )

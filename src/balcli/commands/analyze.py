@@ -13,6 +13,9 @@ from .options import (
     Output,
     UnitsOption,
     Whole,
+    parse_guide_height,
+    parse_orders,
+    parse_parts,
 )
 from .output import refuse_overwriting
 
@@ -41,9 +44,14 @@ def analyze(
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
     chosen, marine = analysis_options.choose_analysis_format(output, form)
-    asked = analysis_options.parse_request(
-        speed, orders, only, whole, by, why, guide_height, misfire, units, marine
-    )
-    from .analysis_answer import Target, answer
+    speeds_rpm = analysis_options.parse_analysed_speeds(speed)
+    shown = parse_orders(orders)
+    by_cylinder = analysis_options.is_by_cylinder(by)
+    height_m = parse_guide_height(guide_height, units)
+    words, misfires = parse_parts(only), tuple(misfire or ())
+    asked = analysis_options.Request(
+        speeds_rpm, shown, *words, whole, by_cylinder, why, height_m, misfires, marine
+    ).check()
+    from .analysis_answer import answer
 
-    answer(paths, asked, Target(chosen, output, units))
+    answer(paths, asked, chosen, output, units)

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from ..enginefile.edit import set_keys
+from ..enginefile.toml_text import name_file
 from ..render.formats import Units
 from ..sizing.schemes import KNUCKLES
 from . import balance_options, scheme_options
+from .amounts import read_mass
 from .file_names import require_ending
 from .options import EnginePath, Orders, Output, Speed, UnitsOption, parse_orders, parse_speed
-from .output import refuse_overwriting
+from .output import refuse_leaving_files, refuse_overwriting, write_file
 from .scheme_options import choose_scheme, parse_scheme_options
 
 
@@ -52,22 +57,29 @@ def balance(
     form = balance_options.choose_balance_format(output, form)
     require_ending(write, ".toml", "--write")
     from ..results.balance import balance as balance_engine
-    from ..results.permitted_unbalance import permit_unbalance
-    from .fitted_engine import write_fitted
+    from ..results.balance import permit_unbalance
+    from ..sizing.write import insert_remedy
     from .inputs import read_engine
 
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
     usual = "factor" if form is balance_options.BalanceFormat.CARD else "auto"
     scheme = choose_scheme(scheme, options, usual)
-    tools = balance_options.parse_tools(radius, thickness, disc, drill, max_depth, slug, units)
-    grading = balance_options.parse_grading(grade, mass, units)
+    lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
+    tools = balance_options.parse_tools(units, slug, **lengths, max_depth=max_depth)
+    grade_mm_s = balance_options.parse_grade(grade)
+    mass_kg = None if mass is None else read_mass("--mass", mass, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
         result = balance_options.answer_knuckles(scheme, options, even, model, engine, asked)
     else:
         result = balance_engine(engine, scheme, options, asked, tools)
-    result = permit_unbalance(result, *grading)
+    permitted = permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
+    result = replace(result, permitted=permitted)
     if write is not None:
-        write_fitted(path, text, result.remedy, write, rpm)
+        refuse_leaving_files(text, path, write)
+        new = insert_remedy(text, result.remedy, name_file(path))
+        if rpm is not None:
+            new = set_keys(new, "operation", {"speed": rpm}, "as balanced by balcli")
+        write_file(new, write)
     balance_options.show_balance(result, form, output, units)

@@ -13,7 +13,7 @@ from ..errors import BalcliError, note
 from ..render.formats import Format, Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
-from .amounts import read_length, read_mass, read_number
+from .amounts import read_length, read_number
 from .completion import complete_schemes
 from .declare import optional
 from .file_names import format_of, format_option, text_format
@@ -40,8 +40,8 @@ FormatOption = Annotated[
     BalanceFormat | None,
     format_option(
         BalanceFormat,
-        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
-        ".json, .csv, .md), else table. card: a page for the wall of a shop, per pin, in g and oz.",
+        "How to write the result; default: by the ending of -o, else table. card: a page for the "
+        "wall of a shop, per pin, in g and oz.",
     ),
 ]
 Scheme = Annotated[
@@ -72,68 +72,23 @@ def _list_schemes(wanted: bool) -> None:
 
 
 Schemes = Annotated[
-    bool,
-    typer.Option(
-        "--schemes",
-        callback=_list_schemes,
-        is_eager=True,
-        help="Say what each scheme does and which options it takes.",
-    ),
+    bool, typer.Option("--schemes", callback=_list_schemes, is_eager=True, help="List all schemes.")
 ]
-Radius = Annotated[
-    str | None,
-    optional(
-        "MM", "Radius at which masses are stated, in mm or as '2.5 in'; default: crank radius."
-    ),
-]
-Thickness = Annotated[
-    str | None,
-    optional("MM", "Thickness of the semicircular steel discs that are stated; default 20."),
-]
+Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: crank radius.")]
+Thickness = Annotated[str | None, optional("MM", "Thickness of half discs of steel; default 20.")]
 Disc = Annotated[str | None, optional("MM", "Radius of those discs, instead of their thickness.")]
-Drill = Annotated[
-    str | None,
-    optional(
-        "MM",
-        "Diameter of a drill: also say where radial holes from --radius inwards belong, how "
-        "many and how deep, to remove as much.",
-    ),
-]
+Drill = Annotated[str | None, optional("MM", "Drill: list radial holes, from --radius inwards.")]
 MaxDepth = Annotated[str | None, optional("MM", "Deepest hole, for --drill; default: to the axis.")]
 Slug = Annotated[
-    str | None,
-    optional(
-        "METAL",
-        "With --drill: fill the holes with slugs of tungsten (heavy alloy, 17 g/cm3), lead, or "
-        "of a density in g/cm3: they add weight where drilling would remove it.",
-    ),
+    str | None, optional("METAL", "With --drill: slugs of tungsten, lead, or of a density, g/cm3.")
 ]
-Even = Annotated[
-    str | None,
-    optional(
-        "dead-centres|strokes",
-        "What --scheme knuckles makes even; default: dead-centres.",
-        "--even",
-    ),
-]
+Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
 Grade = Annotated[
-    str | None,
-    optional(
-        "G",
-        "Balance quality grade of ISO 21940-11, such as G16: say what may be left beside each "
-        "counterweight.",
-    ),
+    str | None, optional("G", "Balance grade of ISO 21940-11, such as G16: what may be left.")
 ]
-Mass = Annotated[
-    str | None, optional("KG", "Mass of the crankshaft as it is balanced, for --grade.")
-]
+Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
 Write = Annotated[
-    Path | None,
-    optional(
-        "OUT.toml",
-        "Write the engine with the devices fitted, and with the speed of --speed.",
-        "--write",
-    ),
+    Path | None, optional("OUT.toml", "Write the engine with these devices, and with --speed.")
 ]
 
 
@@ -146,7 +101,7 @@ def choose_balance_format(output: Path | None, asked: BalanceFormat | None) -> B
 
 
 def show_balance(result: Balance, form: BalanceFormat, output: Path | None, units: Units) -> None:
-    """The balance, or its bobweight card, in this format."""
+    """Print or write the balance, or its bobweight card, in this format."""
     for reason in dict.fromkeys(result.remedy.reasons):
         note(f"scheme {result.remedy.scheme}: {reason}")
     if form is BalanceFormat.CARD:
@@ -159,49 +114,37 @@ def show_balance(result: Balance, form: BalanceFormat, output: Path | None, unit
         show([result], renderer, Format(form), output, units)
 
 
-def parse_tools(
-    radius: str | None,
-    thickness: str | None,
-    disc: str | None,
-    drill: str | None,
-    max_depth: str | None,
-    slug: str | None,
-    units: Units,
-) -> Tools:
-    """What a workshop has; BalcliError for a text that is no length, or no metal."""
+def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
+    """Return what a workshop has.
+
+    Args:
+        units: Units of the command.
+        slug: A metal, or its density in g/cm3.
+        lengths: Texts of the options with lengths, by their names in `Tools`.
+
+    Raises:
+        BalcliError: a text that is no length, or no metal.
+    """
     from ..sizing.workshop import Tools
 
-    given = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
-    given["max-depth"] = max_depth
-    lengths = {
-        name.replace("-", "_"): read_length(f"--{name}", text, units)
-        for name, text in given.items()
+    found = {
+        name: read_length(f"--{name.replace('_', '-')}", text, units)
+        for name, text in lengths.items()
         if text is not None
     }
-    return Tools(**lengths, slug=None if slug is None else _parse_slug(slug))
+    if slug is not None:
+        wanted = f"{', '.join(SLUGS)}, or a density in g/cm3 such as 18.5"
+        known = SLUGS.get(slug.strip().lower())
+        found["slug"] = known or 1e3 * read_number("--slug", slug, wanted)
+    return Tools(**found)
 
 
-def _parse_slug(text: str) -> float:
-    """Density of a metal, kg/m3: by its name, or in g/cm3."""
-    if (known := SLUGS.get(text.strip().lower())) is not None:
-        return known
-    wanted = f"{', '.join(SLUGS)}, or a density in g/cm3 such as 18.5"
-    return 1e3 * read_number("--slug", text, wanted)
-
-
-def parse_grading(
-    grade: str | None, mass: str | None, units: Units
-) -> tuple[float | None, float | None]:
-    """The grade of `--grade` (`16` or `G16`), mm/s, and the mass of `--mass`, kg."""
-    return (
-        None if grade is None else _parse_grade(grade),
-        None if mass is None else read_mass("--mass", mass, units),
-    )
-
-
-def _parse_grade(text: str) -> float:
-    figure = text.strip().removeprefix("G")
-    return read_number("--grade", figure, "a grade of ISO 21940-11 such as G16 or 6.3")
+def parse_grade(text: str | None) -> float | None:
+    """Return the grade of `--grade` (`16` or `G16`), mm/s."""
+    if text is None:
+        return None
+    wanted = "a grade of ISO 21940-11 such as G16 or 6.3"
+    return read_number("--grade", text.strip().removeprefix("G"), wanted)
 
 
 def answer_knuckles(
@@ -212,9 +155,10 @@ def answer_knuckles(
     engine: Engine,
     orders: list[float] | None,
 ) -> Balance:
-    """The scheme that changes knuckle angles, at the engine's speed.
+    """Return the balance of the scheme that changes knuckle angles, at the engine's speed.
 
-    Raises BalcliError for options that are not its own, and for --even with another scheme.
+    Raises:
+        BalcliError: options that are not its own, and --even with another scheme.
     """
     from ..results import knuckles
 
@@ -224,8 +168,7 @@ def answer_knuckles(
         )
     if options != SchemeOptions():
         raise BalcliError("scheme knuckles: has no option but --even")
-    wanted = even or knuckles.GOALS[0]
-    for goal in knuckles.GOALS:
-        if goal == wanted:
-            return knuckles.balance_knuckles(model, goal, orders, float(engine.speed_rpm))
-    raise BalcliError(f'--even "{wanted[:60]}": choose from {", ".join(knuckles.GOALS)}')
+    goal = next((goal for goal in knuckles.GOALS if goal == (even or knuckles.GOALS[0])), None)
+    if goal is None:
+        raise BalcliError(f'--even "{even or "":.60}": choose from {", ".join(knuckles.GOALS)}')
+    return knuckles.balance_knuckles(model, goal, orders, float(engine.speed_rpm))

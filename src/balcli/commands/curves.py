@@ -14,15 +14,7 @@ from .file_names import SERIES, SeriesFormat, format_of, format_option
 from .options import EnginePath, Output, Speed, parse_speed
 from .output import emit, refuse_overwriting
 
-Cylinder = Annotated[
-    int | None,
-    optional(
-        "N",
-        "Piston travel, velocity, acceleration and rod angle of this one; with [gas] also "
-        "pressure, volume, forces and torque.",
-        "--cylinder",
-    ),
-]
+Cylinder = Annotated[int | None, optional("N", "Motion of this piston, with [gas] its pressure.")]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 Form = Annotated[
     SeriesFormat | None,

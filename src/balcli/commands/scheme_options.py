@@ -5,7 +5,6 @@ engine with them beside the engine as it is.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from typing import Annotated
 
 from ..errors import BalcliError, warn
@@ -20,63 +19,40 @@ Scheme = Annotated[
     str | None,
     optional(
         "NAME",
-        "Also with the devices of a balance scheme, such as auto: before and after.",
-        "--scheme",
+        "Also with the devices of a balance scheme, such as auto.",
         autocompletion=complete_schemes,
     ),
 ]
 Order = Annotated[
-    int | None,
-    optional(
-        "N",
-        "Order to balance; default: the lowest that has what the scheme takes (single-shaft: a "
-        "force turning against the crank); a note says what it leaves at lower ones.",
-    ),
+    int | None, optional("N", "Order to balance; default: the lowest that the scheme can balance.")
 ]
 At = Annotated[
     list[str] | None,
-    optional(
-        "X,Y",
-        "Place in mm of the shaft; of a pair, of the one turning against the crank. Given "
-        "twice: of that one, then of the other.",
-    ),
+    optional("X,Y", "Place of the shaft, mm; given twice: first of that against the crank."),
 ]
 Position = Annotated[str | None, optional("Z", "Axial place of new devices, mm.")]
 Planes = Annotated[
     str | None,
     optional(
         "ends|throws|Z,Z...",
-        "Where along the crank: at its end throws, at every throw, or at these z in mm. With a "
-        "factor the default is where the counterweights of the file stand, else every throw.",
+        "Where along the crank: at its end throws, at every throw, or at these z in mm.",
     ),
 ]
 Factor = Annotated[
     str | None,
-    optional(
-        "K|K:K:STEP",
-        "Share of the reciprocating mass that counterweights take, such as 51% or 0.51; "
-        "default 50%. A range such as 50%:54%:1% gives a table, and fits the best.",
-    ),
+    optional("K|K:K:STEP", "Share of the reciprocating mass, such as 51% or a range 50%:54%:1%."),
 ]
 Measured = Annotated[
-    str | None,
-    optional(
-        "MASS",
-        'Instead of --factor: what balances each bare pin, such as "812 g" (a bare number is '
-        "g): says which factor that is.",
-    ),
+    str | None, optional("MASS", 'Instead of --factor: what balances a bare pin, such as "812 g".')
 ]
 Roll = Annotated[
-    str | None,
-    optional(
-        "zero", "Place two shafts such that they cancel the roll of inertia of this order, too."
-    ),
+    str | None, optional("zero", "Place two shafts such that they cancel the roll of inertia, too.")
 ]
 
 
 def parse_scheme_options(
     order: int | None,
-    at: Sequence[str] | None,
+    at: list[str] | None,
     position: str | None,
     planes: str | None,
     factor: str | None,
@@ -84,11 +60,18 @@ def parse_scheme_options(
     roll: str | None,
     units: Units,
 ) -> SchemeOptions:
-    """What a scheme is asked for, in SI; BalcliError with a text that says nothing."""
+    """Return what of a scheme is asked for, in SI.
+
+    Raises:
+        BalcliError: a text that cannot be read.
+    """
+    one = "one place along z in mm, such as 40"
+    pair = "x,y of a shaft in mm, such as -40,60"
+    along = None if position is None else read_lengths("--position", position, one, 1, units)[0]
     return SchemeOptions(
         order=order,
-        at=tuple(_parse_place(text, units) for text in at) if at else None,
-        position=None if position is None else _parse_position(position, units),
+        at=tuple(complex(*read_lengths("--at", text, pair, 2, units)) for text in at or ()) or None,
+        position=along,
         planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else _parse_factors(factor),
         measured=None if measured is None else _parse_measured(measured, units),
@@ -97,7 +80,9 @@ def parse_scheme_options(
 
 
 def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto") -> str:
-    """The scheme asked for; without one `factor` where there is a factor, else the usual one."""
+    """Return the scheme asked for; without one `factor` where there is a factor, else the usual
+    one.
+    """
     if asked is not None:
         return asked
     by_factor = options.factor is not None or options.measured is not None
@@ -105,20 +90,10 @@ def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto"
 
 
 def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
-    """The scheme to show beside the engine as it is; None if nothing of one was asked for."""
+    """Return the scheme to show next to the engine as it is; None if none was asked for."""
     if asked is None and options == SchemeOptions():
         return None
     return choose_scheme(asked, options)
-
-
-def _parse_place(text: str, units: Units) -> complex:
-    x, y = read_lengths("--at", text, "x,y of a shaft in mm, such as -40,60", 2, units)
-    return complex(x, y)
-
-
-def _parse_position(text: str, units: Units) -> float:
-    (z,) = read_lengths("--position", text, "one place along z in mm, such as 40", 1, units)
-    return z
 
 
 def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
@@ -132,7 +107,7 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
 
 
 def _parse_measured(text: str, units: Units) -> float:
-    """A mass in kg."""
+    """Return a mass in kg."""
     mass = read_mass_on_scales("--measured", text, units)
     if mass < 0:
         raise BalcliError(f'--measured "{text[:60]}": a mass on the pin is not negative')
@@ -140,29 +115,20 @@ def _parse_measured(text: str, units: Units) -> float:
 
 
 def _parse_factors(text: str) -> tuple[float, ...]:
-    """`0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
+    """Return the factors of `0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
+    parts = [read_share("--factor", part, wanted) for part in re.split("[:,]", text)]
     if ":" not in text:
-        listed = tuple(read_share("--factor", part, wanted) for part in text.split(","))
-        if re.fullmatch(r"0,\d+|\d+,\d+ *%", text) and max(listed) > LARGEST_FACTOR:
+        if re.fullmatch(r"0,\d+|\d+,\d+ *%", text) and max(parts) > LARGEST_FACTOR:
             raise BalcliError(
                 f'--factor "{text}": decimals take a point, such as {text.replace(",", ".")}'
             )
-        return listed
-    parts = [read_share("--factor", part, wanted) for part in text.split(":")]
-    if not _is_range(parts):
+        return tuple(parts)
+    first, last, step = parts if len(parts) == 3 else (1, 0, 1)
+    if not (step > 0 and last >= first and (last - first) / step <= MOST_FACTORS):
         raise BalcliError(
             f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '
             f"steps; give {wanted}"
         )
-    first, last, step = parts
     steps = int((last - first) / step + 1e-9)
     return tuple(round(first + k * step, 12) for k in range(steps + 1))
-
-
-def _is_range(parts: Sequence[float]) -> bool:
-    """Whether these are first, last and step of a range of no more than MOST_FACTORS steps."""
-    if len(parts) != 3:
-        return False
-    first, last, step = parts
-    return step > 0 and last >= first and (last - first) / step <= MOST_FACTORS

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, cast
+from typing import Annotated
 
 import typer
 
@@ -21,41 +21,25 @@ from .options import (
 )
 from .output import refuse_overwriting, show
 
-if TYPE_CHECKING:
-    from ..results.two_engines import Arrangement, Load
+Phase = Annotated[
+    str, typer.Option(metavar="DEG", help="Crank angle by which the second engine leads.")
+]
+At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Place of the second engine's origin, mm.")]
+Turn = Annotated[str, typer.Option(metavar="DEG", help="How far it is turned about z.")]
+Reverse = Annotated[bool, typer.Option("--reverse", help="Its crank turns the other way.")]
+LoadOption = Annotated[
+    str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")
+]
 
 
 def sum(  # noqa: A001 (the command's name)
     first: EnginePath,
     second: EnginePath,
-    phase: Annotated[
-        str,
-        typer.Option(
-            metavar="DEG",
-            help=(
-                "Crank angle by which the second engine leads; with gas in four strokes over two "
-                "revolutions."
-            ),
-        ),
-    ] = "0",
-    at: Annotated[
-        str, typer.Option(metavar="X,Y,Z", help="Place of its origin in the first one's axes, mm.")
-    ] = "0,0,0",
-    turn: Annotated[str, typer.Option(metavar="DEG", help="How far it is turned about z.")] = "0",
-    reverse: Annotated[
-        bool, typer.Option("--reverse", help="Its crank turns against the first one's.")
-    ] = False,
-    load: Annotated[
-        str,
-        typer.Option(
-            "--load",
-            metavar="first|second|both",
-            help=(
-                "With --reverse: the crank that has flywheel and load, and so bears the inertia "
-                "torque of both engines; both: each bears its own."
-            ),
-        ),
-    ] = "first",
+    phase: Phase = "0",
+    at: At = "0,0,0",
+    turn: Turn = "0",
+    reverse: Reverse = False,
+    load: LoadOption = "first",
     speed: Speed = None,
     orders: Orders = None,
     form: FormatOption = None,
@@ -71,24 +55,13 @@ def sum(  # noqa: A001 (the command's name)
     refuse_overwriting(reads=[first, second], writes={"--output": output})
     form = text_format(output, form)
     from ..render import two_engines as renderer
-    from ..results.two_engines import combine_engines
+    from ..results.two_engines import Arrangement, combine_engines
     from .inputs import named_by_file, read_engine
 
     rpm, asked = parse_speed(speed), parse_orders(orders)
-    arrangement = _parse_arrangement(phase, at, turn, reverse, load, units)
+    x, y, z = read_lengths("--at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
+    lead, turned = read_angle("--phase", phase), read_angle("--turn", turn)
+    arrangement = Arrangement(lead, (x, y, z), turned, reverse, load)
     engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
     result = combine_engines(engines[0], engines[1], arrangement, asked)
     show([result], renderer, form, output, units)
-
-
-def _parse_arrangement(
-    phase: str, at: str, turn: str, reverse: bool, load: str, units: Units
-) -> Arrangement:
-    """Return where the second engine stands; raises BalcliError for what cannot be."""
-    from ..results.two_engines import Arrangement, check_arrangement
-
-    x, y, z = read_lengths("--at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
-    lead, turned = read_angle("--phase", phase), read_angle("--turn", turn)
-    arrangement = Arrangement(lead, (x, y, z), turned, reverse, cast("Load", load))
-    check_arrangement(arrangement)
-    return arrangement

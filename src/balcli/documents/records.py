@@ -138,18 +138,19 @@ def to_document(record: Any) -> Node:
     for each in _list_attributes(record.__class__):
         value = getattr(record, each.name)
         if value is not None or not each.optional:
-            written = _write(value, each.polar)
+            written = write_each(value, each.polar)
             document |= written if INLINE in each.marks else {each.name: written}
     return document
 
 
-def _write(value: Any, polar: Polar | None) -> Any:
+def write_each(value: Any, polar: Polar | None = None) -> Any:
+    """Return a number, word, record, or list or dict of these, as JSON has it."""
     if isinstance(value, (np.ndarray, np.generic)):
         value = value.tolist()
     if isinstance(value, (list, tuple)) and not hasattr(value, "_fields"):
-        return [_write(item, polar) for item in value]
+        return [write_each(item, polar) for item in value]
     if isinstance(value, Mapping):
-        return {key: _write(item, polar) for key, item in value.items()}
+        return {key: write_each(item, polar) for key, item in value.items()}
     if polar is not None and value is not None:
         return polar.split(value)
     if is_dataclass(value):

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ..engine.build import Engine, check_engine
 from ..errors import check_number, check_type
-from ..results.two_engines import Arrangement, Combined, Load, check_arrangement, combine_engines
+from ..results.two_engines import Arrangement, Combined, Load, combine_engines
 from .arguments import read_position, tell_arguments
 
 
@@ -53,6 +53,4 @@ def combine(
     check_type("reverse", reverse, bool, "give True or False")
     check_type("load", load, str, "give first, second or both")
     place = read_position("at_m", at_m)
-    arrangement = Arrangement(phase, place, turn, reverse, load)
-    check_arrangement(arrangement)
-    return combine_engines(*checked, arrangement, orders)
+    return combine_engines(*checked, Arrangement(phase, place, turn, reverse, load), orders)

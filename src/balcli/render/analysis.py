@@ -8,7 +8,6 @@ from typing import TypeAlias
 
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
-from ..forces.spectrum import Spectra
 from ..results.analysis import Analysis, Sizing
 from . import crankshaft, guide_moments, strokes, symmetry
 from .devices import device_grid
@@ -51,10 +50,8 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield speed_facts(result.engine)
     if not view.parts <= TABLES or not view.parts:
         yield from _judge(result, system)
-    if view.parts:
+    if view.parts or view.whole:
         yield from _chosen_order_parts(result, system, view)
-    elif view.whole:
-        yield from _all_order_parts(result, system, view)
     else:
         yield from _order_parts_in_brief(result, system, view)
     for n, share in result.cylinders:
@@ -79,44 +76,32 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
         yield from symmetry.sheet_parts(result.why)
 
 
-def _known_spectra(result: Analysis) -> Spectra:
-    """Without the moment where it is not known."""
-    return result.spectra if result.moments_known else replace(result.spectra, moment=None)
-
-
-def _all_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    """All tables of all orders."""
-    spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
-    pivot, with_gas = tell_pivot(result.engine), result.engine.gas is not None
-    yield from order_tables(spectra, system, pivot, with_gas=with_gas, every=every)
-    yield from direction_tables(spectra, system, every=every)
-    if spectra.vectors():
-        yield from textbook_tables(result.textbook, system, every=every)
-    yield from _peaks(result, system)
-
-
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    """The tables that `--only` names, of orders that matter unless all or some were asked for."""
+    """Yield all tables, or those that `--only` names, of orders that matter unless all or some were
+    asked for.
+    """
     spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
+    parts = view.parts or {*EVERY_KIND, "xy", "textbook"}
     others = ""
     if not (view.whole or every):
         shown = find_orders_that_matter(spectra, result.of_one_cylinder)
         others = tell_others([spectra], shown, system, hints=view.hints)
         spectra = spectra.select_orders(shown)
     tables: list[Grid] = []
-    if view.parts.intersection(EVERY_KIND):
-        named = spectra.only(view.parts | (GAS_KINDS.keys() if GAS.name in view.parts else set()))
+    named = spectra.only({*parts, *(GAS_KINDS if GAS.name in parts else ())})
+    if parts.intersection(EVERY_KIND):
         pivot, with_gas = tell_pivot(result.engine), result.engine.gas is not None
         tables += order_tables(named, system, pivot, with_gas=with_gas, every=every)
-    if "xy" in view.parts:
+    if "xy" in parts:
         tables += direction_tables(spectra, system, every=every)
-    if "textbook" in view.parts:
+    if "textbook" in parts and spectra.vectors():
         shown_book = replace(result, spectra=spectra).textbook
         tables += textbook_tables(shown_book, system, every=every)
     yield from tables
     if tables and others:
         yield Text("", (others,))
-    yield from _peaks(result, system)
+    if result.peaks:
+        yield peak_facts(result, system, "Largest over a revolution, all orders")
 
 
 def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
@@ -140,23 +125,18 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
     )
 
 
-def _peaks(result: Analysis, system: System) -> Iterator[Facts]:
-    if result.peaks:
-        yield peak_facts(result, system, "Largest over a revolution, all orders")
-
-
 def _judge(result: Analysis, system: System) -> Iterator[Text]:
-    """The verdict; of forces alone where moments are not known, which it then says."""
-    spectra, known = _known_spectra(result), result.moments_known
-    if result.spectra.vectors():
-        steady = not result.engine.ripple
-        told = verdict(spectra, system, result.of_one_cylinder, steady=steady)
-        if rocking := tell_rocking(spectra, system, tell_pivot(result.engine)):
-            told = (*told, rocking)
-        if not known:
-            told = (*told, sentence(MOMENTS_UNKNOWN))
-        if told:  # order 0 alone says nothing
-            yield Text("Verdict", told)
+    """Yield the verdict; of forces alone where moments are not known, which it then says."""
+    if not result.spectra.vectors():
+        return
+    spectra, known = result.spectra, result.moments_known
+    spectra = spectra if known else replace(spectra, moment=None)
+    steady = not result.engine.ripple
+    told = verdict(spectra, system, result.of_one_cylinder, steady=steady)
+    rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
+    unknown = "" if known else sentence(MOMENTS_UNKNOWN)
+    if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 alone says nothing
+        yield Text("Verdict", told)
 
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:

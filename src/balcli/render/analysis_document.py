@@ -13,11 +13,11 @@ from .devices import device_entries, device_rows, number_devices
 from .figures import (
     FigureRow,
     assumptions,
-    clean,
+    describe_engine,
+    describe_state,
     figure_rows,
     order_entries,
     peak_entries,
-    silent_entries,
 )
 
 if TYPE_CHECKING:
@@ -32,14 +32,8 @@ def document(result: Analysis) -> dict[str, Any]:
     engine = result.engine
     found: dict[str, Any] = {
         "format": FORMAT,
-        "engine": {
-            "name": engine.name,
-            "cylinders": engine.cylinders.count,
-            "displacement_m3": clean(engine.displacement_m3),
-        },
-        "speed_rpm": clean(engine.speed_rpm),
-        **silent_entries(engine.silent),
-        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
+        "engine": describe_engine(engine),
+        **describe_state(engine),
         "orders": order_entries(result.spectra),
         **assumptions(result, engine.inferred),
     }

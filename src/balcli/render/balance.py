@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 
 from ..core.peaks import Peak
+from ..documents.records import list_figures, remove_unit, to_document, write_each
 from ..engine.positions import MOMENTS_UNKNOWN
-from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..results.balance import Balance
-from ..sizing.device_tables import name_kind
+from ..sizing.device_tables import find_unbalance, name_kind
 from ..studies.quantity_names import tell_assumed_speed
 from .analysis_document import brief_document
 from .csv import Columns, Rows
@@ -21,15 +22,12 @@ from .devices import (
     device_rows,
     holes_grid,
     number_devices,
-    practical_columns,
-    practical_entry,
     practical_grid,
 )
 from .figures import assumptions, figure_rows
 from .order_tables import fit_largest
 from .overview import find_orders_that_matter, name_column, tell_others
-from .scheme_details import details_parts, tell_growing_rolls
-from .scheme_details_document import details_document
+from .scheme_details import details_document, details_parts, tell_growing_rolls
 from .sheet import (
     NAMELESS,
     NEGLIGIBLE,
@@ -47,11 +45,6 @@ from .sheet import (
 )
 from .units import SI, ShownUnit, System
 
-if TYPE_CHECKING:
-    from ..forces.spectrum import Spectra
-    from ..results.analysis import Analysis
-
-
 _TURNING_WEIGHTS = (
     "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis, which is "
     "over pin 1 at crank angle 0; the pin stands still."
@@ -60,7 +53,8 @@ _TURNING_WEIGHTS = (
 
 def sheet(result: Balance, system: System) -> Sheet:
     """Why and what, the workshop's figures, and both analyses side by side."""
-    remedy, known = result.remedy, result.before.moments_known
+    remedy, engine = result.remedy, result.before.engine
+    known, steady = result.before.moments_known, " at steady speed" * bool(engine.ripple)
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = []
     if remedy.reasons and not remedy.devices and not remedy.beyond:
@@ -71,131 +65,108 @@ def sheet(result: Balance, system: System) -> Sheet:
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
     else:
-        steady = " at steady speed" if result.before.engine.ripple else ""
-        balanced = f"Orders 1 and 2 are balanced{steady}."
-        why = () if remedy.note or not known else (balanced,)
+        why = () if remedy.note or not known else (f"Orders 1 and 2 are balanced{steady}.",)
         parts.append(Text("Nothing is fitted", why))
-    growing, engine = tell_growing_rolls(result, system), result.before.engine
-    assumed = tell_assumed_speed(engine.model) if engine.speed_assumed else ""
-    turning = _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else ""
-    note = remedy.note and sentence(remedy.note)
-    if notes := tuple(filter(None, (note, _tell_negligible(result), turning, *growing, assumed))):
-        parts.append(Text("Note", notes))
+    notes = (
+        remedy.note and sentence(remedy.note),
+        _tell_negligible(result),
+        _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
+        *tell_growing_rolls(result, system),
+        tell_assumed_speed(engine.model) if engine.speed_assumed else "",
+    )
+    if any(notes):
+        parts.append(Text("Note", tuple(filter(None, notes))))
     if not known:
         parts.append(Text("Forces alone", (sentence(MOMENTS_UNKNOWN),)))
-    parts += _permitted(result, system)
-    parts += details_parts(result, system)
+    parts += [*_permitted(result, system), *details_parts(result, system)]
     parts += [_orders(result, system), _peaks(result, system)]
-    return Sheet(f"{result.before.engine.name or NAMELESS}: {remedy.scheme}{order}", tuple(parts))
+    return Sheet(f"{engine.name or NAMELESS}: {remedy.scheme}{order}", tuple(parts))
 
 
 def _tell_negligible(result: Balance) -> str:
-    """Where devices balance an order that is small beside one cylinder anyhow; a balance factor is
-    of the masses at the pins, whatever they leave free together.
+    """Return a sentence where devices balance an order that is small next to one cylinder anyhow; a
+    balance factor is of the masses at the pins, whatever they leave together.
     """
     remedy, before = result.remedy, result.before
-    if remedy.order is None or remedy.scheme == "factor":
+    if remedy.order is None or remedy.scheme == "factor" or not (remedy.devices or remedy.beyond):
         return ""
-    if not (remedy.devices or remedy.beyond):
-        return ""
-    orders, one = before.orders.tolist(), before.of_one_cylinder
-    if remedy.order not in orders:
-        small = not result.every_order  # else it was not asked for
-    else:
-        sizes = {
-            kind.name: p.major[orders.index(remedy.order)] for kind, p in before.spectra.vectors()
-        }
-        small = all(size < NEGLIGIBLE * one[name] for name, size in sizes.items())
+    small = not result.every_order  # an order that was not asked for is not shown if it is small
+    if remedy.order in (orders := before.orders.tolist()):
+        k, one = orders.index(remedy.order), before.of_one_cylinder
+        vectors = before.spectra.vectors()
+        small = all(p.major[k] < NEGLIGIBLE * one[kind.name] for kind, p in vectors)
     return f"Order {remedy.order} is negligible beside one cylinder, hardly worth a device." * small
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:
-    """What a grade permits, if one was asked for: of planes that have counterweights already, and
-    what they lack of it; of new ones, and how exactly each must be made.
+    """Yield what a grade permits, if one was asked for: of planes that have counterweights already,
+    and what they lack of it; of new ones, and how exactly each must be made.
     """
     if result.permitted is None:
         return
-    remedy, length = result.remedy, system.length
-    each, rpm = result.permitted.each, result.before.engine.speed_rpm
+    remedy, length, mass = result.remedy, system.length, system.mass
+    each = result.permitted.each_g_mm / 1e6
     if remedy.needs:
         head, what, last = f"plane at z, {length.name}", "missing", "of permitted"
-        found = [(number(length.of(need.z)), abs(need.missing)) for need in remedy.needs]
+        found = [
+            (number(length.of(need.position_mm / 1e3)), abs(need.missing)) for need in remedy.needs
+        ]
     else:
         head, what, last = "counterweight", "unbalance", "tolerance"
-        weights = result.practical[: len(remedy.counterweights)]
-        found = [(str(k), weight.unbalance) for k, weight in enumerate(weights, 1)]
+        weights = map(find_unbalance, remedy.counterweights)
+        found = [(str(k), unbalance) for k, unbalance in enumerate(weights, 1)]
     unit = system.unbalance.fit(max(size for _, size in found))
-    rows = tuple(
-        (
-            name,
-            number(unit.of(size)),
-            number(unit.of(each), 4),
-            _judge(size, each) if remedy.needs else _tolerance(size, each),
-        )
-        for name, size in found
-    )
+
+    def judge(size: float) -> str:
+        if remedy.needs:
+            return f"{size / each:.1%}, {'over' if size > each else 'within'}"
+        return f"±{each / size:.2%}" if size else "–"
+
     yield Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
         (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
-        rows,
-        f"A crankshaft of {number(system.mass.of(result.permitted.mass))} {system.mass.name} at "
-        f"{rpm:g} rpm; all share alike.",
+        tuple(
+            (name, number(unit.of(size)), number(unit.of(each), 4), judge(size))
+            for name, size in found
+        ),
+        f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "
+        f"{result.before.engine.speed_rpm:g} rpm; all share alike.",
     )
-
-
-def _judge(missing: float, permitted: float) -> str:
-    """What is missing in percent of what may be."""
-    return f"{missing / permitted:.1%}, {'over' if missing > permitted else 'within'}"
-
-
-def _tolerance(unbalance: float, permitted: float) -> str:
-    """How exactly a counterweight must be made, if there is one."""
-    return f"±{permitted / unbalance:.2%}" if unbalance else "–"
 
 
 # ------------------------------------------------------------------ before and after
 def _orders(result: Balance, system: System) -> Grid:
-    """Those that matter before or after; all that were asked for."""
+    """Return the orders that matter before or after; all that were asked for."""
     has_gas = result.before.engine.gas is not None
-    columns = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
-    states = [_pick(result.before, *columns), _pick(result.after, *columns)]
+    kinds = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
+    states = [
+        one.spectra.with_moment_if(one.moments_known).only([kind.name for kind in kinds])
+        for one in (result.before, result.after)
+    ]
     orders, one = result.before.orders.tolist(), dict(result.before.of_one_cylinder)
     if has_gas:  # of which one cylinder alone has no measure
         one[ROLL_TOTAL.name] = max(float(state[ROLL_TOTAL.name].major.max()) for state in states)
     shown = {order for state in states for order in find_orders_that_matter(state, one)}
-    rows = [k for k, order in enumerate(orders) if result.every_order or order in shown]
+    shown = {*orders} if result.every_order else shown
     units = {
         kind: fit_largest(system.unit(kind), *(state[kind.name] for state in states))
-        for kind in columns
+        for kind in kinds
     }
 
-    def row(k: int) -> tuple[str, ...]:
-        cells = [order_name(result.before.orders[k])]
+    def cells(k: int) -> Iterator[str]:
         for kind, unit in units.items():
-            for analysis in (result.before, result.after):
-                if kind is MOMENT and not analysis.moments_known:
-                    cells.append(UNKNOWN)
-                    continue
-                size = float(analysis.spectra[kind.name].major[k])
+            for state in states:
+                size = float(state[kind.name].major[k])
                 small = not result.every_order and size < NEGLIGIBLE * one[kind.name]
-                cells.append(size_cell(size, unit, negligible=small))
-        return tuple(cells)
+                yield size_cell(size, unit, negligible=small)
 
-    heads = [
-        head
-        for kind, unit in units.items()
-        for head in (f"{name_column(kind)}, {unit.name}", "after")
-    ]
+    heads = [(f"{name_column(kind)}, {unit.name}", "after") for kind, unit in units.items()]
     return Grid(
         "Largest value by order, before and after",
-        ("order", *heads),
-        tuple(map(row, rows)),
-        tell_others(states, [orders[k] for k in rows], system, hints=False),
+        ("order", *(head for pair in heads for head in pair)),
+        tuple((order_name(order), *cells(k)) for k, order in enumerate(orders) if order in shown),
+        tell_others(states, [order for order in orders if order in shown], system, hints=False),
     )
-
-
-def _pick(analysis: Analysis, *kinds: Kind) -> Spectra:
-    return analysis.spectra.only([kind.name for kind in kinds])
 
 
 def _peaks(result: Balance, system: System) -> Grid:
@@ -205,16 +176,12 @@ def _peaks(result: Balance, system: System) -> Grid:
         told = kind is not MOMENT or result.before.moments_known
         cells = (*_peak(before, unit), *_peak(after, unit)) if told else (UNKNOWN,) * 4
         rows.append((f"{kind.name}, {unit.name}", *cells))
-    note = (
-        "Sized for steady mean speed; both columns are those of the uneven speed."
-        if result.before.engine.ripple
-        else ""
-    )
+    uneven = "Sized for steady mean speed; both columns are those of the uneven speed."
     return Grid(
         "Largest over a revolution, all orders",
         ("", "before", "at, deg", "after", "at, deg"),
         tuple(rows),
-        note=note,
+        note=uneven if result.before.engine.ripple else "",
     )
 
 
@@ -227,38 +194,37 @@ def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
 
 # ------------------------------------------------------------------ JSON and CSV
 def document(result: Balance) -> dict[str, Any]:
-    """`balcli.balance/1`."""
+    """Return `balcli.balance/1`."""
     remedy, permitted = result.remedy, result.permitted
-    document = {
+    document: dict[str, Any] = {
         "format": "balcli.balance/1",
         "scheme": remedy.scheme,
         "order": remedy.order,
         **device_entries(remedy),
-        "reasons": list(remedy.reasons),
-        "practical": [practical_entry(p) for p in result.practical],
+        "reasons": remedy.reasons,
+        "practical": result.practical,
         "details": details_document(result),
         **assumptions(result.before),
         "before": brief_document(result.before),
         "after": brief_document(result.after),
     }
     if permitted is not None:
-        document["permitted"] = {
-            "grade": permitted.grade,
-            "mass_kg": permitted.mass,
-            "each_g_mm": 1e6 * permitted.each,
-        }
-    return document
+        document["permitted"] = permitted
+    found: dict[str, Any] = write_each(document)
+    return found
 
 
 def columns(result: Balance) -> Columns:
-    """A new device a row: as an engine file says it, and the workshop's figures. What is left with
-    them is `after`, an analysis with columns of its own.
+    """Return a new device a row: as an engine file describes it, and the workshop's figures. What
+    is left with them is `after`, an analysis with columns of its own.
     """
     units: dict[str, str] = {"device": ""}
     lines: list[dict[str, Any]] = []
     for device, practical in zip(result.remedy.devices, result.practical, strict=True):
         line: dict[str, Any] = {"device": name_kind(device)}
-        for name, value, unit in (*device_rows(device, SI), *practical_columns(practical)):
+        figures = list_figures(to_document(practical), ("unbalance_kg_m",))
+        others = ((remove_unit(name), value, unit) for name, value, unit in figures)
+        for name, value, unit in (*device_rows(device, SI), *others):
             line[name], units[name] = value, unit
         lines.append(line)
     values = {name: [line.get(name) for line in lines] for name in units}
@@ -266,8 +232,8 @@ def columns(result: Balance) -> Columns:
 
 
 def rows(result: Balance, system: System) -> Rows:
-    """CSV: a figure a line: those of the devices, the scheme's other figures (SI, as in JSON: their
-    names say the unit), and those of the engine without and with the devices.
+    """Return CSV, a figure a line: those of the devices, the scheme's other figures (SI, as in
+    JSON: their names have the unit), and those of the engine without and with the devices.
     """
     header = ("part", "quantity", "order", "figure", "value", "unit")
     return Rows(header, _all_rows(result, system))
@@ -278,20 +244,23 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
     for (part, device), practical in zip(devices, result.practical, strict=True):
         for figure in device_rows(device, system):
             yield part, "", "", *figure
-        for name, value in _with_paths(practical_entry(practical)):
-            yield part, "", "", name, value, ""
-    for name, value in _with_paths(details_document(result)):
-        yield "details", "", "", name, value, ""
-    for name, value in _with_paths(document(result).get("permitted", {})):
-        yield "permitted", "", "", name, value, ""
+        yield from _rows_of(part, practical)
+    yield from _rows_of("details", details_document(result))
+    if result.permitted is not None:
+        yield from _rows_of("permitted", result.permitted)
     for state, analysis in (("before", result.before), ("after", result.after)):
         for row in figure_rows(analysis, system):
             yield state, row.quantity, row.order, row.figure, row.value, row.unit
 
 
+def _rows_of(part: str, record: Any) -> Iterator[tuple[Any, ...]]:
+    for name, value in _with_paths(write_each(record)):
+        yield part, "", "", name, value, ""
+
+
 def _with_paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
-    """Members of tables and lists by their paths: `card.1.bobweight_g`."""
-    if isinstance(value, Mapping):
+    """Yield members of tables and lists by their paths: `card.1.bobweight_g`."""
+    if isinstance(value, dict):
         members: Iterable[tuple[Any, Any]] = value.items()
     elif isinstance(value, list):
         members = enumerate(value, 1)

@@ -13,15 +13,14 @@ from ..limits import MOST_HOLES
 from ..sizing.balance_factor import name_one_cylinder
 from ..sizing.bobweight_card import NO_THROW
 from ..sizing.device_tables import find_unbalance
-from .bobweights import group_equal_pins, multiply, name_pins, percent
 from .devices import explain_holes, tell_rim
 from .sheet import NAMELESS, capitalized, degrees, number, sentence
-from .units import IMPERIAL, INCH, POUND, SI
+from .units import IMPERIAL, POUND, SI
 
 if TYPE_CHECKING:
     from ..enginefile.model import Counterweight
     from ..results.balance import Balance
-    from ..sizing.scheme_figures import Bobweight
+    from ..sizing.bobweight_card import Bobweight, CardLine
     from ..sizing.workshop import Practical
 
 WIDTH = 80
@@ -33,6 +32,32 @@ _WHERE = (
     "Angles from cylinder 1's crank pin in the sense of rotation, clockwise seen from the free end "
     "(front); z as in the engine file, + towards the flywheel."
 )
+
+
+def group_equal_pins(card: Sequence[Bobweight]) -> list[list[Bobweight]]:
+    """Return pins with the same lines together."""
+    groups: dict[tuple[CardLine, ...], list[Bobweight]] = {}
+    for bobweight in card:
+        groups.setdefault(bobweight.lines, []).append(bobweight)
+    return list(groups.values())
+
+
+def name_pins(pins: Sequence[Bobweight]) -> str:
+    """Return pins by the cylinders whose rods they carry: `pins 1+5, 2+6`."""
+    names = ", ".join("+".join(map(str, pin.cylinders)) for pin in pins)
+    return f"pin{'s' if len(pins) > 1 else ''} {names}"
+
+
+def multiply(line: CardLine) -> str:
+    """Return how the sum of a line comes about: `2 × 775`, or `775 + 780`."""
+    if len(set(line.each_g)) == 1:
+        return f"{len(line.each_g)} × {number(line.each_g[0])}"
+    return " + ".join(map(number, line.each_g))
+
+
+def percent(share: float) -> str:
+    """Return a balance factor as shops write it."""
+    return f"{number(100 * share, 4)} %"
 
 
 def write_page(result: Balance) -> str:
@@ -73,12 +98,15 @@ def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
     yield from wrap(capitalized(name_pins(pins)), WIDTH)
     yield _line("", "quantity × each", "g", "oz")
     yield _RULE
-    yield "Rotating"
-    yield from _list_parts(one, rotates=True)
-    yield _sum("rotating", one.rotating_g)
-    yield "Reciprocating"
-    yield from _list_parts(one, rotates=False)
-    yield _sum("reciprocating", one.reciprocating_g)
+    for kind, total in (("Rotating", one.rotating_g), ("Reciprocating", one.reciprocating_g)):
+        yield kind
+        for line in one.lines:
+            if line.rotates == (kind == "Rotating") and line.sum_g:
+                part, how = _INDENT + line.part, multiply(line)
+                if len(part) + len(how) >= _NAMES:
+                    how = f"{len(line.each_g)}, weighed one by one"
+                yield _line(part, how, *_weight(line.sum_g))
+        yield _line(f"{_INDENT}{kind.lower()} sum", "=", *_weight(total))
     share = f"{number(one.reciprocating_g)} × {percent(one.factor)}"
     yield _line(f"{_INDENT}balanced share", share, *_weight(one.factor * one.reciprocating_g))
     yield _HEAVY
@@ -90,19 +118,6 @@ def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
         yield _line("counterweight opposite", "", *_weight(one.bobweight_g + one.throw_g))
     else:
         yield from wrap(f"The throw itself {NO_THROW}.", WIDTH)
-
-
-def _list_parts(one: Bobweight, *, rotates: bool) -> Iterator[str]:
-    for line in one.lines:
-        if line.rotates == rotates and line.sum_g:
-            part, how = _INDENT + line.part, multiply(line)
-            if len(part) + len(how) >= _NAMES:
-                how = f"{len(line.each_g)}, weighed one by one"
-            yield _line(part, how, *_weight(line.sum_g))
-
-
-def _sum(name: str, grams: float) -> str:
-    return _line(f"{_INDENT}{name} sum", "=", *_weight(grams))
 
 
 # ------------------------------------------------------------------ what to do
@@ -119,8 +134,7 @@ def _correct(result: Balance) -> Iterator[str]:
     for k, (weight, figures) in enumerate(zip(weights, result.practical, strict=True), 1):
         yield from _correct_plane(k, weight, figures, result)
     if result.tools.drill is not None:
-        rim = result.practical[0].radius
-        size = f"{number(1e3 * rim, 4)} mm ({number(rim / INCH, 3)} in)"
+        size = _show_length(result.practical[0].radius_mm, 4, 3)
         told = [f"Holes: radial, {tell_rim(result.tools, size)} inwards."]
         told += explain_holes(result.practical, result.tools, SI.length)
         yield from wrap(" ".join(told), WIDTH)
@@ -129,26 +143,25 @@ def _correct(result: Balance) -> Iterator[str]:
     yield from wrap(_WHERE, WIDTH)
     speed = f"{number(float(result.before.engine.speed_rpm))} rpm"
     if (permitted := result.permitted) is not None:
-        yield f"Permitted by ISO 21940-11, G {permitted.grade:g}, {permitted.mass:g} kg, {speed}."
+        grade = f"G {permitted.grade:g}, {permitted.mass_kg:g} kg"
+        yield f"Permitted by ISO 21940-11, {grade}, {speed}."
 
 
 def _correct_plane(
     k: int, weight: Counterweight, figures: Practical, result: Balance
 ) -> Iterator[str]:
-    place = f"{k}  z = {number(weight.position)} mm ({number(weight.position / 1e3 / INCH, 4)} in)"
-    unbalance = find_unbalance(weight)
-    yield _line(f"{place}: add at", degrees(weight.angle), *_unbalance(unbalance))
-    holes, drill = figures.holes, result.tools.drill
-    if holes is not None and drill is not None:
-        size = f"{number(1e3 * drill)} mm ({number(drill / INCH, 3)} in)"
+    place = f"{k}  z = {_show_length(weight.position, None, 4)}"
+    yield _line(f"{place}: add at", degrees(weight.angle), *_unbalance(find_unbalance(weight)))
+    drill, depth = result.tools.drill, figures.drill_depth_mm
+    if figures.holes is not None and depth is not None and drill is not None:
+        size = _show_length(1e3 * drill, None, 3)
         what = "drill" if result.tools.slug is None else "slugs"
-        depth = f"{number(1e3 * holes.depth, 3)} mm ({number(holes.depth / INCH, 3)} in) deep"
-        told = f"{holes.number} × {size}, {depth}"
-        if holes.number > MOST_HOLES:
+        told = f"{figures.holes} × {size}, {_show_length(depth, 3, 3)} deep"
+        if figures.holes > MOST_HOLES:
             told = f"more than {MOST_HOLES} holes of {size}"
-        yield f"   {what} at {degrees(holes.angle_deg)} deg: {told}"
+        yield f"   {what} at {degrees(figures.hole_angle_deg or 0.0)} deg: {told}"
     if result.permitted is not None:
-        yield _line("   may be left", "", *_unbalance(result.permitted.each))
+        yield _line("   may be left", "", *_unbalance(result.permitted.each_g_mm / 1e6))
 
 
 # ------------------------------------------------------------------ figures in their columns
@@ -166,3 +179,8 @@ def _weight(grams: float) -> tuple[str, str]:
 
 def _unbalance(kg_m: float) -> tuple[str, str]:
     return f"{1e6 * kg_m:.0f}", f"{IMPERIAL.unbalance.of(kg_m):.2f}"
+
+
+def _show_length(millimetres: float, digits: int | None, digits_in: int) -> str:
+    inches = IMPERIAL.length.of(millimetres / 1e3)
+    return f"{number(millimetres, digits)} mm ({number(inches, digits_in)} in)"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from .sheet import NOTHING, Facts, Grid, Text, degrees, number, order_name, orde
 
 if TYPE_CHECKING:
     from ..forces.crankshaft import AlongCrank, InnerLoads
-    from ..forces.in_bearings import LoadsWithGas
     from .units import ShownUnit, System
 
 _OPEN_END = (
@@ -30,60 +29,65 @@ _CUT = (
 ORDERS_SHOWN, GAS_ORDERS_SHOWN = 6, 5  # in a table, which has a column an order
 
 
-def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Text]:
-    """A table of each quantity, a place a row, and the largest bending moment of all; of an engine
-    with gas also what bears it inside.
-    """
-    force, moment, length = system.force, system.moment, system.length
-    where = "crankshaft" if inner.with_gas is None else "crankshaft and block together"
-    yield _grid(inner.shear, f"Shear force in the {where} behind each load", force, length)
-    bending = _grid(inner.bending, f"Bending moment in the {where}", moment, length)
-    told = _OPEN_END if inner.with_gas is None else f"{_TOGETHER} {_OPEN_END}"
-    yield bending._replace(note=told)
-    if inner.with_gas is None and inner.bearings is not None:
+class _Load(NamedTuple):
+    """A load along the crank: its name in CSV, its title, and whether gas has a part in it."""
+
+    name: str
+    along: AlongCrank
+    unit: ShownUnit
+    title: str
+    with_gas: bool = False
+
+
+def _list_loads(inner: InnerLoads, system: System) -> Iterator[_Load]:
+    force, moment, gas = system.force, system.moment, inner.with_gas
+    where = "crankshaft" if gas is None else "crankshaft and block together"
+    yield _Load("shear", inner.shear, force, f"Shear force in the {where} behind each load")
+    yield _Load("bending", inner.bending, moment, f"Bending moment in the {where}")
+    if inner.bearings is not None:
         title = "Inertia loads of main bearings half-way between throws, shaft cut in each"
-        yield _grid(inner.bearings, title, force, length)
+        yield _Load("bearing", inner.bearings, force, title)
+    if gas is None:
+        return
+    for part, name, shear, bending in (
+        ("crankshaft", "shaft", gas.shear, gas.bending),
+        ("block", "block", gas.block_shear, gas.block_bending),
+    ):
+        yield _Load(f"{name}_shear", shear, force, f"Shear force in the {part} with gas", True)
+        yield _Load(
+            f"{name}_bending", bending, moment, f"Bending moment in the {part} with gas", True
+        )
+        if name == "shaft":
+            yield _Load("main", gas.bearings, force, "Loads of main bearings with gas", True)
+
+
+def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Text]:
+    """Yield a table of each quantity, a place a row, and the largest bending moment of all; of an
+    engine with gas also what bears it inside.
+    """
+    gas = inner.with_gas
+    notes = {"bending": _OPEN_END if gas is None else f"{_TOGETHER} {_OPEN_END}", "main": _CUT}
+    for load in _list_loads(inner, system):
+        if load.name != "bearing" or gas is None:
+            yield _grid(load, system.length, notes.get(load.name, ""))
     facts = [("largest inner moment", _largest_bending(inner.bending, system))]
-    if (found := inner.with_gas) is not None:
-        yield from _gas_grids(found, system)
-        facts.append(("in the crankshaft", _largest_bending(found.bending, system)))
-        facts.append(("in the block", _largest_bending(found.block_bending, system)))
+    if gas is not None:
+        facts.append(("in the crankshaft", _largest_bending(gas.bending, system)))
+        facts.append(("in the block", _largest_bending(gas.block_bending, system)))
     yield Facts(tuple(facts))
     if inner.obstacle:
         yield Text("", (f"{_TOGETHER} Inside, it is not known: {inner.obstacle}.",))
 
 
-def _gas_grids(found: LoadsWithGas, system: System) -> Iterator[Grid]:
-    titles = (
-        "Shear force in the crankshaft with gas",
-        "Bending moment in the crankshaft with gas",
-        "Loads of main bearings with gas",
-        "Shear force in the block with gas",
-        "Bending moment in the block with gas",
-    )
-    for (name, along, unit), title in zip(_list_gas(found, system), titles, strict=True):
-        grid = _grid(along, title, unit, system.length, GAS_ORDERS_SHOWN)
-        yield grid._replace(note=_CUT) if name == "main" else grid
-
-
-def _list_gas(found: LoadsWithGas, system: System) -> Iterator[tuple[str, AlongCrank, ShownUnit]]:
-    """Yield each load with gas along the crank, with its name in CSV and its unit."""
-    yield "shaft_shear", found.shear, system.force
-    yield "shaft_bending", found.bending, system.moment
-    yield "main", found.bearings, system.force
-    yield "block_shear", found.block_shear, system.force
-    yield "block_bending", found.block_bending, system.moment
-
-
 def document(inner: InnerLoads) -> dict[str, Any]:
-    """`inner` in `balcli.analysis/1`: an entry a section of the shaft, and one a bearing."""
+    """Return `inner` of `balcli.analysis/1`: an entry a section of the shaft, and one a bearing."""
     found = _bent_entries(inner.shear, inner.bending)
     if inner.bearings is not None:
-        found["bearings"] = _bearing_entries(inner.bearings)
+        found["bearings"] = _entries(load_N=inner.bearings)
     if (gas := inner.with_gas) is not None:
         found["with_gas"] = {
             "crankshaft": _bent_entries(gas.shear, gas.bending),
-            "bearings": _bearing_entries(gas.bearings),
+            "bearings": _entries(load_N=gas.bearings),
             "block": _bent_entries(gas.block_shear, gas.block_bending),
         }
     if inner.obstacle:
@@ -92,64 +96,56 @@ def document(inner: InnerLoads) -> dict[str, Any]:
 
 
 def _bent_entries(shear: AlongCrank, bending: AlongCrank) -> dict[str, Any]:
-    """Shear force and bending moment at the same sections, and the largest moment."""
+    """Return shear force and bending moment at the same sections, and the largest moment."""
     most = bending.largest
     return {
         "largest_bending_Nm": clean(bending.peaks[most].value),
         "largest_at_mm": clean(bending.z_m[most] * 1e3),
-        "sections": [
-            {
-                "position_mm": clean(z * 1e3),
-                "shear_N": _entry(shear, k),
-                "bending_Nm": _entry(bending, k),
-            }
-            for k, z in enumerate(shear.z_m)
-        ],
+        "sections": _entries(shear_N=shear, bending_Nm=bending),
     }
 
 
-def _bearing_entries(bearings: AlongCrank) -> list[dict[str, Any]]:
+def _entries(**loads: AlongCrank) -> list[dict[str, Any]]:
+    """Return an entry a place, with the loads there."""
+    places = next(iter(loads.values())).z_m
     return [
-        {"position_mm": clean(z * 1e3), "load_N": _entry(bearings, k)}
-        for k, z in enumerate(bearings.z_m)
+        {"position_mm": clean(z * 1e3), **{key: _entry(load, k) for key, load in loads.items()}}
+        for k, z in enumerate(places)
     ]
 
 
 def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
-    """The figures of every place. Places are numbered along the crank: `shear 1` has its position
-    as a figure.
+    """Yield the figures of every place. Places are numbered along the crank: `shear 1` has its
+    position as a figure.
     """
-    yield from _rows_along("shear", inner.shear, system.force, system.length)
-    yield from _rows_along("bending", inner.bending, system.moment, system.length)
-    if inner.bearings is not None:
-        yield from _rows_along("bearing", inner.bearings, system.force, system.length)
-    if (gas := inner.with_gas) is not None:
-        for name, along, unit in _list_gas(gas, system):
-            yield from _rows_along(name, along, unit, system.length)
+    length = system.length
+    for name, along, unit, *_ in _list_loads(inner, system):
+        for k, z in enumerate(along.z_m):
+            here, place = along.at(k), f"{name} {k + 1}"
+            yield FigureRow(0, place, None, "position", clean(length.of(z)), length.name)
+            yield from peak_rows(place, along.peaks[k], unit)
+            for n, entry in zip(here.orders, vector_entries(here), strict=True):
+                yield from order_rows(place, n, entry, unit)
 
 
-def _grid(
-    along: AlongCrank,
-    title: str,
-    unit: ShownUnit,
-    length: ShownUnit,
-    most_orders: int = ORDERS_SHOWN,
-) -> Grid:
-    """One row a place: the peak over a revolution, and the largest of each of the first orders."""
-    orders = along.phasors.orders[:most_orders]
-    unit = unit.fit(max(peak.value for peak in along.peaks))
+def _grid(load: _Load, length: ShownUnit, note: str) -> Grid:
+    """Return one row a place: the peak over a revolution, and the largest of each of the first
+    orders.
+    """
+    along = load.along
+    orders = along.phasors.orders[: GAS_ORDERS_SHOWN if load.with_gas else ORDERS_SHOWN]
+    unit = load.unit.fit(max(peak.value for peak in along.peaks))
     heads = (f"place, {length.name}", "largest", "deg", *(f"order {order_name(n)}" for n in orders))
 
-    def cells(k: int) -> tuple[str, ...]:
-        peak, here = along.peaks[k], along.at(k)
-        return (
-            number(length.of(float(along.z_m[k]))),
-            number(unit.of(peak.value)) if peak.value else NOTHING,
-            degrees(float(np.degrees(peak.theta))) if peak.value else "",
-            *(number(unit.of(float(largest)), 4) for largest in here.major[: len(orders)]),
-        )
+    def cells(k: int) -> Iterator[str]:
+        peak, sizes = along.peaks[k], along.at(k).major[: len(orders)]
+        yield number(length.of(float(along.z_m[k])))
+        yield number(unit.of(peak.value)) if peak.value else NOTHING
+        yield degrees(float(np.degrees(peak.theta))) if peak.value else ""
+        yield from (number(unit.of(float(size)), 4) for size in sizes)
 
-    return Grid(f"{title}, {unit.name}", heads, tuple(map(cells, range(len(along.z_m)))))
+    rows = tuple(tuple(cells(k)) for k in range(len(along.z_m)))
+    return Grid(f"{load.title}, {unit.name}", heads, rows, note)
 
 
 def _largest_bending(bending: AlongCrank, system: System) -> str:
@@ -170,14 +166,3 @@ def _entry(along: AlongCrank, k: int) -> dict[str, Any]:
             for n, entry in zip(here.orders, vector_entries(here), strict=True)
         ],
     }
-
-
-def _rows_along(
-    name: str, along: AlongCrank, unit: ShownUnit, length: ShownUnit
-) -> Iterator[FigureRow]:
-    for k, z in enumerate(along.z_m):
-        here, place = along.at(k), f"{name} {k + 1}"
-        yield FigureRow(0, place, None, "position", clean(length.of(z)), length.name)
-        yield from peak_rows(place, along.peaks[k], unit)
-        for n, entry in zip(here.orders, vector_entries(here), strict=True):
-            yield from order_rows(place, n, entry, unit)

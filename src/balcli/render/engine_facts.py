@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..core.phasors import Figure
 from ..engine.build import Engine, SilentCylinders
 from ..enginefile.fields import count_lambda_digits
 from ..limits import HIGHEST_ORDER_UNASKED
@@ -82,11 +83,8 @@ def tell_speed(engine: Engine, *, steady: bool = False) -> str:
     """Its mean speed, and whether that is assumed or uneven; `steady`: of figures in which an
     uneven speed does not count.
     """
-    counts = (
-        "the file's uneven one does not count"
-        if steady
-        else "uneven: figures are those of the uneven speed"
-    )
+    counts = "uneven: figures are those of the uneven speed"
+    counts = "the file's uneven one does not count" if steady else counts
     uneven = f", {counts}" if engine.ripple else ""
     assumed = ", assumed: the file gives none" if engine.speed_assumed else ""
     return f"{given(float(engine.speed_rpm))} rpm{assumed}{uneven}"
@@ -105,25 +103,16 @@ def _throws(engine: Engine) -> str:
     pins: dict[int, list[float]] = {}
     for weighed, pin in zip(engine.weighed, engine.pins_deg.values(), strict=True):
         pins.setdefault(weighed.throw, []).append(float(pin))
-    splay = _splay(pins[min(pins)])
-    if (len(pins) == 1 and not splay) or engine.rotary:
+    first, *others = pins[min(pins)]
+    lead = round((others[0] - first + 180) % 360 - 180, 6) if others else 0
+    if (len(pins) == 1 and not lead) or engine.rotary:
         return ""
-    angles = [_angle(pins[throw][0]) for throw in sorted(pins)]
+    angles = [f"{round(round(pins[throw][0], 6), 1) % 360:g}" for throw in sorted(pins)]
     shown = ", ".join(angles[:THROWS_SHOWN])
-    more = ", …" if len(pins) > THROWS_SHOWN else ""
+    more = ", …" * (len(pins) > THROWS_SHOWN)
     start = "" if angles[0] == "0" else " from cylinder 1's pin"
+    splay = f", split pins: the next bank's at {lead:+g} deg" if lead else ""
     return f"{shown}{more} deg{start}{splay}"
-
-
-def _splay(pins: list[float]) -> str:
-    """By how much the second pin of a throw leads the first, if it does."""
-    lead = round((pins[1] - pins[0] + 180) % 360 - 180, 6) if len(pins) > 1 else 0
-    return f", split pins: the next bank's at {lead:+g} deg" if lead else ""
-
-
-def _angle(degrees: float) -> str:
-    """In [0, 360), to a tenth."""
-    return f"{round(round(degrees, 6), 1) % 360:g}"
 
 
 def _banks(engine: Engine) -> str:
@@ -153,12 +142,9 @@ def _crank(engine: Engine, system: System) -> str:
     c, unit = engine.cylinders, system.length
     first = engine.numbers.index(1)
     radius, lam = float(c.radius), float(c.lam[first if len(c.lam) > 1 else 0])
-    radius_shown, rod_shown = number(unit.of(radius)), number(unit.of(radius / lam))
+    r, rod = (f"{number(unit.of(length))} {unit.name}" for length in (radius, radius / lam))
     ratio = given(lam, count_lambda_digits(lam, get_digits(4)))
-    return (
-        f"r = {radius_shown} {unit.name}, rod {rod_shown} {unit.name}, λ = {ratio}"
-        f"{_unequal(engine)}"
-    )
+    return f"r = {r}, rod {rod}, λ = {ratio}{_unequal(engine)}"
 
 
 def _masses(engine: Engine, system: System, *, whole: bool) -> str:
@@ -167,18 +153,20 @@ def _masses(engine: Engine, system: System, *, whole: bool) -> str:
     """
     row, unit = engine.numbers.index(1), system.mass
     weighed = engine.weighed[row]
-    on_pin = next(rows for rows in engine.rows_by_pin if row in rows)
-    reciprocating = number(unit.of(float(weighed.reciprocating)), 4)
-    text = f"reciprocating {reciprocating} {unit.name} per cylinder"
+
+    def shown(kg: Figure) -> str:
+        return number(unit.of(float(kg)), 4)
+
+    text = f"reciprocating {shown(weighed.reciprocating)} {unit.name} per cylinder"
     text += " (piston, rod's small end)" * whole
     if not engine.rotary:  # else the pins stand still
-        rotating = number(unit.of(float(weighed.rotating + weighed.share)), 4)
         shells = ", shells and oil" if weighed.rod_bearing or weighed.oil else ""
-        text += f", rotating {rotating} {unit.name} per rod"
+        text += f", rotating {shown(weighed.rotating + weighed.share)} {unit.name} per rod"
         text += f" (big end{shells}, share of the throw)" * whole
+        on_pin = next(rows for rows in engine.rows_by_pin if row in rows)
         if len(on_pin) > 1 and engine.cylinders.linkage is None:
             sharing = [engine.weighed[k] for k in on_pin]
-            together = number(unit.of(sum(float(w.rotating + w.share) for w in sharing)), 4)
+            together = shown(sum(float(w.rotating + w.share) for w in sharing))
             text += f" ({together} per pin of {len(on_pin)} rods)"
     return text + _unequal(engine)
 
@@ -192,14 +180,13 @@ def _firing(engine: Engine) -> str:
     says or implies them.
     """
     if not engine.fires_deg:
-        return tell_strokes(engine) if _knows_strokes(engine) else ""
+        said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
+        return tell_strokes(engine) if said or engine.gas is not None else ""  # else assumed
     instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
     gaps = [b - a for a, b in pairwise(instants)]
-    if max(gaps) - min(gaps) < EVEN_DEG:
-        intervals, even = f"every {gaps[0]:.4g}", ""
-    else:
+    intervals, even, splay = f"every {gaps[0]:.4g}", "", engine.splay_for_even_firing
+    if max(gaps) - min(gaps) >= EVEN_DEG:
         intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)}"
-        splay = engine.splay_for_even_firing
         even = "" if splay is None else f" (evenly with crank.splay = {splay:g})"
     order = "-".join(map(str, engine.fires_deg))
     return f"{order}, {intervals} deg{even}, {tell_strokes(engine)}"
@@ -216,9 +203,3 @@ def list_silent(silent: SilentCylinders) -> list[tuple[str, str]]:
         (key.replace("_", " "), ", ".join(map(str, numbers)))
         for key, numbers in silent_entries(silent).items()
     ]
-
-
-def _knows_strokes(engine: Engine) -> bool:
-    """Whether the file says the strokes, or what depends on them; four are otherwise assumed."""
-    said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
-    return said or engine.gas is not None

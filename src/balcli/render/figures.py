@@ -2,39 +2,28 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..core.peaks import Peak
-from ..core.phasors import Array, Complex, Phasors
-from ..engine.build import SilentCylinders
+from ..core.phasors import Phasors
+from ..engine.build import Engine, SilentCylinders
 from ..forces.kinds import EVERY_KIND, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
 from .units import ShownUnit, System
 
+if TYPE_CHECKING:
+    from ..forces.curves import Curves
+    from ..results.analysis import Analysis
+    from ..results.two_engines import Combined
 
-class Located(Protocol):
-    """What is said of an engine whose file may say where its throws stand."""
-
-    @property
-    def moments_known(self) -> bool: ...
-
-
-class OrdersAndPeaks(Located, Protocol):
-    """What has orders and peaks: an analysis, or the sum of two engines."""
-
-    @property
-    def spectra(self) -> Spectra: ...
-
-    @property
-    def peaks(self) -> list[tuple[Kind, Peak]]: ...
-
-    @property
-    def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
+    OrdersAndPeaks: TypeAlias = Analysis | Combined
+    Located: TypeAlias = OrdersAndPeaks | Curves
 
 
 class FigureRow(NamedTuple):
@@ -46,6 +35,24 @@ class FigureRow(NamedTuple):
     figure: str
     value: float | bool | str | None
     unit: str
+
+
+def describe_engine(engine: Engine) -> dict[str, Any]:
+    """Return the entry `engine` of JSON."""
+    return {
+        "name": engine.name,
+        "cylinders": engine.cylinders.count,
+        "displacement_m3": clean(engine.displacement_m3),
+    }
+
+
+def describe_state(engine: Engine) -> dict[str, Any]:
+    """Return the entries of JSON on its speed, cylinders without gas, and point of reference."""
+    return {
+        "speed_rpm": clean(engine.speed_rpm),
+        **silent_entries(engine.silent),
+        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
+    }
 
 
 def assumptions(result: Located, inferred: Sequence[str] = ()) -> dict[str, list[str]]:
@@ -85,13 +92,10 @@ def kind_entries(kind: Kind, phasors: Phasors) -> list[Entry]:
 
 
 def vector_entries(phasors: Phasors) -> list[Entry]:
-    """Forces or moments as JSON has them, an entry an order."""
-    columns = (
-        *(phasors.forward, phasors.backward, phasors.major, phasors.minor, phasors.axis_deg),
-        *(phasors.x, phase_deg(phasors.x), phasors.y, phase_deg(phasors.y)),
-        *(phasors.orders, phasors.balanced),
-    )
-    rows = zip(*(column.tolist() for column in columns), strict=True)
+    """Return forces or moments as JSON has them, an entry an order."""
+    columns = (phasors.forward, phasors.backward, phasors.x, phasors.y, phasors.major)
+    others = (phasors.minor, phasors.axis_deg, phasors.orders, phasors.balanced)
+    rows = zip(*(column.tolist() for column in (*columns, *others)), strict=True)
     return [
         {
             "forward": [clean(forward.real), clean(forward.imag)],
@@ -99,11 +103,11 @@ def vector_entries(phasors: Phasors) -> list[Entry]:
             "major": clean(major),
             "minor": clean(minor),
             "axis_deg": clean(axis_deg),
-            "x": _component_entry(x, x_deg, order),
-            "y": _component_entry(y, y_deg, order),
+            "x": _component_entry(x, order),
+            "y": _component_entry(y, order),
             "balanced": balanced,
         }
-        for forward, backward, major, minor, axis_deg, x, x_deg, y, y_deg, order, balanced in rows
+        for forward, backward, x, y, major, minor, axis_deg, order, balanced in rows
     ]
 
 
@@ -140,15 +144,15 @@ def peak_deg(c: complex, order: float) -> float | None:
     return clean(angle if angle < 360 / order else 0.0)
 
 
-def _component_entry(c: complex, angle: float, order: float) -> dict[str, float | None]:
-    """`amplitude cos(n theta - phase)`."""
-    return {"amplitude": clean(abs(c)), "phase_deg": angle if c and order else None}
+def _component_entry(c: complex, order: float) -> dict[str, float | None]:
+    """Return `amplitude cos(n theta - phase)`."""
+    return {"amplitude": clean(abs(c)), "phase_deg": phase_deg(c) if c and order else None}
 
 
-def phase_deg(c: complex | Complex) -> Array:
-    """Angle in (-180, 180] of the amplitude in `amplitude cos(n theta - angle)`, shape of c."""
-    angle = 0.0 - np.degrees(np.angle(c))
-    return np.where(angle <= -180, angle + 360, angle)
+def phase_deg(c: complex) -> float:
+    """Return the angle in (-180, 180] of `amplitude cos(n theta - angle)`."""
+    angle = 0.0 - math.degrees(cmath.phase(c))
+    return angle + 360 if angle <= -180 else angle
 
 
 def order_entries(spectra: Spectra) -> list[Entry]:
@@ -179,14 +183,14 @@ def figure_rows(result: OrdersAndPeaks, system: System) -> Iterator[FigureRow]:
     """Every figure of the orders and the peaks, one a row; none of moments that are not known."""
     told = [kind for kind in EVERY_KIND.values() if result.moments_known or kind is not MOMENT]
     for cylinder, spectra in ((0, result.spectra), *result.cylinders):
-        known = [(kind, phasors) for kind, phasors in spectra.items() if kind in told]
-        columns = [(kind, kind_entries(kind, phasors)) for kind, phasors in known]
+        columns = [(kind, kind_entries(kind, p)) for kind, p in spectra.items() if kind in told]
         for k, order in enumerate(spectra.orders):
             for kind, entries in columns:
                 unit = system.unit(kind)
                 yield from order_rows(kind.name, order, entries[k], unit, cylinder)
-    for kind, peak in [each for each in result.peaks if each[0] in told]:
-        yield from peak_rows(kind.name, peak, system.unit(kind))
+    for kind, peak in result.peaks:
+        if kind in told:
+            yield from peak_rows(kind.name, peak, system.unit(kind))
 
 
 def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]:

@@ -4,14 +4,15 @@ torque by order, at one speed an order a row, at several a speed a row.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..documents.records import remove_unit
+from ..results.marine import FIGURES
 from .csv import Rows, name_cell
 from .engine_facts import engine_facts
-from .figures import clean
+from .figures import clean, clean_each
 from .guide_moments import define_guide_moments
 from .sheet import (
     NAMELESS,
@@ -37,80 +38,53 @@ _NAMES = (
 )
 
 
-class _Column(NamedTuple):
-    """One figure by speed and order.
-
-    Attributes:
-        key: in JSON and CSV, without its unit.
-        name: as engineers write it, `n` for the order.
-        force: whether it is a force; else it is a moment.
-        values: SI, shape (speeds, orders).
-        least: above which it matters, shape (speeds, 1).
-    """
-
-    key: str
-    name: str
-    force: bool
-    values: Array
-    least: Array
-
-    def unit(self, system: System) -> ShownUnit:
-        """The unit of one value."""
-        return system.force if self.force else system.moment
-
-    def find_orders_that_matter(self, every: bool) -> Array:
-        """Which orders do at one of the speeds, shape (orders,); all that are not 0 if `every`."""
-        least = 0.0 if every else self.least
-        return np.asarray(np.any(np.nan_to_num(self.values) > least, axis=0))
+# Names of the figures as engineers write them, `n` for the order.
+_SYMBOLS = dict(zip(FIGURES, ("FnV", "FnH", "MnV", "MnH", "Hn", "Xn", "Tn"), strict=True))
+_EXTERNAL, _INNER = FIGURES[:4], FIGURES[4:]
 
 
 def sheet(one: NamedResult[MarineSheet], system: System) -> Sheet:
-    """What the engine is, what acts on its frame and on its crank, and what the names mean."""
+    """Return what the engine is, what acts on its frame and on its crank, and what the names
+    mean.
+    """
     result = one.result
     head = engine_facts(
         result.engine, system, higher=False, whole=False, speeds_rpm=result.speeds_rpm.tolist()
     )
-    external, inner = _external(result), _inner(result)
-    grids: tuple[Grid | Text, ...]
-    gas = result.engine.gas
-    of_what = "of inertia alone, without gas" if gas is None else "of inertia and gas"
+    alone = "of inertia alone, without gas"
+    of_what = alone if result.engine.gas is None else "of inertia and gas"
     if len(result.speeds_rpm) == 1:
         title = f"Guide-force moments Hn, Xn and torque on the crank Tn, {of_what}"
-        grids = (
-            _grid_by_order("External forces and moments", external, result, system),
-            _grid_by_order(title, inner, result, system),
-        )
+        groups = {"External forces and moments": _EXTERNAL, title: _INNER}
+        draw = _grid_by_order
     else:
         groups = {
-            "External forces": external[:2],
-            "External moments": external[2:],
-            f"H-type guide-force moments {of_what}": inner[:1],
-            f"X-type guide-force moments {of_what}": inner[1:2],
-            f"Torque on the crank {of_what}": inner[2:],
+            "External forces": _EXTERNAL[:2],
+            "External moments": _EXTERNAL[2:],
+            f"H-type guide-force moments {of_what}": _INNER[:1],
+            f"X-type guide-force moments {of_what}": _INNER[1:2],
+            f"Torque on the crank {of_what}": _INNER[2:],
         }
-        grids = tuple(
-            _grid_by_speed(title, columns, result, system) for title, columns in groups.items()
-        )
+        draw = _grid_by_speed
+    grids = (draw(title, names, result, system) for title, names in groups.items())
     notes = (_tell_axes(result), define_guide_moments(result.height_m, system))
     return Sheet(result.engine.name or NAMELESS, (head, *grids, Text("", notes)))
 
 
 def document(one: NamedResult[MarineSheet]) -> dict[str, Any]:
-    """`balcli.marine/1`: SI."""
+    """Return `balcli.marine/1`: SI."""
     result = one.result
-    columns = (*_external(result), *_inner(result))
-    keys = [f"{column.key}_{'N' if column.force else 'Nm'}" for column in columns]
 
     def entry(i: int, k: int) -> dict[str, Any]:
-        figures = (clean(column.values[i, k]) for column in columns)
-        return {"order": order_number(result.orders[k]), **dict(zip(keys, figures, strict=True))}
+        figures = {name: clean(values[i, k]) for name, values in result.figures.items()}
+        return {"order": order_number(result.orders[k]), **figures}
 
     return {
         "format": "balcli.marine/1",
         "engine": {"name": result.engine.name, "cylinders": result.engine.cylinders.count},
         "includes": "inertia, without gas" if result.engine.gas is None else "inertia and gas",
         "axes": {"v": "x", "h": "y"},
-        "height_m": [clean(height) for height in result.height_m],
+        "height_m": clean_each(result.height_m),
         "speeds": [
             {"speed_rpm": speed, "orders": [entry(i, k) for k in range(len(result.orders))]}
             for i, speed in enumerate(result.speeds_rpm.tolist())
@@ -119,107 +93,97 @@ def document(one: NamedResult[MarineSheet]) -> dict[str, Any]:
 
 
 def rows(one: NamedResult[MarineSheet], system: System) -> Rows:
-    """CSV: an order of a speed a line, a column a figure."""
+    """Return CSV: an order of a speed a line, a column a figure."""
     result = one.result
-    columns = (*_external(result), *_inner(result))
-    units = [column.unit(system) for column in columns]
-    heads = (
-        f"{column.key}_{unit.name.replace('·', '')}"
-        for column, unit in zip(columns, units, strict=True)
-    )
-
-    def line(i: int, k: int) -> Iterator[Any]:
-        yield from (name_cell(one.name), result.speeds_rpm[i], order_number(result.orders[k]))
-        for column, unit in zip(columns, units, strict=True):
-            yield clean(unit.of(column.values[i, k]))
-
-    return Rows(
-        ("engine", "speed_rpm", "order", *heads),
+    units = {name: _unit(name, system) for name in FIGURES}
+    heads = (f"{remove_unit(name)}_{unit.name.replace('·', '')}" for name, unit in units.items())
+    lines = (
         (
-            tuple(line(i, k))
-            for i in range(len(result.speeds_rpm))
-            for k in range(len(result.orders))
-        ),
+            name_cell(one.name),
+            speed,
+            order_number(order),
+            *(clean(unit.of(result.figures[name][i, k])) for name, unit in units.items()),
+        )
+        for i, speed in enumerate(result.speeds_rpm)
+        for k, order in enumerate(result.orders)
     )
+    return Rows(("engine", "speed_rpm", "order", *heads), lines)
 
 
-# ------------------------------------------------------------------ columns
-def _external(result: MarineSheet) -> tuple[_Column, ...]:
-    force, moment = (
-        NEGLIGIBLE * one[:, None] for one in (result.force_of_one, result.moment_of_one)
-    )
-    return (
-        _Column("force_v", "FnV", True, result.force_v, force),
-        _Column("force_h", "FnH", True, result.force_h, force),
-        _Column("moment_v", "MnV", False, result.moment_v, moment),
-        _Column("moment_h", "MnH", False, result.moment_h, moment),
-    )
+def _unit(name: str, system: System) -> ShownUnit:
+    return system.force if name.endswith("_N") else system.moment
 
 
-def _inner(result: MarineSheet) -> tuple[_Column, ...]:
-    both = np.nan_to_num(np.hstack([result.guide_h, result.guide_x]))
-    largest, most = both.max(axis=1), result.torque.max(axis=1)
-    guide, torque = NEGLIGIBLE * largest[:, None], NEGLIGIBLE * most[:, None]
-    return (
-        _Column("guide_h", "Hn", False, result.guide_h, guide),
-        _Column("guide_x", "Xn", False, result.guide_x, guide),
-        _Column("torque", "Tn", False, result.torque, torque),
-    )
+def _find_least(name: str, result: MarineSheet) -> Array:
+    """Return above which size a figure matters, shape (speeds, 1)."""
+    if name.startswith("force"):
+        largest = result.force_of_one
+    elif name.startswith("moment"):
+        largest = result.moment_of_one
+    else:
+        alike = [values for key, values in result.figures.items() if key[:5] == name[:5]]
+        largest = np.nan_to_num(np.hstack(alike)).max(axis=1)
+    return NEGLIGIBLE * largest[:, None]
+
+
+def _find_orders_that_matter(name: str, result: MarineSheet) -> Array:
+    """Return which orders do at one of the speeds, shape (orders,); all that are not 0 if every
+    one is asked for.
+    """
+    least = 0.0 if result.every_order else _find_least(name, result)
+    return np.asarray(np.any(np.nan_to_num(result.figures[name]) > least, axis=0))
 
 
 # ------------------------------------------------------------------ tables
 def _grid_by_order(
-    title: str, columns: tuple[_Column, ...], result: MarineSheet, system: System
-) -> Grid:
-    """At one speed: an order a row."""
-    matter = np.any([c.find_orders_that_matter(result.every_order) for c in columns], axis=0)
+    title: str, names: tuple[str, ...], result: MarineSheet, system: System
+) -> Grid | Text:
+    """Return a table at one speed: an order a row."""
+    matter = np.any([_find_orders_that_matter(name, result) for name in names], axis=0)
     shown = np.flatnonzero(matter | (result.orders <= 2) & (result.orders % 1 == 0))
-    units = [_fit(columns, column.force, system) for column in columns]
-
-    def cells(k: int) -> tuple[str, ...]:
-        figures = (
-            _cell(column, 0, k, unit, result.every_order)
-            for column, unit in zip(columns, units, strict=True)
+    units = {name: _fit(names, name, result, system) for name in names}
+    rows = tuple(
+        (
+            order_name(result.orders[k]),
+            *(_cell(name, 0, k, unit, result) for name, unit in units.items()),
         )
-        return order_name(result.orders[k]), *figures
-
-    heads = (f"{c.name}, {unit.name}" for c, unit in zip(columns, units, strict=True))
-    note = _NAMES if any(column.force for column in columns) else ""
-    return Grid(title, ("order", *heads), tuple(map(cells, map(int, shown))), note)
+        for k in map(int, shown)
+    )
+    heads = (f"{_SYMBOLS[name]}, {unit.name}" for name, unit in units.items())
+    return Grid(title, ("order", *heads), rows, _NAMES if names == _EXTERNAL else "")
 
 
 def _grid_by_speed(
-    title: str, columns: tuple[_Column, ...], result: MarineSheet, system: System
+    title: str, names: tuple[str, ...], result: MarineSheet, system: System
 ) -> Grid | Text:
-    """At several speeds: a speed a row, a column an order; one sentence where none matters."""
-    chosen = [
-        (column, int(k))
-        for k in range(len(result.orders))
-        for column in columns
-        if column.find_orders_that_matter(result.every_order)[k]
-    ]
+    """Return a table of several speeds: a speed a row, a column an order; one sentence where none
+    matters.
+    """
+    matter = {name: _find_orders_that_matter(name, result) for name in names}
+    orders = range(len(result.orders))
+    chosen = [(name, k) for k in orders for name in names if matter[name][k]]
     if not chosen:
-        unknown = all(np.isnan(column.values).all() for column in columns)
+        unknown = all(np.isnan(result.figures[name]).all() for name in names)
         return Text("", (f"{title}: {'not known' if unknown else 'balanced'}.",))
-    unit = _fit(tuple(column for column, _ in chosen), columns[0].force, system)
-    heads = (column.name.replace("n", order_name(result.orders[k])) for column, k in chosen)
+    unit = _fit(tuple(name for name, _ in chosen), names[0], result, system)
+    heads = (_SYMBOLS[name].replace("n", order_name(result.orders[k])) for name, k in chosen)
     lines = tuple(
-        (given(speed), *(_cell(column, i, k, unit, result.every_order) for column, k in chosen))
+        (given(speed), *(_cell(name, i, k, unit, result) for name, k in chosen))
         for i, speed in enumerate(result.speeds_rpm.tolist())
     )
     return Grid(f"{title}, {unit.name}", ("rpm", *heads), lines, words=())
 
 
-def _fit(columns: tuple[_Column, ...], force: bool, system: System) -> ShownUnit:
-    """One unit for all forces or all moments of a table."""
-    alike = [column for column in columns if column.force == force]
-    largest = max(float(np.nan_to_num(column.values).max()) for column in alike)
-    return alike[0].unit(system).fit(largest)
+def _fit(names: tuple[str, ...], like: str, result: MarineSheet, system: System) -> ShownUnit:
+    """Return one unit for all forces or all moments of a table."""
+    unit = _unit(like, system)
+    alike = [result.figures[name] for name in names if _unit(name, system) == unit]
+    return unit.fit(max(float(np.nan_to_num(values).max()) for values in alike))
 
 
-def _cell(column: _Column, i: int, k: int, unit: ShownUnit, every: bool) -> str:
-    value = float(column.values[i, k])
-    return size_cell(value, unit, negligible=not every and value < float(column.least[i, 0]))
+def _cell(name: str, i: int, k: int, unit: ShownUnit, result: MarineSheet) -> str:
+    value, least = float(result.figures[name][i, k]), float(_find_least(name, result)[i, 0])
+    return size_cell(value, unit, negligible=not result.every_order and value < least)
 
 
 def _tell_axes(result: MarineSheet) -> str:

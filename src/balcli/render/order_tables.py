@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -29,7 +30,7 @@ from .sheet import (
 
 if TYPE_CHECKING:
     from ..core.peaks import Peak
-    from ..core.phasors import Array, Phasors
+    from ..core.phasors import Phasors
     from ..forces.spectrum import Spectra
     from ..forces.textbook import Textbook
     from .figures import OrdersAndPeaks
@@ -63,18 +64,40 @@ def order_tables(
     """
     for kind, phasors in spectra.vectors():
         yield _vector_table(kind, phasors, system.unit(kind), every)
-    of_inertia, of_gas = spectra.only(KINDS), spectra.only(GAS_KINDS)
-    if of_inertia.scalars():
-        what = f"{pivot} of inertia alone" if with_gas else pivot
-        yield _scalar_table(of_inertia, system.moment, roll, what, every)
-    if of_gas.scalars():
-        yield _scalar_table(of_gas, system.moment, "", f"{pivot} with gas", every)
+    inertia = f"{pivot} of inertia alone" if with_gas else pivot
+    for kinds, what, note in ((KINDS, inertia, roll), (GAS_KINDS, f"{pivot} with gas", "")):
+        if (part := spectra.only(kinds)).scalars():
+            yield _scalar_table(part, system.moment, note, what, every)
 
 
 def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Vectors along x and y, if there are any; `every` as of `order_tables`."""
-    if spectra.vectors():
-        yield _direction_table(spectra, system, every)
+    """Yield vectors along x and y, as builders list them, if there are any; `every` as of
+    `order_tables`.
+    """
+    vectors = [
+        (kind, phasors, fit_largest(system.unit(kind), phasors))
+        for kind, phasors in spectra.vectors()
+    ]
+    if not vectors:
+        return
+
+    def cells(k: int) -> Iterator[str]:
+        for _, phasors, unit in vectors:
+            for c in (phasors.x[k], phasors.y[k]):
+                yield size_cell(abs(c), unit)
+                yield degrees(phase_deg(complex(c))) if c else ""
+
+    axes = [kind.symbol + axis for kind, _, _ in vectors for axis in "xy"]
+    units = ", ".join(unit.name for _, _, unit in vectors)
+    yield _table(
+        f"Along x (vertical) and y (horizontal), {units}",
+        [head for axis in axes for head in (axis, "deg")],
+        [phasors for _, phasors, _ in vectors],
+        cells,
+        every,
+        "Value = amplitude · cos(order · θ − angle). My is the moment of the "
+        "forces along x (marine: M1V, M2V), Mx of those along y (M1H).",
+    )
 
 
 def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> Iterator[Grid]:
@@ -99,21 +122,21 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
 
 
 def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
-    """The part of one cylinder, as lecturers have it: vectors as size and angle."""
-    vectors = [(phasors, system.unit(kind)) for kind, phasors in share.vectors()]
+    """Return the part of one cylinder, as lecturers have it: vectors as size and angle."""
+    vectors = [(kind, phasors, system.unit(kind)) for kind, phasors in share.vectors()]
 
     def cells(k: int) -> Iterator[str]:
-        yield order_name(share.orders[k])
-        for phasors, unit in vectors:
-            yield _size_and_angle(phasors.forward[k], unit)
-            yield _size_and_angle(phasors.backward[k], unit)
+        for _, phasors, unit in vectors:
+            for v in (phasors.forward[k], phasors.backward[k]):
+                angle = degrees(math.degrees(cmath.phase(v)))
+                yield f"{number(unit.of(abs(v)), 4)} ∠ {angle}" if v else NOTHING
 
     heads = [
-        f"{kind.name} {way}, {system.unit(kind).name}"
-        for kind, _ in share.vectors()
+        f"{kind.name} {way}, {unit.name}"
+        for kind, _, unit in vectors
         for way in ("with", "against")
     ]
-    rows = tuple(tuple(cells(k)) for k in range(len(share.orders)))
+    rows = tuple((order_name(order), *cells(k)) for k, order in enumerate(share.orders))
     return Grid(f"Cylinder {cylinder} alone", ("order", *heads), rows)
 
 
@@ -133,64 +156,57 @@ def peak_facts(
     return Facts(tuple(pairs), title)
 
 
-def _shown_rows(
-    orders: Array, phasors: list[Phasors], cells: Callable[[int], Cells], every: bool
-) -> tuple[Cells, ...]:
-    """Rows of orders up to 2, and of those in which one of these quantities is not balanced, or of
-    every one.
+def _table(
+    title: str,
+    heads: Iterable[str],
+    phasors: Sequence[Phasors],
+    cells: Callable[[int], Iterable[str]],
+    every: bool,
+    note: str = "",
+) -> Grid:
+    """Return a table with a row for each order up to 2, for those in which one of these quantities
+    is not balanced, or for every one.
     """
-    return tuple(
-        cells(k)
-        for k, order in enumerate(orders)
+    rows = tuple(
+        (order_name(order), *cells(k))
+        for k, order in enumerate(phasors[0].orders)
         if every or order <= 2 or not all(p.balanced[k] for p in phasors)
     )
+    return Grid(title, ("order", *heads), rows, note)
 
 
 def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) -> Grid:
     unit = fit_largest(unit, phasors)
 
     def cells(k: int) -> Cells:
-        name = order_name(phasors.orders[k])
         if phasors.balanced[k]:
-            return name, NOTHING, "", "", "", ""
+            return NOTHING, "", "", "", ""
         if np.isnan(phasors.forward[k]):
-            return name, *[UNKNOWN] * 5
+            return (UNKNOWN,) * 5
         values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
         largest, smallest, ahead, against = (number(unit.of(float(v[k]))) for v in values)
         if not phasors.orders[k]:  # a mean does not turn
-            return name, largest, *[UNKNOWN] * 4
-        return name, largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
+            return largest, *[UNKNOWN] * 4
+        return largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
 
-    return Grid(
-        f"{capitalized(kind.label)} by order, {unit.name}",
-        ("order", "largest", "smallest", "axis, deg", "with crank", "against"),
-        _shown_rows(phasors.orders, [phasors], cells, every),
-    )
+    heads = ("largest", "smallest", "axis, deg", "with crank", "against")
+    title = f"{capitalized(kind.label)} by order, {unit.name}"
+    return _table(title, heads, [phasors], cells, every)
 
 
 def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every: bool) -> Grid:
-    scalars = spectra.scalars()
-    unit = fit_largest(unit, *(phasors for _, phasors in scalars))
+    kinds, phasors = zip(*spectra.scalars(), strict=True)
+    unit = fit_largest(unit, *phasors)
 
-    def cells(k: int) -> Cells:
-        pairs = (_amplitude(phasors.x[k], spectra.orders[k], unit) for _, phasors in scalars)
-        return (order_name(spectra.orders[k]), *(cell for pair in pairs for cell in pair))
+    def cells(k: int) -> Iterator[str]:
+        order = spectra.orders[k]
+        for c in (p.x[k] for p in phasors):
+            yield number(unit.of(size_or_mean(c, order))) if c else NOTHING
+            yield show_peak_deg(c, order) if c else ""
 
-    labels = [ROLL.name if roll and kind == ROLL else kind.label for kind, _ in scalars]
+    labels = [ROLL.name if roll and kind == ROLL else kind.label for kind in kinds]
     heads = [head for label in labels for head in (label, "peak, deg")]
-    return Grid(
-        f"About {what}, {unit.name}",
-        ("order", *heads),
-        _shown_rows(spectra.orders, [phasors for _, phasors in scalars], cells, every),
-        note=roll,
-    )
-
-
-def _amplitude(c: complex, order: float, unit: ShownUnit) -> tuple[str, str]:
-    """Amplitude, and where it is reached first; or a mean."""
-    if c == 0:
-        return NOTHING, ""
-    return number(unit.of(size_or_mean(c, order))), show_peak_deg(c, order)
+    return _table(f"About {what}, {unit.name}", heads, phasors, cells, every, roll)
 
 
 def show_peak_deg(c: complex, order: float) -> str:
@@ -204,57 +220,24 @@ def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
     return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
 
 
-def _direction_table(spectra: Spectra, system: System, every: bool) -> Grid:
-    """Vertical and horizontal, as builders state them."""
-    vectors = [
-        (phasors, fit_largest(system.unit(kind), phasors)) for kind, phasors in spectra.vectors()
-    ]
-
-    def cells(k: int) -> Iterator[str]:
-        yield order_name(spectra.orders[k])
-        for phasors, unit in vectors:
-            for c in (phasors.x[k], phasors.y[k]):
-                yield size_cell(abs(c), unit)
-                yield degrees(float(phase_deg(c))) if c else ""
-
-    phasors = [phasors for phasors, _ in vectors]
-    axes = [kind.symbol + axis for kind, _ in spectra.vectors() for axis in "xy"]
-    return Grid(
-        f"Along x (vertical) and y (horizontal), {', '.join(unit.name for _, unit in vectors)}",
-        ("order", *(head for axis in axes for head in (axis, "deg"))),
-        _shown_rows(spectra.orders, phasors, lambda k: (*cells(k),), every),
-        note="Value = amplitude · cos(order · θ − angle). My is the moment of the "
-        "forces along x (marine: M1V, M2V), Mx of those along y (M1H).",
-    )
-
-
 def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
-    """Multiples of each order's own unit."""
+    """Return multiples of each order's own unit; a dash where the order is no multiple of it."""
     alone, built = book.reciprocating[kind.name], book.built[kind.name]
 
-    def cells(k: int) -> Cells:
-        order = order_number(built.orders[k])
-        size = book.units.size(kind, order)
-        values = (alone.major[k], abs(alone.forward[k]), abs(alone.backward[k]), built.major[k])
-        return order_name(order), *(_ratio(float(value), size) for value in values)
+    def cells(k: int) -> Iterator[str]:
+        size = book.units.size(kind, order_number(built.orders[k]))
+        for value in (
+            alone.major[k],
+            abs(alone.forward[k]),
+            abs(alone.backward[k]),
+            built.major[k],
+        ):
+            multiple = "–" if math.isnan(size) else number(float(value) / size, 4)
+            yield multiple if value else NOTHING
 
-    unit = book.units.name(kind)
-    heads = ("order", f"largest, {unit}", "with crank", "against", "as built")
-    rows = _shown_rows(built.orders, [alone, built], cells, every)
-    return Grid(f"{capitalized(kind.label)} in textbook units", heads, rows, note)
-
-
-def _ratio(value: float, size: float) -> str:
-    """A multiple; a dash where the order is no multiple of anything."""
-    if not value:
-        return NOTHING
-    return "–" if math.isnan(size) else number(value / size, 4)
-
-
-def _size_and_angle(v: complex, unit: ShownUnit) -> str:
-    if v == 0:
-        return NOTHING
-    return f"{number(unit.of(abs(v)), 4)} ∠ {degrees(float(np.degrees(np.angle(v))))}"
+    heads = (f"largest, {book.units.name(kind)}", "with crank", "against", "as built")
+    title = f"{capitalized(kind.label)} in textbook units"
+    return _table(title, heads, [alone, built], cells, every, note)
 
 
 def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:

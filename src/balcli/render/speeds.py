@@ -39,36 +39,29 @@ def document(one: NamedResult[SpeedSeries]) -> dict[str, Any]:
 
 def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
     """CSV: the rows of each analysis after the engine's name and the speed."""
-    told = [(float(each.engine.speed_rpm), each) for each in one.result.analyses]
     devices = "sizing" in one.view.parts
-    every = [
-        (speed, *analysis_document.rows(each, system, devices=devices)) for speed, each in told
-    ]
+    every = [analysis_document.rows(each, system, devices=devices) for each in one.result.analyses]
     lines = (
-        (name_cell(one.name), speed, *line) for speed, _, own_lines in every for line in own_lines
+        (name_cell(one.name), speed, *line)
+        for speed, rows_of_one in zip(one.result.speeds_rpm, every, strict=True)
+        for line in rows_of_one.lines
     )
-    return Rows(("engine", "speed_rpm", *every[0][1]), lines)
+    return Rows(("engine", "speed_rpm", *every[0].header), lines)
 
 
 def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Grid | Text]:
-    series, view = one.result, one.view
+    series, view, speeds = one.result, one.view, one.result.speeds_rpm
     first = series.analyses[0]
     if not view.parts or view.whole:
-        yield engine_facts(
-            first.engine,
-            system,
-            higher=first.has_higher_orders,
-            whole=view.whole,
-            speeds_rpm=series.speeds_rpm,
-        )
-    roll = ROLL if first.engine.gas is None else ROLL_TOTAL
-    in_brief = not (view.parts or view.whole)
-    lines = series.lines
-    whole = view.whole or view.every_order
-    for kind in dict.fromkeys(line.kind for line in lines):
-        if not in_brief or kind in (FORCE, MOMENT, roll):
-            own = [line for line in lines if line.kind == kind]
-            yield _kind_part(kind, own, series.speeds_rpm, system, whole=whole)
+        higher = first.has_higher_orders
+        yield engine_facts(first.engine, system, higher=higher, whole=view.whole, speeds_rpm=speeds)
+    kinds = dict.fromkeys(line.kind for line in series.lines)
+    if not (view.parts or view.whole):  # in brief
+        roll = ROLL if first.engine.gas is None else ROLL_TOTAL
+        kinds = dict.fromkeys(kind for kind in kinds if kind in (FORCE, MOMENT, roll))
+    for kind in kinds:
+        own = [line for line in series.lines if line.kind == kind]
+        yield _kind_part(kind, own, speeds, system, whole=view.whole or view.every_order)
     if first.why is not None:
         yield from symmetry.sheet_parts(first.why)
 

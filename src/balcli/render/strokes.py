@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from .figures import FigureRow, clean
+from .figures import FigureRow
 from .sheet import Grid, number
 
 if TYPE_CHECKING:
@@ -14,46 +14,41 @@ if TYPE_CHECKING:
 
 
 def sheet_parts(travel: Travel, numbers: Sequence[int], system: System) -> Iterator[Grid]:
-    """One table, a cylinder a row; `numbers`: of the cylinders, in the order of the arrays."""
+    """Yield one table, a cylinder a row.
+
+    Args:
+        travel: Strokes and dead centres.
+        numbers: Numbers of the cylinders, in the order of its arrays.
+        system: Units.
+    """
     yield Grid(
         "Strokes and dead centres",
         ("cylinder", f"stroke, {system.length.name}", "top, deg", "bottom, deg"),
-        tuple(_cells(travel, n, row, system) for n, row in _by_number(numbers)),
+        tuple(
+            (str(n), number(system.length.of(stroke), 7), f"{top:.3f}", f"{bottom:.3f}")
+            for n, stroke, top, bottom in _list_travel(travel, numbers)
+        ),
         note="Dead centres: crank degrees after the pin lies along the cylinder's axis, and half "
         "a turn later.",
     )
 
 
 def document(travel: Travel, numbers: Sequence[int]) -> list[dict[str, Any]]:
-    """`travel` in `balcli.analysis/1`: an entry a cylinder."""
-    return [
-        {
-            "cylinder": n,
-            "stroke_m": clean(travel.stroke[row]),
-            "top_deg": clean(travel.top_deg[row]),
-            "bottom_deg": clean(travel.bottom_deg[row]),
-        }
-        for n, row in _by_number(numbers)
-    ]
+    """Return `travel` of `balcli.analysis/1`: an entry a cylinder."""
+    keys = ("cylinder", "stroke_m", "top_deg", "bottom_deg")
+    return [dict(zip(keys, line, strict=True)) for line in _list_travel(travel, numbers)]
 
 
 def rows(travel: Travel, numbers: Sequence[int], system: System) -> Iterator[FigureRow]:
-    """Three figures a cylinder."""
+    """Yield three figures a cylinder."""
     length = system.length
-    for n, row in _by_number(numbers):
-        yield FigureRow(
-            n, "travel", None, "stroke", clean(length.of(travel.stroke[row])), length.name
-        )
-        yield FigureRow(n, "travel", None, "top_deg", clean(travel.top_deg[row]), "deg")
-        yield FigureRow(n, "travel", None, "bottom_deg", clean(travel.bottom_deg[row]), "deg")
+    for n, stroke, top, bottom in _list_travel(travel, numbers):
+        yield FigureRow(n, "travel", None, "stroke", length.of(stroke), length.name)
+        yield FigureRow(n, "travel", None, "top_deg", top, "deg")
+        yield FigureRow(n, "travel", None, "bottom_deg", bottom, "deg")
 
 
-def _by_number(numbers: Sequence[int]) -> list[tuple[int, int]]:
-    """Cylinder numbers in rising order, each with its row in the arrays."""
-    return sorted((number, row) for row, number in enumerate(numbers))
-
-
-def _cells(travel: Travel, n: int, row: int, system: System) -> tuple[str, ...]:
-    stroke = number(system.length.of(float(travel.stroke[row])), 7)
-    top, bottom = (f"{angles[row] + 0.0:.3f}" for angles in (travel.top_deg, travel.bottom_deg))
-    return str(n), stroke, top, bottom
+def _list_travel(travel: Travel, numbers: Sequence[int]) -> list[tuple[int, float, float, float]]:
+    """Return number, stroke (m) and dead centres (deg) of the cylinders in rising order."""
+    arrays = (travel.stroke, travel.top_deg, travel.bottom_deg)
+    return sorted(zip(numbers, *((values + 0.0).tolist() for values in arrays), strict=True))

@@ -14,16 +14,9 @@ from ..forces.spectrum import Spectra
 from .sheet import NEGLIGIBLE, capitalized, degrees, number, order_name
 from .units import ShownUnit, System
 
-_NAMES: dict[float, str] = {
-    1: "First",
-    2: "Second",
-    3: "Third",
-    4: "Fourth",
-    5: "Fifth",
-    6: "Sixth",
-    7: "Seventh",
-    8: "Eighth",
-}
+_NAMES = dict(
+    enumerate(["First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth"], 1)
+)
 _MOST_HIGH_ORDERS = 8  # near the lock dozens matter: these one by one, the others together
 _AXES = {"0.0": "x", "90.0": "y"}
 _SWAYS = {"x": "yawing", "y": "pitching"}
@@ -76,10 +69,9 @@ def verdict(
     told = [_tell_low_order(k, int(order), vectors, steady) for k, order in rows if order in (1, 2)]
     if any(vector.matters(k) for k, _ in rows for vector in vectors):
         told += _tell_high_orders(higher, vectors, steady)
-        told.append("" if steady else _UNEVEN)
-    else:
-        told.append(_tell_negligible(higher, vectors))
-    told = list(filter(None, told))
+        told += [] if steady else [_UNEVEN]
+    elif largest := _tell_largest(higher, vectors):
+        told.append(f"Higher orders: negligible, at most {largest}.")
     if higher and not told:
         told.append(f"The orders shown: free of {' and '.join(v.what for v in vectors)}.")
     return tuple(told)
@@ -88,51 +80,47 @@ def verdict(
 def _order_name(order: float) -> str:
     if order % 1:
         return f"Order {order_name(order)}"
-    return f"{_NAMES.get(order) or ordinal(int(order))} order"
+    return f"{_NAMES[int(order)] if order < len(_NAMES) else ordinal(int(order))} order"
 
 
 def _tell_low_order(k: int, order: int, vectors: list[_Vector], steady: bool) -> str:
-    """Orders 1 and 2: what is there, which way it turns, and at steady speed what meets it."""
-    there = [
-        f"{told}: {cure}." if cure and steady else f"{told}."
-        for told, cure in (
-            _tell_vector(k, order, vector) for vector in vectors if not vector.phasors.balanced[k]
-        )
-    ]
-    free = [vector.what for vector in vectors if vector.phasors.balanced[k]]
+    """Return for order 1 or 2 what is there, which way it turns, and at steady speed what cancels
+    it.
+    """
+    there, free = [], []
+    for vector in vectors:
+        if vector.phasors.balanced[k]:
+            free.append(vector.what)
+            continue
+        told, cure = _tell_vector(k, order, vector)
+        there.append(f"{told}: {cure}." if cure and steady else f"{told}.")
     if not there:
         return f"{_order_name(order)}: free of {' and '.join(free)}."
-    rest = [f"no {what}." for what in free]
-    return f"{_order_name(order)}: " + " ".join([there[0], *map(capitalized, [*there[1:], *rest])])
+    rest = [*there[1:], *(f"no {what}." for what in free)]
+    return f"{_order_name(order)}: {' '.join([there[0], *map(capitalized, rest)])}"
 
 
 def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) -> Iterator[str]:
-    """The higher orders that are worth a word: the lowest one by one, the others together."""
-    worth = [row for row in higher if _find_worth_a_word(row[0], vectors)]
+    """Yield sentences on the higher orders that are small neither next to one cylinder nor next to
+    other orders: the lowest one by one, the others together.
+    """
+    least = [NEGLIGIBLE * vector.phasors.major.max() for vector in vectors]
+    worth: list[tuple[int, float, list[str]]] = []
+    for k, order in higher:
+        sizes = [
+            f"{vector.what} up to {vector.size(k)}"
+            for vector, small in zip(vectors, least, strict=True)
+            if vector.matters(k) and vector.phasors.major[k] > small
+        ]
+        worth += [(k, order, sizes)] if sizes else []
     alone = len(worth) if len(worth) == _MOST_HIGH_ORDERS + 1 else _MOST_HIGH_ORDERS
-    for k, order in worth[:alone]:
-        sizes = [f"{v.what} up to {v.size(k)}" for v in _find_worth_a_word(k, vectors)]
+    for _, order, sizes in worth[:alone]:
         cure = f"; rarely balanced, it would take shafts at {order:g} times crank speed" * steady
         yield f"{_order_name(order)}: {', '.join(sizes)}{cure}."
-    if others := worth[alone:]:
+    if others := [(k, order) for k, order, _ in worth[alone:]]:
         first, last = others[0][1], others[-1][1]
         largest = _tell_largest(others, vectors)
         yield f"{len(others)} more, of orders {first:g} to {last:g}: at most {largest}."
-
-
-def _find_worth_a_word(k: int, vectors: list[_Vector]) -> list[_Vector]:
-    """Those of which this order is neither small beside one cylinder nor beside other orders."""
-    return [
-        vector
-        for vector in vectors
-        if vector.matters(k) and vector.phasors.major[k] > NEGLIGIBLE * vector.phasors.major.max()
-    ]
-
-
-def _tell_negligible(higher: list[_Row], vectors: list[_Vector]) -> str:
-    """The largest of the higher orders, where nothing is left that matters."""
-    largest = _tell_largest(higher, vectors)
-    return f"Higher orders: negligible, at most {largest}." if largest else ""
 
 
 def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
@@ -153,17 +141,17 @@ def _tell_vector(k: int, order: int, vector: _Vector) -> tuple[str, str]:
     if not vector.matters(k):
         return f"{what} of up to {size}, negligible", ""
     forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
+    shafts = "nothing on the crankshaft cancels it; it needs {} times crank speed"
     if backward == 0:
+        cure = shafts.format(f"a balancer shaft at +{order}")
         by_weights = "counterweights on the crankshaft cancel it"
-        cure = by_weights if order == 1 else _cure_by_shafts(f"a balancer shaft at +{order}")
-        return f"{what} of {size}, turning with the crank", cure
+        return f"{what} of {size}, turning with the crank", by_weights if order == 1 else cure
     if forward == 0:
-        cure = _cure_by_shafts(f"a balancer shaft at -{order}")
+        cure = shafts.format(f"a balancer shaft at -{order}")
         return f"{what} of {size}, turning against the crank", cure
-    by_both = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
-    cure = (
-        by_both if order == 1 else _cure_by_shafts(f"two balancer shafts, at +{order} and -{order}")
-    )
+    cure = shafts.format(f"two balancer shafts, at +{order} and -{order}")
+    if order == 1:
+        cure = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
     parts = f"{ahead} turns with the crank, {against} against it"
     direction = _tell_direction(what, float(phasors.axis_deg[k]))
@@ -177,7 +165,3 @@ def _tell_direction(what: str, axis_deg: float) -> str:
     if what != "moment":
         return f"along {axis}"
     return f"{_SWAYS[axis]} (about {axis})" if axis in _SWAYS else f"about {axis}"
-
-
-def _cure_by_shafts(which: str) -> str:
-    return f"nothing on the crankshaft cancels it; it needs {which} times crank speed"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -178,18 +178,14 @@ def analyze(
     computed = _choose_computed(engine, asked, whole=bool(peaked))
     visible, whole = _compute_visible_and_whole(engine, computed, asked, shown, peaked)
     visible = visible.select_orders(choose_orders(visible, engine) if asked is None else asked)
-    cylinders = _analyze_cylinders(engine, visible.orders, shown) if by_cylinder else ()
     return Analysis(
         engine,
         visible,
         find_peak(whole["force"]) if peaked else None,
         find_peak(whole["moment"]) if peaked else None,
-        sizing=_size_and_analyze(engine, asked, wanted) if "sizing" in wanted else None,
-        cylinders=cylinders,
+        cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else (),
+        **_compute_chapters(engine, asked, wanted, guide_height_m),
         why=_explain(engine, visible.orders, shown) if reasons else None,
-        inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
-        guide=_find_guide(engine, asked, guide_height_m) if "guide" in wanted else None,
-        travel=None if engine.cylinders.linkage is None else _measure_travel(engine),
     )
 
 
@@ -264,17 +260,35 @@ def _analyze_cylinders(
 
 
 # ------------------------------------------------------------------ chapters, loaded on request
-def _size_and_analyze(engine: Engine, asked: Array | None, wanted: Collection[str]) -> Sizing:
-    from ..sizing.auto import size_auto
-    from ..sizing.remedy import fit_devices
+def _compute_chapters(
+    engine: Engine, asked: Array | None, wanted: Collection[str], guide_height_m: float | None
+) -> dict[str, Any]:
+    """Return sizing, inner loads, guide moments and travel, as far as they are wanted or exist."""
+    found: dict[str, Any] = {}
+    if "sizing" in wanted:
+        from ..sizing.auto import size_auto
+        from ..sizing.remedy import fit_devices
 
-    remedy = size_auto(engine)
-    left = {*wanted, "force", "moment", "peak"} - {"sizing"}
-    return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
+        remedy = size_auto(engine)
+        left = {*wanted, "force", "moment", "peak"} - {"sizing"}
+        found["sizing"] = Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
+    if "inner" in wanted:
+        found["inner"] = find_inner_loads(engine, asked)
+    if "guide" in wanted:
+        from ..forces.guide_moments import compute_guide_moments
+
+        found["guide"] = compute_guide_moments(engine, asked, guide_height_m)
+    if engine.cylinders.linkage is not None:
+        from ..core.strokes import find_travel
+
+        found["travel"] = find_travel(engine.cylinders)
+    return found
 
 
 def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
-    """Nothing can be proved of order 0, nor of moments that are not known."""
+    """Return why orders are balanced; nothing can be proved of order 0, nor of moments that are
+    not known.
+    """
     from ..forces.symmetry import explain_symmetry
 
     provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
@@ -291,15 +305,3 @@ def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
     from ..forces.in_bearings import add_gas_loads
 
     return add_gas_loads(inner, engine, asked)
-
-
-def _find_guide(engine: Engine, asked: Array | None, height_m: float | None) -> GuideMoments:
-    from ..forces.guide_moments import compute_guide_moments
-
-    return compute_guide_moments(engine, asked, height_m)
-
-
-def _measure_travel(engine: Engine) -> Travel:
-    from ..core.strokes import find_travel
-
-    return find_travel(engine.cylinders)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from types import NoneType
-from typing import NamedTuple
 
 import numpy as np
 
 from ..engine.build import Engine, check_engine
-from ..errors import check_type
+from ..errors import BalcliError, check_type
+from ..field_balancing.permitted import find_permitted_unbalance
 from ..forces.orders import merge_orders
 from ..result import Result
 from ..sizing.options import SchemeOptions
@@ -22,18 +23,20 @@ from .analysis import Analysis, analyze
 _UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
 
 
-class PermittedUnbalance(NamedTuple):
-    """By ISO 21940-11, SI.
+@dataclass(frozen=True, kw_only=True)
+class PermittedUnbalance:
+    """What a grade of ISO 21940-11 permits.
 
     Attributes:
-        grade: permitted speed of the centre of mass, mm/s. mass: of the crankshaft, kg.
-        each: permitted unbalance at each counterweight, or in each plane of the remedy's `needs`,
-            kg m; all share alike.
+        grade: Permitted speed of the centre of mass, mm/s.
+        mass_kg: Mass of the crankshaft.
+        each_g_mm: Permitted unbalance at each counterweight, or in each plane of the remedy's
+            `needs`; all share alike.
     """
 
     grade: float
-    mass: float
-    each: float
+    mass_kg: float
+    each_g_mm: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -41,14 +44,14 @@ class Balance(Result):
     """A remedy, and what the engine does without and with it.
 
     Attributes:
-        remedy: the new devices, and why these.
-        before: analysis of the engine without them.
-        after: with them, of the same orders.
-        practical: the workshop's figures of each device, in the order of `remedy.devices`.
-        tools: what the workshop has.
-        speed_note: how remedy and analyses differ in speed; empty if they do not.
-        permitted: what a grade permits, if one was asked for.
-        every_order: whether orders were asked for, so that none of them is left out.
+        remedy: New devices, and why these.
+        before: Analysis of the engine without them.
+        after: Analysis with them, of the same orders.
+        practical: The workshop's figures of each device, in the order of `remedy.devices`.
+        tools: Tools of the workshop.
+        speed_note: How remedy and analyses differ in speed; empty if they do not.
+        permitted: What a grade permits, if one was asked for.
+        every_order: Whether orders were asked for, so that none of them is left out.
     """
 
     remedy: Remedy
@@ -101,8 +104,7 @@ def balance(
     remedy = size(engine, scheme, options)
     tools = tools or Tools()
     practical = find_practical(engine, remedy, tools)
-    balanced = fit_devices(engine, remedy)
-    before, after = analyze_both(engine, balanced, orders)
+    before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
     note = _UNEVEN if engine.ripple else ""
     every = orders is not None
     return Balance(remedy, before, after, practical, tools, note, every_order=every)
@@ -111,11 +113,45 @@ def balance(
 def analyze_both(
     engine: Engine, changed: Engine, orders: Iterable[float] | None
 ) -> tuple[Analysis, Analysis]:
-    """An engine without and with a remedy, by the same orders: those asked for, or 1 and 2 and all
-    that are not negligible in one of them.
+    """Analyze an engine without and with a remedy by the same orders: those asked for, or 1 and 2
+    and all that are not negligible in one of them.
     """
     before, after = analyze(engine, orders), analyze(changed, orders)
     if np.array_equal(before.orders, after.orders):
         return before, after
     both = merge_orders(before.orders, after.orders)
     return analyze(engine, both), analyze(changed, both)
+
+
+def permit_unbalance(
+    remedy: Remedy, grade: float | None, mass: float | None, speed_rpm: float
+) -> PermittedUnbalance | None:
+    """Return what a grade permits next to each counterweight; None without a grade.
+
+    Args:
+        remedy: Remedy with counterweights.
+        grade: Grade of ISO 21940-11, mm/s.
+        mass: Mass of the crankshaft as it is balanced, bobweights included, kg.
+        speed_rpm: Speed of the engine.
+
+    Raises:
+        BalcliError: one without the other, figures that are not positive, or no counterweights.
+    """
+    if grade is None and mass is None:
+        return None
+    if grade is None or mass is None:
+        raise BalcliError(
+            "--grade and --mass belong together: a grade such as 16 permits an unbalance by the "
+            "mass of the crankshaft, in kg"
+        )
+    if not (0 < grade < math.inf and 0 < mass < math.inf):
+        raise BalcliError(f"--grade {grade:g} --mass {mass:g}: both must be positive numbers")
+    count = len(remedy.needs or remedy.counterweights)
+    if not count:
+        raise BalcliError(
+            f"--grade: scheme {remedy.scheme} fits no counterweights to the crankshaft, so "
+            "there is nothing to share the permitted unbalance; choose one that does, such as "
+            "--scheme counterweights"
+        )
+    whole = find_permitted_unbalance(grade, mass, speed_rpm)
+    return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=whole / count)

@@ -9,7 +9,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.cylinders import Cylinders
 from ..core.mechanisms.articulated import Articulated
 from ..core.phasors import Array, unit
 from ..core.strokes import Travel, find_travel
@@ -17,7 +16,6 @@ from ..engine.build import build
 from ..engine.layout import plan_cylinders
 from ..enginefile.model import EngineFile
 from ..errors import BalcliError
-from ..sizing.details import Detail, Range
 from ..sizing.remedy import Remedy
 from ..sizing.schemes import KNUCKLES
 from .balance import Balance, analyze_both
@@ -74,22 +72,29 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
             "knuckles: this engine has no articulated rods; an engine file says so with "
             "[articulation]"
         )
-    hung = linkage.master != np.arange(c.count)
+    masters, close = linkage.master, _CLOSE[goal]
+    hung = masters != np.arange(c.count)
+
+    def measure(found: Travel) -> Array:
+        """Return how far each cylinder is from its master, degrees or metres."""
+        values = found.top_deg if goal == "dead-centres" else found.stroke
+        return np.where(hung, values - values[masters], 0.0)
 
     def find_error(turn_deg: Array) -> Array:
-        error = _measure_error(_turn_knuckles(c, linkage, turn_deg), linkage, goal)
-        return np.where(hung, error, 0.0)
+        turned = replace(linkage, knuckle=linkage.knuckle * unit(turn_deg))
+        return measure(find_travel(replace(c, linkage=turned)))
 
-    turn_deg, done = _solve(find_error, c.count, _CLOSE[goal])
+    turn_deg = _solve(find_error, c.count)
+    done = np.abs(find_error(turn_deg)) <= close
     rows = _find_first_rows(model, engine.numbers)
     old_deg = np.degrees(np.angle(linkage.knuckle[rows]))
     new_deg = (old_deg + np.where(done, turn_deg, 0.0)[rows]) % 360
     angles_deg = tuple(map(float, np.where(hung[rows], new_deg, 0.0)))
     better = model.with_table("articulation", knuckle_angles=angles_deg)
     after = find_travel(build(better).cylinders)
-    uneven = hung & (np.abs(_measure_error(after, linkage, goal)) > 10 * _CLOSE[goal])
-    uneven[rows] = False  # of these the banks are told
     reasons = _explain(goal, hung[rows], done[rows], turn_deg[rows])
+    uneven = np.abs(measure(after)) > 10 * close
+    uneven[rows] = False  # of these the reasons list the banks
     if others := sorted(engine.numbers[row] for row in np.flatnonzero(uneven)):
         told = f"cylinder{'s' * (len(others) > 1)} {', '.join(map(str, others))}"
         alike = "the knuckle pins of a bank turn alike, as its first throw asks"
@@ -112,12 +117,12 @@ def balance_knuckles(
     remedy = Remedy(
         KNUCKLES,
         reasons=found.reasons,
-        details=(
-            Detail("even", "", goal),
-            Detail("knuckle angles", "angle", found.angles_deg),
-            Detail("stroke", "length", _find_range(found.after.stroke)),
-            Detail("top", "angle", _find_range(found.after.top_deg)),
-        ),
+        details={
+            "even": goal,
+            "knuckle_angles_deg": list(found.angles_deg),
+            "stroke_mm": _find_range(1e3 * found.after.stroke),
+            "top_deg": _find_range(found.after.top_deg),
+        },
         knuckle_angles_deg=found.angles_deg,
     )
     old, new = build(model), build(found.model)
@@ -127,38 +132,23 @@ def balance_knuckles(
     return Balance(remedy, before, after, every_order=orders is not None)
 
 
-def _find_range(values: Array) -> Range:
-    return Range(float(values.min()), float(values.max()))
+def _find_range(values: Array) -> dict[str, float]:
+    return {"least": float(values.min()), "largest": float(values.max())}
 
 
-def _turn_knuckles(c: Cylinders, linkage: Articulated, turn_deg: Array) -> Travel:
-    """Strokes and dead centres with the knuckle pin of each cylinder turned so far."""
-    turned = replace(linkage, knuckle=linkage.knuckle * unit(turn_deg))
-    return find_travel(replace(c, linkage=turned))
-
-
-def _measure_error(found: Travel, linkage: Articulated, goal: Goal) -> Array:
-    """How far each cylinder is from its master, degrees or metres."""
-    values = found.top_deg if goal == "dead-centres" else found.stroke
-    return np.asarray(values - values[linkage.master])
-
-
-def _solve(
-    find_error: Callable[[Array], Array], count: int, close: float
-) -> tuple[Array, NDArray[np.bool_]]:
-    """The turn of each cylinder's knuckle pin in degrees at which its error vanishes, and whether
-    it does: Newton's method, for all at once.
+def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
+    """Return the turn of each cylinder's knuckle pin, degrees, at which its error vanishes if it
+    can: Newton's method, for all at once.
     """
     turn_deg = np.zeros(count)
     for _ in range(20):
-        error = find_error(turn_deg)
         rise = find_error(turn_deg + _STEP_DEG) - find_error(turn_deg - _STEP_DEG)
         slope = rise / (2 * _STEP_DEG)
-        move = -error / np.where(slope, slope, 1.0)
+        move = -find_error(turn_deg) / np.where(slope, slope, 1.0)
         turn_deg = np.clip(turn_deg + np.clip(move, -5, 5), -_FARTHEST_DEG, _FARTHEST_DEG)
         if np.max(np.abs(move)) < 1e-12:
             break
-    return turn_deg, np.abs(find_error(turn_deg)) <= close
+    return turn_deg
 
 
 def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
@@ -172,10 +162,9 @@ def _explain(
     goal: Goal, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
 ) -> tuple[str, ...]:
     """What was done, and for which banks nothing can be; all arrays by banks."""
+    result = "strokes equal to the master's"
     if goal == "dead-centres":
         result = "top dead centres as even as the master's"
-    else:
-        result = "strokes equal to the master's"
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
     turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
     reasons = [f"knuckle pins {turned}: {result}"]

@@ -27,6 +27,7 @@ from ..result import Result
 from .analysis import DEFAULT_ORDERS
 
 Load = Literal["first", "second", "both"]
+LOADS: tuple[str, ...] = get_args(Load)
 
 
 @dataclass(frozen=True)
@@ -49,30 +50,28 @@ class Arrangement:
     at_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     turn_deg: float = 0.0
     reverse: bool = False
-    load: Load = "first"
+    load: str = "first"
 
-
-def check_arrangement(how: Arrangement) -> None:
-    """For the doors: nothing, unless this cannot be, or says what makes no difference.
-
-    Raises:
-        BalcliError: something infinite or too far, an unknown load, or one that makes no
-            difference.
-    """
-    for option, value in (("phase", how.phase_deg), ("turn", how.turn_deg)):
-        if not abs(value) <= FARTHEST_DEG:
+    def __post_init__(self) -> None:
+        """Raise BalcliError for something infinite or too far, an unknown load, or a load that
+        makes no difference.
+        """
+        for option, value in (("phase", self.phase_deg), ("turn", self.turn_deg)):
+            if not abs(value) <= FARTHEST_DEG:
+                raise BalcliError(
+                    f"--{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
+                )
+        if not all(abs(value) <= FARTHEST_M for value in self.at_m):
             raise BalcliError(
-                f"--{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
+                f"--at: the place of the second engine may be up to {FARTHEST_M:g} m off"
             )
-    if not all(abs(value) <= FARTHEST_M for value in how.at_m):
-        raise BalcliError(f"--at: the place of the second engine may be up to {FARTHEST_M:g} m off")
-    if how.load not in get_args(Load):
-        raise BalcliError(f'--load "{how.load[:60]}": choose from {", ".join(get_args(Load))}')
-    if how.load != "first" and not how.reverse:
-        raise BalcliError(
-            f"--load {how.load}: cranks that turn alike roll the frame alike, whichever drives the "
-            "load; it matters with --reverse"
-        )
+        if self.load not in LOADS:
+            raise BalcliError(f'--load "{self.load[:60]}": choose from {", ".join(LOADS)}')
+        if self.load != "first" and not self.reverse:
+            raise BalcliError(
+                f"--load {self.load}: cranks that turn alike roll the frame alike, whichever "
+                "drives the load; it matters with --reverse"
+            )
 
 
 @dataclass(frozen=True, repr=False)
@@ -165,16 +164,13 @@ def combine_engines(
 
 
 def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders: Array) -> Spectra:
-    """All that both do, with gas where one of them has some."""
+    """Return all that both do, with gas where one of them has some."""
     about_origin = replace(second, reference_m=(0.0, 0.0, 0.0))
-    own = compute_spectra(about_origin, orders, _list_kinds(second))
-    moved = place_spectra(own, arrangement, first.reference_m)
-    return _add_spectra(compute_spectra(first, orders, _list_kinds(first)), moved, arrangement)
-
-
-def _list_kinds(engine: Engine) -> tuple[str, ...]:
-    """What is computed of an engine; sums of it follow."""
-    return tuple(KINDS) if engine.gas is None else (*KINDS, GAS.name)
+    one, own = (
+        compute_spectra(engine, orders, KINDS if engine.gas is None else (*KINDS, GAS.name))
+        for engine in (first, about_origin)
+    )
+    return _add_spectra(one, place_spectra(own, arrangement, first.reference_m), arrangement)
 
 
 def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
@@ -202,7 +198,10 @@ def place_spectra(
     places = zip(arrangement.at_m, reference_m, strict=True)
     x, y, z = (place - float(point) for place, point in places)
     lead = unit(n * arrangement.phase_deg)
-    parts = {kind.name: _advance(phasors, lead) for kind, phasors in own.items()}
+    parts = {
+        kind.name: Phasors.of(n, lead * p.forward, np.conj(lead) * p.backward, p.noise)
+        for kind, p in own.items()
+    }
     if arrangement.reverse:
         parts = {name: _mirror(phasors, EVERY_KIND[name]) for name, phasors in parts.items()}
     turn = unit(arrangement.turn_deg)
@@ -211,13 +210,6 @@ def place_spectra(
     parts["moment"] = turn * parts["moment"] + 1j * z * force
     parts["couple"] = parts["couple"] + force.about(x + 1j * y)
     return Spectra(n, **{kind.name: add_parts(kind, parts) for kind, _ in own.items()})
-
-
-def _advance(phasors: Phasors, lead: Complex) -> Phasors:
-    """The same earlier by the angles e^{i n phase}, shape (orders,)."""
-    return Phasors.of(
-        phasors.orders, lead * phasors.forward, np.conj(lead) * phasors.backward, phasors.noise
-    )
 
 
 def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
@@ -249,10 +241,5 @@ def _gear(one: Phasors, other: Phasors, arrangement: Arrangement) -> tuple[Phaso
     """What the first crank feels of torques about z on both, and what the load takes, about z."""
     sense = -1.0 if arrangement.reverse else 1.0  # of the second crank
     felt = one + sense * other
-    match arrangement.load:
-        case "first":
-            return felt, felt
-        case "second":
-            return felt, sense * felt
-        case _:
-            return felt, one + other
+    taken = {"first": felt, "second": sense * felt, "both": one + other}
+    return felt, taken[arrangement.load]

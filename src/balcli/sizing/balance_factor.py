@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ..core.golden_section import find_least
 from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
+from ..documents.records import HIDDEN, INLINE, Node, Polar
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
@@ -22,14 +24,12 @@ from ..forces.orders import find_relevant_orders
 from ..forces.spectrum import compute_spectra
 from ..limits import LARGEST_FACTOR
 from .bobweight_card import DEFINITION, NO_THROW, fill_card
-from .details import Detail
-from .device_tables import find_unbalance
+from .device_tables import find_unbalance, measure_direction
 from .effects import LEFT, Slot
 from .fitting import Fitting
 from .options import SchemeOptions
 from .planes import SAME_PLACE, read_planes
 from .remedy import Remedy, fit_devices
-from .scheme_figures import FactorPeaks, PlaneNeed
 
 _NEARLY = 0.05  # of one cylinder's: pistons of one engine, weighed, differ by less
 COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
@@ -44,13 +44,70 @@ OWN_PLACES = (
 )
 
 
-class PinUnbalance(NamedTuple):
-    """What one crank pin asks for.
+class _FromPin(Polar):
+    """Mark of an unbalance: its angle counts from cylinder 1's pin, deg, in (-180, 180]."""
+
+    def split(self, value: complex) -> Node:
+        """Return size and angle."""
+        angle = measure_direction(value) if value else None
+        return {self.magnitude: abs(value), self.angle: angle}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneNeed:
+    """What a balance factor asks for in one plane of the crankshaft.
 
     Attributes:
-        cylinders: numbers of those whose rods are on it.
-        unbalance: of what is to be balanced opposite it, with the throw, at crank angle 0, kg m.
-        z: where the masses on the pin have their centre, m.
+        position_mm: Place of the plane along the crankshaft.
+        wanted: Counterweight for all pins, as far as this plane takes it, kg m.
+        present: Unbalance of the file's counterweights there, kg m.
+        missing: Unbalance that is still to be added, kg m.
+    """
+
+    position_mm: float
+    wanted: Annotated[complex, _FromPin("wanted_kg_m", "wanted_deg"), INLINE]
+    present: Annotated[complex, _FromPin("present_kg_m", "present_deg"), INLINE]
+    missing: Annotated[complex, _FromPin("missing_kg_m", "missing_deg"), INLINE]
+
+
+@dataclass(frozen=True, kw_only=True, order=True)
+class FactorPeaks:
+    """What an engine balanced by the shop's factor still shakes: largest values over a revolution,
+    of all orders.
+
+    Attributes:
+        factor: Balance factor.
+        peak_force_N: Largest force.
+        along_N: Largest component of the force along the axis of the first bank.
+        across_N: Largest component across it.
+        peak_moment_Nm: Largest moment.
+        bobweight_g: Bobweight of the first pin.
+        counterweight_kg_m: Largest weight that is missing.
+        by_moment: Whether the moment says which factor is best: the pins balance each other, so
+            that no factor changes much of the force.
+    """
+
+    factor: float
+    peak_force_N: float
+    along_N: float
+    across_N: float
+    peak_moment_Nm: float
+    bobweight_g: float
+    counterweight_kg_m: float
+    by_moment: Annotated[bool, HIDDEN]
+
+    @property
+    def cost(self) -> tuple[float, float]:
+        """Figures that are least at the best factor: the force, or else the moment; then the
+        other.
+        """
+        force, moment = round(self.peak_force_N, 6), round(self.peak_moment_Nm, 6)
+        return (moment, force) if self.by_moment else (force, moment)
+
+
+class _Pin(NamedTuple):
+    """What one crank pin carries: numbers of its cylinders; unbalance at crank angle 0 to be
+    balanced opposite it, with the throw, kg m; centre of these masses along z, m.
     """
 
     cylinders: tuple[int, ...]
@@ -58,18 +115,29 @@ class PinUnbalance(NamedTuple):
     z: float
 
 
+class _Planes(NamedTuple):
+    """Planes of counterweights: z, m, shape (planes,); what each wants, has and lacks at crank
+    angle 0, kg m, shape (3, planes); pins that share a plane, where each has its own.
+    """
+
+    z: Array
+    needs: Complex
+    sets: list[list[_Pin]]
+
+
 def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Counterweights by the factor asked for, 0.5 if none is, or by what was measured on a pin.
+    """Fit counterweights by the factor asked for, 0.5 if none is, or by what was measured on a pin.
 
     What the file's own counterweights do counts, and what is missing is fitted: in the planes asked
     for, to which pins and weights are carried by the lever; by default where the file's own stand,
     or opposite each pin if they stand in fewer than two places (of pins in one plane in sum).
 
-    Of several factors all peaks are told, and the one that leaves the smallest peak force is
+    Of several factors all peaks are listed, and the one that leaves the smallest peak force is
     fitted, or moment, where the pins balance each other (`FactorPeaks.by_moment`).
 
-    Raises BalcliError for a factor that is no share, planes where moments are not known, or if the
-    crankshaft stands still.
+    Raises:
+        BalcliError: a factor that is no share, planes where moments are not known, or a crankshaft
+            that stands still.
     """
     if engine.rotary:
         raise BalcliError(
@@ -77,18 +145,22 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
             "on them: there is no rotating mass to balance opposite a pin; counterweights or auto "
             "can balance what is left"
         )
-    planes = _choose_planes(engine, options)
-    factors = _choose_factors(engine, options)
+    planes, factors = _choose_planes(engine, options), _choose_factors(engine, options)
     sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
     best = min(sweep, key=lambda peaks: peaks.cost).factor
-    fitting = _fit_factor(engine, best, planes).add_details(*_describe(engine, options, best))
+    fitting, found = _fit_factor(engine, best, planes)
+    fitting = fitting.add_details(**_describe(engine, options, best))
     own = bool(_find_counterweights(engine)[1].any())
-    needs = _find_needs(engine, best, planes)
+    from_pin = (complex(unit(-float(engine.first_axis_deg))) * found.needs).T.tolist()
+    needs = [
+        PlaneNeed(position_mm=1e3 * z, wanted=wanted, present=present, missing=missing)
+        for z, (wanted, present, missing) in zip(found.z.tolist(), from_pin, strict=True)
+    ]
     unasked = options.planes is None and planes is not None
     return fitting.remedy._replace(
-        note=_note(fitting, best, needs, own=own, unasked=unasked),
+        note=_note(fitting, best, found.z, own=own, unasked=unasked),
         card=fill_card(engine, best),
-        needs=tuple(_count_from_pin(engine, need) for need in needs) if own else (),
+        needs=tuple(needs) if own else (),
         sweep=sweep if len(sweep) > 1 else (),
     )
 
@@ -96,10 +168,10 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
 def find_best_factor(
     engine: Engine, options: SchemeOptions, sweep: Sequence[FactorPeaks]
 ) -> FactorPeaks:
-    """The peaks at the best factor of all between those of a sweep, to 1e-4 of its step.
+    """Return the peaks at the best factor of all between those of a sweep, to 1e-4 of its step.
 
     The peak of a force that grows evenly with the factor at each crank angle is a convex function
-    of it, and so is that of the moment: the best of all stands beside the best of the sweep.
+    of it, and so is that of the moment: the best of all stands next to the best of the sweep.
     """
     planes = _choose_planes(engine, options)
     k = min(range(len(sweep)), key=lambda k: sweep[k].cost)
@@ -108,13 +180,11 @@ def find_best_factor(
     return min(sweep[k], find_factor_peaks(engine, found, planes), key=lambda peaks: peaks.cost)
 
 
-def _note(
-    fitting: Fitting, factor: float, needs: Sequence[PlaneNeed], *, own: bool, unasked: bool
-) -> str:
-    """What to know besides; the file may have counterweights of its `own`, and planes may have been
+def _note(fitting: Fitting, factor: float, z: Array, *, own: bool, unasked: bool) -> str:
+    """Return a note; the file may have counterweights of its `own`, and planes may have been
     chosen `unasked`, where these stand.
     """
-    if _loses_moment(fitting.engine, factor, needs):
+    if _loses_moment(fitting.engine, factor, z):
         return SAME_PLACE
     if factor < 0:
         return "a factor below 0: not even all rotating mass is balanced"
@@ -126,40 +196,48 @@ def _note(
     return OWN_PLACES if unasked else ""
 
 
-def _loses_moment(engine: Engine, factor: float, needs: Sequence[PlaneNeed]) -> bool:
-    """Whether there is one plane alone, about which pins or weights elsewhere make a moment."""
-    z = {need.z for need in needs}
-    if len(z) != 1 or not engine.places_known:
+def _loses_moment(engine: Engine, factor: float, z: Array) -> bool:
+    """Return whether there is one plane alone, about which pins or weights elsewhere make a
+    moment.
+    """
+    if len(set(z)) != 1 or not engine.places_known:
         return False
-    loads, (places, weights) = _list_loads(engine, factor), _find_counterweights(engine)
-    arms = np.array([*(load.z for load in loads), *places]) - z.pop()
-    vectors = np.array([*(load.unbalance for load in loads), *weights])
+    pins, (places, weights) = _list_pins(engine, factor), _find_counterweights(engine)
+    arms = np.array([*(pin.z for pin in pins), *places]) - z[0]
+    vectors = np.array([*(pin.unbalance for pin in pins), *weights])
     return bool(abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)))
 
 
 def find_factor_peaks(
     engine: Engine, factor: float, planes: tuple[float, ...] | None = None
 ) -> FactorPeaks:
-    """Largest force and moment at steady speed when the crankshaft is balanced by this factor."""
-    fitting = _fit_factor(engine, factor, planes)
+    """Return what is left at steady speed when the crankshaft is balanced by this factor.
+
+    Args:
+        engine: Engine.
+        factor: Share of the reciprocating mass.
+        planes: Places of the counterweights along z, m; None: those of the pins.
+    """
+    fitting, _ = _fit_factor(engine, factor, planes)
     new = fit_devices(fitting.engine, fitting.remedy)
     force, moment = find_curve(new, "force"), find_curve(new, "moment")
     along = complex(unit(float(engine.cylinders.axis_deg[0])))
+    weights = map(find_unbalance, fitting.remedy.counterweights)
     return FactorPeaks(
         factor=factor,
-        force=find_peak(force).value,
-        along=_find_largest_component(force, along),
-        across=_find_largest_component(force, 1j * along),
-        moment=find_peak(moment).value,
+        peak_force_N=find_peak(force).value,
+        along_N=_find_largest_component(force, along),
+        across_N=_find_largest_component(force, 1j * along),
+        peak_moment_Nm=find_peak(moment).value,
         bobweight_g=fill_card(engine, factor)[0].bobweight_g,
-        counterweight=max(map(find_unbalance, fitting.remedy.counterweights), default=0.0),
+        counterweight_kg_m=max(weights, default=0.0),
         by_moment=engine.places_known and _do_pins_balance(engine),
     )
 
 
 def _do_pins_balance(engine: Engine) -> bool:
-    """Whether what goes to and fro adds up to nearly nothing, taken at the crank pins: the share of
-    it that a factor adds to the counterweights is then a moment.
+    """Return whether what goes to and fro adds up to nearly nothing, taken at the crank pins: the
+    share of it that a factor adds to the counterweights is then a moment.
     """
     masses = np.array([float(weighed.reciprocating) for weighed in engine.weighed])
     pins = unit(np.array([float(pin) for pin in engine.cylinders.pin_deg]))
@@ -167,13 +245,20 @@ def _do_pins_balance(engine: Engine) -> bool:
 
 
 def find_curve(engine: Engine, quantity: str) -> Phasors:
-    """Free force or moment of all orders."""
+    """Return the free force or moment of all orders."""
     return compute_spectra(engine, find_relevant_orders(engine), (quantity,))[quantity]
+
+
+def _find_largest_component(curve: Phasors, direction: complex) -> float:
+    """Return the largest component of a force along a direction (a unit vector), N."""
+    coefficients = curve.forward * direction.conjugate() + np.conj(curve.backward) * direction
+    component = Phasors.from_scalar(curve.orders, coefficients, curve.noise)
+    return find_peak(component.drop_noise()).value
 
 
 # ------------------------------------------------------------------ which factor, which planes
 def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
-    """The factors asked for, or the one that was measured."""
+    """Return the factors asked for, or the one that was measured."""
     if options.measured is not None:
         if options.factor is not None:
             raise BalcliError(
@@ -193,10 +278,11 @@ def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]
 
 
 def find_measured_factor(engine: Engine, measured: float) -> float:
-    """The factor of a crankshaft that is in balance with this mass (kg) on each bare pin, at the
-    crank radius, without rods: that mass stands for rotating + factor x reciprocating mass.
+    """Return the factor of a crankshaft that is in balance with this mass (kg) on each bare pin, at
+    the crank radius, without rods: that mass stands for rotating + factor x reciprocating mass.
 
-    Raises BalcliError where nothing goes to and fro, or for a mass that no crankshaft can have.
+    Raises:
+        BalcliError: nothing goes to and fro, or no crankshaft can have such a mass.
     """
     if measured < 0:
         raise BalcliError(f"--measured {1e3 * measured:g} g: a mass on the pin is not negative")
@@ -216,7 +302,7 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
 
 
 def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] | None:
-    """The planes asked for (z, m), ascending, each once; by default those of the file's own
+    """Return the planes asked for (z, m), ascending, each once; by default those of the file's own
     counterweights if they stand in at least two; None: those of the pins.
     """
     if options.planes is None:
@@ -228,139 +314,106 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
     return tuple(sorted(set(read_planes(engine, options))))
 
 
-def _describe(engine: Engine, options: SchemeOptions, factor: float) -> list[Detail]:
-    """The factor by both definitions, and what was measured."""
-    rods = len(engine.rows_by_pin[0])
-    said = "of all reciprocating mass on the pin"
-    details = [
-        Detail("factor", "share", factor, what=said),
-        Detail(
-            "factor of one cylinder",
-            "share",
-            factor * rods,
-            what=f"of {name_one_cylinder(engine)}: the same weight",
-        ),
-        Detail("definition", "", DEFINITION),
-    ]
+def _describe(engine: Engine, options: SchemeOptions, factor: float) -> dict[str, Any]:
+    """Return the factor by both definitions, and what was measured."""
+    details: dict[str, Any] = {
+        "factor": factor,
+        "factor_of_one_cylinder": factor * len(engine.rows_by_pin[0]),
+        "definition": DEFINITION,
+    }
     if not any(float(weighed.share) for weighed in engine.weighed):
-        details.append(Detail("throw", "", NO_THROW))
+        details["throw"] = NO_THROW
     if options.measured is not None:
-        what = "balance each bare pin, at the crank radius, without rods"
-        details.insert(0, Detail("measured", "grams", options.measured, what=what))
+        details = {"measured_g": 1e3 * options.measured, **details}
     return details
 
 
 def name_one_cylinder(engine: Engine) -> str:
-    """What a factor of one cylinder is a share of: any of them, or the mean of unequal ones."""
+    """Return what a factor of one cylinder is a share of: any of them, or the mean of unequal
+    ones.
+    """
     masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
     return f"one cylinder's reciprocating mass{', in the mean' if len(masses) > 1 else ''}"
 
 
 # ------------------------------------------------------------------ what is wanted, what is there
-def _fit_factor(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> Fitting:
-    """With a weight in each plane for what is missing there."""
+def _fit_factor(
+    engine: Engine, factor: float, planes: tuple[float, ...] | None
+) -> tuple[Fitting, _Planes]:
+    """Fit a weight in each plane for what is missing there."""
     fitting = Fitting.start(engine, "factor", 1)
     counted = "; what the counterweights of the file do is counted"
     less = counted if _find_counterweights(engine)[1].any() else ""
     taken = f"all rotating mass and {factor:.6g} of the reciprocating mass"
-    needs = _find_needs(engine, factor, planes)
+    found = _find_needs(engine, factor, planes)
+    slots = [Slot("counterweight", 1, 1, z) for z in found.z.tolist()]
+    missing = found.needs[2].tolist()
     if planes is not None:
         reason = f"In these planes, carried to them by the lever: {taken} of every pin{less}"
-        slots = [Slot("counterweight", 1, 1, need.z) for need in needs]
-        return fitting.add(slots, [need.missing for need in needs], reason)
-    for need, pins in zip(needs, _share_out(engine, _list_loads(engine, factor)), strict=True):
+        return fitting.add(slots, missing, reason), found
+    for slot, unbalance, pins in zip(slots, missing, found.sets, strict=True):
         numbers = [str(number) for pin in pins for number in pin.cylinders]
         cylinders = f"cylinder{'s' * (len(numbers) > 1)} {', '.join(numbers)}"
         where = "Opposite the pin" if len(pins) == 1 else "In the plane"
-        reason = f"{where} of {cylinders}: {taken}{less}"
-        fitting = fitting.add([Slot("counterweight", 1, 1, need.z)], [need.missing], reason)
-    return fitting
+        fitting = fitting.add([slot], [unbalance], f"{where} of {cylinders}: {taken}{less}")
+    return fitting, found
 
 
-def _find_needs(
-    engine: Engine, factor: float, planes: tuple[float, ...] | None
-) -> tuple[PlaneNeed, ...]:
-    """What each plane asks for and has, directions at crank angle 0; without planes one for each
-    set of pins of `_share_out`.
+def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> _Planes:
+    """Return what each plane wants, has and lacks. Without planes each pin has its own, or, where
+    the file has counterweights, all pins at one place, for nobody knows to which of them a weight
+    there belongs.
     """
-    loads = _list_loads(engine, factor)
-    if not loads:
-        return ()
-    pins = np.array([load.unbalance for load in loads], complex)
-    if planes is None:
-        sets = _share_out(engine, loads)
-        z = np.array([members[0].z for members in sets])
-        of_pins = np.array([[float(load in members) for load in loads] for members in sets])
-    else:
-        z = np.array(planes)
-        of_pins = share_by_lever(np.array([load.z for load in loads]), z)
+    pins = _list_pins(engine, factor)
     places, weights = _find_counterweights(engine)
+    sets: list[list[_Pin]] = []
+    if planes is None and weights.any():
+        sets = [[pin for pin in pins if pin.z == z] for z in dict.fromkeys(pin.z for pin in pins)]
+    elif planes is None:
+        sets = [[pin] for pin in pins]
+    z = np.array([members[0].z for members in sets] if planes is None else planes, float)
+    if not pins:
+        return _Planes(z[:0], np.zeros((3, 0), complex), [])
+    if planes is None:
+        of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
+    else:
+        of_pins = share_by_lever(np.array([pin.z for pin in pins]), z)
     of_weights = np.zeros((len(z), len(places)))
     if weights.any():
         of_weights[np.argsort(z)] = share_by_lever(places, np.sort(z))
-    wanted, present = -(of_pins @ pins), of_weights @ weights
-    parts = np.abs(of_pins) @ np.abs(pins) + np.abs(of_weights) @ np.abs(weights)
-    vectors = np.stack([wanted, present, wanted - present])
-    settled = np.where(np.abs(vectors) <= LEFT * parts, 0, vectors)  # dust of what cancels is none
-    return tuple(PlaneNeed(*row) for row in zip(z.tolist(), *settled.tolist(), strict=True))
-
-
-def _count_from_pin(engine: Engine, need: PlaneNeed) -> PlaneNeed:
-    """What a plane asks for and has, its directions counted from cylinder 1's crank pin."""
-    turned = complex(unit(-float(engine.first_axis_deg)))
-    return PlaneNeed(need.z, *(turned * vector for vector in need[1:]))
+    unbalances = np.array([pin.unbalance for pin in pins])
+    wanted, present = -(of_pins @ unbalances), of_weights @ weights
+    parts = np.abs(of_pins) @ np.abs(unbalances) + np.abs(of_weights) @ np.abs(weights)
+    needs = np.stack([wanted, present, wanted - present])
+    return _Planes(z, np.where(np.abs(needs) <= LEFT * parts, 0, needs), sets)
 
 
 def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
-    """Places (m) and unbalances at crank angle 0 (kg m) of the file's counterweights."""
+    """Return places (m) and unbalances at crank angle 0 (kg m) of the file's counterweights."""
     own = [device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT]
     places = np.array([float(device.z) for device in own])
     return places, np.array([complex(device.forward) for device in own], complex)
 
 
-def _share_out(engine: Engine, loads: list[PinUnbalance]) -> list[list[PinUnbalance]]:
-    """The pins that ask for a weight together: each by itself, or, where the file has
-    counterweights, all pins of a plane, for nobody knows to which of them a weight there belongs.
-    """
-    if not _find_counterweights(engine)[1].any():
-        return [[load] for load in loads]
-    planes: dict[float, list[PinUnbalance]] = {}
-    for load in loads:
-        planes.setdefault(load.z, []).append(load)
-    return list(planes.values())
-
-
-def _list_loads(engine: Engine, factor: float) -> list[PinUnbalance]:
-    """What each crank pin asks for; pins that carry nothing are left out."""
-    loads = []
+def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
+    """Return what each crank pin carries; pins that carry nothing are left out."""
+    pins = []
     for rows in engine.rows_by_pin:
         weighed = [engine.weighed[row] for row in rows]
         masses = np.array([float(w.rotating + w.share + factor * w.reciprocating) for w in weighed])
-        total = float(masses.sum())
-        if total == 0:
-            continue
-        pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
-        cylinders = tuple(engine.numbers[row] for row in rows)
-        unbalance = total * float(engine.cylinders.radius) * pin
-        loads.append(
-            PinUnbalance(cylinders, unbalance, _find_centre(masses, engine.cylinders.z[rows]))
-        )
-    return loads
+        if total := float(masses.sum()):
+            pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
+            cylinders = tuple(engine.numbers[row] for row in rows)
+            z = _find_centre(masses, engine.cylinders.z[rows])
+            pins.append(_Pin(cylinders, total * float(engine.cylinders.radius) * pin, z))
+    return pins
 
 
 def _find_centre(masses: Array, places: Array) -> float:
-    """Centre along z of masses at these places, m; in thousandths of a nanometre where that differs
-    by rounding alone.
+    """Return the centre along z of masses at these places, m; in thousandths of a nanometre where
+    that differs by rounding alone.
     """
     z = float(masses @ places) / float(masses.sum())
-    legible = round(z, 12) + 0.0
+    rounded = round(z, 12) + 0.0
     rounding = len(places) * EPS * float(np.abs(places).max())
-    return legible if abs(z - legible) <= rounding else z
-
-
-def _find_largest_component(curve: Phasors, direction: complex) -> float:
-    """Largest component of a force along a direction (a unit vector), N."""
-    coefficients = curve.forward * direction.conjugate() + np.conj(curve.backward) * direction
-    return find_peak(
-        Phasors.from_scalar(curve.orders, coefficients, curve.noise).drop_noise()
-    ).value
+    return rounded if abs(z - rounded) <= rounding else z

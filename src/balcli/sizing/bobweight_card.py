@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 
-from ..engine.build import Engine
+from ..engine.build import Engine, Weighed
 from ..engine.rods import Weighed
 from .scheme_figures import Bobweight, CardLine
 
@@ -18,40 +18,114 @@ NO_THROW = (
     "what the throw itself weighs at the crank radius"
 )
 WHOLE_PISTON = "piston complete"
+ROTATING = ("big end", "rod bearing", "oil")
 PISTON = (WHOLE_PISTON, "piston", "pin", "rings", "locks")
 
 
+@dataclass(frozen=True, kw_only=True)
+class CardLine:
+    """One line of a bobweight card.
+
+    Attributes:
+        part: Name of the part, such as "rings".
+        rotates: Whether it turns with the pin, or else goes to and fro.
+        each_g: Mass for each rod on the pin, g.
+    """
+
+    part: str
+    rotates: bool
+    each_g: tuple[float, ...]
+
+    @property
+    def sum_g(self) -> float:
+        """Mass for all rods on the pin, g."""
+        return sum(self.each_g)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bobweight:
+    """The bobweight of one crank pin, in grams as on the card and the scales of a balancing shop.
+
+    Attributes:
+        throw: Number of the throw, from 1.
+        cylinders: Numbers of the cylinders whose rods are on the pin.
+        factor: Share of the reciprocating mass that counts.
+        piston_g: Pistons with rings, pins and locks.
+        small_end_g: Small ends of the rods.
+        big_end_g: Big ends of the rods.
+        rod_bearing_g: Rod bearings.
+        oil_g: Oil.
+        rotating_g: Sum of all that turns with the pin.
+        reciprocating_g: Sum of all that goes to and fro.
+        bobweight_g: Rotating mass plus factor times reciprocating mass.
+        throw_g: Mass of the throw itself at the crank radius, for the rods of this pin:
+            counterweights balance it as well as the bobweight.
+        lines: All parts that are weighed, in the order of the card.
+    """
+
+    throw: int
+    cylinders: tuple[int, ...]
+    factor: float
+    piston_g: float
+    small_end_g: float
+    big_end_g: float
+    rod_bearing_g: float
+    oil_g: float
+    rotating_g: float
+    reciprocating_g: float
+    bobweight_g: float
+    throw_g: float
+    lines: tuple[CardLine, ...]
+
+
 def fill_card(engine: Engine, factor: float) -> tuple[Bobweight, ...]:
-    """The bobweight of each crank pin for this share of the reciprocating mass."""
+    """Return the bobweight of each crank pin for this share of the reciprocating mass."""
     return tuple(_weigh(engine, rows, factor) for rows in engine.rows_by_pin)
 
 
 def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
-    """The bobweight of the pin of these cylinders."""
     masses = [engine.weighed[row] for row in rows]
+    lines = _list_lines(masses)
+
+    def total(*parts: str) -> float:
+        return sum(line.sum_g for line in lines if line.part in parts)
+
+    rotating, reciprocating = total(*ROTATING), total(*PISTON, "small end")
     return Bobweight(
         throw=masses[0].throw + 1,
         cylinders=tuple(engine.numbers[row] for row in rows),
-        lines=tuple(_list_lines(masses)),
         factor=factor,
+        piston_g=total(*PISTON),
+        small_end_g=total("small end"),
+        big_end_g=total("big end"),
+        rod_bearing_g=total("rod bearing"),
+        oil_g=total("oil"),
+        rotating_g=rotating,
+        reciprocating_g=reciprocating,
+        bobweight_g=rotating + factor * reciprocating,
         throw_g=1e3 * sum(float(one.share) for one in masses),
+        lines=lines,
     )
 
 
-def _list_lines(masses: list[Weighed]) -> Iterator[CardLine]:
-    """All that is weighed of the rods on one pin; parts that none of them has are left out."""
-
-    def weigh(part: str, rotates: bool, each_kg: list[float]) -> CardLine:
-        return CardLine(part, rotates, tuple(1e3 * mass for mass in each_kg))
-
-    yield weigh("big end", True, [float(one.big_end) for one in masses])
-    yield weigh("rod bearing", True, [float(one.rod_bearing) for one in masses])
-    yield weigh("oil", True, [float(one.oil) for one in masses])
-    pistons = [
-        {WHOLE_PISTON if key == "mass" else key: float(mass) for key, mass in one.piston_parts}
+def _list_lines(masses: list[Weighed]) -> tuple[CardLine, ...]:
+    """Return the parts of the rods on one pin; parts that none of them has are left out."""
+    rods = [
+        {
+            "big end": one.big_end,
+            "rod bearing": one.rod_bearing,
+            "oil": one.oil,
+            **{WHOLE_PISTON if key == "mass" else key: mass for key, mass in one.piston_parts},
+            "small end": one.small_end,
+        }
         for one in masses
     ]
-    for part in PISTON:
-        if any(part in piston for piston in pistons):
-            yield weigh(part, False, [piston.get(part, 0.0) for piston in pistons])
-    yield weigh("small end", False, [float(one.small_end) for one in masses])
+    return tuple(
+        CardLine(
+            part=part,
+            rotates=part in ROTATING,
+            each_g=tuple(1e3 * float(rod.get(part, 0.0)) for rod in rods),
+        )
+        for part in (*ROTATING, *PISTON, "small end")
+        if any(part in rod for rod in rods)
+    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .details import Detail
 from .effects import Slot, size_unbalances
 from .fitting import Fitting
 from .options import SchemeOptions
@@ -68,8 +67,8 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
     )
     left = fitting.find_residual(1)
     fitting = fitting.add_details(
-        Detail("force with crank left", "force", left.size(FORWARD_FORCE)),
-        Detail("moment with crank left", "moment", left.size(FORWARD_MOMENT)),
+        force_with_crank_left_N=left.size(FORWARD_FORCE),
+        moment_with_crank_left_Nm=left.size(FORWARD_MOMENT),
     )
     return fitting.remedy._replace(note=SAME_PLACE if left.moment(1) else "")
 

@@ -41,7 +41,8 @@ def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
     turned: dict[int, list[complex]] = {}
     for device in devices:
         if _stands_nowhere(device):
-            turned.setdefault(device.ratio, []).append(_as_vector(device))
+            vector = cmath.rect(find_unbalance(device), math.radians(device.angle))
+            turned.setdefault(device.ratio, []).append(vector)
     free = {
         ratio
         for ratio, vectors in turned.items()
@@ -55,72 +56,13 @@ def _stands_nowhere(device: DeviceTable) -> TypeGuard[Shaft]:
     return isinstance(device, Shaft) and not any(device.at)
 
 
-def _as_vector(shaft: Shaft) -> complex:
-    return cmath.rect(find_unbalance(shaft), math.radians(shaft.angle))
-
-
-def make_counterweight(unbalance: complex, z: float, first_axis_deg: float) -> Counterweight:
-    """A weight on the crankshaft.
-
-    Args:
-        unbalance: kg m, its direction at crank angle 0 counting from x.
-        z: m.
-        first_axis_deg: direction of cylinder 1's crank pin, from which the file's angle counts.
-    """
-    size, angle = _polar(unbalance, first_axis_deg)
-    return Counterweight.model_construct(unbalance=size, angle=angle, position=_millimetres(z))
-
-
-def make_shaft(unbalance: complex, ratio: int, z: float, place: complex) -> Shaft:
-    """An eccentric of a balancer shaft.
-
-    Args:
-        unbalance: kg m, its direction at crank angle 0.
-        ratio: times crank speed, negative if it turns against the crank.
-        z, place: m, x + iy.
-    """
-    size, angle = _polar(unbalance)
-    return Shaft.model_construct(
-        ratio=ratio, unbalance=size, angle=angle, at=_at(place), position=_millimetres(z)
-    )
-
-
-def make_slider(
-    unbalance: complex, order: int, direction_deg: float, z: float, place: complex
-) -> Slider:
-    """A reciprocating mass.
-
-    Args:
-        unbalance: kg m; mass times displacement is the real part of `unbalance e^{i order theta}`.
-        direction_deg: of its path, from x.
-        z, place: m, x + iy.
-    """
-    size, angle = _polar(unbalance)
-    return Slider.model_construct(
-        order=order,
-        unbalance=size,
-        direction=direction_deg,
-        angle=angle,
-        at=_at(place),
-        position=_millimetres(z),
-    )
-
-
 def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:
     """Direction of a vector, degrees from `origin_deg`, in (-180, 180]."""
     return _plain(float(wrap_degrees(math.degrees(cmath.phase(vector)) - origin_deg, 360)), 360)
 
 
-def _polar(unbalance: complex, origin_deg: float = 0.0) -> tuple[float, float]:
-    """kg m -> g mm and degrees."""
-    return abs(unbalance) * 1e6, measure_direction(unbalance, origin_deg)
-
-
-def _at(place: complex) -> tuple[float, float]:
-    return _millimetres(place.real), _millimetres(place.imag)
-
-
-def _millimetres(metres: float) -> float:
+def as_millimetres(metres: float) -> float:
+    """Return a length in mm, as people would write it."""
     return _plain(metres * 1e3, abs(metres * 1e3))
 
 

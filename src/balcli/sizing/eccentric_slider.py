@@ -14,15 +14,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from itertools import combinations, product
+from math import nan
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.mechanisms import closed_form
 from ..core.phasors import Array, Complex
 from ..errors import BalcliError
-from .scheme_figures import Optimum
 
 DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")
@@ -40,20 +40,49 @@ _BELOW_0 = -1e-12  # a weight above this is 0 but for rounding
 _NEWTON_STEPS = 8  # from the middle of a cell of the grid to a root, to rounding
 
 
+@dataclass(frozen=True, kw_only=True)
+class Optimum:
+    """The best pair of unevenly turning shafts by one criterion.
+
+    Attributes:
+        design: One of `DESIGNS`.
+        criterion: One of `CRITERIA`.
+        engine_force: One of `FORCES`.
+        k: Radius of the driving pin over the eccentricity, r_b/e.
+        mu: Unbalance of each shaft in units of m r (reciprocating mass times crank radius).
+        unbalance_kg_m: Unbalance of each shaft of an engine; nan of none in particular.
+        largest: Largest absolute force that is left, in units of m r omega^2.
+        mean: Mean absolute force that is left, in units of m r omega^2.
+    """
+
+    design: str
+    criterion: str
+    engine_force: str
+    k: float
+    mu: float
+    unbalance_kg_m: float = nan
+    largest: float
+    mean: float
+
+
 def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> Optimum:
-    """The best k and mu of one design by one criterion.
+    """Return the best k and mu of one design by one criterion.
 
     Args:
-        design, criterion, engine_force: of DESIGNS, CRITERIA, FORCES.
-        lam: crank radius over rod length.
+        design: One of `DESIGNS`.
+        criterion: One of `CRITERIA`.
+        engine_force: One of `FORCES`.
+        lam: Crank radius over rod length.
 
-    Raises BalcliError where lambda is so large that the search does not settle.
+    Raises:
+        BalcliError: lambda is so large that the search does not settle.
     """
     engine = _expand_engine_force(engine_force, lam)
     try:
-        x = _minimise_peak(design, engine, np.array([2 / lam, 0.5]))
+        start = np.array([2 / lam, 0.5])
+        x = _iterate(lambda x: _step_to_peak(design, engine, x), start, _FARTHEST_TO_PEAK)
         if criterion == "mean":
-            x = _minimise_mean(design, engine, x)
+            x = _iterate(lambda x: _step_to_mean(design, engine, x), x, _FARTHEST_TO_MEAN)
     except (np.linalg.LinAlgError, ArithmeticError):
         raise BalcliError(
             f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the "
@@ -62,22 +91,25 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
     remaining = _find_remaining(design, engine, x)
     primitive = _evaluate(remaining, _find_zeros(remaining), -1)
     return Optimum(
-        design,
-        criterion,
-        engine_force,
+        design=design,
+        criterion=criterion,
+        engine_force=engine_force,
         k=float(x[0]),
         mu=float(x[1]),
-        largest=float(np.abs(_evaluate(remaining, _find_extremes(remaining))).max()),
+        largest=float(np.abs(_evaluate(remaining, _find_zeros(remaining, 1))).max()),
         mean=float(np.abs(np.diff(primitive)).sum()) / np.pi,
     )
 
 
 def find_optima(lam: float) -> tuple[Optimum, ...]:
-    """The optima of both designs by both criteria for both forces: first the smallest peak of
-    design a for orders 1 and 2.
+    """Return the optima of both designs by both criteria for both forces: first the smallest peak
+    of design a for orders 1 and 2.
 
     At lambda above 0.6 some searches do not settle, as k would fall below 1: their optima are left
-    out. Raises BalcliError if the first one does not settle.
+    out.
+
+    Raises:
+        BalcliError: the first one does not settle.
     """
     (force, design, criterion), *others = product(FORCES, DESIGNS, CRITERIA)
     optima = [find_optimum(design, criterion, force, lam)]
@@ -88,53 +120,46 @@ def find_optima(lam: float) -> tuple[Optimum, ...]:
 
 
 def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
-    """Cosine coefficients of cos phi over the crank angle, and their derivatives by k."""
+    """Return cosine coefficients of cos phi over the crank angle, and their derivatives by k; phi
+    is the angle of the shafts.
+    """
     theta = np.arange(_COUNT) * np.float64(2 * np.pi / _COUNT)
-    step = 1e-30  # complex step: the derivative to rounding
-    wave = _find_cos_phi(design, theta, k + 1j * step)
-    return _find_cosines(wave.real), _find_cosines(wave.imag / step)
-
-
-def _find_cos_phi(design: str, theta: Array, k: complex) -> Complex:
-    """cos phi at crank angles theta, same shape; phi is the angle of the shafts."""
+    cosine, step = np.cos(theta), 1e-30
+    moved = k + 1j * step  # complex step: the derivative to rounding
     wave: Complex
     if design == "a":
-        wave = (np.cos(theta) * np.sqrt(k**2 - np.sin(theta) ** 2) - np.sin(theta) ** 2) / k
+        wave = (cosine * np.sqrt(moved**2 - np.sin(theta) ** 2) - np.sin(theta) ** 2) / moved
     else:
-        wave = (k * np.cos(theta) - 1) / np.sqrt(1 + k**2 - 2 * k * np.cos(theta))
-    return wave
-
-
-def _find_cosines(samples: Array) -> Array:
-    """Cosine coefficients of an even function from samples of one revolution."""
-    c = np.fft.rfft(samples).real / _COUNT * 2
-    return np.where(np.abs(c) > _NOISE, c, 0)[: len(_ORDERS)]
+        wave = (moved * cosine - 1) / np.sqrt(1 + moved**2 - 2 * moved * cosine)
+    c = np.fft.rfft([wave.real, wave.imag / step]).real / _COUNT * 2
+    values, by_k = np.where(np.abs(c) > _NOISE, c, 0)[:, : len(_ORDERS)]
+    return values, by_k
 
 
 def _expand_engine_force(engine_force: str, lam: float) -> Array:
-    """Cosine coefficients of the force of the piston in units of m r omega^2."""
+    """Return cosine coefficients of the force of the piston in units of m r omega^2."""
     if engine_force == "all orders":
         return closed_form.piston(_ORDERS, lam)
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 
 def _find_remaining(design: str, engine: Array, x: Array) -> Array:
-    """Cosine coefficients of P, what remains of the engine's force."""
+    """Return cosine coefficients of P, what remains of the engine's force."""
     if not _LEAST_K < x[0] < _MOST_K:
         raise ArithmeticError(f"k must stay above {_LEAST_K}")
     return engine - 2 * x[1] * _ORDERS**2 * expand_shaft_wave(design, x[0])[0]
 
 
 def _find_slopes(design: str, x: Array) -> Array:
-    """Derivatives of the coefficients of P by k and by mu, shape (2, orders)."""
+    """Return derivatives of the coefficients of P by k and by mu, shape (2, orders)."""
     wave, by_k = expand_shaft_wave(design, x[0])
     return -2 * _ORDERS**2 * np.stack([x[1] * by_k, wave])
 
 
 # ------------------------------------------------------------------ even series
 def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
-    """Values at some angles, shape (angles,), or (angles, 2) for two series in rows; differentiated
-    so many times, or integrated (-1).
+    """Return values at some angles, shape (angles,), or (angles, 2) for two series in rows;
+    differentiated so many times, or integrated (-1).
     """
     rate = (np.where(_ORDERS, _ORDERS, np.inf) if derivative < 0 else _ORDERS) ** float(derivative)
     angle = np.multiply.outer(theta, _ORDERS) + derivative * np.pi / 2
@@ -142,70 +167,47 @@ def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
     return values
 
 
-def _find_extremes(c: Array) -> Array:
-    """Angles in [0, pi] of the extremes, the two ends among them."""
-    slope = _evaluate(c, _GRID, 1)
-    inside = _find_roots(
-        lambda theta: _evaluate(c, theta, 1),
-        lambda theta: _evaluate(c, theta, 2),
-        np.flatnonzero(slope[1:-2] * slope[2:-1] < 0) + 1,
-    )
-    return np.concatenate([[0.0], inside, [np.pi]])
-
-
-def _find_zeros(c: Array) -> Array:
-    """0, the zeros in between, and pi."""
-    values = _evaluate(c, _GRID)
-    inside = _find_roots(
-        lambda theta: _evaluate(c, theta),
-        lambda theta: _evaluate(c, theta, 1),
-        np.flatnonzero(values[:-1] * values[1:] < 0),
-    )
-    return np.concatenate([[0.0], inside, [np.pi]])
-
-
-def _find_roots(
-    f: Callable[[Array], Array], slope: Callable[[Array], Array], cells: NDArray[np.intp]
-) -> Array:
-    """The root in each of these cells of the grid, by Newton's method kept inside."""
+def _find_zeros(c: Array, derivative: int = 0) -> Array:
+    """Return 0, the zeros of a derivative in between, and pi, by Newton's method within cells."""
+    values = _evaluate(c, _GRID, derivative)
+    if derivative == 1:  # an even function, about pi as well
+        values[[0, -1]] = 0
+    cells = np.flatnonzero(values[:-1] * values[1:] < 0)
     low, high = _GRID[cells], _GRID[cells + 1]
     theta = (low + high) / 2
     for _ in range(_NEWTON_STEPS):
-        theta = np.clip(theta - f(theta) / slope(theta), low, high)
-    return theta
+        move = _evaluate(c, theta, derivative) / _evaluate(c, theta, derivative + 1)
+        theta = np.clip(theta - move, low, high)
+    return np.concatenate([[0.0], theta, [np.pi]])
 
 
 # ------------------------------------------------------------------ the two criteria
-def _minimise_peak(design: str, engine: Array, x: Array) -> Array:
-    """Exchange: the linearised problem over the extremes of P, whose solution three of them fix,
-    until nothing moves.
-    """
+def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array:
+    """Return where steps end; k changes by the share `farthest` of itself at most in each."""
     for _ in range(_ROUNDS):
-        remaining = _find_remaining(design, engine, x)
-        theta = _find_extremes(remaining)
-        values = _evaluate(remaining, theta)
-        slopes = np.sign(values)[:, None] * _evaluate(_find_slopes(design, x), theta)
-        move = _exchange(np.abs(values), slopes)
-        x = _move(x, move, _FARTHEST_TO_PEAK)
+        move = step(x)
+        share: float = farthest * x[0] / max(abs(move[0]), 1e-300)
+        x = x + move * min(1.0, share)
         if np.all(np.abs(move) <= _SETTLED * np.abs(x)):
             return x
     raise ArithmeticError("no convergence")
 
 
-def _exchange(values: Array, slopes: Array) -> Array:
-    """The step d that makes the largest of `values + slopes d` smallest: that of the triple whose
-    bound is highest (de la Vallee-Poussin).
-
-    Args:
-        values, slopes: shapes (extremes,) and (extremes, 2).
+def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
+    """Return the step d that makes the largest of `values + slopes d` over the extremes of P
+    smallest: that of the three extremes whose bound is highest (de la Vallee-Poussin).
     """
+    remaining = _find_remaining(design, engine, x)
+    theta = _find_zeros(remaining, 1)
+    values = _evaluate(remaining, theta)
+    slopes = np.sign(values)[:, None] * _evaluate(_find_slopes(design, x), theta)
     top, best = -np.inf, None
     for triple in map(list, combinations(range(len(values)), 3)):
         system = np.column_stack([slopes[triple], -np.ones(3)])
         if abs(np.linalg.det(system)) < _SINGULAR:
             continue
         weights = np.linalg.solve(system.T, [0, 0, -1.0])
-        solution = np.linalg.solve(system, -values[triple])
+        solution = np.linalg.solve(system, -np.abs(values[triple]))
         if np.all(weights >= _BELOW_0) and solution[2] > top:
             top, best = solution[2], solution[:2]
     if best is None:
@@ -213,8 +215,10 @@ def _exchange(values: Array, slopes: Array) -> Array:
     return np.asarray(best)
 
 
-def _minimise_mean(design: str, engine: Array, x: Array) -> Array:
-    """Newton's method on the gradient of the integral of |P|, in closed form by the zeros of P."""
+def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
+    """Return the step of Newton's method on the gradient of the integral of |P|, which the zeros
+    of P give in closed form.
+    """
 
     def find_gradient(x: Array) -> Array:
         remaining = _find_remaining(design, engine, x)
@@ -223,19 +227,8 @@ def _minimise_mean(design: str, engine: Array, x: Array) -> Array:
         gradient: Array = signs @ np.diff(_evaluate(_find_slopes(design, x), zeros, -1), axis=0)
         return gradient
 
-    for _ in range(_ROUNDS):
-        columns = [
-            (find_gradient(x + step) - find_gradient(x - step)) / (2 * step.sum())
-            for step in np.diag(1e-6 * x)
-        ]
-        move = -np.linalg.solve(np.column_stack(columns), find_gradient(x))
-        x = _move(x, move, _FARTHEST_TO_MEAN)
-        if np.all(np.abs(move) <= _SETTLED * np.abs(x)):
-            return x
-    raise ArithmeticError("no convergence")
-
-
-def _move(x: Array, move: Array, share: float) -> Array:
-    """The unknowns moved so far that k changes by this share of itself at most."""
-    farthest: float = share * x[0] / max(abs(move[0]), 1e-300)
-    return x + move * min(1.0, farthest)
+    columns = [
+        (find_gradient(x + step) - find_gradient(x - step)) / (2 * step.sum())
+        for step in np.diag(1e-6 * x)
+    ]
+    return -np.linalg.solve(np.column_stack(columns), find_gradient(x))

@@ -9,8 +9,8 @@ and of the parts that are to vanish.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Literal, NamedTuple
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 from ..core import least_squares
 from ..core.cylinders import Device
 from ..core.phasors import EPS, unit
+from ..enginefile.model import Counterweight, Shaft, Slider
 from ..errors import BalcliError
-from .device_tables import DeviceTable, make_counterweight, make_shaft, make_slider
+from .device_tables import DeviceTable, as_millimetres, measure_direction
 from .residual import ReferencePoint, Residual, ResidualPart
 
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
@@ -53,14 +54,22 @@ class Slot(NamedTuple):
         return Device(self.order, forward, backward, self.place, self.z)
 
     def make_table(self, unbalance: complex, first_axis_deg: float) -> DeviceTable:
-        """The same as a table of the engine file; a counterweight's angle counts from cylinder 1's
-        crank pin at `first_axis_deg`.
+        """Return the device of this unbalance (kg m; its direction at crank angle 0 counts from x)
+        as a table of the engine file; a counterweight's angle counts from cylinder 1's crank pin at
+        `first_axis_deg`.
         """
+        origin_deg = first_axis_deg if self.kind == "counterweight" else 0.0
+        values: dict[str, Any] = {
+            "unbalance": abs(unbalance) * 1e6,
+            "angle": measure_direction(unbalance, origin_deg),
+            "position": as_millimetres(self.z),
+        }
         if self.kind == "counterweight":
-            return make_counterweight(unbalance, self.z, first_axis_deg)
+            return Counterweight.model_construct(**values)
+        values["at"] = (as_millimetres(self.place.real), as_millimetres(self.place.imag))
         if self.kind == "shaft":
-            return make_shaft(unbalance, self.sense * self.order, self.z, self.place)
-        return make_slider(unbalance, self.order, self.direction_deg, self.z, self.place)
+            return Shaft.model_construct(ratio=self.sense * self.order, **values)
+        return Slider.model_construct(order=self.order, direction=self.direction_deg, **values)
 
 
 class Fit(NamedTuple):
@@ -103,16 +112,15 @@ def size_unbalances(
     Args:
         least_arm: moments and roll are divided by this (m) where no slot has a longer arm.
     """
-    arm = max(least_arm, _find_longest_arm(slots, residual.reference))
-    weights = np.repeat([1.0 if part.kind == "force" else 1 / arm for part in parts], 2)
+    weights = _weigh(parts, max(least_arm, _find_longest_arm(slots, residual.reference)))
     columns = [
         find_effect(slot.make_device(u), parts, residual.reference)
         for slot in slots
         for u in (1 + 0j, 1j)
     ]
-    matrix = np.column_stack([_as_real(column) for column in columns])
-    target = -_as_real(np.array([residual.parts[part] for part in parts]))
-    found = least_squares.solve(matrix, target, weights)
+    target = -np.array([residual.parts[part] for part in parts], complex)
+    matrix = np.array(columns).view(float).T  # real and imaginary parts in turn
+    found = least_squares.solve(matrix, target.view(float), np.repeat(weights, 2))
     rounding = 4 * EPS * np.abs(found.x).max()
     x = np.where(np.abs(found.x) <= rounding, 0, found.x)
     return Fit(tuple(complex(a, b) for a, b in x.reshape(-1, 2)), found.condition, found.left)
@@ -128,9 +136,9 @@ def solve_exactly(
     condition number if they are too much alike.
     """
     fit = size_unbalances(slots, residual, parts)
-    arm = _find_longest_arm(slots, residual.reference)
-    size = _find_largest(residual.parts, parts, arm)
-    noise = _find_largest(residual.noise, parts, arm)
+    weights = _weigh(parts, _find_longest_arm(slots, residual.reference))
+    size = float(max(weights * [abs(residual.parts[part]) for part in parts]))
+    noise = float(max(weights * [residual.noise[part] for part in parts]))
     if fit.condition == np.inf and fit.left * size > noise:
         raise BalcliError(reason)
     largest = max(map(abs, fit.unbalances))
@@ -154,13 +162,6 @@ def _find_longest_arm(slots: Sequence[Slot], reference: ReferencePoint) -> float
     return max(along + across) or 1.0
 
 
-def _find_largest(
-    values: Mapping[ResidualPart, complex], parts: Sequence[ResidualPart], arm: float
-) -> float:
-    """The largest of these parts, moments measured by the force that makes them at this arm."""
-    return max(abs(values[part]) / (1 if part.kind == "force" else arm) for part in parts)
-
-
-def _as_real(parts: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """Real and imaginary parts in turn."""
-    return np.asarray(parts, complex).view(float)
+def _weigh(parts: Sequence[ResidualPart], arm: float) -> NDArray[np.float64]:
+    """Return weights by which moments are measured by the force that makes them at this arm."""
+    return np.array([1.0 if part.kind == "force" else 1 / arm for part in parts])

@@ -6,12 +6,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..engine.build import Engine
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
-from .details import Detail
 from .effects import LEFT, Slot, solve_exactly
 from .planes import SAME_PLACE
 from .remedy import Remedy, fit_devices
@@ -74,31 +73,27 @@ class Fitting(NamedTuple):
         fit = solve_exactly(slots, left, parts, SAME_PLACE)
         fitting = self.add(slots, fit.unbalances, reason)
         if len(slots) > 1 and fit.condition < math.inf:
-            return fitting.add_details(Detail("condition number", "", fit.condition))
+            return fitting.add_details(condition_number=fit.condition)
         return fitting
 
     def describe_roll(self, before: Residual, group: str = "") -> Fitting:
         """With details of what the devices so far leave of an order's roll, and of what it was; of
         an engine with gas, of the roll with the gas at its speed, too.
         """
-        left = self.find_residual(before.order)
-        fitting = self.add_details(
-            Detail("roll left", "moment", left.size(ROLL), group),
-            Detail("roll before", "moment", before.size(ROLL), group),
-        )
-        if self.engine.gas is None:
-            return fitting
-        fitted = fit_devices(self.engine, self.remedy)
-        return fitting.add_details(
-            Detail("roll with gas left", "moment", _size_total_roll(fitted, left.order), group),
-            Detail(
-                "roll with gas before", "moment", _size_total_roll(self.engine, left.order), group
-            ),
-        )
+        order = before.order
+        details = {
+            "roll_left_Nm": self.find_residual(order).size(ROLL),
+            "roll_before_Nm": before.size(ROLL),
+        }
+        if self.engine.gas is not None:
+            fitted = fit_devices(self.engine, self.remedy)
+            details["roll_with_gas_left_Nm"] = _size_total_roll(fitted, order)
+            details["roll_with_gas_before_Nm"] = _size_total_roll(self.engine, order)
+        return self.add_details(group, **details)
 
-    def add_details(self, *details: Detail) -> Fitting:
-        """With further details in the remedy."""
-        return self._replace(remedy=self.remedy.add_details(*details))
+    def add_details(self, group: str = "", /, **figures: Any) -> Fitting:
+        """Return the fitting with further details in the remedy: `Remedy.add_details`."""
+        return self._replace(remedy=self.remedy.add_details(group, **figures))
 
 
 def _size_total_roll(engine: Engine, order: int) -> float:

@@ -8,14 +8,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..core import enclosing_circle
 from ..core.cylinders import DeviceKind
 from ..engine.build import Engine
 from ..errors import BalcliError
 from .balance_factor import find_curve, find_factor_peaks
-from .details import Detail
 from .effects import Slot, size_unbalances
 from .fitting import Fitting
 from .options import SchemeOptions
@@ -56,10 +54,10 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     )
     fitting = fitting.add(slots, unbalances, reason)
     remedy = fitting.remedy.add_details(
-        Detail("peak force", "force", circle.radius),
-        Detail("reached", "angle", _as_degrees(circle.theta)),
-        Detail("relative error bound", "", circle.excess / circle.radius if circle.radius else 0.0),
-        *_compare_with_half(fitting.engine, circle),
+        peak_force_N=circle.radius,
+        reached_deg=sorted(round(float(angle), 9) % 360 for angle in np.degrees(circle.theta)),
+        relative_error_bound=circle.excess / circle.radius if circle.radius else 0.0,
+        **_compare_with_half(fitting.engine, circle),
     )
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
 
@@ -82,25 +80,13 @@ def _split(
     return slots, fit.unbalances
 
 
-def _compare_with_half(engine: Engine, circle: enclosing_circle.Circle) -> list[Detail]:
-    """Largest force with the weights of factor 0.5 instead of the engine's own, and what is gained
-    over that; nothing of a rotary engine, which has no factor.
+def _compare_with_half(engine: Engine, circle: enclosing_circle.Circle) -> dict[str, float]:
+    """Return the largest force with the weights of factor 0.5 instead of the engine's own, and by
+    which share the circle is smaller; nothing of a rotary engine, which has no factor.
     """
     if engine.rotary:
-        return []
+        return {}
     off_crank = tuple(d for d in engine.devices if d.kind is not DeviceKind.COUNTERWEIGHT)
-    half = find_factor_peaks(replace(engine, devices=off_crank), 0.5).force
-    return [
-        Detail("factor half peak", "force", half),
-        Detail("improvement", "", _find_gain(circle, half)),
-    ]
-
-
-def _as_degrees(theta: ArrayLike) -> tuple[float, ...]:
-    """Crank angles in [0, 360), ascending."""
-    return tuple(sorted(round(float(degrees), 9) % 360 for degrees in np.degrees(theta)))
-
-
-def _find_gain(circle: enclosing_circle.Circle, half: float) -> float:
-    """By which share the circle is smaller than the force `half`; 0 where only rounding differs."""
-    return 1 - circle.radius / half if abs(half - circle.radius) > circle.noise else 0.0
+    half = find_factor_peaks(replace(engine, devices=off_crank), 0.5).peak_force_N
+    gain = 1 - circle.radius / half if abs(half - circle.radius) > circle.noise else 0.0
+    return {"factor_half_peak_N": half, "improvement": gain}

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Collection
 from numbers import Complex, Integral, Real
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from ..enginefile.fields import nearest
 from ..errors import BalcliError, wrong_type
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER
 from .schemes import KNUCKLES, NAMES, SCHEMES
 
-_EXAMPLES = {
-    "order": "a whole number, such as 2",
-    "at": "places x + iy in m, such as (-0.04 + 0.06j,)",
-    "position": "a place z in m, such as 0.1",
-    "planes": '"ends", "throws", or places z in m, such as (-0.1, 0.1)',
-    "factor": "shares, such as (0.5,)",
-    "measured": "a mass in kg, such as 0.812",
+# Of each option with numbers: their kind, whether they have to be finite, and what is right.
+_NUMBERS: dict[str, tuple[type, bool, str]] = {
+    "order": (Integral, False, "a whole number, such as 2"),
+    "at": (Complex, True, "places x + iy in m, such as (-0.04 + 0.06j,)"),
+    "position": (Real, True, "a place z in m, such as 0.1"),
+    "planes": (Real, True, '"ends", "throws", or places z in m, such as (-0.1, 0.1)'),
+    "factor": (Real, False, "shares, such as (0.5,)"),
+    "measured": (Real, True, "a mass in kg, such as 0.812"),
 }
+_SEVERAL = ("at", "planes", "factor")
 
 
 class SchemeOptions(NamedTuple):
@@ -52,11 +53,12 @@ class SchemeOptions(NamedTuple):
         Raises BalcliError for an unknown scheme, an option that the scheme does not take, and an
         order or a roll that no scheme takes.
         """
-        self._check_types()
+        self._check_numbers()
         taken = find_taken(scheme)
         given = [name for name, value in self._asdict().items() if value is not None]
         if strangers := [name for name in given if name not in taken]:
-            if scheme == "auto" and (others := _find_schemes_taking(given)):
+            others = " or ".join(name for name in SCHEMES if {*given} <= {*SCHEMES[name]})
+            if scheme == "auto" and others:
                 raise BalcliError(
                     f"scheme auto has no --{strangers[0]}; add --scheme with {others}"
                 )
@@ -72,34 +74,27 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
             )
-        self._refuse_far_places()
         if self.roll not in (None, "zero"):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
-    def _check_types(self) -> None:
-        sound = {
-            "order": _are((self.order,), Integral),
-            "at": _are_finite(self.at, Complex),
-            "position": _are_finite((self.position,), Real),
-            "planes": isinstance(self.planes, str) or _are_finite(self.planes, Real),
-            "factor": _are(self.factor, Real),
-            "measured": _are_finite((self.measured,), Real),
-        }
-        for name, right in sound.items():
-            value = getattr(self, name)
-            if value is not None and not right:
-                raise wrong_type(f"SchemeOptions: {name}", value, f"give {_EXAMPLES[name]}")
-
-    def _refuse_far_places(self) -> None:
-        planes = self.planes if isinstance(self.planes, tuple) else ()
-        position = () if self.position is None else (self.position,)
-        for name, places in (("at", self.at or ()), ("position", position), ("planes", planes)):
-            farthest = max(map(abs, places), default=0.0)
-            if farthest > FARTHEST_DEVICE_M:
-                raise BalcliError(
-                    f"--{name}: {1e3 * farthest:g} mm from the origin is farther than any engine "
-                    f"reaches; at most {FARTHEST_DEVICE_M:g} m"
-                )
+    def _check_numbers(self) -> None:
+        """Raise TypeError for what is no number, BalcliError for a place farther than any engine
+        reaches.
+        """
+        for name, (kind, finite, right) in _NUMBERS.items():
+            given = getattr(self, name)
+            if given is None or (name == "planes" and isinstance(given, str)):
+                continue
+            values = given if name in _SEVERAL else (given,)
+            if not _are(values, kind, finite):
+                raise wrong_type(f"SchemeOptions: {name}", given, f"give {right}")
+            if name in ("at", "position", "planes"):
+                farthest = max(map(abs, values))
+                if farthest > FARTHEST_DEVICE_M:
+                    raise BalcliError(
+                        f"--{name}: {1e3 * farthest:g} mm from the origin is farther than any "
+                        f"engine reaches; at most {FARTHEST_DEVICE_M:g} m"
+                    )
 
     def read_place(self) -> complex:
         """The one place asked for, or else 0, the crank axis; BalcliError if there are more."""
@@ -109,30 +104,17 @@ class SchemeOptions(NamedTuple):
         return at[0]
 
 
-def _are(values: object, kind: type) -> bool:
-    """Whether they are numbers of a kind, one at least, none with hundreds of digits."""
-    return (
-        isinstance(values, tuple)
-        and values != ()
-        and all(isinstance(value, kind) and _fits_float(value) for value in values)
-    )
-
-
-def _fits_float(value: Any) -> bool:
+def _are(values: Any, kind: type, finite: bool) -> bool:
+    """Return whether they are numbers of a kind, one at least, none with hundreds of digits."""
+    if not isinstance(values, tuple) or not values:
+        return False
     try:
-        complex(value)
+        return all(
+            isinstance(value, kind) and (cmath.isfinite(complex(cast(Any, value))) or not finite)
+            for value in values
+        )
     except OverflowError:
         return False
-    return True
-
-
-def _are_finite(values: Any, kind: type) -> bool:
-    return _are(values, kind) and all(map(cmath.isfinite, values))
-
-
-def _find_schemes_taking(given: Collection[str]) -> str:
-    """The schemes that take all of these options, in words."""
-    return " or ".join(name for name, taken in SCHEMES.items() if set(given) <= set(taken))
 
 
 def find_taken(scheme: str) -> tuple[str, ...]:

@@ -40,28 +40,23 @@ def find_crank_middle(engine: Engine) -> float:
 
 
 def locate_force(residual: Residual, sense: int) -> float:
-    """z at which the force turning in this sense acts if it is to make as much of the moment as it
-    can, `z_ref + Re(M / iV)`; m. There must be a force.
+    """Return z at which the force turning in this sense acts if it is to make as much of the moment
+    as it can, `z_ref + Re(M / iV)`, m. There must be a force.
     """
     return residual.reference.z + (residual.moment(sense) / residual.force(sense)).real
 
 
-def _locate_within(residual: Residual, sense: int, bounds: tuple[float, float]) -> float:
-    """The same, or the nearest z within these bounds (m)."""
-    low, high = bounds
-    return min(max(locate_force(residual, sense), low), high)
-
-
-def find_single_plane(residual: Residual, sense: int, within: tuple[float, float]) -> float | None:
-    """z at which one device takes force and moment; None: nowhere within these bounds (m)."""
-    if residual.force(sense) == 0:
-        return None
-    near = _locate_within(residual, sense, within)
-    legible = round(near, 12)  # m: to a thousandth of a nanometre, figures that people can read
-    for z in (legible, near):
+def find_single_plane(engine: Engine, residual: Residual, sense: int) -> tuple[float, bool]:
+    """Return z of the engine, m, nearest to where the force turning in this sense acts, and
+    whether one device there takes the moment as well. There must be a force.
+    """
+    low, high = find_length(engine)
+    near = min(max(locate_force(residual, sense), low), high)
+    rounded = round(near, 12)  # m: to a thousandth of a nanometre, figures that people can read
+    for z in (rounded, near):
         if takes_moment(residual, sense, z):
-            return z
-    return None
+            return z, True
+    return round(near, 9), False
 
 
 def takes_moment(residual: Residual, sense: int, z: float) -> bool:
@@ -76,19 +71,17 @@ def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sen
     """
     if options.position is not None:
         return options.position
-    length = find_length(engine)
-    z = find_single_plane(residual, sense, length)
-    return round(_locate_within(residual, sense, length), 9) if z is None else z
+    return find_single_plane(engine, residual, sense)[0]
 
 
 def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, ...]:
-    """The fewest planes (z, m) in which devices take all that turns in this sense: one if that
-    takes force and moment, else both ends, none where nothing is left.
+    """Return the fewest planes (z, m) in which devices take all that turns in this sense: one if
+    that takes force and moment, else both ends, none where nothing is left.
     """
-    if residual.force(sense) == 0 == residual.moment(sense):
-        return ()
-    one = find_single_plane(residual, sense, find_length(engine))
-    return find_ends(engine) if one is None else (one,)
+    if residual.force(sense):
+        z, enough = find_single_plane(engine, residual, sense)
+        return (z,) if enough else find_ends(engine)
+    return find_ends(engine) if residual.moment(sense) else ()
 
 
 def find_counterweight_planes(engine: Engine, residual: Residual) -> tuple[float, ...]:

@@ -4,44 +4,45 @@ stand in the tables, in the reader's units.
 
 from __future__ import annotations
 
-from .residual import Residual
+from .residual import BACKWARD, FORWARD, Residual
 
 
 def explain_counterweights(residual: Residual) -> str:
-    """Of weights for the part of order 1 that turns with the crank."""
-    both = residual.force(1) and residual.moment(1)
-    return (
-        f"{_name(residual, 1)} turning with the crank: counterweights turn with it too and cancel "
-        f"{'both' if both else 'it'}"
-    )
+    """Return why weights are fitted for the part of order 1 that turns with the crank."""
+    both = "both" if residual.force(1) and residual.moment(1) else "it"
+    turn = "counterweights turn with it too and cancel"
+    return f"{_name(residual, 1)} turning with the crank: {turn} {both}"
 
 
 def explain_shaft(residual: Residual, sense: int, count: int) -> str:
-    """Of this many eccentrics on one shaft that take all that turns in this sense."""
-    two = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
+    """Return why this many eccentrics on one shaft take all that turns in this sense."""
+    what = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
+    what = "one eccentric" if count == 1 else what
     return (
         f"{_name(residual, sense)} turning {_turning(sense)} the crank: nothing on the crankshaft "
-        f"can cancel it; {'one eccentric' if count == 1 else two} on a shaft at "
-        f"{sense * residual.order:+d} times crank speed can"
+        f"can cancel it; {what} {_on_shaft(residual, sense)} can"
     )
 
 
 def explain_one_eccentric(
     residual: Residual, sense: int, whole: bool, more: str, halves: bool = False
 ) -> str:
-    """Of one eccentric for the force that turns in this sense, or of two halves of it.
+    """Return why one eccentric is fitted for the force that turns in this sense, or two halves.
 
     Args:
-        whole: whether it takes the moment that turns so, too.
-        more: what would take the moment that stays otherwise.
+        residual: What is left at the order.
+        sense: Sense of rotation: 1 with the crank, -1 against it.
+        whole: Whether it takes the moment that turns so, too.
+        more: What would take the moment that stays otherwise.
+        halves: Whether it is divided.
     """
     what = _name(residual, sense) if whole else f"Order {residual.order} force"
-    by_weights = "the scheme counterweights would cancel it without a shaft"
-    on_crank = "nothing on the crankshaft can cancel it"
+    why = "nothing on the crankshaft can cancel it"
+    if sense * residual.order == 1:
+        why = "the scheme counterweights would cancel it without a shaft"
     reason = (
-        f"{what} turning {_turning(sense)} the crank: "
-        f"{by_weights if sense * residual.order == 1 else on_crank}; one "
-        f"eccentric on a shaft at {sense * residual.order:+d} times crank speed can"
+        f"{what} turning {_turning(sense)} the crank: {why}; "
+        f"one eccentric {_on_shaft(residual, sense)} can"
     )
     if halves:
         reason += ", in two halves on opposite sides of the crank so that no roll is added"
@@ -49,18 +50,17 @@ def explain_one_eccentric(
 
 
 def explain_couple(residual: Residual, sense: int) -> str:
-    """Of two opposite eccentrics for the moment that turns in this sense."""
+    """Return why two opposite eccentrics are fitted for the moment that turns in this sense."""
     needless = "; the scheme counterweights would do so without a shaft"
     return (
         f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
-        f"eccentrics on a shaft at {sense * residual.order:+d} times crank speed make the opposite "
-        "moment and no force, wherever the shaft stands"
-        f"{needless if sense * residual.order == 1 else ''}"
+        f"eccentrics {_on_shaft(residual, sense)} make the opposite moment and no force, wherever "
+        f"the shaft stands{needless * (sense * residual.order == 1)}"
     )
 
 
 def explain_sliders(residual: Residual) -> str:
-    """Of two sliders for the force."""
+    """Return why two sliders are fitted for the force."""
     return (
         f"Order {residual.order} force: sliders driven at {residual.order} times crank speed along "
         "the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||"
@@ -68,10 +68,13 @@ def explain_sliders(residual: Residual) -> str:
 
 
 def _name(residual: Residual, sense: int) -> str:
-    """What turns at this order in this sense."""
-    force = "force" if residual.force(sense) else ""
-    moment = "moment" if residual.moment(sense) else ""
-    return f"Order {residual.order} {' and '.join(filter(None, (force, moment)))}"
+    """Return what turns at this order in this sense."""
+    kinds = [part.kind for part in (FORWARD if sense > 0 else BACKWARD) if residual.parts[part]]
+    return f"Order {residual.order} {' and '.join(kinds)}"
+
+
+def _on_shaft(residual: Residual, sense: int) -> str:
+    return f"on a shaft at {sense * residual.order:+d} times crank speed"
 
 
 def _turning(sense: int) -> str:

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import build_device
 from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
-from .details import Detail
-from .device_tables import KINDS, DeviceTable, find_free
+from .device_tables import KINDS, DeviceTable, find_free, name_kind
 
 if TYPE_CHECKING:
-    from .scheme_figures import Bobweight, FactorPeaks, Optima, PlaneNeed
-
-T = TypeVar("T")
+    from .balance_factor import FactorPeaks, PlaneNeed
+    from .bobweight_card import Bobweight
 
 
 class Remedy(NamedTuple):
@@ -24,37 +22,45 @@ class Remedy(NamedTuple):
 
     Attributes:
         order: the order that is balanced, where the scheme has one.
+        devices: counterweights, shafts and sliders, in this order.
         reasons: why each device is fitted, in the order of `devices`; of a remedy without devices,
             what else is changed and why.
-        details: figures of the scheme that are no device.
+        details: figures of the scheme that are no device, as JSON has them: keys end in the unit,
+            those of one order stand in a dict of their own.
         note: what to know besides, such as why nothing is fitted.
         card: bobweights of all crank pins (scheme factor).
         needs: what each plane has and lacks, where the file has counterweights (scheme factor).
         sweep: what each of several factors leaves (scheme factor).
-        optima: best shafts of variable speed (scheme eccentric-slider).
         knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
         beyond: devices that no engine file can describe, SI.
     """
 
     scheme: str
     order: int | None = None
-    counterweights: tuple[Counterweight, ...] = ()
-    shafts: tuple[Shaft, ...] = ()
-    sliders: tuple[Slider, ...] = ()
+    devices: tuple[DeviceTable, ...] = ()
     reasons: tuple[str, ...] = ()
-    details: tuple[Detail, ...] = ()
+    details: Mapping[str, Any] = {}
     note: str = ""
     card: tuple[Bobweight, ...] = ()
     needs: tuple[PlaneNeed, ...] = ()
     sweep: tuple[FactorPeaks, ...] = ()
-    optima: Optima | None = None
     knuckle_angles_deg: tuple[float, ...] = ()
     beyond: tuple[Device, ...] = ()
 
     @property
-    def devices(self) -> tuple[DeviceTable, ...]:
-        """Counterweights, shafts and sliders, in this order."""
-        return (*self.counterweights, *self.shafts, *self.sliders)
+    def counterweights(self) -> tuple[Counterweight, ...]:
+        """Devices on the crankshaft."""
+        return tuple(device for device in self.devices if isinstance(device, Counterweight))
+
+    @property
+    def shafts(self) -> tuple[Shaft, ...]:
+        """Eccentrics of balancer shafts."""
+        return tuple(device for device in self.devices if isinstance(device, Shaft))
+
+    @property
+    def sliders(self) -> tuple[Slider, ...]:
+        """Devices that go to and fro."""
+        return tuple(device for device in self.devices if isinstance(device, Slider))
 
     @property
     def free(self) -> tuple[bool, ...]:
@@ -62,24 +68,24 @@ class Remedy(NamedTuple):
         return find_free(self.devices)
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
-        """The remedy with further devices, all for the same reason."""
-        pairs = [
-            *zip(self.devices, self.reasons, strict=True),
-            *((device, reason) for device in added),
-        ]
+        """Return the remedy with further devices, all for the same reason."""
+        pairs = list(zip(self.devices, self.reasons, strict=True))
+        pairs += [(device, reason) for device in added]
         pairs.sort(key=lambda pair: KINDS.index(type(pair[0])))
-        tables = [device for device, _ in pairs]
         return self._replace(
-            counterweights=_of_kind(Counterweight, tables),
-            shafts=_of_kind(Shaft, tables),
-            sliders=_of_kind(Slider, tables),
-            reasons=tuple(reason for _, reason in pairs),
+            devices=tuple(device for device, _ in pairs), reasons=tuple(why for _, why in pairs)
         )
 
-    def add_details(self, *added: Detail) -> Remedy:
-        """The remedy with further details; one of the same group and label is replaced."""
-        details = {(d.group, d.label): d for d in (*self.details, *added)}
-        return self._replace(details=tuple(details.values()))
+    def add_details(self, group: str = "", /, **figures: Any) -> Remedy:
+        """Return the remedy with further details.
+
+        Args:
+            group: Name of the dict in which they stand, such as `order_2`; empty: in none.
+            figures: Details by their keys.
+        """
+        if group:
+            figures = {group: {**self.details.get(group, {}), **figures}}
+        return self._replace(details={**self.details, **figures})
 
 
 def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
@@ -96,14 +102,8 @@ def _fit_model(model: EngineFile | None, remedy: Remedy) -> EngineFile | None:
     """The file with the devices of a remedy; None where none can describe them."""
     if model is None or remedy.beyond:
         return None
-    new = {
-        "counterweight": remedy.counterweights,
-        "shaft": remedy.shafts,
-        "slider": remedy.sliders,
-    }
-    added = {key: (*getattr(model, key), *tables) for key, tables in new.items() if tables}
+    added: dict[str, tuple[DeviceTable, ...]] = {}
+    for device in remedy.devices:
+        kind = name_kind(device)
+        added[kind] = (*added.get(kind, getattr(model, kind)), device)
     return model.model_copy(update=added)
-
-
-def _of_kind(kind: type[T], tables: Iterable[DeviceTable]) -> tuple[T, ...]:
-    return tuple(table for table in tables if isinstance(table, kind))

@@ -14,7 +14,6 @@ from ..enginefile.exclusive import join_words
 from ..errors import BalcliError
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
-from .details import Detail
 from .options import SchemeOptions
 
 PartKind = Literal["force", "moment", "roll"]  # names of kinds
@@ -92,7 +91,7 @@ class NothingToBalanceError(Exception):
     `details`: figures of what is there nevertheless.
     """
 
-    def __init__(self, text: str, details: tuple[Detail, ...] = ()) -> None:
+    def __init__(self, text: str, **details: float) -> None:
         super().__init__(text)
         self.details = details
 
@@ -109,16 +108,17 @@ def find_residual(engine: Engine, order: int) -> Residual:
     found = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
     newtons_per_kg_m = order**2 * float(engine.omega) ** 2
     x, y, z = engine.reference_m
-    parts: dict[ResidualPart, complex] = {}
+    parts: dict[ResidualPart, complex] = dict.fromkeys((*FORWARD, *BACKWARD, ROLL), 0j)
     noise: dict[ResidualPart, float] = {}
     for part in (*FORWARD, *BACKWARD):
         phasors = found[part.kind]
         vector = phasors.forward if part.sense > 0 else phasors.backward
-        per = 1j if part.kind == "moment" else 1
-        known = part.kind == "force" or engine.places_known
-        parts[part] = complex(vector[0]) / per / newtons_per_kg_m if known else 0j
+        if part.kind == "force" or engine.places_known:
+            per = 1j if part.kind == "moment" else 1
+            parts[part] = complex(vector[0]) / per / newtons_per_kg_m
         noise[part] = float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newtons_per_kg_m
-    parts[ROLL] = 2 * complex(found.roll.forward[0]) / newtons_per_kg_m if found.roll else 0j
+    if found.roll:
+        parts[ROLL] = 2 * complex(found.roll.forward[0]) / newtons_per_kg_m
     return Residual(order, parts, noise, ReferencePoint(complex(x, y), float(z)), newtons_per_kg_m)
 
 
@@ -139,33 +139,30 @@ def choose_residual(
     """
     if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
+    what = f"{' or '.join(kinds)}{' turning against the crank' * (tuple(senses) == (-1,))}"
     if options.order is None:
-        return _find_lowest(engine, kinds, senses)
+        return _find_lowest(engine, kinds, senses, what)
     residual = find_residual(engine, options.order)
-    if _has_any(residual, kinds, senses):
+    if any(residual.has(kind, senses) for kind in kinds):
         return residual
     rest = _tell_rest(residual, kinds, senses)
-    with_crank = Detail("force with crank left", "force", residual.size(FORWARD_FORCE))
+    with_crank = residual.size(FORWARD_FORCE) if 1 not in senses else 0.0
     raise NothingToBalanceError(
-        f"order {options.order} has no free {' or '.join(kinds)}{_turning(senses)}: "
-        + "; ".join(["nothing to balance", *rest]),
-        (with_crank,) if with_crank.value and 1 not in senses else (),
+        f"order {options.order} has no free {what}: {'; '.join(['nothing to balance', *rest])}",
+        **({"force_with_crank_left_N": with_crank} if with_crank else {}),
     )
 
 
-def _has_any(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> bool:
-    return any(residual.has(kind, senses) for kind in kinds)
-
-
-def _find_lowest(engine: Engine, kinds: Sequence[PartKind], senses: Sequence[int]) -> Residual:
-    """That of the lowest order at which something of these kinds is left; its note says what
+def _find_lowest(
+    engine: Engine, kinds: Sequence[PartKind], senses: Sequence[int], what: str
+) -> Residual:
+    """Return what is left at the lowest order that has some of these kinds; its note lists what
     shakes at lower ones.
     """
-    what = f"{' or '.join(kinds)}{_turning(senses)}"
     rests: dict[str, list[int]] = {}
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
-        if _has_any(residual, kinds, senses):
+        if any(residual.has(kind, senses) for kind in kinds):
             lowest = f"Order {order} is the lowest with a free {what}.{_tell_left_alone(rests)}"
             return residual._replace(note=lowest if rests else "")
         if rest := _tell_rest(residual, kinds, senses):
@@ -178,33 +175,29 @@ def _find_lowest(engine: Engine, kinds: Sequence[PartKind], senses: Sequence[int
 
 
 def _tell_left_alone(rests: Mapping[str, Sequence[int]]) -> str:
-    """Sentences on orders that nothing is done about, by what they have."""
+    """Return sentences on orders that nothing is done about, by what they have."""
     told = ""
     for rest, orders in rests.items():
         if len(orders) == 1:
             told += f" Order {orders[0]} stays as it is ({rest})."
         else:
-            each = join_words([f"{order}" for order in orders])
             of_several = rest.replace("it has", "they have").replace("its ", "their ")
+            each = join_words([f"{order}" for order in orders])
             told += f" Orders {each} stay as they are ({of_several})."
     return told
 
 
 def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
-    """What an order has besides what is sought, and what takes it."""
+    """Return what an order has besides what is sought, and what takes it."""
     if 1 in senses:
         takes: dict[PartKind, str] = {"moment": "couple-shaft", "force": "two-shaft"}
         others = [what for what in takes if what not in kinds and residual.has(what, senses)]
         return [f"it has a free {what}: {takes[what]}" for what in others]
-    order, rest = residual.order, []
-    forward = [part.kind for part in FORWARD if residual.parts[part]]
-    if forward:
-        cure = "the scheme counterweights" if order == 1 else f"a shaft at +{order}"
+    rest = []
+    if forward := [part.kind for part in FORWARD if residual.parts[part]]:
+        shaft = f"a shaft at +{residual.order}"
+        cure = "the scheme counterweights" if residual.order == 1 else shaft
         rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
     if "moment" not in kinds and residual.has("moment", senses):
         rest.append("its moment turning against the crank: eccentrics in two planes")
     return rest
-
-
-def _turning(senses: Sequence[int]) -> str:
-    return " turning against the crank" if tuple(senses) == (-1,) else ""

@@ -12,7 +12,6 @@ import math
 
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .details import Detail
 from .effects import Slot
 from .fitting import Fitting
 from .options import SchemeOptions
@@ -69,30 +68,31 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
     for sense, standing in places.items():
         z = choose_plane(fitting.engine, options, residual, sense)
         slots = [Slot("shaft", residual.order, sense, z, place) for place in standing]
-        share = 1 / len(slots)
-        unbalances = [-residual.force(sense) * share for _ in slots]
         whole, more = takes_moment(residual, sense, z), "takes eccentrics in two planes"
         reason = explain_one_eccentric(residual, sense, whole, more, halves=len(slots) > 1)
-        fitting = fitting.add(slots, unbalances, reason)
+        share = -residual.force(sense) / len(slots)
+        fitting = fitting.add(slots, [share] * len(slots), reason)
     left = fitting.find_residual(residual.order)
-    group = f"order {residual.order}"
-    return fitting.add_details(
-        *_describe_places(places, group),
-        Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT), group),
-    ).describe_roll(residual, group)
+    group, moment = f"order_{residual.order}", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
+    fitting = fitting.add_details(group, **_describe_places(places), moment_left_Nm=moment)
+    return fitting.describe_roll(residual, group)
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
-    """Where the shafts of each sense stand: as asked for; what is not said, such that the pair adds
-    no roll, or with `roll` such that none is left.
+    """Return where the shafts of each sense stand: as asked for; what is not given, such that the
+    pair adds no roll, or with `roll` such that none is left.
+
+    A pair makes minus a roll (kg m^2) where `conj(p_B) V+ - p_A conj(V-) = i roll`
+    (docs/theory.md). Without a place that was given, those nearest to the crank are taken (least
+    squares).
     """
-    at = options.at or ()
+    at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
         raise BalcliError(
             "--at: a pair of shafts has two places, first that of the shaft turning against the "
             "crank"
         )
-    if not (residual.force(1) and residual.force(-1)):
+    if not (forward and backward):
         return _choose_place_of_one(residual, options)
     if len(at) == 2 and options.roll:
         raise BalcliError(
@@ -100,16 +100,15 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
         )
     if len(at) == 2:
         return {-1: (at[0],), 1: (at[1],)}
-    if options.roll and not at:
-        return _find_nearest_places(residual, _find_roll_about_crank(residual))
-    first = at[0] if at else 0j
-    roll = _find_roll_about_crank(residual) if options.roll else 0j
-    return {-1: (first,), 1: (_find_second_place(first, residual, roll),)}
+    wanted = 1j * _find_roll_about_crank(residual) if options.roll else 0j
+    against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
+    with_crank = (wanted + against * backward.conjugate()) / forward
+    return {-1: (against,), 1: (with_crank.conjugate(),)}
 
 
 def _choose_place_of_one(residual: Residual, options: SchemeOptions) -> Places:
-    """Of a force that turns in one sense alone: one shaft on the crank axis, or two halves at the
-    place asked for and opposite to it.
+    """Return places for a force that turns in one sense alone: one shaft on the crank axis, or two
+    halves at the place asked for and opposite to it.
     """
     sense = 1 if residual.force(1) else -1
     if options.roll:
@@ -122,26 +121,6 @@ def _choose_place_of_one(residual: Residual, options: SchemeOptions) -> Places:
     return {sense: (place, -place) if place else (0j,)}
 
 
-def _find_second_place(first: complex, residual: Residual, roll: complex) -> complex:
-    """p_B for p_A = `first`, such that the pair makes minus this roll (kg m^2); without a roll it
-    is `conj(p_A) V-/conj(V+)` (docs/theory.md).
-    """
-    forward, backward = residual.force(1), residual.force(-1)
-    return ((1j * roll + first * backward.conjugate()) / forward).conjugate()
-
-
-def _find_nearest_places(residual: Residual, roll: complex) -> Places:
-    """Of all places at which the pair makes minus this roll (kg m^2), those nearest to the crank:
-    least squares of `conj(p_B) V+ - p_A conj(V-) = i roll` in conj(p_B) and p_A.
-    """
-    forward, backward = residual.force(1), residual.force(-1)
-    wanted = 1j * roll
-    size = abs(forward) ** 2 + abs(backward) ** 2
-    against = -wanted * backward / size
-    with_crank = (wanted * forward.conjugate() / size).conjugate()
-    return {-1: (against,), 1: (with_crank,)}
-
-
 def _find_roll_about_crank(residual: Residual) -> complex:
     """The roll taken about the crank axis instead of the point of reference, kg m^2."""
     place = residual.reference.place
@@ -149,17 +128,16 @@ def _find_roll_about_crank(residual: Residual) -> complex:
     return residual.roll - 1j * moved
 
 
-def _describe_places(places: Places, group: str) -> list[Detail]:
-    """Distance from the crank axis and direction of the shafts of each sense, and the ratio of the
-    distances (with the crank : against it).
+def _describe_places(places: Places) -> dict[str, float]:
+    """Return distance from the crank axis and direction of the shafts of each sense, and the ratio
+    of the distances (with the crank : against it).
     """
-    details = []
-    for sense, name in ((1, "with crank"), (-1, "against crank")):
+    details = {}
+    for sense, name in ((1, "with_crank"), (-1, "against_crank")):
         for place in places.get(sense, ())[:1]:
-            details.append(Detail(f"radius {name}", "length", abs(place), group))
+            details[f"radius_{name}_mm"] = 1e3 * abs(place)
             if place:  # on the crank axis there is no direction
-                direction = math.degrees(cmath.phase(place))
-                details.append(Detail(f"direction {name}", "angle", direction, group))
+                details[f"direction_{name}_deg"] = math.degrees(cmath.phase(place))
     if len(places) == 2 and (against := abs(places[-1][0])):
-        details.append(Detail("radius ratio", "", abs(places[1][0]) / against, group))
+        details["radius_ratio"] = abs(places[1][0]) / against
     return details

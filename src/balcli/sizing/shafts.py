@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .details import Detail
 from .effects import Slot
 from .fitting import Fitting
 from .options import SchemeOptions
@@ -29,6 +28,8 @@ from .residual import (
     Residual,
     choose_residual,
 )
+
+_ROUNDING_M = 1e-9
 
 
 def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -55,9 +56,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = fitting.describe_roll(residual)
     if residual.order > 1:
         left = fitting.find_residual(residual.order)
-        fitting = fitting.add_details(
-            Detail("force with crank left", "force", left.size(FORWARD_FORCE))
-        )
+        fitting = fitting.add_details(force_with_crank_left_N=left.size(FORWARD_FORCE))
     return fitting.remedy
 
 
@@ -67,10 +66,10 @@ def _add_one_eccentric(fitting: Fitting, residual: Residual, options: SchemeOpti
     more = "eccentrics in two planes take, too"
     reason = explain_one_eccentric(residual, -1, takes_moment(residual, -1, z), more)
     fitting = fitting.cancel([slot], [BACKWARD_FORCE], reason)
-    left = fitting.find_residual(residual.order)
+    left, distance = fitting.find_residual(residual.order), z - locate_force(residual, -1)
     return fitting.add_details(
-        Detail("couple left", "moment", left.size(BACKWARD_MOMENT)),
-        Detail("axial distance", "length", _round_off(z - locate_force(residual, -1))),
+        couple_left_Nm=left.size(BACKWARD_MOMENT),
+        axial_distance_mm=1e3 * (distance if abs(distance) > _ROUNDING_M else 0.0),
     )
 
 
@@ -94,8 +93,8 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         fitting = fitting.add(slots, (unbalance, -unbalance), explain_couple(residual, sense))
     left = fitting.find_residual(residual.order)
     return fitting.add_details(
-        Detail("moment left", "moment", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)),
-        Detail("force left", "force", left.size(FORWARD_FORCE, BACKWARD_FORCE)),
+        moment_left_Nm=left.size(FORWARD_MOMENT, BACKWARD_MOMENT),
+        force_left_N=left.size(FORWARD_FORCE, BACKWARD_FORCE),
     ).remedy
 
 
@@ -108,8 +107,3 @@ def _read_places(options: SchemeOptions, senses: Sequence[int]) -> dict[int, com
         told = "two shafts" if len(senses) == 2 else "one shaft"
         raise BalcliError(f"--at: this moment takes {told}; give no more places")
     return {sense: at[k] if k < len(at) else 0j for k, sense in enumerate(senses)}
-
-
-def _round_off(length: float) -> float:
-    """A length in m; less than a nanometre is rounding."""
-    return length if abs(length) > 1e-9 else 0.0

@@ -4,20 +4,21 @@ Oldham couplings (Wang).
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..core.cylinders import Device
 from ..core.phasors import unit
+from ..documents.records import to_document
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .details import Detail
-from .eccentric_slider import expand_shaft_wave, find_optima
+from .eccentric_slider import Optimum, expand_shaft_wave, find_optima
 from .effects import Slot
 from .fitting import Fitting
 from .options import SchemeOptions
 from .remedy import Remedy
 from .residual import FORWARD_FORCE
-from .scheme_figures import Optima, Optimum
 
 _SMALLEST = 1e-17  # harmonics of the shafts below this share are left out
 _ECCENTRIC_SLIDER = (
@@ -47,35 +48,31 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
             "eccentric-slider: two shafts symmetric to the cylinder axis suit a centred mechanism "
             f"alone; this one has a piston offset of {float(c.offset[0]) * 1e3:g} mm"
         )
-    mass, radius = _find_piston(engine)
-    optima = Optima(
-        unit_force=mass * radius * float(engine.omega) ** 2,
-        unit_unbalance=mass * radius,
-        found=find_optima(float(np.ravel(c.lam)[0])),
+    mass, radius = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
+    optima = tuple(
+        replace(one, unbalance_kg_m=one.mu * mass * radius)
+        for one in find_optima(float(np.ravel(c.lam)[0]))
     )
-    fitting = _balance_rotating_mass(Fitting.start(engine, "eccentric-slider"))
-    fitting = fitting.add_details(Detail("definition", "", _ECCENTRIC_SLIDER))
-    return fitting.remedy._replace(optima=optima, beyond=_make_shafts(engine, optima.found[0]))
+    fitting = _balance_rotating_mass(Fitting.start(engine, "eccentric-slider")).add_details(
+        unit_force_N=mass * radius * float(engine.omega) ** 2,
+        fitted=to_document(optima[0]),
+        optima=[to_document(one) for one in optima],
+        definition=_ECCENTRIC_SLIDER,
+    )
+    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[0]))
 
 
 def _make_shafts(engine: Engine, fitted: Optimum) -> tuple[Device, ...]:
     """Both shafts: a device for each order of their motion, which shakes along the cylinder."""
-    mass, radius = _find_piston(engine)
     axis = complex(unit(float(engine.cylinders.axis_deg[0])))
     z = float(engine.cylinders.z[0])
     wave, _ = expand_shaft_wave(fitted.design, fitted.k)
     halves = {
-        order: -fitted.mu * mass * radius * float(amplitude) * axis
+        order: -fitted.unbalance_kg_m * float(amplitude) * axis
         for order, amplitude in enumerate(wave)
         if order and abs(amplitude) > _SMALLEST
     }
     return tuple(Device(order, half, half, 0j, z) for order, half in halves.items())
-
-
-def _find_piston(engine: Engine) -> tuple[float, float]:
-    """Reciprocating mass (kg) and crank radius (m) of the first cylinder."""
-    c = engine.cylinders
-    return float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
 
 
 def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -90,17 +87,14 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
     z = float(engine.cylinders.z[0])
     first, second = (fitting.find_residual(order) for order in (1, 2))
     devices = [
-        device
-        for residual in (first, second)
-        for device in (
-            Device(residual.order, -residual.force(1), 0j, 0j, z),
-            Device(residual.order, 0j, -residual.force(-1), 0j, z),
-        )
+        Device(one.order, *vectors, 0j, z)
+        for one in (first, second)
+        for vectors in ((-one.force(1), 0j), (0j, -one.force(-1)))
     ]
     fitting = fitting.add_details(
-        Detail("first order", "unbalance", abs(first.force(-1))),
-        Detail("block", "unbalance", abs(second.force(-1))),
-        Detail("definition", "", _OLDHAM),
+        first_order_kg_m=abs(first.force(-1)),
+        block_kg_m=abs(second.force(-1)),
+        definition=_OLDHAM,
     )
     return fitting.remedy._replace(beyond=tuple(devices))
 

@@ -6,7 +6,6 @@ import cmath
 
 from ..core.phasors import wrap_degrees
 from ..engine.build import Engine
-from .details import Detail
 from .device_tables import measure_direction
 from .effects import Slot, size_unbalances
 from .fitting import Fitting
@@ -43,6 +42,4 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = fitting.add(slots, unbalances, explain_sliders(residual))
     left = fitting.find_residual(residual.order)
     moment = left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
-    return (
-        fitting.add_details(Detail("moment left", "moment", moment)).describe_roll(residual).remedy
-    )
+    return fitting.add_details(moment_left_Nm=moment).describe_roll(residual).remedy

@@ -5,7 +5,8 @@ its size in steel.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 from ..core.drilled_hole import STEEL, find_drill_depth, find_drilled_unbalance
 from ..core.phasors import wrap_degrees
@@ -40,43 +41,36 @@ class Tools(NamedTuple):
     slug: float | None = None
 
 
-class Holes(NamedTuple):
-    """Radial holes side by side along the axis, all alike: they remove an unbalance opposite to
-    it, or add it with slugs on its own side.
+@dataclass(frozen=True, kw_only=True)
+class Practical:
+    """The workshop's figures of a device.
 
     Attributes:
-        angle_deg: of the holes, counted as that of the device.
-        number: how many.
-        depth: of each, from the rim inwards, m; nan where more are needed than MOST_HOLES.
-        reason: why one is not enough; empty where it is.
-    """
-
-    angle_deg: float
-    number: int
-    depth: float
-    reason: str
-
-
-class Practical(NamedTuple):
-    """Figures of one device, SI.
-
-    Attributes:
-        mass: at `radius`, which makes the unbalance (a slider: of this amplitude).
-        force: centrifugal force (largest force of a slider) at the engine's speed.
-        speed_rpm: of the shaft; of a slider its strokes a minute.
-        disc_radius, disc_thickness: semicircular steel disc, its diameter through the axis of
+        unbalance_kg_m: Unbalance of the device.
+        mass_kg: Mass at `radius_mm` that makes the unbalance (a slider: of this amplitude).
+        radius_mm: Radius at which masses are stated.
+        force_N: Centrifugal force (largest force of a slider) at the engine's speed.
+        speed_rpm: Speed of the shaft; of a slider its strokes a minute.
+        disc_radius_mm: Radius of a semicircular steel disc, its diameter through the axis of
             rotation.
-        holes: into a rim at `radius`; None without a drill, and for sliders.
+        disc_thickness_mm: Thickness of this disc.
+        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards; nan where more
+            than `MOST_HOLES` are needed. None, as below, without a drill, and of sliders.
+        holes: Number of equal holes side by side along the axis: they remove an unbalance opposite
+            to it, or add it with slugs on its own side.
+        hole_angle_deg: Angle of the holes, counted as that of the device.
     """
 
-    unbalance: float
-    mass: float
-    radius: float
-    force: float
+    unbalance_kg_m: float
+    mass_kg: float
+    radius_mm: float
+    force_N: float
     speed_rpm: float
-    disc_radius: float
-    disc_thickness: float
-    holes: Holes | None = None
+    disc_radius_mm: float
+    disc_thickness_mm: float
+    drill_depth_mm: float | None = None
+    holes: int | None = None
+    hole_angle_deg: float | None = None
 
 
 def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, ...]:
@@ -98,20 +92,17 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
 
 
 def _refuse_impossible(tools: Tools) -> None:
-    """BalcliError for figures that are not above 0, or that do not go together."""
-    strange = {
-        name.replace("_", "-"): figure
+    """Raise BalcliError for figures that are not above 0, or that do not go together."""
+    units = {"slug": (1e-3, "g/cm3")}
+    strange = [
+        f"--{name.replace('_', '-')}: {figure * size:g} {unit}"
         for name, figure in tools._asdict().items()
+        for size, unit in [units.get(name, (1e3, "mm"))]
         if figure is not None and not 0 < figure < math.inf
-    }
+    ]
     if strange:
-        told = (
-            f"--{name}: {f'{figure / 1e3:g} g/cm3' if name == 'slug' else f'{1e3 * figure:g} mm'}"
-            for name, figure in strange.items()
-        )
-        raise BalcliError(f"{', '.join(told)}; give figures above 0")
-    for_holes = tools.max_depth is not None or tools.slug is not None
-    if for_holes and tools.drill is None:
+        raise BalcliError(f"{', '.join(strange)}; give figures above 0")
+    if tools.drill is None and (tools.max_depth, tools.slug) != (None, None):
         raise BalcliError(
             "--max-depth and --slug are for holes: give the diameter of the drill, too, "
             "with --drill"
@@ -139,44 +130,39 @@ def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practica
     radius = tools.radius or float(engine.cylinders.radius)
     disc_radius, disc_thickness = _find_disc(unbalance, tools)
     return Practical(
-        unbalance,
-        mass=unbalance / radius,
-        radius=radius,
-        force=unbalance * (order * float(engine.omega)) ** 2,
+        unbalance_kg_m=unbalance,
+        mass_kg=unbalance / radius,
+        radius_mm=1e3 * radius,
+        force_N=unbalance * (order * float(engine.omega)) ** 2,
         speed_rpm=order * float(engine.speed_rpm),
-        disc_radius=disc_radius,
-        disc_thickness=disc_thickness,
-        holes=_plan_holes(device, unbalance, radius, tools),
+        disc_radius_mm=1e3 * disc_radius,
+        disc_thickness_mm=1e3 * disc_thickness,
+        **_plan_holes(device, unbalance, radius, tools),
     )
 
 
-def _plan_holes(device: DeviceTable, unbalance: float, rim: float, tools: Tools) -> Holes | None:
-    """As few holes as the depth allows."""
+def _plan_holes(device: DeviceTable, unbalance: float, rim: float, tools: Tools) -> dict[str, Any]:
+    """Return as few holes as the depth allows."""
     if tools.drill is None or isinstance(device, Slider):
-        return None
+        return {}
     density = STEEL if tools.slug is None else tools.slug - STEEL
     deepest = min(rim, tools.max_depth or rim)
-    angle = wrap_degrees(device.angle + (180 if tools.slug is None else 0), 360)
     of_one = find_drilled_unbalance(deepest, rim, tools.drill, density)
     share = unbalance / of_one * (1 - ROUNDING) if of_one else math.inf
-    count = max(math.ceil(share), 1) if share <= MOST_HOLES else MOST_HOLES + 1
-    depth = math.nan
-    if count <= MOST_HOLES:
+    count, depth = MOST_HOLES + 1, math.nan
+    if share <= MOST_HOLES:
+        count = max(math.ceil(share), 1)
         depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
         depth = deepest if math.isnan(depth) else min(depth, deepest)
-    reason = "one hole would be deeper than " + ("--max-depth" if deepest < rim else "the radius")
-    return Holes(float(angle), count, depth, reason if count > 1 else "")
+    angle = float(wrap_degrees(device.angle + (180 if tools.slug is None else 0), 360))
+    return {"drill_depth_mm": 1e3 * depth, "holes": count, "hole_angle_deg": angle}
 
 
 def _find_order(device: DeviceTable) -> int:
-    """Turns or strokes for each turn of the crank."""
-    match device:
-        case Counterweight():
-            return 1
-        case Shaft():
-            return abs(device.ratio)
-        case _:
-            return device.order
+    """Return turns or strokes for each turn of the crank."""
+    if isinstance(device, Counterweight):
+        return 1
+    return abs(device.ratio) if isinstance(device, Shaft) else device.order
 
 
 def _find_disc(unbalance: float, tools: Tools) -> tuple[float, float]:

@@ -24,8 +24,10 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
     Raises BalcliError if no engine file can describe the remedy.
     """
     old = text.decode("utf-8-sig")
-    if remedy.knuckle_angles_deg:
-        return _insert_knuckle_angles(old, remedy.knuckle_angles_deg, file)
+    if angles := remedy.knuckle_angles_deg:
+        new = set_keys(old, "articulation", {"knuckle_angles": list(angles)}, "even, by balcli")
+        parse(new, file)
+        return new
     if remedy.beyond:
         raise BalcliError(
             f"scheme {remedy.scheme}: no engine file can describe its devices (shafts of variable "
@@ -39,15 +41,9 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
     return new
 
 
-def _insert_knuckle_angles(text: str, angles_deg: tuple[float, ...], file: str) -> str:
-    new = set_keys(text, "articulation", {"knuckle_angles": list(angles_deg)}, "even, by balcli")
-    parse(new, file)
-    return new
-
-
 def _insert_devices(text: str, remedy: Remedy) -> str:
-    """With the tables at the end; where the file has its devices as an inline list, which cannot be
-    added to, it is written anew, without its comments.
+    """Return the text with the tables at the end; where the file has its devices as an inline list,
+    which cannot be added to, it is written anew, without its comments.
     """
     end_of_line = "" if text.endswith("\n") or not text else "\n"
     tables = end_of_line + "".join(_write_tables(remedy))
@@ -55,39 +51,30 @@ def _insert_devices(text: str, remedy: Remedy) -> str:
     try:
         parse(new)
     except InputError:
-        return _rewrite(text, remedy)
+        data = tomllib.loads(text)
+        for device in remedy.devices:
+            data.setdefault(name_kind(device), []).append(_list_entries(device))
+        return rewrite(data, "it has devices in one list, to which TOML lets nothing be added")
     return new
 
 
 def _write_tables(remedy: Remedy) -> Iterator[str]:
-    """The tables, each reason as a comment above the first device that it is told of."""
-    if not remedy.devices:
-        return
-    yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
+    """Yield the tables, each reason as a comment above the first of its devices."""
+    if remedy.devices:
+        yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
     told = ""
     for device, reason, anywhere in zip(remedy.devices, remedy.reasons, remedy.free, strict=True):
-        head = "" if reason == told else f"# {reason}\n"
+        if reason != told:
+            yield f"# {reason}\n"
         told = reason
-        notes = {"at": "  # free: it may stand anywhere"} if anywhere else {}
-        entries = _list_entries(device)
-        lines = "".join(
-            f"{key} = {format_value(value)}{notes.get(key, '')}\n" for key, value in entries.items()
-        )
-        yield f"{head}[[{name_kind(device)}]]\n{lines}\n"
+        yield f"[[{name_kind(device)}]]\n"
+        for key, value in _list_entries(device).items():
+            note = "  # free: it may stand anywhere" * (anywhere and key == "at")
+            yield f"{key} = {format_value(value)}{note}\n"
+        yield "\n"
 
 
 def _list_entries(device: DeviceTable) -> dict[str, Any]:
-    """Keys and values of a device as TOML has them."""
+    """Return keys and values of a device as TOML has them."""
     values = {key: getattr(device, key) for key in FIELDS[type(device)]}
-    return {
-        key: list(value) if isinstance(value, tuple) else value for key, value in values.items()
-    }
-
-
-def _rewrite(text: str, remedy: Remedy) -> str:
-    """The whole file written anew with the devices."""
-    data = tomllib.loads(text)
-    for device in remedy.devices:
-        kind = name_kind(device)
-        data[kind] = [*data.get(kind, []), _list_entries(device)]
-    return rewrite(data, "it has devices in one list, to which TOML lets nothing be added")
+    return {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}

@@ -17,10 +17,9 @@ from ..forces.crankshaft import InnerLoads
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import Analysis, analyze, find_inner_loads
 from ..results.balance import balance
-from ..sizing.balance_factor import find_best_factor
+from ..sizing.balance_factor import FactorPeaks, find_best_factor
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy
-from ..sizing.scheme_figures import FactorPeaks
 from ..sizing.sizing import size
 from ..torque.pictures import PAGES, GasPicture, compute_picture
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.phasors import Array, Phasors
 from ...forces.crankshaft import AlongCrank
-from ...sizing.scheme_figures import FactorPeaks
+from ...sizing.balance_factor import FactorPeaks
 from ..order_tables import fit_largest
 from ..sheet import number, order_name, size_text
 from ..units import ShownUnit, System
@@ -115,17 +115,17 @@ def draw_factors(
     Args:
         moment: None if moments are not known.
     """
-    share, moments = [row.factor for row in rows], np.array([row.moment for row in rows])
-    s = force.fit(max(row.force for row in rows))
-    forces = np.array([(row.force, row.along, row.across) for row in rows]).T / s.size
+    share, moments = [row.factor for row in rows], np.array([row.peak_moment_Nm for row in rows])
+    s = force.fit(max(row.peak_force_N for row in rows))
+    forces = np.array([(row.peak_force_N, row.along_N, row.across_N) for row in rows]).T / s.size
     labels = ("force", "along the first bank", "across it")
     for values, label, look in zip(forces, labels, _LOOKS, strict=True):
         ax.plot(share, values, color=look[0], linestyle=look[1], label=label)
     best = min(rows, key=lambda row: row.cost)
-    least = size_text(best.force, force)
+    least = size_text(best.peak_force_N, force)
     if best.by_moment and moment is not None:
-        least = f"moment {size_text(best.moment, moment)}"
-    ax.plot(best.factor, best.force / s.size, "o", color=BLUE)
+        least = f"moment {size_text(best.peak_moment_Nm, moment)}"
+    ax.plot(best.factor, best.peak_force_N / s.size, "o", color=BLUE)
     ax.set(
         xlabel="balance factor: share of the reciprocating mass in the counterweights",
         ylabel=f"largest over a revolution, {s.name}",

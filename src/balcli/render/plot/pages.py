@@ -19,7 +19,7 @@ from ...forces.kinds import EVERY_KIND, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, T
 from ...results.analysis import Analysis
 from ...studies.pictures import Study
 from ...torque.pictures import MainLoads, PinLoads, Pressures, Torques
-from ..bobweights import percent
+from ..bobweight_page import percent
 from ..engine_facts import tell_pivot
 from ..sheet import NAMELESS, NEGLIGIBLE, size_text, small_text
 from ..units import SI, ShownUnit, System
