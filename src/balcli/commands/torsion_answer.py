@@ -18,7 +18,7 @@ from ..render.formats import Units
 from ..render.plot.torsion import make_torsion
 from ..render.units import SYSTEMS
 from ..torsion.analysis import HolzerAsked, TorsionAnalysis, TorsionQuestion, answer_question
-from ..torsion.damper_proposal import DamperAsked
+from ..torsion.damper_sizing import DamperAsked
 from ..torsion.load import ChainSource, Source, load_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..torsion.write_damper import insert_damper

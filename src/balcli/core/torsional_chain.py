@@ -88,30 +88,13 @@ class Branch(NamedTuple):
 def join_chain(
     inertia: ArrayLike, shafts: Iterable[ChainShaft], clamped: Sequence[int] = ()
 ) -> Chain:
-    """The chain of nodes with these moments of inertia (kg m2, 0: massless), joined by shafts.
-
-    Raises:
-        ValueError: meshes of gears that form a loop and cannot turn; massless nodes that turn
-            freely. Whether all nodes hang together, `find_pieces` tells.
+    """Return the chain of nodes with these moments of inertia (kg m2, 0: massless), joined by
+    shafts, whether or not it can turn.
     """
-    chain = tabulate_chain(inertia, shafts, clamped)
-    meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    if np.any(meshes.locked):
-        raise ValueError(f"the gears at node {int(np.argmax(meshes.locked))} lock each other")
-    for motion in rigid_motions(chain):
-        if not np.any(chain.inertia[motion != 0]):
-            raise ValueError(f"massless node {int(np.argmax(motion != 0))} turns freely")
-    return chain
-
-
-def tabulate_chain(
-    inertia: ArrayLike, shafts: Iterable[ChainShaft], clamped: Sequence[int] = ()
-) -> Chain:
-    """As `join_chain`, whether or not it can turn."""
     table = np.array(list(shafts), float).reshape(-1, len(ChainShaft._fields))
     start, end = table[:, 0].astype(np.intp), table[:, 1].astype(np.intp)
     j = np.asarray(inertia, float)
-    held = np.array([k in clamped for k in range(len(j))], bool)
+    held = np.isin(np.arange(len(j)), clamped)
     return Chain(j, start, end, table[:, 3], table[:, 2], held)
 
 

@@ -15,7 +15,7 @@ from ..engine.load import build_tables
 from ..enginefile.plain_tables import take_tables
 from ..errors import BalcliError, check_type
 from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
-from ..torsion.damper_proposal import DamperAsked
+from ..torsion.damper_sizing import DamperAsked
 from ..torsion.load import ChainSource, Source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
 from .arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -14,12 +13,12 @@ from ..core.torsional_chain import (
     find_pieces,
     find_still,
     rigid_motions,
-    tabulate_chain,
+    join_chain,
 )
 from ..enginefile.fields import shorten
 from ..enginefile.shafting import find_stiffness
 from ..errors import InputError, Problem
-from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
+from .assembly import PlannedNode, PlannedShaft, assemble_system, find_section
 from .chain_file import ChainFile
 from .system import Excitation, TorsionalSystem
 
@@ -59,10 +58,10 @@ def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
     limited = file.angle_limit is not None
     if problems := list(_find_faults(nodes, shafts, paths, clamped, limited)):
         raise InputError(problems, name)
-    limits = Limits(file.limit, file.angle_limit)
-    excitation = _excite(file, index)
-    system = assemble_system(file.name or "", nodes, shafts, excitation, limits, clamped)
-    return replace(system, file=name)
+    limits, excitation = (file.limit, file.angle_limit), _excite(file, index)
+    return assemble_system(
+        nodes, shafts, limits, clamped, name=file.name or "", excitation=excitation, file=name
+    )
 
 
 def _tell_apart(names: Sequence[str]) -> Iterator[str]:
@@ -96,7 +95,7 @@ def _find_faults(
     """
     names = [node.name for node in nodes]
     inertia = [node.inertia for node in nodes]
-    chain = tabulate_chain(inertia, [each.shaft for each in shafts], clamped)
+    chain = join_chain(inertia, [each.shaft for each in shafts], clamped)
     apart = np.unique(find_pieces(chain).first)[1:].tolist()
     for node in apart:
         text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"

@@ -23,7 +23,7 @@ from ..errors import InputError, Problem
 from ..forces.orders import list_gas_orders
 from ..forces.spectrum import compute_each_cylinder
 from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
-from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
+from .assembly import PlannedNode, PlannedShaft, assemble_system, find_section
 from .system import Excitation, ShaftSection, TorsionalSystem
 
 
@@ -65,13 +65,19 @@ def build_engine_system(
     leading = list(_lead_shafts(torsion, [node.name for node in nodes], throws))
     front = len(torsion.front)
     shafts = [*reversed(leading[:front]), *_join_throws(torsion, front, throws), *leading[front:]]
-    limits = Limits(torsion.limit, torsion.angle_limit)
     own_speed = "speed" in model.operation.model_fields_set
     rated = model.operation.speed if own_speed else None
-    system = assemble_system(
-        engine.name, nodes, shafts, excitation, limits, rated_rpm=rated, reference=front
+    return assemble_system(
+        nodes,
+        shafts,
+        (torsion.limit, torsion.angle_limit),
+        name=engine.name,
+        excitation=excitation,
+        rated_rpm=rated,
+        reference=front,
+        silent=engine.silent,
+        file=name,
     )
-    return replace(system, silent=engine.silent, file=name)
 
 
 def _plan_part(part: Part) -> PlannedNode:

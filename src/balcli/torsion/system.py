@@ -18,6 +18,11 @@ from ..engine.build import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
 
 
+def whole_order(order: float) -> float:
+    """Return an order as it is written: a whole one without a point."""
+    return int(order) if order == int(order) else order
+
+
 class ShaftSection(NamedTuple):
     """Outer and inner diameter of a shaft, m."""
 
@@ -63,20 +68,16 @@ class Excitation(NamedTuple):
     growing: Complex
 
     def at(self, speeds: Real) -> Complex:
-        """Torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s."""
+        """Return torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s."""
         grown = self.growing[:, None, :] * speeds[:, None] ** 2
         return np.asarray(self.steady[:, None, :] + grown, complex)
 
     def on_nodes(self, speeds: Real, count: int) -> Complex:
-        """The same, added up node by node: (orders, speeds, nodes)."""
-        torques = self.at(speeds)
-        found = np.zeros((count, *torques.shape[:2]), complex)
-        for source, node in enumerate(self.nodes):
-            found[node] += torques[:, :, source]
-        return np.moveaxis(found, 0, -1)
+        """Return the torques added up node by node, (orders, speeds, nodes)."""
+        return self.at(speeds) @ np.equal.outer(self.nodes, np.arange(count))
 
     def only(self, orders: Real) -> Excitation:
-        """Some of its orders."""
+        """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)
         return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept])
 
