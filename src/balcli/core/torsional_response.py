@@ -102,7 +102,9 @@ def respond_chain(
     equations = _Equations(w, own, flexible, flatten(load), carrying)
     angle, torque, weak, singular = _solve_tree(chain, equations)
     if np.any(weak):
-        some = _Equations(w[weak], own[:, weak], flexible[:, weak], equations.load[:, weak], carrying)
+        some = _Equations(
+            w[weak], own[:, weak], flexible[:, weak], equations.load[:, weak], carrying
+        )
         angle[:, weak], torque[:, weak] = _solve_dense(chain, some, singular[weak])
         angle[find_still(chain)] = 0
     moved, twisted = (part.T.reshape(*frequency.shape, len(part)) for part in (angle, torque))
@@ -160,7 +162,10 @@ def _solve_tree(chain: Chain, equations: _Equations) -> _Solution:
                 part = flexible[shaft] * stiff[child]
                 pivots[child] = near**2 + part
                 weak |= np.abs(pivots[child]) <= _WEAK_PIVOT * (near**2 + np.abs(part))
-                felt[child], pushed[child] = stiff[child] / pivots[child], load[child] / pivots[child]
+                felt[child], pushed[child] = (
+                    stiff[child] / pivots[child],
+                    load[child] / pivots[child],
+                )
             stiff[parent] += far**2 * felt[child]
             load[parent] -= near * far * pushed[child]
             size[parent] += far**2 * np.abs(felt[child])

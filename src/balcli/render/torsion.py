@@ -61,72 +61,87 @@ def _convert(line: tuple[Any, ...], units: dict[str, ShownUnit]) -> tuple[Any, .
     return (*where, units[name].of(value) + 0.0, units[name].name)
 
 
+def _put(
+    part: str,
+    figures: Iterable[Figure],
+    name: str = "",
+    *,
+    number: int | None = None,
+    speed: float | None = None,
+    order: float | None = None,
+) -> Iterator[tuple[Any, ...]]:
+    """Yield lines of CSV: what stands before figures, and these."""
+    for each in figures:
+        called = remove_unit(each.name)
+        yield part, number, speed, order, name_cell(name), called, each.value, each.unit
+
+
 def _list_lines(found: Node) -> Iterator[tuple[Any, ...]]:
-    """Yield the lines of CSV: in which order objects are listed, and what stands before figures."""
-
-    def at(
-        part: str,
-        figures: Iterable[Figure],
-        name: str = "",
-        *,
-        number: int | None = None,
-        speed: float | None = None,
-        order: float | None = None,
-    ) -> Iterator[tuple[Any, ...]]:
-        for figure in figures:
-            called = remove_unit(figure.name)
-            yield part, number, speed, order, name_cell(name), called, figure.value, figure.unit
-
+    """Yield the lines of CSV in their order."""
     for key in ("no_gas_in", "no_burning_in"):
         if key in found:
-            yield from at("engine", [Figure(key, " ".join(map(str, found[key])), "")])
+            yield from _put("engine", [Figure(key, " ".join(map(str, found[key])), "")])
     for part in ("node", "shaft"):
         for each in found[f"{part}s"]:
-            yield from at(part, list_figures(each, ("name",)), each["name"])
+            yield from _put(part, list_figures(each, ("name",)), each["name"])
     for k, mode in enumerate(found["modes"], 1):
-        yield from at("mode", list_figures(mode), number=k)
+        yield from _put("mode", list_figures(mode), number=k)
         for node, angle in zip(found["nodes"], mode["shape"], strict=True):
-            yield from at("mode", [Figure("angle", angle, "")], node["name"], number=k)
+            yield from _put("mode", [Figure("angle", angle, "")], node["name"], number=k)
     for each in found.get("criticals", ()):
         figures = list_figures(each, ("mode", "order", "speed_rpm"))
         where = {"number": each["mode"], "speed": each["speed_rpm"], "order": each["order"]}
-        yield from at("critical", figures, **where)
+        yield from _put("critical", figures, **where)
+    yield from _list_extras(found)
+
+
+def _list_extras(found: Node) -> Iterator[tuple[Any, ...]]:
+    """Yield the lines of what was asked besides modes and criticals."""
     for k, table in enumerate(found.get("holzer", ()), 1):
-        yield from at("holzer", [Figure("frequency", table["frequency_Hz"], "Hz")], number=k)
+        *frequency, residual = list_figures(table, ("mode", "rows"))
+        yield from _put("holzer", frequency, number=k)
         for row in table["rows"]:
-            yield from at("holzer", list_figures(row, ("node",)), row["node"], number=k)
-        yield from at("holzer", [Figure("residual", table["residual_Nm"], "N m")], number=k)
+            yield from _put("holzer", list_figures(row, ("node",)), row["node"], number=k)
+        yield from _put("holzer", [residual], number=k)
     if damper := found.get("damper"):
-        yield from at("damper", list_figures(damper, ("node", "kind")), damper["node"])
+        yield from _put("damper", list_figures(damper, ("node", "kind")), damper["node"])
     if response := found.get("response"):
-        dampers, pendulums = response.get("dampers", ()), response.get("pendulums", ())
-        for s, speed in enumerate(response["speeds_rpm"]):
-            for shaft in response["shafts"]:
-                yield from at("response", list_series(shaft, s), shaft["name"], speed=speed)
-            swing = Figure("free_end", response["free_end_deg"][s], "deg")
-            yield from at("response", [swing], speed=speed)
-            for each in dampers:
-                yield from at("response", list_series(each, s), each["node"], speed=speed)
-            for each in pendulums:
-                swing = Figure("pendulums", each["half_swing_deg"][s], "deg")
-                yield from at("response", [swing], each["node"], speed=speed)
-        for shaft in response["shafts"]:
-            worst, name, speed = shaft["worst"], shaft["name"], shaft["worst"]["speed_rpm"]
-            yield from at("worst", list_figures(worst, ("speed_rpm", "orders")), name, speed=speed)
-            for each in worst["orders"]:
-                figures = list_figures(each, ("order",))
-                yield from at("worst", figures, name, speed=speed, order=each["order"])
-        for each in dampers:
-            worst = each["worst"]
-            heat = list_figures(worst, ("speed_rpm",))
-            yield from at("worst", heat, each["node"], speed=worst["speed_rpm"])
-        swings = [("pendulums", each["node"], each["worst"]) for each in pendulums]
-        for key, name, worst in (*swings, ("free_end", "", response["free_end_worst"])):
-            swing = Figure(key, worst["half_swing_deg"], "deg")
-            yield from at("worst", [swing], name, speed=worst["speed_rpm"])
+        yield from _list_response(response)
+        yield from _list_worst(response)
     for k, ends in enumerate(found.get("barred_rpm", ()), 1):
         pairs = zip(("from", "to"), ends, strict=True)
-        yield from at("barred", [Figure(key, end, "rpm") for key, end in pairs], number=k)
+        yield from _put("barred", [Figure(key, end, "rpm") for key, end in pairs], number=k)
+
+
+def _list_response(response: Node) -> Iterator[tuple[Any, ...]]:
+    """Yield the lines at every speed."""
+    for s, speed in enumerate(response["speeds_rpm"]):
+        for shaft in response["shafts"]:
+            yield from _put("response", list_series(shaft, s), shaft["name"], speed=speed)
+        swing = Figure("free_end", response["free_end_deg"][s], "deg")
+        yield from _put("response", [swing], speed=speed)
+        for each in response.get("dampers", ()):
+            yield from _put("response", list_series(each, s), each["node"], speed=speed)
+        for each in response.get("pendulums", ()):
+            swing = Figure("pendulums", each["half_swing_deg"][s], "deg")
+            yield from _put("response", [swing], each["node"], speed=speed)
+
+
+def _list_worst(response: Node) -> Iterator[tuple[Any, ...]]:
+    """Yield the lines of the largest values over all speeds."""
+    for shaft in response["shafts"]:
+        worst, name, speed = shaft["worst"], shaft["name"], shaft["worst"]["speed_rpm"]
+        yield from _put("worst", list_figures(worst, ("speed_rpm", "orders")), name, speed=speed)
+        for each in worst["orders"]:
+            figures = list_figures(each, ("order",))
+            yield from _put("worst", figures, name, speed=speed, order=each["order"])
+    for each in response.get("dampers", ()):
+        heat, speed = list_figures(each["worst"], ("speed_rpm",)), each["worst"]["speed_rpm"]
+        yield from _put("worst", heat, each["node"], speed=speed)
+    swings = [("pendulums", each["node"], each["worst"]) for each in response.get("pendulums", ())]
+    for key, name, worst in (*swings, ("free_end", "", response["free_end_worst"])):
+        swing = Figure(key, worst["half_swing_deg"], "deg")
+        yield from _put("worst", [swing], name, speed=worst["speed_rpm"])
 
 
 # ------------------------------------------------------------------ for people
@@ -295,7 +310,9 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
         angle = number(_settle(end.angle, angles), 6)
         left = f"the angle of {end.node}, which is fixed, {angle}."
     heads = ("angle", "J ω² angle", "sum", f"k, {stiffness.name}", "twist")
-    return Grid(title, ("node", f"J, {inertia.name}", *heads), rows, f"Left over at the end: {left}")
+    return Grid(
+        title, ("node", f"J, {inertia.name}", *heads), rows, f"Left over at the end: {left}"
+    )
 
 
 def _show_stiffness(value: float) -> str:
@@ -307,7 +324,9 @@ def _settle(value: float, others: Sequence[float]) -> float:
     return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
 
 
-def _show_response(result: TorsionAnalysis, response: TorsionResponse, system: System) -> Grid | Text:
+def _show_response(
+    result: TorsionAnalysis, response: TorsionResponse, system: System
+) -> Grid | Text:
     span, swings = _name_span(response.speeds_rpm), _describe_swings(result, response)
     if not response.shafts:
         return Text(f"Vibration, {span}", (swings,))
@@ -323,7 +342,9 @@ def _show_response(result: TorsionAnalysis, response: TorsionResponse, system: S
             number(unit.of(worst.sum_of_amplitudes_Nm)),
         ]
         if stressed:
-            cells.append(number(stress.of(math.nan if worst.stress_Pa is None else worst.stress_Pa), 4))
+            cells.append(
+                number(stress.of(math.nan if worst.stress_Pa is None else worst.stress_Pa), 4)
+            )
         rows.append((*cells, _name_orders(shaft, unit)))
     heads = ["shaft", f"± {unit.name}", "at rpm", f"sum, {unit.name}"]
     heads += [*[stress.name] * stressed, "largest orders"]
@@ -335,8 +356,9 @@ def _show_response(result: TorsionAnalysis, response: TorsionResponse, system: S
         note += _name_gas(excitation, " Gas as in the file at every speed.")
     for damper in response.dampers or ():
         note += (
-            f" The damper of {damper.node} turns up to {size_text(damper.worst.heat_W, system.heat)}"
-            f" to heat, at {number(damper.worst.speed_rpm)} rpm."
+            f" The damper of {damper.node} turns up to "
+            f"{size_text(damper.worst.heat_W, system.heat)} to heat, at "
+            f"{number(damper.worst.speed_rpm)} rpm."
         )
     words = (0, len(heads) - 1)
     return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal, NamedTuple
 
@@ -14,6 +14,7 @@ from ..core.telling import Tell, tell_nobody
 from ..core.vibration import Real
 from ..documents.records import HIDDEN
 from ..enginefile.fields import printable
+from ..errors import BalcliError
 from ..result import Result
 from .damper_sizing import DamperAsked, SizedDamper, size_damper
 from .load import Source
@@ -49,6 +50,38 @@ class TorsionQuestion(NamedTuple):
     orders: Real | None = None
     holzer: tuple[HolzerAsked, ...] = ()
     damper: DamperAsked | None = None
+
+
+def ask(
+    speeds_rpm: Real | None = None,
+    orders: Real | None = None,
+    holzer: Iterable[HolzerAsked] = (),
+    damper: str | None = None,
+    damper_at: str | None = None,
+    damper_inertia: float | None = None,
+) -> TorsionQuestion:
+    """Return the question of `balcli torsion` and `analyze_torsion`.
+
+    Args:
+        speeds_rpm: (speeds,) rising, at which the response is wanted.
+        orders: (orders,) that excite; None: all.
+        holzer: Tables that are wanted.
+        damper: Kind of damper that is to be sized.
+        damper_at: Name of what carries it.
+        damper_inertia: Inertia of its ring or pendulums, kg m2.
+
+    Raises:
+        BalcliError: more of a damper than its kind, without this or without speeds.
+    """
+    wanted = None
+    if damper is not None:
+        wanted = DamperAsked(damper, damper_at, damper_inertia)
+        if speeds_rpm is None:
+            raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
+    elif damper_at is not None or damper_inertia is not None:
+        option = "--damper-inertia" if damper_at is None else "--damper-at"
+        raise BalcliError(f"{option}: give the kind of damper, with --damper")
+    return TorsionQuestion(speeds_rpm, orders, tuple(holzer), wanted)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -173,13 +206,13 @@ class TorsionAnalysis(Result):
 
 def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator[str]:
     for each in response.pendulums or ():
-        swing = each.worst.half_swing_deg
-        if swing > WIDE_SWING:
+        wide = each.worst.half_swing_deg
+        if wide > WIDE_SWING:
             yield (
-                f"the pendulums of {printable(each.node)} swing by {swing:.3g} deg at "
+                f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
                 f"{each.worst.speed_rpm:.4g} rpm, computed as if that were small: at "
-                f"{WIDE_SWING:.0f} deg one on a circle is 0.8 % out of tune, farther out more; with "
-                f"{swing / WIDE_SWING:.2g} times their mass they would swing by about "
+                f"{WIDE_SWING:.0f} deg one on a circle is 0.8 % out of tune, farther out more; "
+                f"with {wide / WIDE_SWING:.2g} times their mass they would swing by about "
                 f"{WIDE_SWING:.0f} deg"
             )
     question = "is the damping (loss, damping) of all that twists right?"

@@ -12,8 +12,8 @@ from ..core.torsional_chain import (
     ChainShaft,
     find_pieces,
     find_still,
-    rigid_motions,
     join_chain,
+    rigid_motions,
 )
 from ..enginefile.fields import shorten
 from ..enginefile.shafting import find_stiffness

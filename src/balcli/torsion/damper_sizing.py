@@ -265,7 +265,9 @@ def _find_heat(system: TorsionalSystem, node: str, speeds: Real) -> tuple[float,
     names = [name.removesuffix(" ring") for name in system.dampers]
     if node not in names:
         return 0.0, float(speeds[0])
-    columns = np.arange(count_columns(system)) == count_columns(system) - len(names) + names.index(node)
+    columns = np.arange(count_columns(system)) == count_columns(system) - len(names) + names.index(
+        node
+    )
     largest = find_largest(system, speeds, columns.astype(float), together=True)
     return float(largest.value[columns][0]), float(largest.rpm[columns][0])
 
@@ -407,7 +409,7 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
             "on the command line bare numbers are kg mm2"
         )
     elif not given and inertia > _HEAVY * carrier > 0:
-        hint = "; pendulums farther out are lighter: give a pendulum damper with its radius in the file"
+        hint = "; pendulums farther out are lighter: give one with its radius in the file"
         yield (
             f"the damper that is proposed has {inertia:.4g} kg m2, {inertia / carrier:.3g} times "
             f"as much as {node}, which carries it ({carrier:.4g} kg m2): say what there is room "

@@ -131,13 +131,16 @@ def _approach_tops(speeds: Real, values: Real, *, together: bool) -> Real:
     """
     level = values.max() if together else values.max(axis=0)
     padded = np.pad(values, ((1, 1), (0, 0)), constant_values=-1)
-    tops = (values >= padded[:-2]) & (values > padded[2:]) & (values >= _NEAR * level) & (values > 0)
+    tops = (
+        (values >= padded[:-2]) & (values > padded[2:]) & (values >= _NEAR * level) & (values > 0)
+    )
     at, column = np.nonzero(tops)
     at = np.clip(at, 1, max(len(speeds) - 2, 1))
     if len(speeds) < 3 or not len(at):
         return speeds[:0]
-    (x0, x1, x2), (y0, y1, y2) = (speeds[at + k] for k in (-1, 0, 1)), (
-        values[at + k, column] for k in (-1, 0, 1)
+    (x0, x1, x2), (y0, y1, y2) = (
+        (speeds[at + k] for k in (-1, 0, 1)),
+        (values[at + k, column] for k in (-1, 0, 1)),
     )
     before, after = (y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1)
     bend = np.where(after < before, (after - before) / (x2 - x0), -np.inf)

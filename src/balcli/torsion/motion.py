@@ -71,7 +71,9 @@ def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex
     inertia, damping = (np.array([ring[k] for ring in system.rings], float) for k in (1, 2))
     slip = w[..., None] * (inertia / damping)
     lagging = inertia * slip / (1 + slip**2)
-    oil = w[..., None] ** 3 * lagging * np.abs(angle[..., [ring.node for ring in system.rings]]) ** 2
+    oil = (
+        w[..., None] ** 3 * lagging * np.abs(angle[..., [ring.node for ring in system.rings]]) ** 2
+    )
     first = len(system.shafts) - (len(system.nodes) - 1 - system.last)
     loss, stiffness = system.damping.loss[first:], system.chain.stiffness[first:]
     softness = loss / (stiffness * (1 + loss**2))

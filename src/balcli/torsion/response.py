@@ -185,7 +185,7 @@ def find_response(
     by_order = np.abs(there[:, range(end + 1), range(end + 1)])  # of each curve where it is largest
     shafts = []
     for k, name in enumerate(system.shafts):
-        by_torque = None if system.sections[k] is None else system.sections[k].stress_by_torque
+        by_torque = None if (section := system.sections[k]) is None else section.stress_by_torque
         amplitudes = np.abs(phasors[:, :, k])
         worst = WorstTorque(
             speed_rpm=at[k],

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.vibration import Real
+from ...errors import BalcliError
 from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
@@ -42,7 +43,13 @@ _WORTH = 1e-3  # share of work from which a critical is drawn
 def make_torsion(
     result: TorsionAnalysis, what: str, system: System = SI, *, titled: bool = True
 ) -> Figure:
-    """Return a page of pictures; `what` is "all" or one of `OF_TORSION`."""
+    """Return a page of pictures; `what` is "all" or one of `OF_TORSION`.
+
+    Raises:
+        BalcliError: there is no shaft whose torque could be drawn.
+    """
+    if what == "waterfall" and not result.shafts:
+        raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
     parts = list(_choose_parts(result, what, system))
     columns = 2 if what == "all" else 1
     rows = -(-len(parts) // columns)
@@ -143,11 +150,16 @@ def _draw_torque(
     """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
     with a diameter where the file limits it. Each curve includes its peak between the speeds.
     """
-    torques = [(s, s.half_peak_to_peak_Nm, s.worst.half_peak_to_peak_Nm) for s in response.shafts]
-    stresses = [(s, s.stress_Pa, s.worst.stress_Pa) for s in response.shafts if s.stress_Pa is not None]
-    limit = result.system.limit_pa
-    by_stress = bool(stresses) and limit is not None
-    curves = stresses if by_stress else torques
+    limit, sections = result.system.limit_pa, result.system.sections
+    by_stress = any(sections) and limit is not None
+    curves = []  # shaft, by speed, largest
+    for shaft, section in zip(response.shafts, sections, strict=True):
+        torque, peak = shaft.half_peak_to_peak_Nm, shaft.worst.half_peak_to_peak_Nm
+        if not by_stress:
+            curves.append((shaft, torque, peak))
+        elif section is not None:
+            by_torque = section.stress_by_torque
+            curves.append((shaft, torque * by_torque, peak * by_torque))
     least = sorted((peak for _, _, peak in curves), reverse=True)[:_MOST_SHAFTS][-1]
     unit = (system.stress if by_stress else system.moment).fit(max(peak for _, _, peak in curves))
     shown = [each for each in curves if each[2] >= least]
