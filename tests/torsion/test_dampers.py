@@ -414,7 +414,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
         ),
         (
             ("--damper", "viscous", "--orders", "2", *RANGE),
-            "--damper: nothing excites the system at the orders asked for",
+            "standard input: nothing excites it at the orders asked for",
         ),
         (("--what", "modes"), "--what modes: give --plot and a file for the picture"),
         (("--what", "response", "--plot", "x.svg"), "--what response: give the range, such as --speeds 1000:2500"),

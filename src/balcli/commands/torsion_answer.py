@@ -16,7 +16,7 @@ from ..render.formats import Units
 from ..render.plot.torsion import make_torsion
 from ..render.units import SYSTEMS
 from ..torsion.analysis import HolzerAsked, TorsionQuestion, answer_question, ask
-from ..torsion.load import ChainSource, load_source
+from ..torsion.load import load_source
 from ..torsion.quantity import choose_torsion_speeds
 from .amounts import read_inertia
 from .options import read_orders
@@ -114,7 +114,7 @@ def make_figures_of_torsion(
     asked = parse_question(speeds, orders)
     source = load_source(path, asked.orders)
     over_speed = {"response", "waterfall"} & {*pages}
-    if over_speed and asked.speeds_rpm is None and not isinstance(source, ChainSource):
+    if over_speed and asked.speeds_rpm is None and source.engine is not None:
         asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
     for page in pages:
         require_speeds(asked, page)

@@ -15,7 +15,7 @@ from ..engine.load import build_tables
 from ..enginefile.plain_tables import take_tables
 from ..errors import BalcliError, check_type
 from ..torsion.analysis import TorsionAnalysis, answer_question, ask
-from ..torsion.load import ChainSource, Source, make_source
+from ..torsion.load import Source, make_chain_source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
 from .arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 
@@ -80,6 +80,6 @@ def _read_source(source: Any, orders: Array | None) -> Source:
     tables, name = take_tables("analyze_torsion", source, wanted)
     if describes_chain(tables):
         name = name or _UNNAMED
-        return ChainSource(name, b"", read_chain_tables(tables, name))
+        return make_chain_source(read_chain_tables(tables, name), name)
     engine = build_tables(tables, name)
     return make_source(take_model(engine), engine, name or engine.name, orders)

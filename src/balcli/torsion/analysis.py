@@ -261,23 +261,29 @@ def answer_question(
     if question.damper is None or question.speeds_rpm is None:
         return _analyze_system(source.system(), question, tell)
     sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
-    fitted = source.with_damper(sized.node, sized.damper).system()  # one response after dozens
-    return replace(_analyze_system(fitted, question), damper=sized)
+    fitted = source.system({sized.node: sized.damper})
+    found = _analyze_system(fitted, question)  # one response after dozens
+    for each in () if found.response is None else found.response.dampers or ():
+        if each.node == sized.node:
+            heat = each.worst
+            sized = replace(sized, heat_W=heat.heat_W, heat_rpm=heat.speed_rpm)
+    return replace(found, damper=sized)
 
 
 def _analyze_system(
     system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """Return the answer about a system as it is."""
-    if question.orders is not None and system.excitation is not None:
-        system = replace(system, excitation=system.excitation.only(question.orders))
-    modes, speeds, excitation = find_natural_modes(system), question.speeds_rpm, system.excitation
+    speeds, orders = question.speeds_rpm, question.orders
+    if speeds is not None:
+        system = system.driven_at(orders)
+    elif orders is not None and system.excitation is not None:
+        system = replace(system, excitation=system.excitation.only(orders))
+    modes, excitation = find_natural_modes(system), system.excitation
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
     response, barred = None, None
     if speeds is not None:
         span = float(speeds[0]), float(speeds[-1])
-        if not len(system.require_excitation().orders):
-            raise system.refusal("nothing excites it at the orders asked for")
         response = find_response(system, speeds, tell)
         barred = find_barred(system, response)
     return TorsionAnalysis(

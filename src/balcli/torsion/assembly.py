@@ -4,14 +4,17 @@ dampers fitted.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.torsional_chain import ChainShaft, Damping, join_chain
-from ..enginefile.shafting import Damper, ShaftKeys
+from ..enginefile.shafting import Damper
 from .system import Pendulums, ShaftSection, TorsionalSystem, ViscousRing
+
+NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
 
 
 class PlannedNode(NamedTuple):
@@ -38,6 +41,7 @@ def assemble_system(
     shafts: Sequence[PlannedShaft],
     limits: tuple[float | None, float | None],
     clamped: Sequence[int] = (),
+    fitted: Mapping[str, Damper | None] = NO_DAMPERS,
     **others: Any,
 ) -> TorsionalSystem:
     """Return the system; its rubber rings are nodes and shafts after all others.
@@ -48,11 +52,12 @@ def assemble_system(
         limits: Stress (N/mm2) and half swing of the first node (deg) above which a speed is barred;
             None: no limit.
         clamped: Nodes that are held.
+        fitted: Dampers by the name of their node, in place of those that nodes have.
         others: Further attributes of the system.
     """
     every, joined, rings, pendulums = list(nodes), list(shafts), [], []
     for k, node in enumerate(nodes):
-        damper = node.damper
+        damper = fitted.get(node.name, node.damper)
         if damper is None:
             continue
         inertia = (damper.inertia or 0.0) / 1e6
@@ -87,8 +92,6 @@ def assemble_system(
     )
 
 
-def find_section(shaft: ShaftKeys) -> ShaftSection | None:
-    """Return the diameters of a shaft in m, where they are given."""
-    if shaft.diameter is None:
-        return None
-    return ShaftSection(shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3)
+def find_section(diameter: float | None, bore: float | None) -> ShaftSection | None:
+    """Return a section in m, from a diameter and a bore in mm, where they are given."""
+    return None if diameter is None else ShaftSection(diameter / 1e3, (bore or 0.0) / 1e3)

@@ -28,7 +28,7 @@ from ..enginefile.shafting import Damper
 from ..errors import BalcliError
 from .largest import count_columns, find_largest
 from .load import Source
-from .modes import NaturalMode, find_criticals, find_natural_modes
+from .modes import NaturalMode, find_natural_modes
 from .motion import move, stress_by_torque
 from .system import TorsionalSystem
 
@@ -53,9 +53,7 @@ _END = 0.99  # of the range: a best one farther out is at its end
 _HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
 _HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
 _LOSS = 0.01  # of shafts, where nothing damps a resonance: modes are compared with it
-_MOVES = 1.001  # times the whole inertia: with more at a node in a mode it hardly moves there,
-# unless in every other mode there is more still
-_LITTLE = 2.0  # times that: it moves a little, and a damper helps where nothing else resonates
+_MOVES = 2.0  # times the whole inertia: with more at a node in a mode it hardly moves there
 
 
 class DamperAsked(NamedTuple):
@@ -164,7 +162,7 @@ def size_damper(
     node, own = _find_carrier(source.dampers(), asked.node)
 
     def build(damper: Damper | None) -> TorsionalSystem:
-        return _excite(source.with_damper(node, damper).system(), orders)
+        return source.system({node: damper}).driven_at(orders)
 
     bare = build(None)
     by_torque = np.ones(len(bare.shafts))
@@ -193,7 +191,6 @@ def size_damper(
     farther = _minimise(lambda logarithm: judge(resize(logarithm)), width)
     best = float(f"{start * math.exp(farther):.6g}")
     damper = first.model_copy(update={figure: best})
-    heat, heat_rpm = _find_heat(build(damper), node, speeds)
     unit = "Pa" if any(bare.sections) else "Nm"
     given = {key: getattr(damper, key) for key in DAMPER_KEYS}
     found = SizedDamper(
@@ -206,8 +203,8 @@ def size_damper(
         },
         mode=mode.number,
         **{f"before_{unit}": judge(None), f"after_{unit}": judge(damper)},  # type: ignore[arg-type]
-        heat_W=heat,
-        heat_rpm=heat_rpm,
+        heat_W=0.0,
+        heat_rpm=float(speeds[0]),
         damper=damper,
         start=start,
     )
@@ -230,18 +227,6 @@ def _find_carrier(
     return name, carriers[name]
 
 
-def _excite(system: TorsionalSystem, orders: Real | None) -> TorsionalSystem:
-    """Return the system excited at these orders alone; None: at all."""
-    excitation = system.excitation
-    if excitation is None:
-        raise BalcliError("--damper: nothing excites the system; give an [[excitation]]")
-    if orders is not None:
-        excitation = excitation.only(orders)
-    if not len(excitation.orders):
-        raise BalcliError("--damper: nothing excites the system at the orders asked for")
-    return replace(system, excitation=excitation)
-
-
 def _find_hardest(
     system: TorsionalSystem, speeds: Real, weights: Mapping[str, float]
 ) -> tuple[int, float, float]:
@@ -258,18 +243,6 @@ def _find_hardest(
     largest = find_largest(system, speeds, columns, together=True)
     worst = int(largest.value.argmax())
     return worst, float(largest.rpm[worst]), float(largest.value[worst])
-
-
-def _find_heat(system: TorsionalSystem, node: str, speeds: Real) -> tuple[float, float]:
-    """Return the largest power that the damper of a node turns to heat, W, and its speed, rpm."""
-    names = [name.removesuffix(" ring") for name in system.dampers]
-    if node not in names:
-        return 0.0, float(speeds[0])
-    columns = np.arange(count_columns(system)) == count_columns(system) - len(names) + names.index(
-        node
-    )
-    largest = find_largest(system, speeds, columns.astype(float), together=True)
-    return float(largest.value[columns][0]), float(largest.rpm[columns][0])
 
 
 def _minimise(judge: Callable[[float], float], width: float) -> float:
@@ -290,12 +263,10 @@ def _minimise(judge: Callable[[float], float], width: float) -> float:
 def _find_mode_to_damp(
     system: TorsionalSystem, speeds: Real, weights: Mapping[str, float], node: int
 ) -> tuple[NaturalMode, float]:
-    """Return the mode that a damper at a node is for, and the order that drives it: of the largest
-    order in the largest stress of the range the mode nearest in frequency. By work alone that of a
-    soft coupling would be it, which hardly twists the crankshaft.
-
-    Where the node hardly moves in that mode, it is the one with most work in the range in which it
-    moves; else that mode after all, if the node moves a little, or the nearest in which it moves.
+    """Return the mode that a damper at a node is for, and the order that drives it: of the modes in
+    which the node moves the one nearest in frequency to the largest order in the largest stress of
+    the range. By work alone that of a soft coupling would be it, which hardly twists the
+    crankshaft.
     """
     modes = find_natural_modes(system)
     if not modes:
@@ -307,24 +278,12 @@ def _find_mode_to_damp(
         system = replace(system, damping=system.damping._replace(loss=loss))
         worst, rpm, _ = _find_hardest(system, speeds, weights)
     by_order = np.abs(move(system, np.array([rpm])).torque[:, 0, worst])
-    excitation = system.require_excitation()
-    order = float(excitation.orders[by_order.argmax()])
-
-    def is_off(mode: NaturalMode) -> float:
-        return abs(math.log(mode.omega / (order * rpm * RPM)))
-
+    order = float(system.require_excitation().orders[by_order.argmax()])
     whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
-    heavy = {mode.number: _find_inertia_in(mode, system, node) for mode in modes}
-    most = _MOVES * max(whole, min(heavy.values()))
-    nearest = min(modes, key=is_off)
-    if heavy[nearest.number] <= most:
-        return nearest, order
-    for met in find_criticals(excitation, modes, (float(speeds[0]), float(speeds[-1]))):
-        if heavy[met.mode] <= most:
-            return modes[met.mode - 1], met.order
-    if heavy[nearest.number] <= _LITTLE * most:
-        return nearest, order
-    return min((mode for mode in modes if heavy[mode.number] <= most), key=is_off), order
+    heavy = [_find_inertia_in(mode, system, node) for mode in modes]
+    moving = [mode for mode, own in zip(modes, heavy, strict=True) if own <= _MOVES * whole]
+    best = moving or [modes[int(np.argmin(heavy))]]
+    return min(best, key=lambda mode: abs(math.log(mode.omega / (order * rpm * RPM)))), order
 
 
 def _find_inertia_in(mode: NaturalMode, system: TorsionalSystem, node: int) -> float:

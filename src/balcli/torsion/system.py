@@ -4,7 +4,7 @@ it. Speeds and orders are those of its reference, the crankshaft or the first no
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import NamedTuple
 
@@ -134,6 +134,19 @@ class TorsionalSystem:
         if self.excitation is None:
             raise self.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
         return self.excitation
+
+    def driven_at(self, orders: Real | None) -> TorsionalSystem:
+        """Return the system excited at these orders alone; None: at all.
+
+        Raises:
+            BalcliError: nothing excites it, or not at these orders.
+        """
+        excitation = self.require_excitation()
+        if orders is not None:
+            excitation = excitation.only(orders)
+        if not len(excitation.orders):
+            raise self.refusal("nothing excites it at the orders asked for")
+        return replace(self, excitation=excitation)
 
     @cached_property
     def gears(self) -> Real:
