@@ -293,26 +293,26 @@ stiffness = 1e6
         ((), ""),
         (
             ("--damper-inertia", "20"),
-            "a viscous damper of 2e-05 kg m2 at disc lowers the largest torque by less than 1%; the "
+            "a viscous damper of 2e-05 kg m2 at disc hardly lowers the largest torque; the "
             "whole system has 1.001 kg m2. Is it of the right size (on the command line bare "
             "numbers are kg mm2), and in the right place?",
         ),
         (
             ("--damper-inertia", "3e6"),
-            "the damper has 3 kg m2, more than the whole system (1.001 kg m2): on the command "
-            "line bare numbers are kg mm2",
+            "the damper has 3 kg m2, more than the whole system (1.001 kg m2); is it of the "
+            "right size (on the command line bare numbers are kg mm2)?",
         ),
         (
             ("--damper-at", "nose"),
             "the damper that is proposed has 0.3003 kg m2, 300 times as much as nose, which carries "
-            "it (0.001 kg m2): say what there is room for, such as --damper-inertia "
+            "it (0.001 kg m2): give what there is room for, such as --damper-inertia "
             '"0.001 kg m^2"',
         ),
         (("--damper-at", "nose", "--damper-inertia", "0.3 kg m^2"), ""),
         (
             ("--speeds", "1400:2000:10"),
             "the best damping is at the end of what is looked at, 0.033 to 30 times that of mode 1 "
-            "by itself; more may be better still",
+            "by itself",
         ),
     ],
 )

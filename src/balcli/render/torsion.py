@@ -220,10 +220,8 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
         for mode in result.modes
     )
     note = "Node in: the shafts whose ends turn against each other."
-    if result.system.rings:
-        note += " Rings in oil are left out."
-    if result.system.pendulums:
-        note += " Pendulums are left out; they follow the order."
+    if left_out := _list_left_out(result.system):
+        note += f" Without {left_out}."
     heads = ("mode", "Hz", "1/min", "nodes", "node in")
     return Grid("Natural modes", heads, rows, note, words=(0, 4))
 
@@ -268,21 +266,20 @@ def _show_criticals(result: TorsionAnalysis, excitation: Excitation) -> Grid | T
 
 def _name_scope(result: TorsionAnalysis, excitation: Excitation) -> str:
     """Return which orders, speeds, dampers and torques critical speeds are of."""
-    system, rated = result.system, result.system.rated_rpm
-    several = "s to" * (len(excitation.orders) > 1)
+    rated, several = result.system.rated_rpm, "s to" * (len(excitation.orders) > 1)
     note = f"Of order{several} {order_name(float(excitation.orders.max()))}."
-    if result.response is None and rated:
-        note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's."
-    elif result.response is None:
-        note += " At any speed: the file gives none."
+    if left_out := _list_left_out(result.system):
+        note += f" Without {left_out}, which shift them."
+    if result.response is not None:
+        return note
+    note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
+    return note + _name_gas(excitation)
+
+
+def _list_left_out(system: TorsionalSystem) -> str:
+    """Return the dampers that modes and criticals are without."""
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
-    if dampers:
-        note += f" Without {' and '.join(dampers)}, which shift them."
-    if system.pendulums:
-        note += " The order that pendulums are tuned to meets modes in which their node is at rest."
-    if result.response is None:
-        note += _name_gas(excitation)
-    return note
+    return " and ".join(dampers)
 
 
 def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
@@ -400,36 +397,22 @@ def _name_orders(shaft: ShaftResponse, unit: ShownUnit) -> str:
 
 def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str, str]]:
     """Yield the limits of the file, and which speeds pass them."""
-    system, limits = result.system, []
-    stress = "" if system.limit_pa is None else size_text(system.limit_pa, units.stress, None)
-    if stress and any(system.sections):
-        limits.append(stress)
+    system, limits, bare = result.system, [], []
+    if system.limit_pa is not None:
+        limits.append(size_text(system.limit_pa, units.stress, None))
+        each = zip(system.shafts, system.sections, system.chain.stiffness, strict=True)
+        rings = system.nodes[system.last + 1 :]  # rubber has no section
+        bare = [s for s, section, k in each if not section and math.isfinite(k) and s not in rings]
     if system.angle_limit is not None:
         limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.nodes[0]}")
     if limits:
         yield "limit", " and ".join(limits)
-        yield "barred speeds", _list_barred(result)
-    bare = list(_list_unjudged(system))
-    if stress and stress not in limits:
-        yield "not judged", f"{stress}: no shaft has a diameter, so that no stress is known"
-    elif stress and bare:
+    if result.barred_rpm is not None:
+        text = ", ".join(map(_name_span, result.barred_rpm)) or "none in this range"
+        own = system.rated_rpm or 0.0
+        if any(low <= own <= high for low, high in result.barred_rpm):
+            text += f"; the file's own speed, {number(own)} rpm, is barred"
+        yield "barred speeds", text
+    if bare:
         named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
         yield "not judged", f"{named}: no diameter, so that no stress is known"
-
-
-def _list_unjudged(system: TorsionalSystem) -> Iterator[str]:
-    """Yield shafts that twist and have no diameter; rubber is none."""
-    rings = set(system.nodes[system.last + 1 :])
-    each = zip(system.shafts, system.sections, system.chain.stiffness, strict=True)
-    for name, section, stiffness in each:
-        if section is None and math.isfinite(stiffness) and name not in rings:
-            yield name
-
-
-def _list_barred(result: TorsionAnalysis) -> str:
-    """Return the ranges of speed, and whether the file's own is among them."""
-    barred, own = result.barred_rpm or (), result.system.rated_rpm
-    text = ", ".join(map(_name_span, barred)) or "none in this range"
-    if own is not None and any(low <= own <= high for low, high in barred):
-        text += f"; the file's own speed, {number(own)} rpm, is barred"
-    return text

@@ -354,30 +354,27 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
     carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
     whole, width = float(np.sum(bare.chain.inertia)), _WIDTH[found.kind]
     sized = float(getattr(found.damper, found.figure))
+    units = "(on the command line bare numbers are kg mm2)"
     if found.after > _HARDLY * found.before:
-        lowers = f"lowers the largest {found.measure} by less than {1 - _HARDLY:.0%}"
-        does = lowers if found.after <= found.before else f"raises the largest {found.measure}"
+        does = "raises" if found.after > found.before else "hardly lowers"
         yield (
-            f"a {found.kind} damper of {inertia:.4g} kg m2 at {node} {does}; the whole system has "
-            f"{whole:.4g} kg m2. Is it of the right size (on the command line bare numbers are "
-            "kg mm2), and in the right place?"
+            f"a {found.kind} damper of {inertia:.4g} kg m2 at {node} {does} the largest "
+            f"{found.measure}; the whole system has {whole:.4g} kg m2. Is it of the right size "
+            f"{units}, and in the right place?"
         )
     elif given and inertia > whole:
         yield (
-            f"the damper has {inertia:.4g} kg m2, more than the whole system ({whole:.4g} kg m2): "
-            "on the command line bare numbers are kg mm2"
+            f"the damper has {inertia:.4g} kg m2, more than the whole system ({whole:.4g} kg m2); "
+            f"is it of the right size {units}?"
         )
     elif not given and inertia > _HEAVY * carrier > 0:
-        hint = "; pendulums farther out are lighter: give one with its radius in the file"
         yield (
             f"the damper that is proposed has {inertia:.4g} kg m2, {inertia / carrier:.3g} times "
-            f"as much as {node}, which carries it ({carrier:.4g} kg m2): say what there is room "
+            f"as much as {node}, which carries it ({carrier:.4g} kg m2): give what there is room "
             f'for, such as --damper-inertia "{float(f"{carrier:.2g}"):.12g} kg m^2"'
-            f"{hint if found.kind == 'pendulum' else ''}"
         )
     elif abs(math.log(sized / found.start)) > _END * math.log(width):
-        more = "more" if sized > found.start else "less"
         yield (
             f"the best {found.figure} is at the end of what is looked at, {1 / width:.2g} to "
-            f"{width:g} times that of mode {found.mode} by itself; {more} may be better still"
+            f"{width:g} times that of mode {found.mode} by itself"
         )

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.speeds import RPM
+from ..core.torsional_chain import Damping
 from ..core.torsional_modes import chain_loss, find_chain_modes
 from ..core.torsional_response import respond_chain
 from ..core.vibration import (
@@ -15,7 +16,6 @@ from ..core.vibration import (
     Complex,
     Real,
     UndampedResonanceError,
-    find_resonances,
     frequencies,
 )
 from ..errors import BalcliError
@@ -23,6 +23,7 @@ from ..limits import MOST_TORSION_TORQUES
 from .modes import find_poles
 from .system import TorsionalSystem
 
+_EDGE = 1e-10  # share of a speed by which a resonance may lie beyond the range
 _AT_A_TIME = 1 << 20  # angles and torques by order, at all speeds, which bounds the memory
 
 
@@ -112,7 +113,7 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
         BalcliError: more torques by order, shaft and speed than memory is meant for; an undamped
             mode that is driven at its own frequency.
     """
-    excitation, speeds = system.require_excitation(), rpm * RPM
+    excitation = system.require_excitation()
     orders, shafts = len(excitation.orders), len(system.shafts)
     if orders * len(rpm) * shafts > MOST_TORSION_TORQUES:
         raise BalcliError(
@@ -123,28 +124,19 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
     lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
     if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses
         return
-    if system.pendulums:  # their inertia differs from order to order, and so do the modes
-        _drive_undamped(system, rpm)
-        return
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
-    load = excitation.on_nodes(speeds, len(system.nodes))
-    for met in find_resonances(modes, loss, excitation.orders, speeds, load):
-        raise _refuse_resonance(system, float(modes.omega[met.mode]), met.order)
-
-
-def _drive_undamped(system: TorsionalSystem, rpm: Real) -> None:
-    """Compute the vibration at every speed of a range at which an order meets an undamped
-    resonance: there is one only where the order does not drive it.
-    """
-    excitation = system.require_excitation()
-    for order in excitation.orders:
-        poles = find_poles(system, float(order))
-        free = poles[(poles.imag > 0) & (-2 * poles.real <= UNDAMPED * np.abs(poles))]
-        met = free.imag / (RPM * order)
-        met = met[(met >= rpm[0]) & (met <= rpm[-1])]
-        if len(met):
-            move(replace(system, excitation=excitation.only(order)), met)
+    free = modes.omega[(modes.omega > 0) & (loss <= UNDAMPED)]
+    none = Damping(*(np.zeros_like(each) for each in system.damping))
+    for order in excitation.orders.tolist():
+        if system.pendulums:  # their inertia differs from order to order, and so do the modes
+            poles = find_poles(system, order)
+            free = poles.imag[(poles.imag > 0) & (-2 * poles.real <= UNDAMPED * np.abs(poles))]
+        met = free / (RPM * order)
+        met = met[(met >= rpm[0] * (1 - _EDGE)) & (met <= rpm[-1] * (1 + _EDGE))]
+        if len(met):  # raises where the order drives the mode
+            alone = excitation.only(np.array([order]))
+            move(replace(system, damping=none, rings=(), excitation=alone), met)
 
 
 def _refuse_resonance(system: TorsionalSystem, omega: float, order: float) -> BalcliError:
