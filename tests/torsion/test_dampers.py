@@ -311,8 +311,7 @@ stiffness = 1e6
         (("--damper-at", "nose", "--damper-inertia", "0.3 kg m^2"), ""),
         (
             ("--speeds", "1400:2000:10"),
-            "the best damping is at the end of what is looked at, 0.033 to 30 times that of mode 1 "
-            "by itself",
+            "the best damping is at the end of what is looked at, 0.033 to 30 times that of mode 1 by itself",
         ),
     ],
 )
