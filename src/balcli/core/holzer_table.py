@@ -35,9 +35,9 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     """Return Holzer's table at w (rad/s), from the first node, whose angle is 1, to the last.
 
     Its angles x and torques T of shafts solve the equations of the chain, `near x_child + far
-    x_parent = T/k` for each shaft and `w^2 J x = sum of T` for each node but the last: there the sum
-    is the residual. A branch beside the way from the first node to the last moves as the way makes
-    it. Dampers and loss are left out, as in the books.
+    x_parent = T/k` for each shaft and `w^2 J x = sum of T` for each node but the last: there the
+    sum is the residual. A branch beside the way from the first node to the last moves as the way
+    makes it. Dampers and loss are left out, as in the books.
 
     Args:
         chain: Inertias and shafts.

@@ -83,7 +83,7 @@ def ask(
     return TorsionQuestion(speeds_rpm, orders, tuple(holzer), wanted)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class ChainNode:
     """Inertia of the chain.
 
@@ -98,7 +98,7 @@ class ChainNode:
     gear: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class ChainJoint:
     """Shaft between two nodes.
 
@@ -111,7 +111,7 @@ class ChainJoint:
     stiffness_Nm_per_rad: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class HolzerRow:
     """One inertia of Holzer's table.
 
@@ -266,7 +266,7 @@ def _analyze_system(
         system = system.driven_at(orders)
     elif orders is not None and system.excitation is not None:
         system = replace(system, excitation=system.excitation.only(orders))
-    modes, excitation = find_natural_modes(system), system.excitation
+    modes, chain, excitation = find_natural_modes(system), system.chain, system.excitation
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
     response, barred = None, None
     if speeds is not None:
@@ -277,16 +277,8 @@ def _analyze_system(
         name=system.name or None,
         no_gas_in=system.silent.without_gas or None,
         no_burning_in=system.silent.without_burning or None,
-        nodes=tuple(
-            ChainNode(name=name, inertia_kg_m2=float(inertia), gear=float(gear))
-            for name, inertia, gear in zip(
-                system.nodes, system.chain.inertia, system.gears, strict=True
-            )
-        ),
-        shafts=tuple(
-            ChainJoint(name=name, stiffness_Nm_per_rad=float(stiffness))
-            for name, stiffness in zip(system.shafts, system.chain.stiffness, strict=True)
-        ),
+        nodes=tuple(map(ChainNode, system.nodes, chain.inertia.tolist(), system.gears.tolist())),
+        shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
         modes=modes,
         criticals=None if excitation is None else find_criticals(excitation, modes, span),
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
@@ -319,12 +311,8 @@ def _tabulate(
                 f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
                 "hardly moves in it, or a branch swings by itself"
             )
-    names = "angle", "torque_Nm", "sum_Nm", "stiffness_Nm_per_rad", "twist"
-    figures = np.stack(table[:5], axis=-1).tolist()
-    rows = tuple(
-        HolzerRow(node=node, inertia_kg_m2=float(inertia), **dict(zip(names, row, strict=True)))
-        for node, inertia, row in zip(system.nodes, chain.inertia, figures, strict=True)
-    )
+    columns = (column.tolist() for column in (chain.inertia, *table[:5]))
+    rows = tuple(map(HolzerRow, system.nodes, *columns))
     hertz = omega / (2 * np.pi)
     left = table.residual
     return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)

@@ -97,6 +97,9 @@ class SizedDamper:
         damper: The damper as a file describes it.
         start: Its figure that was sized (damping, stiffness or length), as the optimum of a system
             with one degree of freedom has it, in the file's unit.
+        measure: What was made least: stress, or torque where no shaft has a diameter.
+        before: Largest stress (Pa) or torque (N m) without a damper there; inf: without bound.
+        after: Largest stress (Pa) or torque (N m) with it.
     """
 
     node: str
@@ -118,26 +121,14 @@ class SizedDamper:
     doubts: tuple[str, ...] | None = None
     damper: Annotated[Damper, HIDDEN]
     start: Annotated[float, HIDDEN]
+    measure: Annotated[str, HIDDEN]
+    before: Annotated[float, HIDDEN]
+    after: Annotated[float, HIDDEN]
 
     @property
     def figure(self) -> str:
         """Name of the figure that was sized."""
         return _FIGURE[self.kind]
-
-    @property
-    def measure(self) -> str:
-        """What was made least: stress, or torque where no shaft has a diameter."""
-        return "torque" if self.after_Pa is None else "stress"
-
-    @property
-    def before(self) -> float:
-        """Largest stress (Pa) or torque (N m) without a damper there; inf: without bound."""
-        return float((self.before_Nm if self.before_Pa is None else self.before_Pa) or 0.0)
-
-    @property
-    def after(self) -> float:
-        """Largest stress (Pa) or torque (N m) with it."""
-        return float((self.after_Nm if self.after_Pa is None else self.after_Pa) or 0.0)
 
 
 def size_damper(
@@ -191,22 +182,24 @@ def size_damper(
     farther = _minimise(lambda logarithm: judge(resize(logarithm)), width)
     best = float(f"{start * math.exp(farther):.6g}")
     damper = first.model_copy(update={figure: best})
-    unit = "Pa" if any(bare.sections) else "Nm"
-    given = {key: getattr(damper, key) for key in DAMPER_KEYS}
+    measure, unit = ("stress", "Pa") if any(bare.sections) else ("torque", "Nm")
+    before, after = judge(None), judge(damper)
+    figures = {f"before_{unit}": before, f"after_{unit}": after}
+    for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
+        name, size = DAMPER_KEYS[key]
+        figures[name] = value / size
     found = SizedDamper(
         node=node,
         kind=damper.kind,
-        **{
-            DAMPER_KEYS[key][0]: value / DAMPER_KEYS[key][1]
-            for key, value in given.items()
-            if value is not None
-        },
         mode=mode.number,
-        **{f"before_{unit}": judge(None), f"after_{unit}": judge(damper)},  # type: ignore[arg-type]
-        heat_W=0.0,
+        heat_W=0.0,  # until the whole system is computed
         heat_rpm=float(speeds[0]),
         damper=damper,
         start=start,
+        measure=measure,
+        before=before,
+        after=after,
+        **figures,
     )
     doubts = _doubt(found, bare, given=own is not None or asked.inertia is not None)
     return replace(found, doubts=tuple(doubts) or None)

@@ -20,7 +20,7 @@ _HALVINGS = 24  # of an interval of speeds in which a limit is passed
 _SAMPLES = 1 << 22  # of curves over a cycle: progress is reported after these
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class OrderTorque:
     """Torque of one order.
 
@@ -76,7 +76,7 @@ class ShaftResponse:
     amplitudes_Nm: Annotated[Real, HIDDEN]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class WorstSwing:
     """Largest swing over the range of speeds, between the speeds as well.
 
@@ -89,7 +89,7 @@ class WorstSwing:
     half_swing_deg: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class WorstHeat:
     """Largest power that a damper turns to heat, over the range of speeds.
 
@@ -102,7 +102,7 @@ class WorstHeat:
     heat_W: float
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False)
 class DamperHeat:
     """Power that a damper turns to heat.
 
@@ -117,7 +117,7 @@ class DamperHeat:
     worst: WorstHeat
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False)
 class PendulumSwing:
     """Swing of pendulums against their node.
 
@@ -183,6 +183,7 @@ def find_response(
     end = len(system.shafts)
     there, _ = compute_curves(system, largest.rpm[: end + 1])
     by_order = np.abs(there[:, range(end + 1), range(end + 1)])  # of each curve where it is largest
+    named_orders = list(map(whole_order, orders.tolist()))
     shafts = []
     for k, name in enumerate(system.shafts):
         by_torque = None if (section := system.sections[k]) is None else section.stress_by_torque
@@ -191,10 +192,7 @@ def find_response(
             speed_rpm=at[k],
             half_peak_to_peak_Nm=value[k],
             stress_Pa=None if by_torque is None else value[k] * by_torque,
-            orders=tuple(
-                OrderTorque(order=whole_order(order), amplitude_Nm=amplitude)
-                for order, amplitude in zip(orders.tolist(), by_order[:, k].tolist(), strict=True)
-            ),
+            orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
         )
         shaft = ShaftResponse(
             name=name,
@@ -206,31 +204,19 @@ def find_response(
         )
         shafts.append(shaft)
 
-    def find_worst_swing(column: int) -> WorstSwing:
-        swing = float(np.degrees(value[column]))
-        return WorstSwing(speed_rpm=at[column], half_swing_deg=swing)
-
+    worst_swings = list(map(WorstSwing, at, np.degrees(largest.value).tolist()))
     pendulums = tuple(
-        PendulumSwing(
-            node=system.nodes[each.node],
-            half_swing_deg=np.degrees(swings[:, column]),
-            worst=find_worst_swing(column),
-        )
-        for column, each in enumerate(system.pendulums, end + 1)
+        PendulumSwing(system.nodes[each.node], np.degrees(swings[:, k]), worst_swings[k])
+        for k, each in enumerate(system.pendulums, end + 1)
     )
-    dampers = tuple(
-        DamperHeat(
-            node=name.removesuffix(" ring"),
-            heat_W=heat[:, k],
-            worst=WorstHeat(speed_rpm=at[swings.shape[1] + k], heat_W=value[swings.shape[1] + k]),
-        )
-        for k, name in enumerate(system.dampers)
-    )
+    worst_heat = list(map(WorstHeat, at, value))[swings.shape[1] :]
+    names = (name.removesuffix(" ring") for name in system.dampers)
+    dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
         speeds_rpm=speeds_rpm,
         shafts=tuple(shafts),
         free_end_deg=np.degrees(swings[:, end]),
-        free_end_worst=find_worst_swing(end),
+        free_end_worst=worst_swings[end],
         dampers=dampers or None,
         pendulums=pendulums or None,
         orders=orders,
