@@ -184,7 +184,7 @@ def size_damper(
     damper = first.model_copy(update={figure: best})
     measure, unit = ("stress", "Pa") if any(bare.sections) else ("torque", "Nm")
     before, after = judge(None), judge(damper)
-    figures = {f"before_{unit}": before, f"after_{unit}": after}
+    figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
         name, size = DAMPER_KEYS[key]
         figures[name] = value / size
