@@ -113,7 +113,7 @@ def test_between_two_barred_resonances_runs_are_allowed():
 
 def test_beside_a_single_speed_nothing_is_looked_for(monkeypatch):
     """A chain of two hundred took eight seconds."""
-    monkeypatch.delattr("balcli.torsion.largest.find_resonant_speeds")
+    monkeypatch.delattr("balcli.torsion.largest.find_poles")
     text = write_engine(0.005)
     for shaft in ask_torsion(text, "--speeds", "1790")["response"]["shafts"]:
         assert shaft["worst"]["speed_rpm"] == 1790

@@ -18,10 +18,13 @@ from .modes import find_poles
 from .motion import compute_curves, refuse_unbounded
 from .system import TorsionalSystem
 
-_SIDES = np.array([[-1], [-0.5], [0], [0.5], [1]])  # of a resonance, in widths
+_SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, in widths
+_WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
+_HIGH = 0.5  # of the largest: a resonance as high may have a higher top beside it
 _NEAR = 0.9  # of the largest value at the speeds looked at: a top beside them may exceed this
+_CLOSER = 0.3  # of the rest to the largest value, from round to round
 _ROUNDS = 7
-_CLOSE = 1e-8  # speeds that differ by a smaller share are not taken apart
+_FLAT = 1e-8  # share of a top by which it stands out: a flatter one is found
 
 
 class Largest(NamedTuple):
@@ -70,15 +73,21 @@ def find_largest(
         return _measure(system, some, weights, least, together=together)
 
     speeds, values = rpm, measure(rpm) if known is None else known * weights
-    more = find_resonant_speeds(system, rpm) if len(rpm) > 1 else rpm[:0]
-    for _ in range(_ROUNDS):
-        if not len(more):
-            break
-        least = values.max(axis=0)
-        speeds, values = np.append(speeds, more), np.concatenate([values, measure(more)])
-        speeds, places = np.unique(speeds, return_index=True)
-        values = values[places]
-        more = _approach_tops(speeds, values, together=together)
+    more, width = find_resonances(system, rpm)
+    for k in range(_ROUNDS):
+        sides = rpm[:0]
+        if len(more):
+            least = values.max(axis=0)
+            found = measure(more)
+            speeds, places = np.unique(np.append(speeds, more), return_index=True)
+            values = np.concatenate([values, found])[places]
+        if len(more) and k == 0:  # beside high resonances there may be higher tops
+            level = values.max() if together else values.max(axis=0)
+            high = np.any((found >= _HIGH * level) & (found > 0), axis=1)
+            sides = (more[high] + width[high] * _SIDES).ravel()
+            sides = sides[(sides > rpm[0]) & (sides < rpm[-1])]
+        near = 1 - (1 - _NEAR) * _CLOSER**k
+        more = np.append(sides, _approach_tops(speeds, values, near, together=together))
     top = values.argmax(axis=0)
     return Largest(speeds[top], np.take_along_axis(values, top[None], axis=0)[0], speeds)
 
@@ -88,19 +97,23 @@ def count_columns(system: TorsionalSystem) -> int:
     return len(system.shafts) + 1 + len(system.pendulums) + len(system.dampers)
 
 
-def find_resonant_speeds(system: TorsionalSystem, rpm: Real) -> Real:
-    """Return speeds (rpm) about those at which an order meets a damped resonance, as far as they
-    lie between the first and the last of a range.
+def find_resonances(system: TorsionalSystem, rpm: Real) -> tuple[Real, Real]:
+    """Return the speeds between the first and the last of a range at which an order meets a damped
+    resonance, and how wide it is there, rpm, (resonances,) each; without those so wide that the
+    speeds of the range show them.
     """
-    orders = system.require_excitation().orders
+    if len(rpm) == 1:
+        return rpm[:0], rpm[:0]
     of_all = None if system.pendulums else find_poles(system)  # else they differ by order
-    found = [rpm[:0]]
-    for order in orders:
-        poles = find_poles(system, float(order)) if of_all is None else of_all
+    found = []
+    for order in system.require_excitation().orders.tolist():
+        poles = find_poles(system, order) if of_all is None else of_all
         poles = poles[(poles.imag > 0) & (-poles.real > ROUNDING * np.abs(poles))]
-        about = (poles.imag - 2 * poles.real * _SIDES).ravel() / (RPM * order)
-        found.append(about[(about > rpm[0]) & (about < rpm[-1])])
-    return np.concatenate(found)
+        found.append(np.stack([poles.imag, -2 * poles.real]) / (RPM * order))
+    at, width = np.concatenate(found, axis=1)
+    steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
+    there = (at > rpm[0]) & (at < rpm[-1]) & (width < _WIDE * steps)
+    return at[there], width[there]
 
 
 def _measure(
@@ -125,25 +138,22 @@ def _measure(
     return np.concatenate([found, heat * weights[count:]], axis=1)
 
 
-def _approach_tops(speeds: Real, values: Real, *, together: bool) -> Real:
-    """Return speeds beside every top of a column that may be its highest: half way to those before
-    and after it, and the vertex of the parabola through the three.
+def _approach_tops(speeds: Real, values: Real, near: float, *, together: bool) -> Real:
+    """Return speeds beside every top of a column that is near its highest, by a share of this: half
+    way to the speeds before and after it, and the vertex of the parabola through the three.
     """
     level = values.max() if together else values.max(axis=0)
     padded = np.pad(values, ((1, 1), (0, 0)), constant_values=-1)
-    tops = (
-        (values >= padded[:-2]) & (values > padded[2:]) & (values >= _NEAR * level) & (values > 0)
-    )
+    tops = (values >= padded[:-2]) & (values > padded[2:])
+    tops &= (values >= near * level) & (values > 0)
     at, column = np.nonzero(tops)
     at = np.clip(at, 1, max(len(speeds) - 2, 1))
     if len(speeds) < 3 or not len(at):
         return speeds[:0]
-    (x0, x1, x2), (y0, y1, y2) = (
-        (speeds[at + k] for k in (-1, 0, 1)),
-        (values[at + k, column] for k in (-1, 0, 1)),
-    )
+    around = np.add(at, [[-1], [0], [1]])
+    (x0, x1, x2), (y0, y1, y2) = speeds[around], values[around, column]
     before, after = (y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1)
     bend = np.where(after < before, (after - before) / (x2 - x0), -np.inf)
     vertex = np.clip((x0 + x1) / 2 - before / (2 * bend), x0, x2)
-    wide = x2 - x0 > _CLOSE * x1
-    return np.unique(np.concatenate([x0 + x1, x1 + x2, 2 * vertex])[np.tile(wide, 3)] / 2)
+    sharp = y1 - np.minimum(y0, y2) > _FLAT * y1
+    return np.unique(np.concatenate([x0 + x1, x1 + x2, 2 * vertex])[np.tile(sharp, 3)] / 2)
