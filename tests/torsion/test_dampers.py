@@ -324,6 +324,14 @@ def test_dampers_of_unlikely_size(options, told):
     assert json.loads(out)["damper"].get("doubts", []) == ([told] if told else [])
 
 
+def test_the_inertia_of_pendulums_is_about_the_axis():
+    own = 'name = "disc"\ndamper = { kind = "pendulum", mass = 2000, radius = 60, length = 50 }'
+    text = SINGLE.replace('name = "disc"', own)
+    damper = analyze_torsion(text, [900, 1000, 1100], damper="pendulum").damper
+    told = float(re.search(r"([\d.]+) kg m2", damper.doubts[0])[1])
+    assert told == pytest.approx(damper.mass_kg * (damper.radius_m + damper.length_m) ** 2, rel=1e-3)
+
+
 def test_a_damper_that_cannot_be_is_told_in_words():
     """A shaft as thin as a few atoms asks for next to no damping."""
     thin = CHAIN.replace("diameter = 55", "diameter = 5.5e-8")
