@@ -179,9 +179,9 @@ def test_the_command_prints_the_schema_with_its_address_and_units(name: str) -> 
 def test_units_come_from_the_names() -> None:
     node = describe_document("torsion")["$defs"]
     shown = {key: field.get("description", "") for part in node.values() for key, field in part["properties"].items()}
-    assert shown["inertia_kg_m2"] == "[kg·m²]"
-    assert shown["stiffness_Nm_per_rad"] == "[N·m/rad]"
-    assert shown["node_in"] == ""
+    assert shown["inertia_kg_m2"].endswith("[kg·m²]")
+    assert shown["stiffness_Nm_per_rad"].endswith("[N·m/rad]")
+    assert "[" not in shown["node_in"]
 
 
 def test_a_result_that_there_is_not() -> None:

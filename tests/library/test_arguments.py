@@ -67,7 +67,7 @@ CHAIN = {
         ),
         (
             lambda: balcli.analyze_torsion(CHAIN, [1000, 1100], orders=[2], damper="viscous"),
-            "damper: nothing excites the system at the orders asked for",
+            "chain file: nothing excites it at the orders asked for",
         ),
     ],
 )

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from ..errors import BalcliError
 from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, require_ending, text_format
@@ -109,15 +110,34 @@ def torsion(
     form = text_format(output, form)
     drawn = None if plot is None else picture_form(plot, "--plot")
     require_ending(write, ".toml", "--write")
+    from ..enginefile.toml_text import name_file
     from ..render import torsion as renderer
-    from . import torsion_answer as answers
+    from ..render.plot.torsion import make_torsion
+    from ..render.units import SYSTEMS
+    from ..torsion.analysis import answer_question
+    from ..torsion.load import load_source
+    from ..torsion.write_damper import insert_damper
+    from .inputs import warn_each
+    from .progress import reporting
+    from .torsion_answer import parse_question, require_speeds
 
-    asked = answers.parse_question(speeds, orders, holzer, damper, damper_at, damper_inertia, units)
-    answers.require_options(asked, write, plot, what)
-    source, result = answers.find_answer(path, asked, misfire or (), progress)
-    if write is not None:
+    asked = parse_question(speeds, orders, holzer or (), damper, damper_at, damper_inertia, units)
+    if write is not None and damper is None:
+        raise BalcliError("--write: give the kind of damper to write, with --damper")
+    if plot is None and what != "all":
+        raise BalcliError(f"--what {what}: give --plot and a file for the picture")
+    require_speeds(asked, what)
+    source = load_source(path, asked.orders, misfire or ())
+    warn_each(source.doubts, name_file(path))
+    with reporting("work", at_once=progress) as tell:
+        result = answer_question(source, asked, tell)
+    sized = result.damper
+    if sized is not None:
+        warn_each(sized.doubts or (), "--damper")
+    warn_each(result.doubts, name_file(path))
+    if write is not None and sized is not None:
         refuse_leaving_files(source.text, path, write)
-        write_file(answers.write_damper(source, result), write)
+        write_file(insert_damper(source.text, sized.node, sized.damper), write)
     if plot is not None and drawn is not None:
-        write_figure(answers.draw(result, what, units), drawn, plot)
+        write_figure(make_torsion(result, what, SYSTEMS[units]), drawn, plot)
     show([result], renderer, form, output, units)

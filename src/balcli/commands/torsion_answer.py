@@ -4,28 +4,22 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.vibration import Real
-from ..enginefile.toml_text import name_file
 from ..enginefile.units import Dimension, convert
-from ..errors import BalcliError, warn
+from ..errors import BalcliError
 from ..limits import HIGHEST_TORSION_ORDER
 from ..render.formats import Units
 from ..render.plot.torsion import make_torsion
 from ..render.units import SYSTEMS
-from ..torsion.analysis import HolzerAsked, TorsionAnalysis, TorsionQuestion, answer_question
-from ..torsion.damper_proposal import DamperAsked
-from ..torsion.load import ChainSource, Source, load_source
+from ..torsion.analysis import HolzerAsked, TorsionQuestion, answer_question, ask
+from ..torsion.load import load_source
 from ..torsion.quantity import choose_torsion_speeds
-from ..torsion.write_damper import insert_damper
 from .amounts import read_inertia
-from .inputs import warn_each
 from .options import read_orders
-from .progress import reporting
 from .speed_range import parse_speeds
 
 if TYPE_CHECKING:
@@ -72,79 +66,33 @@ def _parse_trial(text: str) -> HolzerAsked:
 def parse_question(
     speeds: str | None,
     orders: str | None,
-    holzer: list[str] | None,
-    damper: str | None,
-    damper_at: str | None,
-    damper_inertia: str | None,
+    holzer: Sequence[str] = (),
+    damper: str | None = None,
+    damper_at: str | None = None,
+    damper_inertia: str | None = None,
     units: Units = Units.SI,
 ) -> TorsionQuestion:
-    """What the options of these names ask.
+    """Return what the options of these names ask.
 
     Raises:
-        BalcliError: one of them cannot be read, or says more of a damper that is not asked for.
+        BalcliError: one of them cannot be read, or belongs to another that is missing.
     """
-    asked = None
-    if damper is not None:
-        said = damper_inertia
-        inertia = None if said is None else read_inertia("--damper-inertia", said, units)
-        asked = DamperAsked(damper, damper_at, inertia)
-    elif damper_at is not None or damper_inertia is not None:
-        option = "--damper-inertia" if damper_at is None else "--damper-at"
-        raise BalcliError(f"{option}: say which damper, such as --damper viscous")
-    trials = tuple(map(_parse_trial, holzer or ()))
-    return TorsionQuestion(parse_speeds(speeds), parse_half_orders(orders), trials, asked)
+    inertia = None
+    if damper_inertia is not None:
+        inertia = read_inertia("--damper-inertia", damper_inertia, units)
+    trials = map(_parse_trial, holzer)
+    exciting = parse_half_orders(orders)
+    return ask(parse_speeds(speeds), exciting, trials, damper, damper_at, inertia)
 
 
-def require_options(
-    asked: TorsionQuestion, write: Path | None, plot: Path | None, what: str
-) -> None:
-    """Refuse options without those that they belong to.
+def require_speeds(asked: TorsionQuestion, what: str) -> None:
+    """Refuse a picture over speed without a range of speeds.
 
     Raises:
-        BalcliError: with the option that is missing.
+        BalcliError: no range was given.
     """
-    if asked.damper is not None and asked.speeds_rpm is None:
-        raise BalcliError(
-            "--damper: give the range in which it is to help, such as --speeds 1000:2500"
-        )
-    if write is not None and asked.damper is None:
-        raise BalcliError(
-            "--write: writes a damper into the file; say which, such as --damper viscous"
-        )
-    if plot is None and what != "all":
-        raise BalcliError(f"--what {what}: give --plot and a file for the picture")
-    if _lacks_range(asked, what):
-        raise _range_missing(what)
-
-
-def _lacks_range(asked: TorsionQuestion, what: str) -> bool:
-    """Whether a picture is over speed, and no range of speeds was given."""
-    return asked.speeds_rpm is None and what in ("response", "waterfall")
-
-
-def _range_missing(what: str) -> BalcliError:
-    return BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
-
-
-def find_answer(
-    path: str, asked: TorsionQuestion, misfires: Sequence[int], progress: bool
-) -> tuple[Source, TorsionAnalysis]:
-    """The file and what was asked about it."""
-    source = load_source(path, asked.orders, misfires)
-    warn_each(source.doubts, name_file(path))
-    with reporting("work", at_once=progress) as tell:
-        found = answer_question(source, asked, tell)
-    for doubt in found.damper.doubts if found.damper is not None else ():
-        warn(f"--damper: {doubt}")
-    warn_each(found.doubts, name_file(path))
-    return source, found
-
-
-def write_damper(source: Source, result: TorsionAnalysis) -> str:
-    """The text of the file with the damper that was sized."""
-    if result.damper is None:
-        raise BalcliError("--write: there is no damper to write")
-    return insert_damper(source.text, result.damper.node, result.damper.damper)
+    if asked.speeds_rpm is None and what in ("response", "waterfall"):
+        raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
 
 
 def make_figures_of_torsion(
@@ -154,28 +102,21 @@ def make_figures_of_torsion(
     orders: str | None,
     units: Units,
 ) -> list[Figure]:
-    """Figures of the chain or engine at a path, one a page.
+    """Return figures of the chain or engine at a path, one a page.
 
     Args:
-        speeds: range, as typed; None: that of an engine's own speed.
+        path: File; - for standard input.
+        pages: Names of the pictures.
+        speeds: Range, as typed; None: that of an engine's own speed.
+        orders: Orders that excite, as typed.
+        units: In which people read.
     """
-    asked = TorsionQuestion(parse_speeds(speeds), parse_half_orders(orders))
+    asked = parse_question(speeds, orders)
     source = load_source(path, asked.orders)
-    without = [page for page in pages if _lacks_range(asked, page)]
-    if without:
-        if isinstance(source, ChainSource):
-            raise _range_missing(without[0])
+    over_speed = {"response", "waterfall"} & {*pages}
+    if over_speed and asked.speeds_rpm is None and source.engine is not None:
         asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
+    for page in pages:
+        require_speeds(asked, page)
     found = answer_question(source, asked)
-    return [draw(found, page, units) for page in pages]
-
-
-def draw(result: TorsionAnalysis, what: str, units: Units) -> Figure:
-    """A page of pictures.
-
-    Raises:
-        BalcliError: there is no shaft whose torque could be drawn.
-    """
-    if what == "waterfall" and not result.system.shafts:
-        raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
-    return make_torsion(result, what, SYSTEMS[units])
+    return [make_torsion(found, page, SYSTEMS[units]) for page in pages]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .torsional_chain import Branch, Chain, find_still, grow_branches
+from .torsional_chain import Chain, find_still, grow_branches
 from .vibration import Real
 
 
@@ -32,19 +32,26 @@ class Holzer(NamedTuple):
 
 
 def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = -1) -> Holzer:
-    """Holzer's table at w (rad/s), from the first node, whose angle is 1, to the last.
+    """Return Holzer's table at w (rad/s), from the first node, whose angle is 1, to the last.
 
-    A branch beside the way from the first to the last moves as the way makes it: its torque joins
-    at the node that it hangs on. Dampers and loss are left out, as in the books.
+    Its angles x and torques T of shafts solve the equations of the chain, `near x_child + far
+    x_parent = T/k` for each shaft and `w^2 J x = sum of T` for each node but the last: there the
+    sum is the residual. A branch beside the way from the first node to the last moves as the way
+    makes it. Dampers and loss are left out, as in the books.
+
+    Args:
+        chain: Inertias and shafts.
+        frequency: w, rad/s.
+        first: Node whose angle is 1.
+        last: Node at which the table ends.
 
     Raises:
         ValueError: the chain has a loop or two pieces; a node meshes with a clamped one; a node of
-            the way before the last is clamped; a branch at resonance needs the node it hangs on at
-            rest.
+            the way before the last is clamped; a branch is at resonance by itself.
     """
     count = len(chain.inertia)
-    stiff = chain.stiffness > 0
-    branches = grow_branches(chain, [last % count], stiff)
+    last, stiff = last % count, chain.stiffness > 0
+    branches = grow_branches(chain, [last], stiff)
     if not len(branches) == count - 1 == np.count_nonzero(stiff):
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
@@ -52,49 +59,34 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
             "Holzer's table cannot have what meshes with a fixed node; fix it, too, and leave the "
             "gear out"
         )
-    onward = {branch.child: branch for branch in branches}
-    way = []
-    while first in onward:
-        way.append(onward[first])
-        first = onward[first].parent
-    if any(chain.clamped[branch.child] for branch in way):
-        raise ValueError("Holzer's table can lead to a clamped node, but not over it")
-    hung = [branch for branch in branches if branch not in way]
-    own = _hang(chain, hung, -(frequency**2) * chain.inertia)
-    angle, total = _pass_on(chain, way, hung, own)
-    stiffness, twist = np.zeros(count), np.zeros(count)
-    for child, _, shaft, near, _ in branches:
+    parents, node = {branch.child: branch.parent for branch in branches}, first
+    while node in parents:
+        if chain.clamped[node]:
+            raise ValueError("Holzer's table can lead to a clamped node, but not over it")
+        node = parents[node]
+    inertial = frequency**2 * chain.inertia
+    unit = float(inertial.max()) or 1.0  # N m; torques are as large as angles in it
+    matrix, right = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
+    matrix[range(count), range(count)] = inertial / unit
+    for row, (child, parent, shaft, near, far) in enumerate(branches, count):
+        matrix[row, [child, parent]] = near, far
+        matrix[row, row] = -unit / chain.stiffness[shaft]
+        matrix[[child, parent], row] = -near, -far
+    for node in np.flatnonzero(chain.clamped).tolist():
+        matrix[node] = np.arange(2 * count) == node
+    matrix[last] = np.arange(2 * count) == first
+    right[last] = 1.0
+    matrix[-1, -1] = 1.0  # there is one shaft less than nodes
+    try:
+        solution = np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
+        raise ValueError("a branch is at resonance by itself") from None
+    angle, torque = solution[:count], inertial * solution[:count]
+    total, stiffness, twist = torque.copy(), np.zeros(count), np.zeros(count)
+    for carried, (child, parent, shaft, near, far) in zip(solution[count:], branches, strict=False):
+        total[child] = near * unit * carried
         stiffness[child] = near**2 * chain.stiffness[shaft]
         twist[child] = total[child] / stiffness[child]
-    torque = frequency**2 * chain.inertia * angle
+        if parent == last:
+            total[last] -= far * unit * carried
     return Holzer(angle, torque, total, stiffness, twist, float(total[last]))
-
-
-def _hang(chain: Chain, hung: list[Branch], own: Real) -> Real:
-    """Dynamic stiffness (nodes,) of every node with all that hangs on it."""
-    for child, parent, shaft, near, far in reversed(hung):
-        if chain.clamped[child]:
-            own[parent] += far**2 * chain.stiffness[shaft]
-            continue
-        pivot = near**2 + own[child] / chain.stiffness[shaft]
-        if pivot == 0:
-            raise ValueError(f"the branch of node {child} is at resonance by itself")
-        own[parent] += far**2 * own[child] / pivot
-    return own
-
-
-def _pass_on(chain: Chain, way: list[Branch], hung: list[Branch], own: Real) -> tuple[Real, Real]:
-    """Angles, and the torque that every node passes on: along the way, then out to the branches."""
-    angle, arrived = np.zeros(len(own)), np.zeros(len(own))
-    angle[way[0].child if way else 0] = 1
-    for child, parent, shaft, near, far in way:
-        torque = (arrived[child] - own[child] * angle[child]) / near
-        angle[parent] = (torque / chain.stiffness[shaft] - near * angle[child]) / far
-        arrived[parent] = -far * torque
-    for child, parent, shaft, near, far in hung:
-        if chain.clamped[child]:
-            arrived[child] = near * far * chain.stiffness[shaft] * angle[parent]
-        else:
-            angle[child] = -near * far * angle[parent]
-            angle[child] /= near**2 + own[child] / chain.stiffness[shaft]
-    return angle, arrived - own * angle

@@ -88,61 +88,28 @@ class Branch(NamedTuple):
 def join_chain(
     inertia: ArrayLike, shafts: Iterable[ChainShaft], clamped: Sequence[int] = ()
 ) -> Chain:
-    """The chain of nodes with these moments of inertia (kg m2, 0: massless), joined by shafts.
-
-    Raises:
-        ValueError: meshes of gears that form a loop and cannot turn; massless nodes that turn
-            freely. Whether all nodes hang together, `find_pieces` tells.
+    """Return the chain of nodes with these moments of inertia (kg m2, 0: massless), joined by
+    shafts, whether or not it can turn.
     """
-    chain = tabulate_chain(inertia, shafts, clamped)
-    meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    if np.any(meshes.locked):
-        raise ValueError(f"the gears at node {int(np.argmax(meshes.locked))} lock each other")
-    for motion in rigid_motions(chain):
-        if not np.any(chain.inertia[motion != 0]):
-            raise ValueError(f"massless node {int(np.argmax(motion != 0))} turns freely")
-    return chain
-
-
-def tabulate_chain(
-    inertia: ArrayLike, shafts: Iterable[ChainShaft], clamped: Sequence[int] = ()
-) -> Chain:
-    """As `join_chain`, whether or not it can turn."""
     table = np.array(list(shafts), float).reshape(-1, len(ChainShaft._fields))
     start, end = table[:, 0].astype(np.intp), table[:, 1].astype(np.intp)
     j = np.asarray(inertia, float)
-    held = np.array([k in clamped for k in range(len(j))], bool)
+    held = np.isin(np.arange(len(j)), clamped)
     return Chain(j, start, end, table[:, 3], table[:, 2], held)
 
 
 def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces:
-    """Which nodes hang together by some of the shafts (shafts,), or by all."""
-    count = len(chain.inertia)
-    first, pace, locked = np.full(count, -1), np.ones(count), np.zeros(count, bool)
-    joined = _neighbours(chain, np.ones(len(chain.start), bool) if shafts is None else shafts)
-    for node in range(count):
-        if first[node] >= 0:
-            continue
-        first[node], reached = node, [node]
-        for here in reached:
-            for there, shaft in joined[here]:
-                ratio = chain.ratio[shaft] if chain.end[shaft] == there else 1 / chain.ratio[shaft]
-                if first[there] < 0:
-                    first[there], pace[there] = node, pace[here] * ratio
-                    reached.append(there)
-                elif abs(pace[there] - pace[here] * ratio) > SAME_RATIO * abs(pace[there]):
-                    locked[node] = True
-    return Pieces(first, pace, locked[first])
-
-
-def _neighbours(chain: Chain, shafts: NDArray[np.bool_]) -> list[list[tuple[int, int]]]:
-    """For every node the (node, shaft) it is joined to by some of the shafts."""
-    joined: list[list[tuple[int, int]]] = [[] for _ in chain.inertia]
-    for shaft in np.flatnonzero(shafts).tolist():
-        start, end = int(chain.start[shaft]), int(chain.end[shaft])
-        joined[start].append((end, shaft))
-        joined[end].append((start, shaft))
-    return joined
+    """Return which nodes hang together by some of the shafts (shafts,), or by all."""
+    joining = np.ones(len(chain.start), bool) if shafts is None else shafts
+    first, pace = np.full(len(chain.inertia), -1), np.ones(len(chain.inertia))
+    for node in range(len(first)):
+        if first[node] < 0:
+            first[node] = node
+            for child, parent, _, near, far in grow_branches(chain, [node], joining):
+                first[child], pace[child] = node, -far / near * pace[parent]
+    off = np.abs(pace[chain.end] - pace[chain.start] * chain.ratio)
+    torn = joining & (off > SAME_RATIO * np.abs(pace[chain.end]))
+    return Pieces(first, pace, np.isin(first, first[chain.start[torn]]))
 
 
 def find_still(chain: Chain) -> NDArray[np.bool_]:
@@ -180,16 +147,17 @@ def follow_gears(chain: Chain) -> tuple[Real, Indices]:
 
 
 def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_]) -> list[Branch]:
-    """The branches from these roots outward, along some of the shafts."""
-    joined = _neighbours(chain, shafts)
-    reached, branches, grown = list(roots), [], set(roots)
+    """Return the branches from these roots outward, along some of the shafts (shafts,)."""
+    joined: dict[int, list[Branch]] = {}
+    for shaft in np.flatnonzero(shafts).tolist():
+        start, end = int(chain.start[shaft]), int(chain.end[shaft])
+        ratio = float(chain.ratio[shaft])
+        joined.setdefault(start, []).append(Branch(end, start, shaft, -1.0, ratio))
+        joined.setdefault(end, []).append(Branch(start, end, shaft, ratio, -1.0))
+    reached, branches = list(roots), []
     for parent in reached:
-        for child, shaft in joined[parent]:
-            if child in grown:
-                continue
-            ratio = float(chain.ratio[shaft])
-            near, far = (-1.0, ratio) if chain.end[shaft] == child else (ratio, -1.0)
-            branches.append(Branch(child, parent, shaft, near, far))
-            reached.append(child)
-            grown.add(child)
+        for branch in joined.get(parent, ()):
+            if branch.child not in reached:
+                branches.append(branch)
+                reached.append(branch.child)
     return branches

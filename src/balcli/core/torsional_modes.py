@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from .torsional_chain import Chain, Damping, follow_gears, grow_branches, incidence, rigid_motions
+from .torsional_chain import (
+    Chain,
+    Damping,
+    find_still,
+    follow_gears,
+    incidence,
+    rigid_motions,
+)
 from .vibration import Complex, Indices, Modes, Real, find_modes
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
@@ -76,17 +83,23 @@ def chain_loss(
     return np.where(modes.omega > 0, lost / np.where(modes.omega > 0, modes.omega, 1) ** 2, 0)
 
 
-def count_nodes(chain: Chain, shape: Real) -> int:
-    """Shafts whose ends move oppositely in a mode (nodes,). A node at rest counts as moving like
-    the one before it.
+def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
+    """Return where the nodes of a mode lie: shafts whose ends turn against each other, and nodes of
+    the chain at rest between others that turn against each other.
+
+    Args:
+        chain: Inertias and shafts.
+        shape: (nodes,) angle of each node.
     """
-    sign = np.where(np.abs(shape) > _AT_REST * np.abs(shape).max(), np.sign(shape), 0)
-    moving = sign != 0
-    for branch in grow_branches(chain, [int(np.argmax(moving))], chain.stiffness > 0):
-        if not moving[branch.child]:
-            sign[branch.child] = -sign[branch.parent] * np.sign(branch.far * branch.near)
-    opposite = sign[chain.end] * sign[chain.start] * np.sign(chain.ratio) < 0
-    return int(np.count_nonzero(opposite & np.isfinite(chain.stiffness) & (chain.stiffness > 0)))
+    moves = np.abs(shape) > _AT_REST * np.abs(shape).max()
+    ahead = np.where(moves, np.sign(shape), 0)
+    across = ahead[chain.start] * ahead[chain.end] * np.sign(chain.ratio)
+    pulled = np.zeros((2, len(shape)), bool)  # one way and the other
+    for here, there in ((chain.start, chain.end), (chain.end, chain.start)):
+        way = ahead[there] * np.sign(chain.ratio)
+        pulled[0, here[way > 0]] = pulled[1, here[way < 0]] = True
+    at_rest = pulled.all(axis=0) & ~moves & ~find_still(chain)
+    return np.flatnonzero((across < 0) & np.isfinite(chain.stiffness)), np.flatnonzero(at_rest)
 
 
 def find_chain_poles(chain: Chain, damping: Damping) -> Complex:

@@ -20,5 +20,5 @@ DOCUMENTS = {
     "sweep": "studies",
     "table": "studies",
     "torque": "torque.answer:TorqueAnalysis",
-    "torsion": "vibration",
+    "torsion": "torsion.analysis:TorsionAnalysis",
 }

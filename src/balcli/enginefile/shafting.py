@@ -9,8 +9,17 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from .fields import RIGID, Number, OneOf
-from .model import FileTable, GivenInertia, Size, TableRule
-from .units import INERTIA, MASS, PLAIN, SHEAR_MODULUS, TORSIONAL_DAMPING, TORSIONAL_STIFFNESS
+from .model import FileTable, GivenInertia, Name, Size, TableRule
+from .units import (
+    ANGLE,
+    INERTIA,
+    MASS,
+    PLAIN,
+    SHEAR_MODULUS,
+    STRESS,
+    TORSIONAL_DAMPING,
+    TORSIONAL_STIFFNESS,
+)
 
 
 class _Stiffness(Number):
@@ -43,6 +52,8 @@ Stiffness = Annotated[float, _Stiffness()]
 Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
 Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
 Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
+StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
+AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
 _RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
 _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
@@ -134,6 +145,36 @@ class Damper(FileTable):
             yield f"is {self.kind}, which has no {' and no '.join(strange)}"
 
     rules = (TableRule(_check_keys, {"kind"}),)
+
+
+class NodeKeys(FileTable):
+    """What a node is like: its name, its inertia, and its damper."""
+
+    name: Name = Field(examples=["flywheel"], description="what to call it; each its own")
+    inertia: NodeInertia | None = Field(
+        None, examples=[2.075e6], description="moment of inertia; left out: a massless node"
+    )
+    damper: Damper | None = Field(
+        None,
+        examples=[{"kind": "viscous", "inertia": 30000, "damping": 12}],
+        description="a damper that it has",
+    )
+
+
+class ChainKeys(FileTable):
+    """What holds for a whole chain: the loss of its shafts, and limits."""
+
+    loss: Loss = Field(
+        0.0, examples=[0.035], description="loss factor of every shaft that names none"
+    )
+    limit: StressLimit | None = Field(
+        None, examples=[40], description="stress of a shaft above which a speed is barred"
+    )
+    angle_limit: AngleLimit | None = Field(
+        None,
+        examples=[0.3],
+        description="angle by which the first node may swing either way; above, a speed is barred",
+    )
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:

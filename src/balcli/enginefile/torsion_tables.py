@@ -11,12 +11,9 @@ from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
 from .fields import Number, counted, shorten
-from .model import FileTable, Name, Size, TableRule
-from .shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
-from .units import ANGLE, INERTIA, PLAIN, STRESS, TORSIONAL_STIFFNESS, Dimension
-
-StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
-AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
+from .model import Name, Size, TableRule
+from .shafting import ChainKeys, Damping, NodeKeys, ShaftKeys
+from .units import INERTIA, PLAIN, TORSIONAL_STIFFNESS, Dimension
 
 
 class SpeedRatio(Number):
@@ -53,15 +50,11 @@ class _EachOrAll(Number):
         return {"anyOf": [super().json(), items], "unit": self.dimension.unit}
 
 
-class Part(ShaftKeys):
+class Part(ShaftKeys, NodeKeys):
     """What turns with the crankshaft before or behind its throws, and the shaft that leads to
     it from the throws.
     """
 
-    name: Name = Field(description="what to call it; each its own", examples=["flywheel"])
-    inertia: NodeInertia | None = Field(
-        None, description="moment of inertia; left out: a massless node", examples=[2.075e6]
-    )
     gear: Annotated[float, SpeedRatio()] | None = Field(
         None,
         description="speed over that of the crank; left out: as fast as what it hangs on. The mesh "
@@ -77,17 +70,12 @@ class Part(ShaftKeys):
     node_damping: Damping = Field(
         0.0, description="of the part against ground, as water damps a propeller", examples=[5]
     )
-    damper: Damper | None = Field(
-        None,
-        description="a damper that it has",
-        examples=[{"kind": "viscous", "inertia": 30000, "damping": 12}],
-    )
 
 
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
 
 
-class Torsion(FileTable):
+class Torsion(ChainKeys):
     """Torsional vibration: a node for each throw, and the parts before and behind them."""
 
     throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = Field(
@@ -111,18 +99,6 @@ class Torsion(FileTable):
         None, description="diameter of its bore, if it has one", examples=[30]
     )
     damping: Damping = Field(0.0, description="at every cylinder, against ground", examples=[2])
-    loss: Loss = Field(
-        0.0, description="loss factor of every shaft that names none", examples=[0.035]
-    )
-    limit: StressLimit | None = Field(
-        None, description="stress of a shaft above which a speed is barred", examples=[40]
-    )
-    angle_limit: AngleLimit | None = Field(
-        None,
-        description="angle by which the foremost part may swing either way; above, a speed is "
-        "barred",
-        examples=[0.3],
-    )
     front: _Parts = Field((), description="parts before the first throw, outward")
     rear: _Parts = Field((), description="parts behind the last throw, outward")
 

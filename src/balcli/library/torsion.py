@@ -14,9 +14,8 @@ from ..engine.build import Engine, take_model
 from ..engine.load import build_tables
 from ..enginefile.plain_tables import take_tables
 from ..errors import BalcliError, check_type
-from ..torsion.analysis import TorsionAnalysis, TorsionQuestion, answer_question
-from ..torsion.damper_proposal import DamperAsked
-from ..torsion.load import ChainSource, Source, make_source
+from ..torsion.analysis import TorsionAnalysis, answer_question, ask
+from ..torsion.load import Source, make_chain_source, make_source
 from ..torsion.read_chain import describes_chain, read_chain_tables
 from .arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 
@@ -50,9 +49,9 @@ def analyze_torsion(
             file, or a usual share.
 
     Returns:
-        `modes` (`frequency_hz`, shapes), `criticals` (speed, order, mode), `response` (`torque`,
-        N m, and `stress`, Pa, shape (speeds, shafts); `worst`, the largest of the range), and
-        `barred_rpm`.
+        `modes` (`frequency_Hz`, `shape`), `criticals` (`speed_rpm`, `order`, `mode`), `response`
+        (`shafts`, each with `half_peak_to_peak_Nm` and `stress_Pa` by speed, and `worst`, the
+        largest of the range), and `barred_rpm`: the attributes are the keys of the JSON.
 
     Raises:
         BalcliError: no [torsion]; orders or an inertia that cannot be; a response without
@@ -70,13 +69,7 @@ def analyze_torsion(
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
     speeds = check_speeds("analyze_torsion", speeds_rpm)
-    if damper is None and not (damper_at is None and inertia is None):
-        name = "damper_inertia" if damper_at is None else "damper_at"
-        raise BalcliError(f'{name}: say which damper, such as damper="viscous"')
-    if damper is not None and speeds is None:
-        raise BalcliError("damper: give the speeds at which it is to help, as speeds_rpm")
-    sized = None if damper is None else DamperAsked(damper, damper_at, inertia)
-    question = TorsionQuestion(speeds, asked, (), sized)
+    question = ask(speeds, asked, (), damper, damper_at, inertia)
     return answer_question(_read_source(source, asked), question)
 
 
@@ -87,6 +80,6 @@ def _read_source(source: Any, orders: Array | None) -> Source:
     tables, name = take_tables("analyze_torsion", source, wanted)
     if describes_chain(tables):
         name = name or _UNNAMED
-        return ChainSource(name, b"", read_chain_tables(tables, name))
+        return make_chain_source(read_chain_tables(tables, name), name)
     engine = build_tables(tables, name)
     return make_source(take_model(engine), engine, name or engine.name, orders)

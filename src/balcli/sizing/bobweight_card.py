@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..engine.build import Engine, Weighed
+from ..engine.build import Engine
 from ..engine.rods import Weighed
-from .scheme_figures import Bobweight, CardLine
 
 DEFINITION = (
     "bobweight of a crank pin = rotating mass + factor x reciprocating mass of the rods on that "

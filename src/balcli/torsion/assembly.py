@@ -4,14 +4,17 @@ dampers fitted.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.torsional_chain import ChainShaft, Damping, join_chain
-from ..enginefile.shafting import Damper, ShaftKeys
-from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, ViscousRing
+from ..enginefile.shafting import Damper
+from .system import Pendulums, ShaftSection, TorsionalSystem, ViscousRing
+
+NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
 
 
 class PlannedNode(NamedTuple):
@@ -33,28 +36,42 @@ class PlannedShaft(NamedTuple):
     section: ShaftSection | None = None
 
 
-class Limits(NamedTuple):
-    """What bars a speed: stress (N/mm2) and half swing of the first node (deg), if given."""
-
-    stress: float | None
-    angle: float | None
-
-
 def assemble_system(
-    name: str,
     nodes: Sequence[PlannedNode],
     shafts: Sequence[PlannedShaft],
-    excitation: Excitation | None,
-    limits: Limits,
+    limits: tuple[float | None, float | None],
     clamped: Sequence[int] = (),
-    rated_rpm: float | None = None,
-    reference: int = 0,
+    fitted: Mapping[str, Damper | None] = NO_DAMPERS,
+    **others: Any,
 ) -> TorsionalSystem:
-    """The system; its rubber rings are nodes and shafts after all others."""
-    rings, ring_shafts = _hang_rubber(nodes)
-    every, joined = [*nodes, *rings], [*shafts, *ring_shafts]
+    """Return the system; its rubber rings are nodes and shafts after all others.
+
+    Args:
+        nodes: Front to rear.
+        shafts: Between them.
+        limits: Stress (N/mm2) and half swing of the first node (deg) above which a speed is barred;
+            None: no limit.
+        clamped: Nodes that are held.
+        fitted: Dampers by the name of their node, in place of those that nodes have.
+        others: Further attributes of the system.
+    """
+    every, joined, rings, pendulums = list(nodes), list(shafts), [], []
+    for k, node in enumerate(nodes):
+        damper = fitted.get(node.name, node.damper)
+        if damper is None:
+            continue
+        inertia = (damper.inertia or 0.0) / 1e6
+        if damper.kind == "rubber":
+            name, rubber = f"{node.name} ring", ChainShaft(k, len(every), damper.stiffness or 0.0)
+            every.append(PlannedNode(name, inertia))
+            joined.append(PlannedShaft(name, rubber, damper.loss or 0.0))
+        elif damper.kind == "viscous":
+            rings.append(ViscousRing(k, inertia, damper.damping or 0.0))
+        else:
+            radius, length = (damper.radius or 0.0) / 1e3, (damper.length or 0.0) / 1e3
+            pendulums.append(Pendulums(k, damper.mass or 0.0, radius, length))
+    stress, angle = limits
     return TorsionalSystem(
-        name=name,
         nodes=tuple(node.name for node in every),
         shafts=tuple(each.name for each in joined),
         chain=join_chain(
@@ -66,43 +83,15 @@ def assemble_system(
             np.array([node.damping for node in every]),
         ),
         sections=tuple(each.section for each in joined),
-        rings=tuple(
-            ViscousRing(k, (damper.inertia or 0.0) / 1e6, damper.damping or 0.0)
-            for k, damper in _find_dampers(nodes, "viscous")
-        ),
-        pendulums=tuple(
-            Pendulums(k, damper.mass or 0.0, (damper.radius or 0) / 1e3, (damper.length or 0) / 1e3)
-            for k, damper in _find_dampers(nodes, "pendulum")
-        ),
-        excitation=excitation,
-        limit_pa=None if limits.stress is None else limits.stress * 1e6,
-        angle_limit=None if limits.angle is None else float(np.radians(limits.angle)),
+        rings=tuple(rings),
+        pendulums=tuple(pendulums),
+        limit_pa=None if stress is None else stress * 1e6,
+        angle_limit=None if angle is None else float(np.radians(angle)),
         last=len(nodes) - 1,
-        rated_rpm=rated_rpm,
-        reference=reference,
+        **others,
     )
 
 
-def find_section(shaft: ShaftKeys) -> ShaftSection | None:
-    """Diameters in m, where they are given."""
-    if shaft.diameter is None:
-        return None
-    return ShaftSection(shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3)
-
-
-def _hang_rubber(nodes: Sequence[PlannedNode]) -> tuple[list[PlannedNode], list[PlannedShaft]]:
-    """Rings on rubber, and the rubber that joins each to its node."""
-    rings: list[PlannedNode] = []
-    shafts: list[PlannedShaft] = []
-    for k, damper in _find_dampers(nodes, "rubber"):
-        name = f"{nodes[k].name} ring"
-        rubber = ChainShaft(k, len(nodes) + len(rings), damper.stiffness or 0.0)
-        rings.append(PlannedNode(name, (damper.inertia or 0.0) / 1e6))
-        shafts.append(PlannedShaft(name, rubber, damper.loss or 0.0))
-    return rings, shafts
-
-
-def _find_dampers(nodes: Sequence[PlannedNode], kind: str) -> list[tuple[int, Damper]]:
-    """Dampers of a kind with the nodes that have them."""
-    fitted = [(k, node.damper) for k, node in enumerate(nodes)]
-    return [(k, damper) for k, damper in fitted if damper is not None and damper.kind == kind]
+def find_section(diameter: float | None, bore: float | None) -> ShaftSection | None:
+    """Return a section in m, from a diameter and a bore in mm, where they are given."""
+    return None if diameter is None else ShaftSection(diameter / 1e3, (bore or 0.0) / 1e3)

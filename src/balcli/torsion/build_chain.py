@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -13,56 +12,66 @@ from ..core.torsional_chain import (
     ChainShaft,
     find_pieces,
     find_still,
+    join_chain,
     rigid_motions,
-    tabulate_chain,
 )
 from ..enginefile.fields import shorten
-from ..enginefile.shafting import find_stiffness
+from ..enginefile.shafting import Damper, find_stiffness
 from ..errors import InputError, Problem
-from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
-from .chain_file import ChainFile
+from .assembly import NO_DAMPERS, PlannedNode, PlannedShaft, assemble_system, find_section
+from .chain_file import ChainFile, Gear
+from .chain_file import ChainShaft as ShaftTable
 from .system import Excitation, TorsionalSystem
 
 
-def build_chain(file: ChainFile, name: str = "") -> TorsionalSystem:
-    """The system of a chain file; `name` is that of the file, for messages.
+def build_chain(
+    file: ChainFile, name: str = "", fitted: Mapping[str, Damper | None] = NO_DAMPERS
+) -> TorsionalSystem:
+    """Return the system of a chain file.
+
+    Args:
+        file: What it says.
+        name: Name of the file, for messages.
+        fitted: Dampers of some nodes in place of those in the file.
 
     Raises:
         InputError: nodes that hang on nothing, gears that lock each other, nothing that can turn.
     """
-    names = [node.name for node in file.node]
-    index = {each: k for k, each in enumerate(names)}
+    index = {node.name: k for k, node in enumerate(file.node)}
     nodes = [
         PlannedNode(node.name, (node.inertia or 0.0) / 1e6, node.damping, node.damper)
         for node in file.node
     ]
-    joints = [f"{shaft.from_}-{shaft.to}" for shaft in file.shaft]
-    joints += [f"{gear.from_}-{gear.to}" for gear in file.gear]
-    called = list(_tell_apart(joints))
-    shafts = [
-        PlannedShaft(
-            label,
-            ChainShaft(index[shaft.from_], index[shaft.to], find_stiffness(shaft)),
-            file.loss if shaft.loss is None else shaft.loss,
-            shaft.damping,
-            find_section(shaft),
-        )
-        for label, shaft in zip(called, file.shaft, strict=False)
-    ]
-    shafts += [
-        PlannedShaft(label, ChainShaft(index[gear.from_], index[gear.to], np.inf, gear.ratio))
-        for label, gear in zip(called[len(file.shaft) :], file.gear, strict=True)
-    ]
+    tables: list[ShaftTable | Gear] = [*file.shaft, *file.gear]
+    shafts = []
+    for label, each in zip(
+        _tell_apart([f"{each.from_}-{each.to}" for each in tables]), tables, strict=True
+    ):
+        start, end = index[each.from_], index[each.to]
+        if isinstance(each, Gear):
+            shafts.append(PlannedShaft(label, ChainShaft(start, end, np.inf, each.ratio)))
+            continue
+        loss, section = each.loss, find_section(each.diameter, each.bore)
+        shaft = ChainShaft(start, end, find_stiffness(each))
+        loss = file.loss if loss is None else loss
+        shafts.append(PlannedShaft(label, shaft, loss, each.damping, section))
     clamped = [index[each] for each in file.fixed]
-    paths = [f"shaft.{k}" for k in range(1, len(file.shaft) + 1)]
-    paths += [f"gear.{k}" for k in range(1, len(file.gear) + 1)]
+    paths = [f"shaft.{k}" for k, _ in enumerate(file.shaft, 1)]
+    paths += [f"gear.{k}" for k, _ in enumerate(file.gear, 1)]
     limited = file.angle_limit is not None
     if problems := list(_find_faults(nodes, shafts, paths, clamped, limited)):
         raise InputError(problems, name)
-    limits = Limits(file.limit, file.angle_limit)
-    excitation = _excite(file, index)
-    system = assemble_system(file.name or "", nodes, shafts, excitation, limits, clamped)
-    return replace(system, file=name)
+    limits, excitation = (file.limit, file.angle_limit), _excite(file, index)
+    return assemble_system(
+        nodes,
+        shafts,
+        limits,
+        clamped,
+        fitted,
+        name=file.name or "",
+        excitation=excitation,
+        file=name,
+    )
 
 
 def _tell_apart(names: Sequence[str]) -> Iterator[str]:
@@ -96,7 +105,7 @@ def _find_faults(
     """
     names = [node.name for node in nodes]
     inertia = [node.inertia for node in nodes]
-    chain = tabulate_chain(inertia, [each.shaft for each in shafts], clamped)
+    chain = join_chain(inertia, [each.shaft for each in shafts], clamped)
     apart = np.unique(find_pieces(chain).first)[1:].tolist()
     for node in apart:
         text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"

@@ -4,7 +4,7 @@ mean inertia of what moves on it, and one for each part before and behind.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -18,14 +18,14 @@ from ..core.vibration import Real
 from ..engine.build import Engine
 from ..enginefile.fields import counted, printable, shorten, suggest_nearest
 from ..enginefile.model import EngineFile
-from ..enginefile.shafting import find_stiffness
+from ..enginefile.shafting import Damper, find_stiffness
 from ..enginefile.torsion_tables import Part, Torsion
 from ..errors import InputError, Problem
 from ..forces.orders import list_gas_orders
 from ..forces.spectrum import compute_each_cylinder
 from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
-from .assembly import Limits, PlannedNode, PlannedShaft, assemble_system, find_section
-from .system import Excitation, ShaftSection, TorsionalSystem
+from .assembly import NO_DAMPERS, PlannedNode, PlannedShaft, assemble_system, find_section
+from .system import Excitation, TorsionalSystem
 
 
 class _Joint(NamedTuple):
@@ -37,15 +37,20 @@ class _Joint(NamedTuple):
 
 
 def build_engine_system(
-    model: EngineFile, engine: Engine, excitation: Excitation, name: str = ""
+    model: EngineFile,
+    engine: Engine,
+    excitation: Excitation,
+    name: str = "",
+    fitted: Mapping[str, Damper | None] = NO_DAMPERS,
 ) -> TorsionalSystem:
-    """The system of an engine.
+    """Return the system of an engine.
 
     Args:
-        model: its file, which has [torsion].
-        engine: of this file.
-        excitation: by its cylinders, as of `excite_engine`.
-        name: of the file, for messages.
+        model: Its file, which has [torsion].
+        engine: Of this file.
+        excitation: By its cylinders, as of `excite_engine`.
+        name: Name of the file, for messages.
+        fitted: Dampers of some parts in place of those in the file.
 
     Raises:
         InputError: what does not fit together in [torsion], by its path.
@@ -54,100 +59,90 @@ def build_engine_system(
     if torsion is None:
         hint = "write [torsion] with throw_stiffness and throw_inertia, and [[torsion.rear]]"
         raise InputError([Problem.of_missing("torsion", hint)], name)
-    throws = len(engine.throws_m)
-    problems = list(_find_misfits(torsion, model, engine, throws))
-    if problems:
+    throws = [f"throw {k}" for k, _ in enumerate(engine.throws_m, 1)]
+    if problems := list(_find_misfits(torsion, model, engine, throws)):
         raise InputError(problems, name)
     nodes = [
         *map(_plan_part, reversed(torsion.front)),
         *_plan_throws(torsion, engine, throws),
         *map(_plan_part, torsion.rear),
     ]
-    leading = list(_lead_shafts(torsion, [node.name for node in nodes], throws))
-    front = len(torsion.front)
-    shafts = [*reversed(leading[:front]), *_join_throws(torsion, front, throws), *leading[front:]]
-    limits = Limits(torsion.limit, torsion.angle_limit)
+    front, joints = len(torsion.front), _join_parts(torsion, throws)
+    place, gears = {node.name: k for k, node in enumerate(nodes)}, _find_gears(joints, throws)
+    leading = []  # shaft of every part from what it hangs on, stiff in its own speed
+    for _, part, of in joints:
+        ratio = gears[part.name] / gears[of]
+        shaft = ChainShaft(place[of], place[part.name], find_stiffness(part), ratio)
+        loss, section = part.loss, find_section(part.diameter, part.bore)
+        loss = torsion.loss if loss is None else loss
+        leading.append(PlannedShaft(part.name, shaft, loss, part.damping, section))
+    section = find_section(torsion.throw_diameter, torsion.throw_bore)
+    stiffness = _each(torsion.throw_stiffness or (), len(throws) - 1)
+    between = [
+        PlannedShaft(label, ChainShaft(front + k, front + k + 1, each), torsion.loss, 0.0, section)
+        for k, (label, each) in enumerate(zip(_name_between(throws), stiffness, strict=True))
+    ]
     own_speed = "speed" in model.operation.model_fields_set
-    rated = model.operation.speed if own_speed else None
-    system = assemble_system(
-        engine.name, nodes, shafts, excitation, limits, rated_rpm=rated, reference=front
+    return assemble_system(
+        nodes,
+        [*reversed(leading[:front]), *between, *leading[front:]],
+        (torsion.limit, torsion.angle_limit),
+        fitted=fitted,
+        name=engine.name,
+        excitation=excitation,
+        rated_rpm=model.operation.speed if own_speed else None,
+        reference=front,
+        silent=engine.silent,
+        file=name,
     )
-    return replace(system, silent=engine.silent, file=name)
 
 
 def _plan_part(part: Part) -> PlannedNode:
     return PlannedNode(part.name, (part.inertia or 0.0) / 1e6, part.node_damping, part.damper)
 
 
-def _plan_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[PlannedNode]:
-    """A node for each throw, with what runs on it and the damping of every cylinder."""
+def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
+    """Yield a node for each throw, with what runs on it and the damping of every cylinder."""
     gear, on_throw = weigh_running_gear(engine), [weighed.throw for weighed in engine.weighed]
-    bare = _weigh_throws(torsion, engine, throws)
-    for throw, name in enumerate(_name_throws(throws)):
+    bare = _weigh_throws(torsion, engine, len(throws))
+    for throw, name in enumerate(throws):
         here = np.equal(on_throw, throw)
         inertia = bare[throw] + float(gear[here].sum())
         yield PlannedNode(name, inertia, torsion.damping * int(here.sum()))
 
 
-def _join_throws(torsion: Torsion, front: int, throws: int) -> Iterator[PlannedShaft]:
-    """The shafts between neighbouring throws, the first of which is the node `front`."""
-    section = None
-    if torsion.throw_diameter is not None:
-        section = ShaftSection(torsion.throw_diameter / 1e3, (torsion.throw_bore or 0.0) / 1e3)
-    stiffnesses = _each(torsion.throw_stiffness or (), throws - 1)
-    for k, (name, stiffness) in enumerate(zip(_name_between(throws), stiffnesses, strict=True)):
-        shaft = ChainShaft(front + k, front + k + 1, stiffness)
-        yield PlannedShaft(name, shaft, torsion.loss, section=section)
-
-
-def _lead_shafts(torsion: Torsion, names: Sequence[str], throws: int) -> Iterator[PlannedShaft]:
-    """Shaft of every part, front ones first, from what it hangs on, stiff in its own speed."""
-    joints = _join_parts(torsion, throws)
-    gears = _find_gears(joints, throws)
-    for _, part, of in joints:
-        ends, ratio = (names.index(of), names.index(part.name)), gears[part.name] / gears[of]
-        loss = torsion.loss if part.loss is None else part.loss
-        shaft = ChainShaft(*ends, find_stiffness(part), ratio)
-        yield PlannedShaft(part.name, shaft, loss, part.damping, find_section(part))
-
-
-def _name_throws(throws: int) -> list[str]:
-    return [f"throw {k}" for k in range(1, throws + 1)]
-
-
-def _name_between(throws: int) -> list[str]:
-    return [f"throw {k}-{k + 1}" for k in range(1, throws)]
+def _name_between(throws: Sequence[str]) -> list[str]:
+    return [f"throw {k}-{k + 1}" for k in range(1, len(throws))]
 
 
 def _each(values: Sequence[float], count: int) -> list[float]:
-    """One value for each of so many, from one for all or a list."""
+    """Return one value for each of so many, from one for all or a list."""
     return list(values) * count if len(values) == 1 else list(values)
 
 
-def _join_parts(torsion: Torsion, throws: int) -> list[_Joint]:
-    """Every part with what it hangs on: front parts first, each list outward."""
+def _join_parts(torsion: Torsion, throws: Sequence[str]) -> list[_Joint]:
+    """Return every part with what it hangs on: front parts first, each list outward."""
     found = []
-    for key, parts, throw in (("front", torsion.front, 1), ("rear", torsion.rear, throws)):
-        before = f"throw {throw}"
+    for key, parts, before in (
+        ("front", torsion.front, throws[0]),
+        ("rear", torsion.rear, throws[-1]),
+    ):
         for k, part in enumerate(parts, 1):
             found.append(_Joint(f"torsion.{key}.{k}", part, part.of or before))
             before = part.name
     return found
 
 
-def _find_gears(joints: Sequence[_Joint], throws: int) -> dict[str, float]:
-    """Speed of every node over that of the crank, by name."""
-    gears = dict.fromkeys(_name_throws(throws), 1.0)
-    waiting = list(joints)
-    while waiting:
-        for joint in waiting:
-            if joint.of in gears:
-                own = joint.part.gear
-                gears[joint.part.name] = gears[joint.of] if own is None else own
-        left = [joint for joint in waiting if joint.part.name not in gears]
-        if len(left) == len(waiting):
+def _find_gears(joints: Sequence[_Joint], throws: Sequence[str]) -> dict[str, float]:
+    """Return the speed over that of the crank of every node that hangs on it, by name."""
+    gears = dict.fromkeys(throws, 1.0)
+    for _ in joints:  # a part may hang on one that comes later in the file
+        before = len(gears)
+        for _, part, of in joints:
+            if of in gears:
+                gears[part.name] = gears[of] if part.gear is None else part.gear
+        if len(gears) == before:
             break
-        waiting = left
     return gears
 
 
@@ -167,7 +162,7 @@ def weigh_running_gear(engine: Engine) -> Real:
 
 
 def _weigh_throws(torsion: Torsion, engine: Engine, throws: int) -> Sequence[float]:
-    """Moment of inertia of the crankshaft at each throw, kg m2."""
+    """Return the moment of inertia of the crankshaft at each throw, kg m2."""
     if torsion.throw_inertia is not None:
         return [each / 1e6 for each in _each(torsion.throw_inertia, throws)]
     whole = 0.0 if engine.crank_inertia is None else float(engine.crank_inertia)
@@ -185,8 +180,11 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array([weighed.throw for weighed in engine.weighed])
     engine = replace(engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
-    if orders is None:
-        orders = _list_orders(engine)
+    if orders is None and engine.gas is None:
+        orders = np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1)
+    elif orders is None:
+        orders = list_gas_orders(engine)
+        orders = orders[orders <= HIGHEST_TORSION_ORDER]
     growing = compute_each_cylinder(engine, orders, ("torque",))["torque"].x
     steady = np.zeros_like(growing)
     if engine.gas is not None:
@@ -195,46 +193,30 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     return Excitation(orders[moves], nodes, steady[moves], growing[moves])
 
 
-def _list_orders(engine: Engine) -> Real:
-    if engine.gas is None:
-        return np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1)
-    listed = list_gas_orders(engine)
-    return listed[listed <= HIGHEST_TORSION_ORDER]
-
-
 # ------------------------------------------------------------------ what does not fit together
 def _find_misfits(
-    torsion: Torsion, model: EngineFile, engine: Engine, throws: int
+    torsion: Torsion, model: EngineFile, engine: Engine, throws: Sequence[str]
 ) -> Iterator[Problem]:
     if engine.rotary:
         yield Problem("torsion", "is for crankshafts that turn; that of a rotary stands still")
         return
-    yield from _check_throws(torsion, model, throws)
+    yield from _check_throws(torsion, model, len(throws))
     joints = _join_parts(torsion, throws)
-    names = [*_name_throws(throws), *(joint.part.name for joint in joints)]
-    reserved = {*_name_throws(throws), *_name_between(throws)}
-    taken: set[str] = set()
-    for joint in joints:
-        name = joint.part.name
-        if name in reserved:
-            yield Problem(f"{joint.path}.name", f"{shorten(name)} is a name that throws have")
-        elif name in taken:
-            yield Problem(
-                f"{joint.path}.name", f"{shorten(name)} is there twice; give each its own"
-            )
-        taken.add(name)
-        if joint.of not in names:
+    names = [*throws, *(joint.part.name for joint in joints)]
+    reserved = {*throws, *_name_between(throws)}
+    led = _find_gears([j if j.of in names else j._replace(of=throws[0]) for j in joints], throws)
+    for k, (path, part, of) in enumerate(joints, len(throws)):
+        if part.name in reserved:
+            yield Problem(f"{path}.name", f"{shorten(part.name)} is a name that throws have")
+        elif part.name in names[:k]:
+            yield Problem(f"{path}.name", f"{shorten(part.name)} is there twice; give each its own")
+        if of not in names:
             listed = ", ".join(printable(each) for each in names[:8])
-            hint = suggest_nearest(joint.of, names, f"there are {listed}")
-            yield Problem(f"{joint.path}.of", f"{shorten(joint.of)} is no part; {hint}")
-    led = [j if j.of in names else j._replace(of="throw 1") for j in joints]  # told already
-    hanging = _find_gears(led, throws)
-    for joint in joints:
-        if joint.of in names and joint.part.name not in hanging:
-            yield Problem(
-                f"{joint.path}.of",
-                f"{shorten(joint.of)} does not lead to the crankshaft; name what the part hangs on",
-            )
+            hint = suggest_nearest(of, names, f"there are {listed}")
+            yield Problem(f"{path}.of", f"{shorten(of)} is no part; {hint}")
+        elif part.name not in led:
+            text = f"{shorten(of)} does not lead to the crankshaft; name what the part hangs on"
+            yield Problem(f"{path}.of", text)
 
 
 def _check_throws(torsion: Torsion, model: EngineFile, throws: int) -> Iterator[Problem]:

@@ -11,8 +11,8 @@ from pydantic import Field
 
 from ..enginefile.fields import Number
 from ..enginefile.model import FileTable, Name
-from ..enginefile.shafting import Damper, Damping, Loss, NodeInertia, ShaftKeys
-from ..enginefile.torsion_tables import AngleLimit, SpeedRatio, StressLimit
+from ..enginefile.shafting import ChainKeys, Damping, NodeKeys, ShaftKeys
+from ..enginefile.torsion_tables import SpeedRatio
 from ..enginefile.units import PLAIN, TORQUE
 from ..limits import HIGHEST_TORSION_ORDER, MOST_TORSION_NODES
 
@@ -35,19 +35,10 @@ class _HalfOrder(Number):
         return order
 
 
-class Node(FileTable):
+class Node(NodeKeys):
     """A node: an inertia, or a place where shafts meet."""
 
-    name: Name = Field(examples=["flywheel"], description="what to call it; each its own")
-    inertia: NodeInertia | None = Field(
-        None, examples=[2.075e6], description="moment of inertia; left out: a massless node"
-    )
     damping: Damping = Field(0.0, examples=[2], description="of the node against ground")
-    damper: Damper | None = Field(
-        None,
-        examples=[{"kind": "viscous", "inertia": 30000, "damping": 12}],
-        description="a damper that the node has",
-    )
 
 
 class ChainShaft(ShaftKeys):
@@ -83,19 +74,10 @@ class Excitation(FileTable):
     sin: Torque = Field(0.0, examples=[-35], description="amplitude of its sine")
 
 
-class ChainFile(FileTable):
+class ChainFile(ChainKeys):
     """Inertias on shafts and gears, and what excites them."""
 
     name: Name | None = Field(None, examples=["pump drive"], description="what to call it")
-    loss: Loss = Field(0.0, examples=[0.02], description="loss factor of shafts that name none")
-    limit: StressLimit | None = Field(
-        None, examples=[40], description="stress of a shaft above which a speed is barred"
-    )
-    angle_limit: AngleLimit | None = Field(
-        None,
-        examples=[0.3],
-        description="angle by which the first node may swing either way; above, a speed is barred",
-    )
     fixed: tuple[Name, ...] = Field(
         (), examples=[["hull"]], max_length=MOST_TORSION_NODES, description="nodes that are clamped"
     )

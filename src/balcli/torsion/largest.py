@@ -1,270 +1,159 @@
-"""The largest of torsional vibration over a range of speeds, between the speeds asked for, too:
-resonances are found however narrow they are.
+"""The largest of torsional vibration over a range of speeds, between its speeds as well.
+
+To the speeds of the range come those at which an order meets a damped resonance, and those half its
+width and its width away; every top that these speeds show and that may be the highest is then
+approached by halving the intervals beside it, and by the vertex of the parabola through it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.close_peaks import find_highest
 from ..core.peaks import find_swing, sum_amplitudes
 from ..core.speeds import RPM
-from ..core.vibration import ROUNDING, Complex, Real
+from ..core.vibration import ROUNDING, Real
 from .modes import find_poles
-from .motion import (
-    move,
-    refuse_too_many,
-    refuse_torsional_resonance,
-    split_speeds,
-    stress_by_torque,
-)
+from .motion import compute_curves, refuse_unbounded
 from .system import TorsionalSystem
 
-_ROUNDS = np.array([1 / 24, 1 / 6])  # parts of the speeds, those with large amplitudes first
-_NEAR = 0.9  # of the largest at the speeds looked at: what a peak beside them may exceed
+_SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, in widths
 _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
-_SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, looked at, too, in widths
-_HIGH = 0.5  # of the largest: a resonance as high may have a higher peak at its side
+_HIGH = 0.5  # of the largest: a resonance as high may have a higher top beside it
+_NEAR = 0.9  # of the largest value at the speeds looked at: a top beside them may exceed this
+_CLOSER = 0.3  # of the rest to the largest value, from round to round
+_ROUNDS = 7
+_FLAT = 1e-8  # share of a top by which it stands out: a flatter one is found
 
 
-class LargestVibration(NamedTuple):
-    """The largest between the first and last of the speeds, however narrow its resonance.
-
-    Attributes:
-        speeds_rpm: (shafts,), at which the torque of each shaft is largest.
-        torque: (shafts,) half peak to peak there, N m.
-        sums: (shafts,) sum of the amplitudes of all orders there, N m.
-        stress: (shafts,) Pa, nan where a shaft has no diameter.
-        amplitudes: (orders, shafts) torque by order there, N m.
-        swing_rpm, free_end: where the first node swings most, and half of that swing, rad.
-        swings: (orders,) amplitude of the first node by order there, rad.
-        pendulum_rpm, pendulums: (pendulums,) where each swings most against its node, and half of
-            that swing, rad.
-        hottest_rpm, heat: (dampers,) where each damper turns most to heat, and how much, W.
-    """
-
-    speeds_rpm: Real
-    torque: Real
-    sums: Real
-    stress: Real
-    amplitudes: Real
-    swing_rpm: float
-    free_end: float
-    swings: Real
-    pendulum_rpm: Real
-    pendulums: Real
-    hottest_rpm: Real
-    heat: Real
-
-
-class _Curves(NamedTuple):
-    """Torques of shafts over the cycle, at any speed.
+class Largest(NamedTuple):
+    """The largest values over a range of speeds.
 
     Attributes:
-        columns: (curves,) which of `ChainMotion.curves`: the first are those of the shafts.
-        weights: (curves,) by which each is multiplied.
-        together: whether the highest of all is wanted, not that of each.
+        rpm: (columns,) speeds at which they occur; columns as of `find_largest`.
+        value: (columns,) the values.
+        speeds: (all,) every speed that was looked at, rising.
     """
 
-    system: TorsionalSystem
-    columns: Sequence[int]
-    weights: Real
-    together: bool = False
-
-    @property
-    def orders(self) -> Real:
-        """(orders,) of what excites the system."""
-        return self.system.require_excitation().orders
-
-    def at(self, rpm: Real) -> Complex:
-        """By order, (orders, speeds, curves)."""
-        return move(self.system, rpm).curves[:, :, list(self.columns)] * self.weights
-
-    def pick(self, rpm: Real, curve: NDArray[np.intp]) -> Complex:
-        """By order, (orders, *speeds), one curve at each speed; `curve` broadcasts to these."""
-        few = np.unique(rpm)  # many curves peak between the same two
-        which, curve = np.searchsorted(few, rpm), np.broadcast_to(curve, rpm.shape)
-        found = np.empty((len(self.orders), *rpm.shape), complex)
-        for some in split_speeds(self.system, few):
-            here = (which >= some.start) & (which < some.stop)
-            found[:, here] = self.at(few[some])[:, which[here] - some.start, curve[here]]
-        return found
-
-    def swing(self, rpm: Real, curve: NDArray[np.intp]) -> Real:
-        """Half of peak to peak (*speeds) of one curve at each speed."""
-        return find_swing(self.orders, self.pick(rpm, curve)).half
-
-    def level(self, largest: Real) -> Real:
-        """What each has to exceed (curves,), where each so far is this large."""
-        return np.full_like(largest, largest.max(initial=0)) if self.together else largest
+    rpm: Real
+    value: Real
+    speeds: Real
 
 
-def find_largest_vibration(
-    system: TorsionalSystem, rpm: Real, swings: Real, heat: Real
-) -> LargestVibration:
-    """Of every shaft, the first node and every damper.
+def find_largest(
+    system: TorsionalSystem,
+    rpm: Real,
+    weights: Real | None = None,
+    known: Real | None = None,
+    *,
+    together: bool = False,
+) -> Largest:
+    """Return where each column is largest, and how large, between the first and last of the speeds.
+
+    The columns are half of peak to peak of the torque of each shaft (N m), half of the swing of the
+    first node and of each pendulum (rad), and the heat of each damper (W).
 
     Args:
-        swings: half of peak to peak at these speeds (rpm), known already, of shafts, the first node
-            and pendulums, (speeds, curves).
-        heat: (speeds, dampers), likewise.
-    """
-    count = len(system.shafts)
-    curves = _Curves(system, range(swings.shape[1]), np.ones(swings.shape[1]))
-    at, height = _approach_largest(curves, rpm, swings)
-    there = curves.pick(at[: count + 1], np.arange(count + 1))
-    torque, swings_there = there[:, :count], np.abs(there[:, count])
-    return LargestVibration(
-        at[:count],
-        height[:count],
-        sum_amplitudes(torque),
-        height[:count] * stress_by_torque(system),
-        np.abs(torque),
-        float(at[count]),
-        float(height[count]),
-        swings_there,
-        at[count + 1 :],
-        height[count + 1 :],
-        *_approach_hottest(system, rpm, heat),
-    )
-
-
-def find_largest_torques(
-    system: TorsionalSystem, speeds_rpm: Real, shafts: Sequence[int]
-) -> tuple[Real, Real]:
-    """At which speed, rpm, the vibratory torque of some shafts is largest, and half of peak to peak
-    there, N m, (shafts,) each, between the first and last of speeds (speeds,), rising.
-
-    Between the speeds, those about resonances are looked at, and every peak that may be the highest
-    is approached.
+        system: With an excitation.
+        rpm: (speeds,) rising.
+        weights: (columns,) factor of each column; 0: it is not looked at. Default: 1.
+        known: (speeds, columns) values at these speeds, where they are known.
+        together: whether only the highest of all columns is wanted, which takes less time.
 
     Raises:
-        BalcliError: an undamped mode is driven at its own frequency.
+        BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
     """
-    return _search(_Curves(system, shafts, np.ones(len(shafts))), speeds_rpm)
+    refuse_unbounded(system, rpm)
+    columns = count_columns(system)
+    weights = np.ones(columns) if weights is None else weights
+    least = np.zeros(columns)
+
+    def measure(some: Real) -> Real:
+        return _measure(system, some, weights, least, together=together)
+
+    speeds, values = rpm, measure(rpm) if known is None else known * weights
+    more, width = find_resonances(system, rpm)
+    for k in range(_ROUNDS):
+        sides = rpm[:0]
+        if len(more):
+            least = values.max(axis=0)
+            found = measure(more)
+            speeds, places = np.unique(np.append(speeds, more), return_index=True)
+            values = np.concatenate([values, found])[places]
+        if len(more) and k == 0:  # beside high resonances there may be higher tops
+            level = values.max() if together else values.max(axis=0)
+            high = np.any((found >= _HIGH * level) & (found > 0), axis=1)
+            sides = (more[high] + width[high] * _SIDES).ravel()
+            sides = sides[(sides > rpm[0]) & (sides < rpm[-1])]
+        near = 1 - (1 - _NEAR) * _CLOSER**k
+        more = np.append(sides, _approach_tops(speeds, values, near, together=together))
+    top = values.argmax(axis=0)
+    return Largest(speeds[top], np.take_along_axis(values, top[None], axis=0)[0], speeds)
 
 
-def find_largest_of_all(
-    system: TorsionalSystem, speeds_rpm: Real, shafts: Sequence[int], weights: Real
-) -> float:
-    """The highest that `find_largest_torques` finds of some shafts, each multiplied by its weight
-    (shafts,); in less time.
-    """
-    _, largest = _search(_Curves(system, shafts, weights, together=True), speeds_rpm)
-    return float(largest.max(initial=0))
+def count_columns(system: TorsionalSystem) -> int:
+    """Return the number of columns of `find_largest`."""
+    return len(system.shafts) + 1 + len(system.pendulums) + len(system.dampers)
 
 
-def find_hottest(system: TorsionalSystem, speeds_rpm: Real) -> tuple[Real, Real]:
-    """At which speed, rpm, every damper turns most to heat, and how much, W, (dampers,) each,
-    between the first and last of speeds (speeds,), rising.
-    """
-    return _approach_hottest(system, speeds_rpm, _find_heat(system, speeds_rpm))
-
-
-def find_resonant_speeds(
-    system: TorsionalSystem, rpm: Real, widest: float = np.inf
-) -> tuple[Real, Real]:
-    """Speeds within a range at which an order meets a damped resonance, and how wide it is there,
-    rpm, (resonances,) each; `widest`: as many steps of these speeds (rpm) as it may be wide.
+def find_resonances(system: TorsionalSystem, rpm: Real) -> tuple[Real, Real]:
+    """Return the speeds between the first and the last of a range at which an order meets a damped
+    resonance, and how wide it is there, rpm, (resonances,) each; without those so wide that the
+    speeds of the range show them.
     """
     if len(rpm) == 1:
-        return np.zeros(0), np.zeros(0)
-    orders = system.require_excitation().orders
-    if system.pendulums:  # their inertia differs from order to order
-        poles = [find_poles(system, float(order)) for order in orders]
-    else:
-        poles = [find_poles(system)] * len(orders)
-    found = [np.zeros((2, 0))]
-    for order, each in zip(orders, poles, strict=True):
-        damped = each[(each.imag > 0) & (-each.real > ROUNDING * np.abs(each))]
-        at, width = damped.imag / (RPM * order), -2 * damped.real / (RPM * order)
-        steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
-        there = (width < widest * steps) & (at > rpm[0]) & (at < rpm[-1])
-        found.append(np.stack([at, width])[:, there])
+        return rpm[:0], rpm[:0]
+    of_all = None if system.pendulums else find_poles(system)  # else they differ by order
+    found = []
+    for order in system.require_excitation().orders.tolist():
+        poles = find_poles(system, order) if of_all is None else of_all
+        poles = poles[(poles.imag > 0) & (-poles.real > ROUNDING * np.abs(poles))]
+        found.append(np.stack([poles.imag, -2 * poles.real]) / (RPM * order))
     at, width = np.concatenate(found, axis=1)
-    return at, width
+    steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
+    there = (at > rpm[0]) & (at < rpm[-1]) & (width < _WIDE * steps)
+    return at[there], width[there]
 
 
-# ------------------------------------------------------------------ the search
-def _search(curves: _Curves, rpm: Real) -> tuple[Real, Real]:
-    refuse_too_many(curves.system, len(rpm))
-    refuse_torsional_resonance(curves.system, rpm)
-    swings = _find_large_swings(curves, rpm, np.zeros(len(curves.columns)))
-    return _approach_largest(curves, rpm, swings)
-
-
-def _approach_largest(curves: _Curves, rpm: Real, swings: Real) -> tuple[Real, Real]:
-    """Where each curve is largest, rpm, and how large, with the swings at these speeds (speeds,
-    curves), of which small ones may be the sum of the amplitudes.
-
-    Narrow resonances are looked at; at their sides, too, where they are high.
+def _measure(
+    system: TorsionalSystem, rpm: Real, weights: Real, least: Real, *, together: bool
+) -> Real:
+    """Return the columns (speeds, columns), weighted. A value that is clearly below the largest,
+    at these speeds or known of others (columns,), may be replaced by the sum of the amplitudes of
+    all orders: no curve swings farther.
     """
-    at, width = find_resonant_speeds(curves.system, rpm, _WIDE)
-    tops = _find_large_swings(curves, at, swings.max(axis=0))
-    largest = curves.level(np.concatenate([swings, tops]).max(axis=0))
-    high = np.any(tops >= _HIGH * largest, axis=1)
-    sides = _look_beside(at[high], width[high], rpm)
-    beside = _find_large_swings(curves, sides, largest)
-    speeds = np.concatenate([rpm, at, sides])
-    rising = np.argsort(speeds, kind="stable")
-    speeds, swings = speeds[rising], np.concatenate([swings, tops, beside])[rising]
-    return find_highest(curves.swing, speeds, swings, curves.level(swings.max(axis=0)), _NEAR)
+    phasors, heat = compute_curves(system, rpm)
+    count, orders = phasors.shape[2], system.require_excitation().orders
+    phasors = phasors * weights[:count]
+    found = sum_amplitudes(phasors)
+
+    def add_up(where: Real) -> None:
+        found[where] = find_swing(orders, phasors[:, where]).half
+
+    first = np.arange(len(rpm))[:, None] == found.argmax(axis=0)
+    add_up(first)
+    level = np.maximum(least[:count], np.where(first, found, 0).max(axis=0))
+    add_up(~first & (found > 0) & (found >= _NEAR * (level.max() if together else level)))
+    return np.concatenate([found, heat * weights[count:]], axis=1)
 
 
-def _look_beside(at: Real, width: Real, rpm: Real) -> Real:
-    """Speeds at both sides of resonances, as far as they lie between the first and last speed."""
-    sides = (at + width * _SIDES).ravel()
-    return sides[(sides > rpm[0]) & (sides < rpm[-1])]
-
-
-def _find_large_swings(curves: _Curves, rpm: Real, largest: Real) -> Real:
-    """Half of peak to peak of the curves at these speeds (speeds, curves), wherever it is near the
-    largest, here or known of elsewhere (curves,); elsewhere the sum of the amplitudes.
-
-    No curve swings further than that sum, so that most need not be added up.
+def _approach_tops(speeds: Real, values: Real, near: float, *, together: bool) -> Real:
+    """Return speeds beside every top of a column that is near its highest, by a share of this: half
+    way to the speeds before and after it, and the vertex of the parabola through the three.
     """
-    swings, largest = np.zeros((len(rpm), len(largest))), curves.level(largest)
-    for piece in split_speeds(curves.system, rpm):
-        found, here = curves.at(rpm[piece]), swings[piece]
-        here[:] = sum_amplitudes(found)
-        falling = np.argsort(-here, axis=0)
-        for some in np.split(falling, (len(falling) * _ROUNDS).astype(int)):
-            near = np.take_along_axis(here, some, axis=0) >= _NEAR * largest
-            speed, curve = np.nonzero(near)
-            at = some[speed, curve]
-            if len(at):
-                here[at, curve] = found_here = find_swing(curves.orders, found[:, at, curve]).half
-                np.maximum.at(largest, curve, found_here)
-                largest = curves.level(largest)
-    return swings
-
-
-def _approach_hottest(system: TorsionalSystem, rpm: Real, heat: Real) -> tuple[Real, Real]:
-    """Where each damper turns most to heat, rpm, and how much, W, (dampers,) each, with the heat at
-    these speeds (speeds, dampers). Narrow resonances are looked at, and their sides.
-    """
-    if not heat.shape[1]:
-        return np.zeros(0), np.zeros(0)
-    at, width = find_resonant_speeds(system, rpm, _WIDE)
-    more = np.concatenate([at, _look_beside(at, width, rpm)])
-    speeds = np.concatenate([rpm, more])
-    rising = np.argsort(speeds, kind="stable")
-    speeds = speeds[rising]
-    heat = np.concatenate([heat, _find_heat(system, more)])[rising]
-
-    def judge(rpm: Real, damper: NDArray[np.intp]) -> Real:
-        few = np.unique(rpm)
-        return _find_heat(system, few)[np.searchsorted(few, rpm), damper]
-
-    return find_highest(judge, speeds, heat, heat.max(axis=0), _NEAR)
-
-
-def _find_heat(system: TorsionalSystem, rpm: Real) -> Real:
-    """Power that dampers turn to heat (speeds, dampers), W."""
-    pieces = split_speeds(system, rpm)
-    parts = [move(system, rpm[some]).heat.sum(axis=0) for some in pieces]
-    return np.concatenate([np.zeros((0, len(system.dampers))), *parts])
+    level = values.max() if together else values.max(axis=0)
+    padded = np.pad(values, ((1, 1), (0, 0)), constant_values=-1)
+    tops = (values >= padded[:-2]) & (values > padded[2:])
+    tops &= (values >= near * level) & (values > 0)
+    at, column = np.nonzero(tops)
+    at = np.clip(at, 1, max(len(speeds) - 2, 1))
+    if len(speeds) < 3 or not len(at):
+        return speeds[:0]
+    around = np.add(at, [[-1], [0], [1]])
+    (x0, x1, x2), (y0, y1, y2) = speeds[around], values[around, column]
+    before, after = (y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1)
+    bend = np.where(after < before, (after - before) / (x2 - x0), -np.inf)
+    vertex = np.clip((x0 + x1) / 2 - before / (2 * bend), x0, x2)
+    sharp = y1 - np.minimum(y0, y2) > _FLAT * y1
+    return np.unique(np.concatenate([x0 + x1, x1 + x2, 2 * vertex])[np.tile(sharp, 3)] / 2)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any
 
 from ..core.vibration import Real
 from ..engine.build import Engine
@@ -14,13 +14,13 @@ from ..enginefile.model import EngineFile
 from ..enginefile.shafting import Damper
 from ..enginefile.suspicious import doubt_losses
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
-from ..enginefile.torsion_tables import Part
 from ..enginefile.units import ask_unit
 from ..errors import BalcliError
 from ..torque.course import silence
+from .assembly import NO_DAMPERS
 from .build_chain import build_chain
 from .build_engine import build_engine_system, excite_engine
-from .chain_file import ChainFile, Node
+from .chain_file import ChainFile
 from .read_chain import describes_chain, read_chain_tables
 from .system import Excitation, TorsionalSystem
 
@@ -29,74 +29,55 @@ _THIN = 1.0  # mm
 
 
 @dataclass(frozen=True)
-class ChainSource:
-    """A chain file that has been read: its name, its text, what it says."""
+class Source:
+    """A chain or engine file that has been read.
 
-    file: str
-    text: bytes
-    model: ChainFile
-
-    @property
-    def doubts(self) -> tuple[str, ...]:
-        """What it says that is allowed and yet unlikely, in words."""
-        model = self.model
-        losses = doubt_losses(model.list_losses())
-        return (*losses, *_doubt_units(model), *_doubt_torques(model))
-
-    def system(self) -> TorsionalSystem:
-        """What it describes. Raises InputError: what hangs together wrongly."""
-        return build_chain(self.model, self.file)
-
-    @property
-    def crank_radius(self) -> float | None:
-        """None: it has no crank."""
-        return None
-
-    def dampers(self) -> Mapping[str, Damper | None]:
-        """What may carry a damper, by name, and those that do."""
-        return {node.name: node.damper for node in self.model.node}
-
-    def with_damper(self, name: str, damper: Damper | None) -> ChainSource:
-        """The same with this damper on a node."""
-        nodes = _put_damper(self.model.node, name, damper)
-        return replace(self, model=self.model.model_copy(update={"node": nodes}))
-
-
-@dataclass(frozen=True)
-class EngineSource:
-    """An engine file that has been read: its name, its text, what it says, the engine, what
-    excites it; what its file says that is allowed and yet unlikely, in words.
+    Attributes:
+        file: Its name.
+        text: Its text; empty if nothing can be written into it.
+        model: What it says; of an engine, with [torsion].
+        doubts: What it says that is allowed and yet unlikely, in words.
+        engine: Its engine; None: it describes a chain.
+        excitation: Torques of the engine's cylinders.
     """
 
     file: str
     text: bytes
-    model: EngineFile
-    engine: Engine
-    excitation: Excitation
+    model: ChainFile | EngineFile
     doubts: tuple[str, ...]
+    engine: Engine | None = None
+    excitation: Excitation | None = None
 
-    def system(self) -> TorsionalSystem:
-        """What it describes. Raises InputError: what does not fit together in [torsion]."""
-        return build_engine_system(self.model, self.engine, self.excitation, self.file)
+    def system(self, fitted: Mapping[str, Damper | None] = NO_DAMPERS) -> TorsionalSystem:
+        """Return the system that the file describes, with these dampers in place of its own.
+
+        Raises:
+            InputError: what does not fit together in the file.
+        """
+        if isinstance(self.model, ChainFile):
+            return build_chain(self.model, self.file, fitted)
+        if self.engine is None or self.excitation is None:
+            raise TypeError("an engine's file without its engine")
+        return build_engine_system(self.model, self.engine, self.excitation, self.file, fitted)
 
     @property
     def crank_radius(self) -> float | None:
-        """Half the stroke, m."""
-        return float(self.engine.cylinders.radius)
+        """Half the stroke, m; None of a chain."""
+        return None if self.engine is None else float(self.engine.cylinders.radius)
 
     def dampers(self) -> Mapping[str, Damper | None]:
-        """What may carry a damper, by name, and those that do."""
+        """Return what may carry a damper, by name, and the damper it has."""
+        if isinstance(self.model, ChainFile):
+            return {node.name: node.damper for node in self.model.node}
         torsion = self.model.torsion
         parts = () if torsion is None else (*reversed(torsion.front), *torsion.rear)
         return {part.name: part.damper for part in parts}
 
-    def with_damper(self, name: str, damper: Damper | None) -> EngineSource:
-        """The same with this damper on a part."""
-        torsion = self.model.torsion
-        if torsion is None:
-            return self
-        front, rear = (_put_damper(each, name, damper) for each in (torsion.front, torsion.rear))
-        return replace(self, model=self.model.with_table("torsion", front=front, rear=rear))
+
+def make_chain_source(model: ChainFile, name: str, text: bytes = b"") -> Source:
+    """Return the source of a chain file that has been read."""
+    doubts = *doubt_losses(model.list_losses()), *_doubt_units(model), *_doubt_torques(model)
+    return Source(name, text, model, doubts)
 
 
 def _doubt_torques(model: ChainFile) -> Iterator[str]:
@@ -127,18 +108,6 @@ def _doubt_units(model: ChainFile) -> Iterator[str]:
             )
 
 
-Source = ChainSource | EngineSource
-Carrier = TypeVar("Carrier", Node, Part)
-
-
-def _put_damper(
-    carriers: Sequence[Carrier], name: str, damper: Damper | None
-) -> tuple[Carrier, ...]:
-    """The same with this damper on the one of this name."""
-    fitted = {"damper": damper}
-    return tuple(c.model_copy(update=fitted) if c.name == name else c for c in carriers)
-
-
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
     """A file, or standard input for "-".
 
@@ -154,7 +123,7 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
     if describes_chain(data):
         if misfires:
             raise BalcliError("--misfire: a chain has no cylinders")
-        return ChainSource(name, text, read_chain_tables(data, name))
+        return make_chain_source(read_chain_tables(data, name), name, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
     made = make_source(model, build_named(model, name), name, orders, misfires)
@@ -167,7 +136,7 @@ def make_source(
     name: str,
     orders: Real | None = None,
     misfires: Sequence[int] = (),
-) -> EngineSource:
+) -> Source:
     """Of an engine file that has been read and built; without its text, so that nothing can be
     written into it.
 
@@ -183,4 +152,4 @@ def make_source(
     doubts = engine.unlikely
     for number in misfires:
         engine = silence(engine, number)
-    return EngineSource(name, b"", model, engine, excite_engine(model, engine, orders), doubts)
+    return Source(name, b"", model, doubts, engine, excite_engine(model, engine, orders))

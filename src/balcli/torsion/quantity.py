@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..core.torsional_modes import find_chain_modes
 from ..core.vibration import Real
 from ..engine.build import Engine, build
 from ..engine.variants import EngineVariants, Values, remember
@@ -16,8 +17,7 @@ from ..enginefile.read import change_figures
 from ..errors import BalcliError
 from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .build_engine import build_engine_system, excite_engine
-from .largest import find_largest_torques
-from .modes import find_natural_modes
+from .largest import count_columns, find_largest
 from .motion import stress_by_torque
 from .system import Excitation, TorsionalSystem
 
@@ -45,9 +45,9 @@ def parse_quantity(text: str) -> TargetQuantity:
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Those that a file has."""
-    system = _build(model, build(model), None)
-    yield from (f"torsion.{mode.number}.Hz" for mode in find_natural_modes(system))
+    """Yield the names of the quantities that a file has."""
+    system = _build(model)
+    yield from (f"torsion.{number}.Hz" for number, _ in enumerate(_find_frequencies(system), 1))
     for shaft, section in zip(system.shafts, system.sections, strict=True):
         yield f"shaft.{shaft}.torque"
         if section is not None:
@@ -55,8 +55,8 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Nothing, unless one of these is of a mode or shaft that the file does not have, or a stress
-    of a shaft without diameter.
+    """Refuse quantities of a mode or shaft that the file does not have, and the stress of a shaft
+    without diameter.
 
     Raises:
         BalcliError: the quantity, and what there is.
@@ -67,8 +67,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
             f"{quantities[0].name}: the file has no [torsion]; balcli torsion --help says what it "
             "needs"
         )
-    system = _build(model, build(model), None)
-    modes = len(find_natural_modes(system))
+    system = _build(model)
+    modes = len(_find_frequencies(system))
     for q in quantities:
         if q.kind == "torsion" and int(q.target) > modes:
             raise BalcliError(f"{q.name}: there are {modes} modes")
@@ -91,38 +91,45 @@ class Variants:
         self._excitations: dict[Values, Excitation] = {}
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """The value of each quantity for one variant, by the figures that vary.
+        """Return the value of each quantity for one variant, by the figures that vary.
 
         Raises:
             InputError, BalcliError: it cannot be.
         """
         own = {path: value for path, value in values.items() if not path.startswith("torsion.")}
         engine = self._engines.build(own)
-        key = tuple(own.items())
         excitation = remember(
-            self._excitations, key, lambda: excite_engine(self._model, engine, None)
+            self._excitations, tuple(own.items()), lambda: excite_engine(self._model, engine, None)
         )
         varied = change_figures(self._model, values, {"torsion"})
-        system = _build(varied, engine, excitation)
-        found: dict[TargetQuantity, float] = {}
-        if of_modes := [q for q in self._quantities if q.kind == "torsion"]:
-            modes = find_natural_modes(system)
-            found |= {q: modes[int(q.target) - 1].frequency_hz for q in of_modes}
-        if of_shafts := [q for q in self._quantities if q.kind == "shaft"]:
-            found |= _find_largest(system, choose_torsion_speeds(engine), of_shafts)
-        return [found[q] for q in self._quantities]
+        system = build_engine_system(varied, engine, excitation)
+        frequencies = _find_frequencies(system)
+        largest = _find_largest(system, choose_torsion_speeds(engine), self._quantities)
+        return [
+            largest[q] if q.kind == "shaft" else float(frequencies[int(q.target) - 1])
+            for q in self._quantities
+        ]
+
+
+def _find_frequencies(system: TorsionalSystem) -> Real:
+    """Return the natural frequencies of the modes in which shafts twist, Hz, lowest first."""
+    modes = find_chain_modes(system.chain)
+    return np.asarray(modes.omega[modes.rigid :] / (2 * np.pi))
 
 
 def _find_largest(
-    system: TorsionalSystem, speeds: Real, quantities: list[TargetQuantity]
+    system: TorsionalSystem, speeds: Real, quantities: Sequence[TargetQuantity]
 ) -> dict[TargetQuantity, float]:
-    """Torque and stress of shafts."""
-    places = {q: system.shafts.index(q.target) for q in quantities}
-    shafts = sorted(set(places.values()))
-    _, torques = find_largest_torques(system, speeds, shafts)
-    largest = dict(zip(shafts, map(float, torques), strict=True))
-    by_torque = {"torque": np.ones(len(system.shafts)), "stress": stress_by_torque(system)}
-    return {q: largest[shaft] * float(by_torque[q.part][shaft]) for q, shaft in places.items()}
+    """Return torque and stress of shafts, those quantities that are one of them."""
+    places = {q: system.shafts.index(q.target) for q in quantities if q.kind == "shaft"}
+    if not places:
+        return {}
+    weights = np.isin(np.arange(count_columns(system)), list(places.values())).astype(float)
+    largest, by_torque = find_largest(system, speeds, weights).value, stress_by_torque(system)
+    return {
+        q: float(largest[shaft] * (by_torque[shaft] if q.part == "stress" else 1))
+        for q, shaft in places.items()
+    }
 
 
 def choose_torsion_speeds(engine: Engine) -> Real:
@@ -132,7 +139,6 @@ def choose_torsion_speeds(engine: Engine) -> Real:
     return np.asarray(np.linspace(SLOWEST, FASTEST, SPEEDS) * float(engine.speed_rpm))
 
 
-def _build(model: EngineFile, engine: Engine, excitation: Excitation | None) -> TorsionalSystem:
-    if excitation is None:
-        excitation = excite_engine(model, engine, None)
-    return build_engine_system(model, engine, excitation)
+def _build(model: EngineFile) -> TorsionalSystem:
+    engine = build(model)
+    return build_engine_system(model, engine, excite_engine(model, engine, None))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..enginefile.fields import counted, nearest, printable, shorten
+from ..enginefile.fields import printable, shorten, suggest_nearest
 from ..enginefile.file_kinds import CHAIN
 from ..enginefile.model import FileTable
 from ..enginefile.table_reader import TableReader
@@ -65,7 +65,7 @@ def _find_misfits(data: Mapping[str, Any]) -> Iterator[Problem]:
     fixed = data.get("fixed", ())
     for name in fixed if isinstance(fixed, list) else ():
         if isinstance(name, str) and name not in known:
-            yield Problem("fixed", _tell_missing(name, known))
+            yield Problem("fixed", _refuse_node(name, known))
 
 
 def _check_ends(
@@ -74,18 +74,15 @@ def _check_ends(
     named = [table.get(end) for end in ends]
     for end, name in zip(ends, named, strict=True):
         if isinstance(name, str) and name not in known:
-            yield Problem(f"{path}.{end}", _tell_missing(name, known))
+            yield Problem(f"{path}.{end}", _refuse_node(name, known))
     if len(named) == 2 and isinstance(named[0], str) and named[0] == named[1]:
         yield Problem(path, f"goes from {shorten(named[0])} to itself; it joins two nodes")
 
 
-def _tell_missing(name: str, known: Sequence[str]) -> str:
-    near = nearest(name, known)
-    told = list(dict.fromkeys(known))
-    listed = ", ".join(printable(each) for each in told[:8]) + (", ..." if told[8:] else "")
-    hint = f"did you mean {printable(near)}?" if near else f"there are {listed}"
-    count = counted(len(known), "node")
-    return f"{shorten(name)} is no node; {hint if known else f'there is {count}'}"
+def _refuse_node(name: str, known: Sequence[str]) -> str:
+    """Return what is wrong with a name that no node has."""
+    listed = ", ".join(printable(each) for each in dict.fromkeys(known[:8])) or "none"
+    return f"{shorten(name)} is no node; {suggest_nearest(name, known, f'there are {listed}')}"
 
 
 def _tables(data: Mapping[str, Any], key: str) -> list[tuple[int, Mapping[str, Any]]]:

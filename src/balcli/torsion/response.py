@@ -2,170 +2,278 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.peaks import find_swing, sum_amplitudes
 from ..core.telling import Tell, tell_nobody
-from ..core.vibration import Real
-from .largest import LargestVibration, find_largest_vibration, find_resonant_speeds
-from .motion import (
-    move,
-    refuse_too_many,
-    refuse_torsional_resonance,
-    split_speeds,
-    stress_by_torque,
-)
-from .system import TorsionalSystem
+from ..core.vibration import Complex, Real
+from ..documents.records import HIDDEN
+from .largest import find_largest
+from .motion import compute_curves, refuse_unbounded, stress_by_torque
+from .system import TorsionalSystem, whole_order
 
 _HALVINGS = 24  # of an interval of speeds in which a limit is passed
+_SAMPLES = 1 << 22  # of curves over a cycle: progress is reported after these
 
 
-class TorsionResponse(NamedTuple):
-    """Forced vibration.
+@dataclass(frozen=True)
+class OrderTorque:
+    """Torque of one order.
 
     Attributes:
-        speeds_rpm: (speeds,).
-        orders: (orders,).
-        torque: (speeds, shafts) half peak to peak of the vibratory torque, N m.
-        sums: (speeds, shafts) sum of the amplitudes of all orders, N m.
-        stress: (speeds, shafts) Pa, nan where a shaft has no diameter.
-        free_end: (speeds,) half swing of the first node, rad.
-        pendulums: (speeds, pendulums) half swing of each against its node, rad.
-        amplitudes: (orders, speeds, shafts) torque by order, N m.
-        swings: (orders, speeds) amplitude of the first node by order, rad.
-        heat: (speeds, dampers) W, rings of oil first, then of rubber.
-        dampers: names of their nodes.
-        worst: also between the speeds.
+        order: Order of the excitation.
+        amplitude_Nm: Amplitude of the torque.
+    """
+
+    order: float
+    amplitude_Nm: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class WorstTorque:
+    """Largest vibratory torque of a shaft over the range of speeds, between the speeds as well.
+
+    Attributes:
+        speed_rpm: Speed at which it occurs.
+        half_peak_to_peak_Nm: Half of peak to peak.
+        stress_Pa: Stress there; left out without a diameter.
+        orders: Torque by order.
+    """
+
+    speed_rpm: float
+    half_peak_to_peak_Nm: float
+    stress_Pa: float | None = None
+    orders: tuple[OrderTorque, ...]
+
+    @property
+    def sum_of_amplitudes_Nm(self) -> float:
+        """Sum of the amplitudes of all orders."""
+        return sum(each.amplitude_Nm for each in self.orders)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ShaftResponse:
+    """Vibratory torque of a shaft.
+
+    Attributes:
+        name: Name of the shaft.
+        half_peak_to_peak_Nm: Half of peak to peak, by speed.
+        sum_of_amplitudes_Nm: Sum of the amplitudes of all orders, by speed.
+        stress_Pa: Stress by half of peak to peak, by speed; left out without a diameter.
+        worst: Largest torque over the range of speeds.
+        amplitudes_Nm: Torque by order and speed.
+    """
+
+    name: str
+    half_peak_to_peak_Nm: Real
+    sum_of_amplitudes_Nm: Real
+    stress_Pa: Real | None = None
+    worst: WorstTorque
+    amplitudes_Nm: Annotated[Real, HIDDEN]
+
+
+@dataclass(frozen=True)
+class WorstSwing:
+    """Largest swing over the range of speeds, between the speeds as well.
+
+    Attributes:
+        speed_rpm: Speed at which it occurs.
+        half_swing_deg: Half of peak to peak.
+    """
+
+    speed_rpm: float
+    half_swing_deg: float
+
+
+@dataclass(frozen=True)
+class WorstHeat:
+    """Largest power that a damper turns to heat, over the range of speeds.
+
+    Attributes:
+        speed_rpm: Speed at which it occurs.
+        heat_W: Power.
+    """
+
+    speed_rpm: float
+    heat_W: float
+
+
+@dataclass(frozen=True, eq=False)
+class DamperHeat:
+    """Power that a damper turns to heat.
+
+    Attributes:
+        node: Name of the node that carries the damper.
+        heat_W: Power by speed.
+        worst: Largest power over the range of speeds.
+    """
+
+    node: str
+    heat_W: Real
+    worst: WorstHeat
+
+
+@dataclass(frozen=True, eq=False)
+class PendulumSwing:
+    """Swing of pendulums against their node.
+
+    Attributes:
+        node: Name of the node that carries them.
+        half_swing_deg: Half of peak to peak, by speed.
+        worst: Largest swing over the range of speeds.
+    """
+
+    node: str
+    half_swing_deg: Real
+    worst: WorstSwing
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TorsionResponse:
+    """Forced vibration over speeds.
+
+    Attributes:
+        speeds_rpm: Speeds.
+        shafts: Torque of each shaft.
+        free_end_deg: Half of the swing of the first node, by speed.
+        free_end_worst: Largest swing of the first node.
+        dampers: Heat of dampers, rings in oil first; left out without any.
+        pendulums: Swing of pendulums; left out without any.
+        orders: Orders of the excitation.
+        swings_deg: Amplitude of the first node by order and speed.
+        worst_swings_deg: Amplitude of the first node by order, where it swings most.
+        looked_at_rpm: Every speed that was looked at for the largest values.
     """
 
     speeds_rpm: Real
-    orders: Real
-    torque: Real
-    sums: Real
-    stress: Real
-    free_end: Real
-    pendulums: Real
-    amplitudes: Real
-    swings: Real
-    heat: Real
-    dampers: tuple[str, ...]
-    worst: LargestVibration
+    shafts: tuple[ShaftResponse, ...]
+    free_end_deg: Real
+    free_end_worst: WorstSwing
+    dampers: tuple[DamperHeat, ...] | None = None
+    pendulums: tuple[PendulumSwing, ...] | None = None
+    orders: Annotated[Real, HIDDEN]
+    swings_deg: Annotated[Real, HIDDEN]
+    worst_swings_deg: Annotated[Real, HIDDEN]
+    looked_at_rpm: Annotated[Real, HIDDEN]
 
 
 def find_response(
     system: TorsionalSystem, speeds_rpm: Real, tell: Tell = tell_nobody
 ) -> TorsionResponse:
-    """Vibration at speeds (speeds,), rising.
+    """Return the vibration at speeds.
 
     Args:
-        tell: is told which share of the speeds is done.
+        system: With an excitation.
+        speeds_rpm: (speeds,) rising.
+        tell: Called with the share of the speeds that is done.
 
     Raises:
-        BalcliError: nothing excites it; an undamped mode is driven at its own frequency.
+        BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
     """
-    refuse_too_many(system, len(speeds_rpm))
-    refuse_torsional_resonance(system, speeds_rpm)
-    parts, orders = [], system.require_excitation().orders
-    for some in split_speeds(system, speeds_rpm, samples=16 * (orders.max() + 1)):
-        parts.append(_summarise(system, orders, speeds_rpm[some]))
-        tell(some.stop / len(speeds_rpm))
-    joined = map(np.concatenate, zip(*parts, strict=True))
-    torque, sums, free_end, pendulums, amplitudes, swings, heat = joined
-    known = np.column_stack([torque, free_end, pendulums])
+    refuse_unbounded(system, speeds_rpm)
+    orders = system.require_excitation().orders
+    phasors, heat = compute_curves(system, speeds_rpm)
+    swings = _add_up(orders, phasors, tell)
+    largest = find_largest(system, speeds_rpm, known=np.concatenate([swings, heat], axis=1))
+    at, value = largest.rpm.tolist(), largest.value.tolist()
+    end = len(system.shafts)
+    there, _ = compute_curves(system, largest.rpm[: end + 1])
+    by_order = np.abs(there[:, range(end + 1), range(end + 1)])  # of each curve where it is largest
+    named_orders = list(map(whole_order, orders.tolist()))
+    shafts = []
+    for k, name in enumerate(system.shafts):
+        by_torque = None if (section := system.sections[k]) is None else section.stress_by_torque
+        amplitudes = np.abs(phasors[:, :, k])
+        worst = WorstTorque(
+            speed_rpm=at[k],
+            half_peak_to_peak_Nm=value[k],
+            stress_Pa=None if by_torque is None else value[k] * by_torque,
+            orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
+        )
+        shaft = ShaftResponse(
+            name=name,
+            half_peak_to_peak_Nm=swings[:, k],
+            sum_of_amplitudes_Nm=amplitudes.sum(axis=0),
+            stress_Pa=None if by_torque is None else swings[:, k] * by_torque,
+            worst=worst,
+            amplitudes_Nm=amplitudes,
+        )
+        shafts.append(shaft)
+
+    worst_swings = list(map(WorstSwing, at, np.degrees(largest.value).tolist()))
+    pendulums = tuple(
+        PendulumSwing(system.nodes[each.node], np.degrees(swings[:, k]), worst_swings[k])
+        for k, each in enumerate(system.pendulums, end + 1)
+    )
+    worst_heat = list(map(WorstHeat, at, value))[swings.shape[1] :]
+    names = (name.removesuffix(" ring") for name in system.dampers)
+    dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
-        speeds_rpm,
-        orders,
-        torque,
-        sums,
-        torque * stress_by_torque(system),
-        free_end,
-        pendulums,
-        np.swapaxes(amplitudes, 0, 1),
-        swings.T,
-        heat,
-        system.dampers,
-        find_largest_vibration(system, speeds_rpm, known, heat),
+        speeds_rpm=speeds_rpm,
+        shafts=tuple(shafts),
+        free_end_deg=np.degrees(swings[:, end]),
+        free_end_worst=worst_swings[end],
+        dampers=dampers or None,
+        pendulums=pendulums or None,
+        orders=orders,
+        swings_deg=np.degrees(np.abs(phasors[:, :, end])),
+        worst_swings_deg=np.degrees(by_order[:, end]),
+        looked_at_rpm=largest.speeds,
     )
 
 
-def _summarise(system: TorsionalSystem, orders: Real, rpm: Real) -> tuple[Real, ...]:
-    """What `find_response` puts together, each with the speeds first."""
-    motion = move(system, rpm)
-    swing, shafts = find_swing(orders, motion.curves).half, len(system.shafts)
-    return (
-        swing[:, :shafts],
-        sum_amplitudes(motion.torque),
-        swing[:, shafts],
-        swing[:, shafts + 1 :],
-        np.abs(motion.torque.swapaxes(0, 1)),
-        np.abs(motion.angle[:, :, 0].T),
-        motion.heat.sum(axis=0),
-    )
+def _add_up(orders: Real, phasors: Complex, tell: Tell) -> Real:
+    """Return half of peak to peak (speeds, curves) of phasors (orders, speeds, curves)."""
+    speeds, curves = phasors.shape[1:]
+    step = max(int(_SAMPLES / (curves * 32 * orders.max())), 1)
+    found = np.zeros((speeds, curves))
+    for start in range(0, speeds, step):
+        some = slice(start, min(start + step, speeds))
+        found[some] = find_swing(orders, phasors[:, some]).half
+        tell(some.stop / speeds)
+    return found
 
 
+# ------------------------------------------------------------------ barred speeds
 def find_barred(
-    system: TorsionalSystem, response: TorsionResponse, criticals_rpm: Real
+    system: TorsionalSystem, response: TorsionResponse
 ) -> tuple[tuple[float, float], ...] | None:
-    """Ranges of speed (rpm) in which a limit of the file is passed; None where it has none that can
-    be judged: of a stress, where no shaft has a diameter.
+    """Return ranges of speed (rpm) in which a limit of the file is passed; None if there is none
+    that can be judged: of a stress, where no shaft has a diameter.
 
-    Between the speeds of the response its worst, those of criticals and damped resonances are
-    looked at, too, and the middle between two that pass it; the ends of a range are found by
-    halving.
+    The speeds are all that the response was looked at for its largest values, and the middle
+    between two that pass a limit; the ends of a range are found by halving.
     """
-    if not _weigh_limits(system).any():
+    stress = np.nan_to_num(stress_by_torque(system)) / (system.limit_pa or np.inf)
+    weights = np.append(stress, 1 / (system.angle_limit or np.inf))
+    if not weights.any():
         return None
-    known = response.speeds_rpm
-    resonant, width = find_resonant_speeds(system, known)
-    worst = [*response.worst.speeds_rpm, response.worst.swing_rpm]
-    about = np.concatenate([worst, criticals_rpm, resonant, resonant - width, resonant + width])
-    between = np.setdiff1d(about[(about > known[0]) & (about < known[-1])], known)
-    speeds = np.concatenate([known, between])
-    swings = np.column_stack([response.torque, response.free_end])
-    here = np.any(swings * _weigh_limits(system) > 1, axis=1)
-    above = np.concatenate([here, _pass_limits(system, between)])
-    rising = np.argsort(speeds)
-    speeds, above = speeds[rising], above[rising]
+    orders = system.require_excitation().orders
+
+    def passes(rpm: Real) -> NDArray[np.bool_]:
+        """Whether a limit is passed at each speed (speeds,)."""
+        curves = compute_curves(system, rpm)[0][:, :, : len(weights)] * weights
+        passed = sum_amplitudes(curves) > 1
+        passed[passed] = find_swing(orders, curves[:, passed]).half > 1
+        return np.any(passed, axis=1)
+
+    speeds = response.looked_at_rpm
+    above = passes(speeds)
     gaps = np.flatnonzero(above[1:] & above[:-1])  # such as between two resonances
     middle = (speeds[gaps] + speeds[gaps + 1]) / 2
     speeds = np.insert(speeds, gaps + 1, middle)
-    above = np.insert(above, gaps + 1, _pass_limits(system, middle))
+    above = np.insert(above, gaps + 1, passes(middle))
     changes = np.flatnonzero(above[1:] != above[:-1])
     low, high, upward = speeds[changes], speeds[changes + 1], above[changes + 1]
     for _ in range(_HALVINGS if len(changes) else 0):
         middle = (low + high) / 2
-        passed = _pass_limits(system, middle) == upward
-        low, high = np.where(passed, low, middle), np.where(passed, middle, high)
+        same = passes(middle) == upward
+        low, high = np.where(same, low, middle), np.where(same, middle, high)
     ends = (low + high) / 2
     starts = [*speeds[:1][above[:1]].tolist(), *ends[upward].tolist()]
     stops = [*ends[~upward].tolist(), *speeds[-1:][above[-1:]].tolist()]
     return tuple(zip(starts, stops, strict=True))
-
-
-def _pass_limits(system: TorsionalSystem, rpm: Real) -> NDArray[np.bool_]:
-    """Whether a limit is passed at each speed (speeds,); only curves are added up in time whose
-    amplitudes together pass it.
-    """
-    passed, weights = np.zeros(len(rpm), bool), _weigh_limits(system)
-    orders = system.require_excitation().orders
-    for some in split_speeds(system, rpm):
-        curves = move(system, rpm[some]).curves[:, :, : len(weights)] * weights
-        most, here = sum_amplitudes(curves), passed[some]
-        first = most.argmax(axis=1)[:, None] == np.arange(most.shape[1])
-        for which in (first, ~first):  # one curve mostly tells
-            speed, curve = np.nonzero(which & (most > 1) & ~here[:, None])
-            if len(speed):
-                swings = find_swing(orders, curves[:, speed, curve]).half
-                here[speed[swings > 1]] = True
-    return passed
-
-
-def _weigh_limits(system: TorsionalSystem) -> Real:
-    """What makes shares of a limit of the torques of all shafts and the swing of the first node
-    (shafts + 1,); 0 where there is none.
-    """
-    stress = np.nan_to_num(stress_by_torque(system)) / (system.limit_pa or np.inf)
-    return np.append(stress, 1 / (system.angle_limit or np.inf))

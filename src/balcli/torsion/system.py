@@ -4,7 +4,7 @@ it. Speeds and orders are those of its reference, the crankshaft or the first no
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
 from typing import NamedTuple
@@ -16,6 +16,11 @@ from ..core.torsional_dampers import pendulum_inertia, pendulum_swing, viscous_i
 from ..core.vibration import Complex, Indices, Real
 from ..engine.build import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
+
+
+def whole_order(order: float) -> float:
+    """Return an order as it is written: a whole one without a point."""
+    return int(order) if order == int(order) else order
 
 
 class ShaftSection(NamedTuple):
@@ -63,20 +68,16 @@ class Excitation(NamedTuple):
     growing: Complex
 
     def at(self, speeds: Real) -> Complex:
-        """Torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s."""
+        """Return torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s."""
         grown = self.growing[:, None, :] * speeds[:, None] ** 2
         return np.asarray(self.steady[:, None, :] + grown, complex)
 
     def on_nodes(self, speeds: Real, count: int) -> Complex:
-        """The same, added up node by node: (orders, speeds, nodes)."""
-        torques = self.at(speeds)
-        found = np.zeros((count, *torques.shape[:2]), complex)
-        for source, node in enumerate(self.nodes):
-            found[node] += torques[:, :, source]
-        return np.moveaxis(found, 0, -1)
+        """Return the torques added up node by node, (orders, speeds, nodes)."""
+        return self.at(speeds) @ np.equal.outer(self.nodes, np.arange(count))
 
     def only(self, orders: Real) -> Excitation:
-        """Some of its orders."""
+        """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)
         return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept])
 
@@ -133,6 +134,19 @@ class TorsionalSystem:
         if self.excitation is None:
             raise self.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
         return self.excitation
+
+    def driven_at(self, orders: Real | None) -> TorsionalSystem:
+        """Return the system excited at these orders alone; None: at all.
+
+        Raises:
+            BalcliError: nothing excites it, or not at these orders.
+        """
+        excitation = self.require_excitation()
+        if orders is not None:
+            excitation = excitation.only(orders)
+        if not len(excitation.orders):
+            raise self.refusal("nothing excites it at the orders asked for")
+        return replace(self, excitation=excitation)
 
     @cached_property
     def gears(self) -> Real:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.vibration import Real
+from ...errors import BalcliError
 from ...torsion.analysis import TorsionAnalysis
 from ...torsion.response import TorsionResponse
 from ..sheet import number, order_name
@@ -42,14 +43,20 @@ _WORTH = 1e-3  # share of work from which a critical is drawn
 def make_torsion(
     result: TorsionAnalysis, what: str, system: System = SI, *, titled: bool = True
 ) -> Figure:
-    """Return a page of pictures; `what` is "all" or one of `OF_TORSION`."""
+    """Return a page of pictures; `what` is "all" or one of `OF_TORSION`.
+
+    Raises:
+        BalcliError: there is no shaft whose torque could be drawn.
+    """
+    if what == "waterfall" and not result.shafts:
+        raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
     parts = list(_choose_parts(result, what, system))
     columns = 2 if what == "all" else 1
     rows = -(-len(parts) // columns)
     with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3) as fig:
         for place, draw in enumerate(parts, 1):
             draw(fig.add_subplot(rows, columns, place))
-        name = fit_name(result.system.name) or "shafts without a name"
+        name = fit_name(result.name or "") or "shafts without a name"
         if titled:
             put_title(fig, f"{name}: torsion")
         return fig
@@ -80,7 +87,7 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
             style: Any = (0, (1, 2)) if np.isinf(stiffness) else line
             angles = mode.shape[[start, end]]
             ax.plot([start, end], angles, color=colour, linestyle=style, linewidth=1.4)
-        label = f"{mode.number}: {number(mode.frequency_hz, 4)} Hz"
+        label = f"{mode.number}: {number(mode.frequency_Hz, 4)} Hz"
         ax.plot(range(len(names)), mode.shape, "o", color=colour, markersize=3, zorder=3)
         ax.plot([], [], line, color=colour, linewidth=1.4, marker="o", markersize=3, label=label)
     ax.axhline(0, color=SOFT, linewidth=0.8)
@@ -96,24 +103,24 @@ def _find_span(result: TorsionAnalysis) -> float:
     """Return the highest speed of a Campbell diagram, rpm."""
     if result.response is not None:
         return float(result.response.speeds_rpm[-1])
-    worth = [each.speed_rpm for each in result.criticals if each.work_share > 0.02]
-    first = result.modes[0].frequency_hz * 60 if result.modes else 1000.0
+    worth = [each.speed_rpm for each in result.criticals or () if each.work_share > 0.02]
+    first = result.modes[0].frequency_Hz * 60 if result.modes else 1000.0
     return 1.1 * min(max(worth, default=first), 2 * first)
 
 
 def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     """Draw natural frequencies over speed, a ray for each order, a dot for each critical."""
     top = _find_span(result)
-    drawn = [c for c in result.criticals if c.work_share > _WORTH and c.speed_rpm <= top]
+    drawn = [c for c in result.criticals or () if c.work_share > _WORTH and c.speed_rpm <= top]
     modes = {mode.number: mode for mode in result.modes}
-    highest = max((modes[c.mode].frequency_hz for c in drawn), default=0.0)
-    first = result.modes[0].frequency_hz if result.modes else 1.0
+    highest = max((modes[c.mode].frequency_Hz for c in drawn), default=0.0)
+    first = result.modes[0].frequency_Hz if result.modes else 1.0
     ceiling = 1.25 * max(highest, first)
     for mode in result.modes:
-        if mode.frequency_hz < ceiling:
-            ax.axhline(mode.frequency_hz, color=INK, linewidth=1)
-            label = f"{number(mode.frequency_hz, 4)} Hz"
-            ax.text(0.01 * top, mode.frequency_hz, label, va="bottom", fontsize=7)
+        if mode.frequency_Hz < ceiling:
+            ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
+            label = f"{number(mode.frequency_Hz, 4)} Hz"
+            ax.text(0.01 * top, mode.frequency_Hz, label, va="bottom", fontsize=7)
     excitation = result.system.excitation
     orders = [] if excitation is None else sorted({c.order for c in drawn}) or excitation.orders
     named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))
@@ -125,7 +132,7 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     most = max((critical.work for critical in drawn), default=1.0)
     for critical in drawn:
         size = 12 + 240 * critical.work / most
-        height = modes[critical.mode].frequency_hz
+        height = modes[critical.mode].frequency_Hz
         ax.scatter([critical.speed_rpm], [height], s=size, color=RED, alpha=0.7, zorder=3)
     ax.set(xlim=(0, 1.03 * top), ylim=(0, ceiling), xlabel="rpm", ylabel="Hz")
     ax.set_title("Campbell diagram: orders, and criticals by work")
@@ -143,19 +150,22 @@ def _draw_torque(
     """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
     with a diameter where the file limits it. Each curve includes its peak between the speeds.
     """
-    worst = response.worst
-    largest = np.argsort(-worst.torque, kind="stable").tolist()
-    stressed = [k for k in largest if result.system.sections[k] is not None]
-    limit = result.system.limit_pa
-    by_stress = bool(stressed) and limit is not None
-    shown = sorted((stressed if by_stress else largest)[:_MOST_SHAFTS])
-    swings = response.stress if by_stress else response.torque
-    peaks = worst.stress if by_stress else worst.torque
-    unit = (system.stress if by_stress else system.moment).fit(float(peaks[shown].max()))
-    for k, (line, colour) in zip(shown, cycle(MANY_LOOKS)):
-        name = fit_name(result.system.shafts[k], 22)
-        rpm, swing = _put_in(response.speeds_rpm, swings[:, k], worst.speeds_rpm[k], peaks[k])
-        ax.plot(rpm, swing / unit.size, line, color=colour, label=name)
+    limit, sections = result.system.limit_pa, result.system.sections
+    by_stress = any(sections) and limit is not None
+    curves = []  # shaft, by speed, largest
+    for shaft, section in zip(response.shafts, sections, strict=True):
+        torque, peak = shaft.half_peak_to_peak_Nm, shaft.worst.half_peak_to_peak_Nm
+        if not by_stress:
+            curves.append((shaft, torque, peak))
+        elif section is not None:
+            by_torque = section.stress_by_torque
+            curves.append((shaft, torque * by_torque, peak * by_torque))
+    least = sorted((peak for _, _, peak in curves), reverse=True)[:_MOST_SHAFTS][-1]
+    unit = (system.stress if by_stress else system.moment).fit(max(peak for _, _, peak in curves))
+    shown = [each for each in curves if each[2] >= least]
+    for (shaft, swings, peak), (line, colour) in zip(shown, cycle(MANY_LOOKS)):
+        rpm, swing = _put_in(response.speeds_rpm, swings, shaft.worst.speed_rpm, peak)
+        ax.plot(rpm, swing / unit.size, line, color=colour, label=fit_name(shaft.name, 22))
     if by_stress and limit is not None:
         ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
     _finish(ax, response, unit.name)
@@ -166,14 +176,14 @@ def _draw_torque(
 
 def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
     """Draw the half swing of the first node, and its largest orders."""
-    worst = response.worst
-    rpm, swing = _put_in(response.speeds_rpm, response.free_end, worst.swing_rpm, worst.free_end)
-    _, swings = _put_in(response.speeds_rpm, response.swings, worst.swing_rpm, worst.swings)
-    ax.plot(rpm, np.degrees(swing), color=INK, label="added up in time")
+    worst, speeds = response.free_end_worst, response.speeds_rpm
+    rpm, swing = _put_in(speeds, response.free_end_deg, worst.speed_rpm, worst.half_swing_deg)
+    _, swings = _put_in(speeds, response.swings_deg, worst.speed_rpm, response.worst_swings_deg)
+    ax.plot(rpm, swing, color=INK, label="added up in time")
     largest = np.argsort(-swings.max(axis=1), kind="stable")[:5]
     for k, (line, colour) in zip(sorted(largest), MANY_LOOKS, strict=False):
         label = f"order {order_name(float(response.orders[k]))}"
-        ax.plot(rpm, np.degrees(swings[k]), line, color=colour, linewidth=1, label=label)
+        ax.plot(rpm, swings[k], line, color=colour, linewidth=1, label=label)
     _finish(ax, response, "deg")
     ax.set_title(f"Half swing of {fit_name(result.system.nodes[0], 30)}", pad=30)
     put_legend_above(ax, 3)
@@ -196,14 +206,10 @@ def _draw_waterfall(
     ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> None:
     """Draw each order of the largest torque of a shaft as a stream up the speeds."""
-    worst = response.worst
-    shaft = int(np.argmax(worst.torque))
-    rpm, amplitudes = _put_in(
-        response.speeds_rpm,
-        response.amplitudes[:, :, shaft],
-        worst.speeds_rpm[shaft],
-        worst.amplitudes[:, shaft],
-    )
+    shaft = max(response.shafts, key=lambda each: each.worst.half_peak_to_peak_Nm)
+    worst = [each.amplitude_Nm for each in shaft.worst.orders]
+    speeds = response.speeds_rpm
+    rpm, amplitudes = _put_in(speeds, shaft.amplitudes_Nm, shaft.worst.speed_rpm, np.array(worst))
     gap = float(np.diff(response.orders).min()) if len(response.orders) > 1 else 1.0
     half = _WIDEST * gap / 2 / (float(amplitudes.max()) or 1.0)
     for order, sizes in zip(response.orders, amplitudes, strict=True):
@@ -213,7 +219,7 @@ def _draw_waterfall(
     ax.set(xlabel="order", ylabel="rpm")
     ax.grid(visible=False, axis="x")
     ax.set_xlim(0, float(response.orders[-1]) + gap)
-    name = fit_name(result.system.shafts[shaft], 22)
     unit = system.moment.fit(float(amplitudes.max()))
     largest = f"{number(unit.of(float(amplitudes.max())), 3)} {unit.name}"
+    name = fit_name(shaft.name, 22)
     ax.set_title(f"Torque of {name} by order: width, at most {largest}")
