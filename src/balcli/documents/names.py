@@ -9,7 +9,7 @@ DOCUMENTS = {
     "check": "studies",
     "compare": "studies",
     "curves": "studies",
-    "field": "field",
+    "field": "field_balancing.balance:FieldBalance",
     "marine": "analysis",
     "mounts": "vibration",
     "numbers": "studies",
