@@ -47,7 +47,7 @@ CASES = [
     ),
     (
         with_first('"53 @ 78"', '"-53 @ 78"'),
-        'run.1.readings: the 2nd value "-53 @ 78" has a negative amplitude; leave the minus out and turn the angle by 180 degrees',
+        'run.1.readings: the 2nd value "-53 @ 78" has a negative amplitude; leave the minus out, turn the angle by 180 degrees',
     ),
     (
         with_first('"53 @ 78"', '"1e99 @ 78"'),

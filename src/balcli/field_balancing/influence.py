@@ -81,7 +81,7 @@ class Influence(NamedTuple):
 
 def collect_series(file: RunsFile) -> list[Series]:
     """Return the runs as one series for each speed, in the order of the file."""
-    found = []
+    found: list[Series] = []
     for speed in dict.fromkeys(run.speed for run in file.run):
         numbers = [k for k, run in enumerate(file.run) if run.speed == speed]
         kept, states = np.zeros(len(file.planes), dtype=complex), []
@@ -151,7 +151,7 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
         fitted = np.array([solve(design, column).x for column in series.readings.T])
         found, changes = fitted[:, 0], fitted[:, 1:]
         unmoved = np.abs(changes) <= _ROUNDING * np.abs(series.readings).max(axis=0)[:, None]
-        alpha = np.where(unmoved, 0, changes) / (np.abs(series.weights).max() or 1.0)
+        alpha = changes * ~unmoved / (np.abs(series.weights).max() or 1.0)
     bare = ~series.weights.any(axis=1)
     return alpha, np.asarray(series.readings[bare].mean(axis=0)) if bare.any() else found
 
@@ -190,7 +190,7 @@ def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int])
             f"has weights, and so has every other run{at}; give the readings of the rotor as "
             "found, in a run without weights",
         )
-    tried = series.weights.any(axis=0)
+    tried = np.asarray(series.weights.any(axis=0))
     if bare := [file.planes[k] for k in used if not tried[k]]:
         return Problem(
             "run",

@@ -71,9 +71,7 @@ class Polar(Number):
         amplitude, angle = map(float, match.groups())
         wrong = ""
         if amplitude < 0:
-            wrong = (
-                "has a negative amplitude; leave the minus out and turn the angle by 180 degrees"
-            )
+            wrong = "has a negative amplitude; leave the minus out, turn the angle by 180 degrees"
         elif amplitude == 0 and not self.zero:
             wrong = (
                 "is a weight of 0, which has no effect; give the weight that was on, or leave the "

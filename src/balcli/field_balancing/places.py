@@ -179,7 +179,7 @@ def find_region(angles_deg: Array, most: float) -> Region:
     before = np.flatnonzero(gaps >= 180 - _ROUNDING)
     after = (before + 1) % len(angles)
     ways, far = np.append(unit[after], -unit[before]), np.full(len(before), np.inf)
-    return Region(starts=np.zeros(len(ways)), ways=ways, lengths=np.append(far, -far))
+    return Region(starts=np.zeros_like(ways), ways=ways, lengths=np.append(far, -far))
 
 
 def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:

@@ -38,8 +38,8 @@ def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[Any, ...
             yield from _list_part("influence", value, name, "", reading["speed_rpm"])
     for each in found.get("permitted", {"planes": ()})["planes"]:
         yield from _list_part("permitted", each, each["plane"])
-    details = {key: found[key] for key in ("condition", "largest", "rms", "bound") if key in found}
-    yield from _list_part("details", details)
+    keys = ("condition", "largest", "rms", "bound")
+    yield from _list_part("details", {key: found[key] for key in keys if key in found})
 
 
 def _list_part(
@@ -54,7 +54,7 @@ def _list_part(
 
 # ------------------------------------------------------------------ for people
 def sheet(result: FieldBalance, system: System) -> Sheet:
-    """Return all tables, the corrections first; weights and readings are in the units of the file."""
+    """Return all tables; weights and readings are in the units of the file."""
     file = result.file
     parts: list[Grid | Facts | Text] = [_show_senses(result), _show_corrections(result, system)]
     if file.places or file.drill:
@@ -121,12 +121,9 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
             yield f"Without its limit, {each.plane} would take {best}."
     if result.left_out:
         yield f"Left out: {', '.join(result.left_out)}."
-    weights_on = dict(
-        zip(result.file.planes, result.file.turn(result.runs.weights_on), strict=True)
-    )
-    for plane in result.left_out:
-        if weight := complex(weights_on[plane]):
-            kept = _weight_text(result, weight)
+    for plane, weight in zip(result.file.planes, result.runs.weights_on, strict=True):
+        if weight and plane in result.left_out:
+            kept = _weight_text(result, result.file.turn(complex(weight)))
             yield f"What was on in '{result.trimmed}' stays on in {plane}: {kept}."
 
 
