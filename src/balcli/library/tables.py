@@ -6,7 +6,6 @@ from types import NoneType
 
 from ..errors import wrong_type
 from ..limits import HIGHEST_POWER
-from ..printed_tables.ranges import Ranges, parse_crank_ratios, parse_range
 from ..printed_tables.recomputed import Table
 from ..printed_tables.registry import NAMES, recompute
 from .arguments import check_count, tell_arguments
@@ -39,15 +38,9 @@ def tables(
     """
     if not isinstance(name, str):
         raise wrong_type("tables", name, f"give the name of a table, such as {NAMES[1]!r}")
-    for option, text, example in (
-        ("ratios", ratios, "0.20:0.40:0.01"),
-        ("angles", angles, "0:180:5"),
-    ):
-        if not isinstance(text, (str, NoneType)):
-            raise wrong_type(option, text, f'give a text, such as "{example}"')
-    ranges = Ranges(
-        None if ratios is None else parse_crank_ratios(ratios),
-        None if angles is None else parse_range(angles, "--angle"),
-        None if power is None else check_count("power", power, 0, HIGHEST_POWER),
-    )
-    return recompute(name, ranges)
+    if not isinstance(ratios, (str, NoneType)):
+        raise wrong_type("ratios", ratios, 'give a text, such as "0.20:0.40:0.01"')
+    if not isinstance(angles, (str, NoneType)):
+        raise wrong_type("angles", angles, 'give a text, such as "0:180:5"')
+    highest = None if power is None else check_count("power", power, 0, HIGHEST_POWER)
+    return recompute(name, ratios, angles, highest)
