@@ -51,11 +51,11 @@ CASES = [
     ),
     (
         with_first('"53 @ 78"', '"1e99 @ 78"'),
-        'run.1.readings: the 2nd value "1e99 @ 78" is too large; amplitudes go up to 1e+12, angles to 1e+06 degrees',
+        'run.1.readings: the 2nd value "1e99 @ 78" is too large or small; amplitudes are 0 or 1e-12 to 1e+12, angles up to 1e+06 degrees',
     ),
     (
         with_first('"53 @ 78"', '"1e-13 @ 78"'),
-        'run.1.readings: the 2nd value "1e-13 @ 78" is too small; amplitudes are 0, or 1e-12 and more',
+        'run.1.readings: the 2nd value "1e-13 @ 78" is too large or small; amplitudes are 0 or 1e-12 to 1e+12, angles up to 1e+06 degrees',
     ),
     (
         with_first('"53 @ 78"', '"nan @ 78"'),

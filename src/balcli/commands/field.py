@@ -13,7 +13,7 @@ from ..errors import BalcliError, Exit
 from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, text_format
-from .options import FormatOption, Output
+from .options import FormatOption, Output, UnitsOption
 from .output import refuse_overwriting, show, write_figure
 
 
@@ -51,24 +51,14 @@ def field(
         ),
     ] = False,
     form: FormatOption = None,
-    units: Annotated[
-        Units,
-        typer.Option(
-            "--units",
-            case_sensitive=False,
-            envvar="BALCLI_UNITS",
-            show_envvar=False,
-            help="imperial: in, oz·in and lb in tables; weights and readings have the units of the "
-            "file, JSON and CSV stay metric.",
-        ),
-    ] = Units.SI,
+    units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Balance a rotor on the machine or in its bearings: from readings with trial weights to
     correction weights, places or drill holes, and what is left.
 
     `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
-    with a trial weight in each plane.
+    with a trial weight in each plane. Weights and readings have the units of the file.
 
     \b
     Examples:

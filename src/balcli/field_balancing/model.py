@@ -30,7 +30,6 @@ _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
 _AT = rf"\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*"
 _POLAR = re.compile(rf"\s*({BARE_FIGURE}){_AT}", re.ASCII)
 _WITH_UNIT = re.compile(rf"\s*({BARE_FIGURE})\s*([^\s\d.,@+-][^@]*?){_AT}", re.ASCII)
-_LARGEST, _SMALLEST = 1e12, 1e-12
 _FARTHEST_DEG = 1e6
 FREE = "free"  # places of a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", MASS.powers, ("g", "oz", "g mm"))
@@ -77,13 +76,11 @@ class Polar(Number):
                 "is a weight of 0, which has no effect; give the weight that was on, or leave the "
                 "plane out"
             )
-        elif amplitude > _LARGEST or abs(angle) > _FARTHEST_DEG:
+        elif not (amplitude == 0 or 1e-12 <= amplitude <= 1e12) or abs(angle) > _FARTHEST_DEG:
             wrong = (
-                f"is too large; amplitudes go up to {_LARGEST:g}, angles to {_FARTHEST_DEG:g} "
-                "degrees"
+                "is too large or small; amplitudes are 0 or 1e-12 to 1e+12, angles up to "
+                f"{_FARTHEST_DEG:g} degrees"
             )
-        elif 0 < amplitude < _SMALLEST:
-            wrong = f"is too small; amplitudes are 0, or {_SMALLEST:g} and more"
         if wrong:
             raise ValueError(f"{shorten(value)} {wrong}")
         return make_polar(amplitude, angle)

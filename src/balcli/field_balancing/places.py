@@ -136,28 +136,22 @@ def split_weight(
     angles, numbers, unit = _sort_places(angles_deg)
     target, limit, nothing = wanted / size, most / size, max(_ROUNDING, noise / size)
     count = len(angles)
-    alone = np.flatnonzero(np.abs(unit - target) < nothing)
-    parts: list[tuple[int, float]] = []
-    if len(alone) and limit >= 1 - nothing:
-        parts = [(int(alone[0]), 1.0)]
     sums = np.concatenate([[0], np.cumsum(np.tile(unit, 2))])
     first = np.arange(count)
-    for between in range(count - 1 if np.isfinite(limit) else min(1, count - 1)):
-        if parts:
-            break
+    for between in range(max(count - 1, 1) if np.isfinite(limit) else 1):
         last = first + between + 1
         full = (limit if between else 0.0) * (sums[last] - sums[first + 1])
-        shares = _resolve(target - full, unit, unit[last % count])
+        shares = _resolve(target - full, unit, unit[last % count], nothing)
         right = np.flatnonzero(((shares >= -nothing) & (shares <= limit + nothing)).all(axis=0))
         if len(right):
             i = int(right[0])
-            amounts = [shares[0, i], *[limit] * between, shares[1, i]]
-            parts = [((i + k) % count, float(a)) for k, a in enumerate(amounts) if a > nothing]
-    pieces = [
-        Piece(weight=share * size, angle_deg=float(angles[k]), place=int(numbers[k]))
-        for k, share in parts
-    ]
-    return tuple(pieces) or None
+            amounts = enumerate([shares[0, i], *[limit] * between, shares[1, i]], i)
+            parts = [(k % count, float(share)) for k, share in amounts if share > nothing]
+            return tuple(
+                Piece(weight=share * size, angle_deg=float(angles[k]), place=int(numbers[k]))
+                for k, share in parts
+            )
+    return None
 
 
 def find_region(angles_deg: Array, most: float) -> Region:
@@ -189,11 +183,13 @@ def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
     return angles, first + 1, np.exp(1j * np.radians(angles))
 
 
-def _resolve(wanted: Complex, one: Complex, other: Complex) -> Array:
+def _resolve(wanted: Complex, one: Complex, other: Complex, nothing: float) -> Array:
     """Return the weights along `one` and `other` that add up to `wanted`, shape (2, places).
 
-    `other` must be less than half a turn on from `one`; otherwise both are -1.
+    If `other` is half a turn or more on from `one`, `one` has to do alone; what cannot be is -1.
     """
-    across = (np.conj(one) * other).imag
-    parts = np.array([-(np.conj(other) * wanted).imag, (np.conj(one) * wanted).imag])
-    return np.where(across > _ROUNDING, parts / np.where(across > _ROUNDING, across, 1.0), -1.0)
+    across, miss = (np.conj(one) * other).imag, (np.conj(one) * wanted).imag
+    parts = np.array([-(np.conj(other) * wanted).imag, miss])
+    alone = np.where(np.abs(miss) < nothing, (np.conj(one) * wanted).real, -1.0)
+    two = across > _ROUNDING
+    return np.where(two, parts / np.where(two, across, 1.0), [alone, np.zeros_like(alone)])

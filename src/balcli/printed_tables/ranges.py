@@ -54,13 +54,9 @@ def parse_crank_ratios(text: str) -> tuple[str, ...]:
     found = parse_range(text, "--lambda")
     bad = next((heading for heading in found if not 0 < _read(heading) < 1), None)
     if bad is not None:
-        hint = ""
-        if re.fullmatch(r"0,\d+", text):
-            hint = f"; decimals take a point: {text.replace(',', '.')}"
-        elif _read(bad) > 1:
-            hint = f"; of a rod {bad} times as long as the crank radius it is 1/{bad}"
         raise BalcliError(
-            f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1{hint}"
+            f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1; give "
+            "crank radius over rod length, such as 0.25 or 1/3.5"
         )
     return found
 

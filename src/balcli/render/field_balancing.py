@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
+from ..core.phasors import Complex
 from ..documents.records import Node, angle_deg, list_figures, to_document
 from ..field_balancing.balance import FieldBalance
 from .csv import Rows, name_cell
@@ -206,14 +207,10 @@ def name_readings(result: FieldBalance) -> list[str]:
 
 def _show_readings(result: FieldBalance) -> Grid:
     unit = f", {result.unit}" if result.unit else ""
-    states = [("as found", result.runs.found)]
-    states += [(result.runs.state, result.before)] if result.trimmed else []
-    states += [("after", result.residual)]
-    heads = [head for name, _ in states for head in (f"{name}{unit}", "at, deg")]
-    lines = [
-        (name, *(cell for value in values for cell in _polar(complex(value))))
-        for name, *values in zip(name_readings(result), *(v for _, v in states), strict=True)
-    ]
+    states = {f"as found{unit}": result.runs.found}
+    if result.trimmed:
+        states[f"{result.runs.state}{unit}"] = result.before
+    states[f"after{unit}"] = result.residual
     weighted = " weighted" if result.file.reading_weights else ""
     note = f"Largest{weighted} after: {number(result.largest, 4)}, rms {number(result.rms, 4)}. "
     if not result.residual.any():
@@ -225,20 +222,33 @@ def _show_readings(result: FieldBalance) -> Grid:
         which = "that the places and limits allow" if result.limited else "possible"
         note += f"The sum of their squares is the least {which}."
     title = "Readings, predicted after the corrections"
-    return Grid(title, ("reading", *heads), tuple(lines), note)
+    return _show_polar(title, result, [*states], [*states.values()], 4, note)
 
 
 def _show_influence(result: FieldBalance) -> Grid:
-    planes = [result.file.planes.index(each.plane) for each in result.corrections]
-    heads = [head for each in result.corrections for head in (each.plane, "at, deg")]
-    lines = tuple(
-        (name, *(cell for k in planes for cell in _polar(complex(row[k]), 5)))
-        for name, row in zip(name_readings(result), result.influence, strict=True)
-    )
+    planes = [each.plane for each in result.corrections]
+    columns = [result.influence[:, result.file.planes.index(plane)] for plane in planes]
     note = (
         f"Change of a reading by 1 {result.weight_unit} at 0 deg in the plane; angles count as "
         f"phases do, {result.phases} rotation."
     )
     if result.trimmed and result.file.influence is None:
         note += " By least squares over all runs."
-    return Grid("Influence coefficients", ("reading", *heads), lines, note)
+    return _show_polar("Influence coefficients", result, planes, columns, 5, note)
+
+
+def _show_polar(
+    title: str,
+    result: FieldBalance,
+    names: Sequence[str],
+    columns: Sequence[Complex],
+    digits: int,
+    note: str,
+) -> Grid:
+    """Return a table of complex columns, a line for each reading."""
+    heads = [head for name in names for head in (name, "at, deg")]
+    lines = [
+        (name, *(cell for value in values for cell in _polar(complex(value), digits)))
+        for name, *values in zip(name_readings(result), *columns, strict=True)
+    ]
+    return Grid(title, ("reading", *heads), tuple(lines), note)
