@@ -14,7 +14,7 @@ from typing import Annotated, Literal, TypeAlias
 import numpy as np
 
 from ..core.least_squares import find_dependent_columns, solve
-from ..core.phasors import Array, Complex
+from ..core.phasors import Complex
 from ..core.smallest_largest import minimise as make_small
 from ..documents.records import HIDDEN, INLINE, Axes, Polar
 from ..enginefile.fields import counted, nearest, shorten
@@ -23,7 +23,7 @@ from ..result import Result
 from .doubts import find_doubts
 from .influence import Influence, find_influence
 from .model import RunsFile, Sense
-from .permitted import find_permitted_eccentricity, find_permitted_unbalance
+from .permitted import find_permitted_unbalance
 from .places import Piece, PlaneLimits
 
 Minimise = Literal["squares", "max"]
@@ -233,7 +233,9 @@ def find_corrections(
     noise = _ROUNDING * (np.abs(now) + np.abs(matrix) @ np.abs(step))
     residual = np.where(np.abs(small.residual) <= noise, 0, -small.residual)
     left = factors * np.abs(residual)
-    own_effects = _find_own_effects(matrix)
+    # sine of the angle between each column and the space of the others
+    inverse = np.linalg.pinv(matrix / np.linalg.norm(matrix, axis=0), rcond=0.0)
+    own_effects = 1 / np.linalg.norm(inverse, axis=1)
     corrections = []
     for j, k in enumerate(used):
         on, add = runs.weights_on[k], complex(file.turn(step[j]))
@@ -327,12 +329,6 @@ def _refuse_dependent(matrix: Complex, planes: list[str], name: str) -> None:
     raise InputError([Problem("planes", message)], name)
 
 
-def _find_own_effects(matrix: Complex) -> Array:
-    """Return the sine of the angle between each column and the space of the others."""
-    directions = matrix / np.linalg.norm(matrix, axis=0)
-    return np.asarray(1 / np.linalg.norm(np.linalg.pinv(directions, rcond=0.0), axis=1))
-
-
 def _find_unbalance(file: RunsFile, k: int, weight: complex) -> float | None:
     """Return the unbalance of a weight in the k-th plane, g mm; None if no radius is known."""
     per_weight = file.find_unbalance_per_weight(k)
@@ -369,7 +365,7 @@ def _find_permitted(
             )
         )
     return Permitted(
-        specific_mm=find_permitted_eccentricity(file.grade, file.speed),
+        specific_mm=whole / (1e3 * file.mass),
         unbalance_g_mm=whole,
         planes=tuple(planes),
         reached=all(each.reached for each in planes),

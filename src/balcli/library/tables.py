@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import NoneType
 
-from ..errors import wrong_type
+from ..errors import check_type
 from ..limits import HIGHEST_POWER
 from ..printed_tables.recomputed import Table
 from ..printed_tables.registry import NAMES, recompute
@@ -36,11 +36,8 @@ def tables(
     Example:
         >>> tables("tsinghua-1-2").errata
     """
-    if not isinstance(name, str):
-        raise wrong_type("tables", name, f"give the name of a table, such as {NAMES[1]!r}")
-    if not isinstance(ratios, (str, NoneType)):
-        raise wrong_type("ratios", ratios, 'give a text, such as "0.20:0.40:0.01"')
-    if not isinstance(angles, (str, NoneType)):
-        raise wrong_type("angles", angles, 'give a text, such as "0:180:5"')
+    check_type("tables", name, str, f"give the name of a table, such as {NAMES[1]!r}")
+    check_type("ratios", ratios, (str, NoneType), 'give a text, such as "0.20:0.40:0.01"')
+    check_type("angles", angles, (str, NoneType), 'give a text, such as "0:180:5"')
     highest = None if power is None else check_count("power", power, 0, HIGHEST_POWER)
     return recompute(name, ratios, angles, highest)

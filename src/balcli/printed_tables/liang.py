@@ -16,7 +16,7 @@ from ..enginefile import units
 from ..enginefile.units import POUND_FORCE, STANDARD_GRAVITY
 from .printed import Print
 from .ranges import Ranges
-from .recomputed import Explanation, Row, Table
+from .recomputed import Table
 
 POUND, FOOT = float(units.POUND), float(12 * units.INCH)  # kg, m
 CRANK, ROD = 2 / 12, 7 / 12  # ft
@@ -26,20 +26,13 @@ GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 
 def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers next to the printed ones, in the order of the book."""
-    exact = (*_first(), *_second(), *_third())
-    margin = [words[:-1] for words in printed.rows]
-    rows = [(*words, answer) for words, answer in zip(margin, exact, strict=True)]
+    rounded = _round(1.79 * 37400 / 32.2)
     others = (
         ("author's approximation: omega taken as 418 rad/s", 1, _round(_acceleration(418.0))),
-        (
-            "follows from the rounded figures 1.79 and 37400, g = 32.2",
-            2,
-            _round(1.79 * 37400 / 32.2),
-        ),
+        ("follows from the rounded figures 1.79 and 37400, g = 32.2", 2, rounded),
         ("author's approximation: g taken as 32.2 ft/s^2", 7, _second(32.2)[-1]),
     )
-    explanations = [Explanation.of_answer(*other, rows) for other in others]
-    return printed.compare(printed.columns, rows, stub=4, explanations=explanations)
+    return printed.compare_answers((*_first(), *_second(), *_third()), others)
 
 
 def _acceleration(omega: float = OMEGA) -> float:
@@ -47,7 +40,7 @@ def _acceleration(omega: float = OMEGA) -> float:
     return CRANK * omega**2 * (1 + CRANK / ROD)
 
 
-def _first() -> Row:
+def _first() -> tuple[float, ...]:
     """Return the answers of section 1-3: reciprocating weight (rod weighed at its ends), its
     greatest acceleration and inertia force.
     """
@@ -55,7 +48,7 @@ def _first() -> Row:
     return (mass, _acceleration(), mass * _acceleration() * POUND * FOOT / POUND_FORCE)
 
 
-def _second(gravity: float = GRAVITY) -> Row:
+def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
     """Return the answers of section 1-4, the rod's outline a triangle: hk, q^2, their difference,
     peak of beta''/p, residual couple in ft lb (all at 90 degrees).
     """
@@ -65,7 +58,7 @@ def _second(gravity: float = GRAVITY) -> Row:
     return (hk, q2, hk - q2, peak, couple)
 
 
-def _third() -> Row:
+def _third() -> tuple[float, ...]:
     """Return the answers of section 2-1: rotating weight (throw, big end), reciprocating weight
     (piston, small end); weight at 3.5 in for the first and half of the second at a crank of 3 in.
     """

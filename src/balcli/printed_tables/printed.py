@@ -64,6 +64,26 @@ class Print:
         shape = tuple(columns), tuple(rows), tuple(printed)
         return Table(self.name, self.title, self.source, *shape, tuple(explanations), stub)
 
+    def compare_answers(
+        self, answers: Sequence[float], others: Sequence[tuple[str, int, float]]
+    ) -> Table:
+        """Return the exact answers of worked examples, which stand at the ends of the rows.
+
+        Args:
+            answers: Exact answers.
+            others: What authors took instead: the kind of erratum, the number of the answer (from
+                0), their value.
+        """
+        rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
+        blank: Row = (None,) * len(self.columns)
+        explanations = [
+            Explanation(
+                kind, tuple((*blank[1:], value if k == n else None) for k in range(len(rows)))
+            )
+            for kind, n, value in others
+        ]
+        return self.compare(self.columns, rows, explanations=explanations, stub=4)
+
 
 def load_print(name: str) -> Print:
     """Return the print of a table: `# source:` and `# title:` lines, headings, rows."""

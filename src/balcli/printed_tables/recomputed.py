@@ -24,13 +24,6 @@ class Explanation:
     kind: str
     rows: tuple[Row, ...]
 
-    @classmethod
-    def of_answer(cls, kind: str, number: int, value: Cell, table: Sequence[Row]) -> Explanation:
-        """Return another value of one answer (from 0); answers stand at the ends of rows."""
-        rows: list[Row] = [(None,) * len(row) for row in table]
-        rows[number] = (*rows[number][:-1], value)
-        return cls(kind, tuple(rows))
-
 
 @dataclass(frozen=True)
 class Erratum:

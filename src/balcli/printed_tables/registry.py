@@ -35,7 +35,6 @@ TAKES = {  # the tables of other ranges than the printed ones, by option
     "angle": ("tsinghua-1-2", "tsinghua-1-3", "tsinghua-1-6"),
     "power": ("series",),
 }
-OTHER_NAMES = {"layout": "layouts", "bosch": "layouts"}  # what people look for
 
 
 def select_tables(
@@ -78,7 +77,6 @@ def recompute(
 
 
 def _find_name(name: str) -> str:
-    name = OTHER_NAMES.get(name.lower(), name)
     if name in TABLES:
         return name
     if several := [each for each in NAMES if each.startswith(f"{name.lower()}-")]:

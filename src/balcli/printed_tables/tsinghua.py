@@ -97,15 +97,11 @@ def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tab
     signs = "sign_left" in printed.columns
     inner = ("sign_left", *headings, "sign_right") if signs else headings
     columns = ("alpha_deg", *inner, "alpha_right_deg")
-    rows = [_margins(float(a), as_cells(line), signs) for a, line in zip(angles, body, strict=True)]
+    rows: list[Row] = []
+    for angle, line in zip(angles.tolist(), map(as_cells, body), strict=True):
+        left, right = "+-" if angle % 360 <= 180 else "-+"
+        rows.append((angle, *((left, *line, right) if signs else line), 360 - angle))
     return printed.compare(columns, rows, printed.align_cells(stub, columns))
-
-
-def _margins(angle: float, line: list[Cell], signs: bool) -> Row:
-    if not signs:
-        return (angle, *line, 360 - angle)
-    down = angle % 360 <= 180
-    return (angle, "+-"[not down], *line, "-+"[not down], 360 - angle)
 
 
 def _extreme(lam: Array, psi: Array, value: Array) -> Array:
