@@ -251,7 +251,7 @@ def test_unbalances_instead_of_weights():
     for one, other, share in zip(grams.permitted.planes, moments.permitted.planes, (1 / 4, 3 / 4), strict=True):
         assert one.permitted_g_mm == pytest.approx(whole * share, rel=1e-12)
         assert one.present_g_mm == pytest.approx(other.present_g_mm, rel=1e-12)
-    assert grams.reached
+    assert grams.permitted.reached
 
 
 def test_ounces():

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -17,13 +16,6 @@ from .options import FormatOption, Output, UnitsOption
 from .output import refuse_overwriting, show, write_figure
 
 
-class Minimised(StrEnum):
-    """What is made smallest of the readings."""
-
-    SQUARES = "squares"
-    MAX = "max"
-
-
 def field(
     path: Annotated[
         str,
@@ -34,9 +26,9 @@ def field(
         ),
     ],
     minimise: Annotated[
-        Minimised,
+        Literal["squares", "max"],
         typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
-    ] = Minimised.SQUARES,
+    ] = "squares",
     without: Annotated[
         list[str] | None, optional("PLANE", "Leave this plane out; may be given again.")
     ] = None,
@@ -76,12 +68,12 @@ def field(
     file, name = read_runs(path), name_file(path)
     if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
-    result = find_corrections(file, minimise.value, without or (), name)
+    result = find_corrections(file, minimise, without or (), name)
     warn_each(result.doubts, name)
     if plot is not None and drawn is not None:
         from ..render.plot.field_balancing import make_field  # brings matplotlib
 
         write_figure(make_field(result), drawn, plot)
     show([result], renderer, form, output, units)
-    if check and not result.reached:
+    if check and result.permitted is not None and not result.permitted.reached:
         raise typer.Exit(Exit.DIFFERENCE)

@@ -256,7 +256,8 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
         nodes = [_describe(one, each, definitions) for one in kinds]
         return nodes[0] if len(nodes) == 1 else {"anyOf": nodes}
     if origin is Literal:
-        return {"type": "string", "enum": [*arguments]}
+        one = len(arguments) == 1
+        return {"type": "string"} | ({"const": arguments[0]} if one else {"enum": [*arguments]})
     if origin is not None:
         return _describe_many(origin, arguments, each, definitions)
     if each.polar is not None and kind is not NoneType:

@@ -173,11 +173,6 @@ class FieldBalance(Result):
         return f"in {', '.join(each.plane for each in self.corrections)}"
 
     @property
-    def reached(self) -> bool:
-        """Whether every plane is within its permitted unbalance (true without a grade)."""
-        return self.permitted is None or self.permitted.reached
-
-    @property
     def limited(self) -> bool:
         """Whether places or largest weights keep any plane from the best weight."""
         return any(each.at_limit for each in self.corrections)

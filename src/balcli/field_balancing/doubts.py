@@ -127,7 +127,9 @@ def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
     """Return every reading as the first runs that determine the coefficients predict it, shape
     (runs, sensors), and the largest reading as found, or change of one by weights.
     """
-    alpha, found = fit_coefficients(series.first(count_needed(series, used) or len(series.numbers)))
+    count = count_needed(series, used)
+    first = series._replace(readings=series.readings[:count], weights=series.weights[:count])
+    alpha, found = fit_coefficients(first)
     changes = series.weights @ alpha.T
     predicted, largest = found + changes, float(max(np.abs(found).max(), np.abs(changes).max()))
     return np.where(np.abs(predicted) <= _ROUNDING * largest, 0, predicted), largest

@@ -41,11 +41,6 @@ class Series(NamedTuple):
     weights: Complex
     given: Complex | None
 
-    def first(self, count: int) -> Series:
-        """Return the first `count` runs of the series."""
-        numbers, readings = self.numbers[:count], self.readings[:count]
-        return self._replace(numbers=numbers, readings=readings, weights=self.weights[:count])
-
 
 class Influence(NamedTuple):
     """Readings of all speeds, one speed after the other, and what weights do to them.
