@@ -7,7 +7,7 @@ from typing import Any
 
 from ..core.phasors import Complex
 from ..documents.records import Node, angle_deg, list_figures, to_document
-from ..field_balancing.balance import FieldBalance
+from ..field_balancing.balance import FieldBalance, Permitted
 from .csv import Rows, name_cell
 from .sheet import UNKNOWN, Facts, Grid, Sheet, Text, degrees, number
 from .units import System
@@ -61,7 +61,7 @@ def sheet(result: FieldBalance, system: System) -> Sheet:
     if file.places or file.drill:
         parts.append(_show_pieces(result, system))
     if result.permitted is not None:
-        parts.append(_show_permitted(result, system))
+        parts.append(_show_permitted(result, result.permitted, system))
     parts += [_show_readings(result), _show_influence(result)]
     return Sheet(f"{file.name or 'rotor without a name'}: field balancing", tuple(parts))
 
@@ -171,12 +171,10 @@ def _explain_pieces(result: FieldBalance) -> Iterator[str]:
         yield f"For more than one hole in a plane give places, such as places = {example}."
 
 
-def _show_permitted(result: FieldBalance, system: System) -> Grid:
+def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> Grid:
     file, unit, mass = result.file, system.unbalance, system.mass
-    planes = result.permitted.planes if result.permitted else ()
-    specific_mm = result.permitted.specific_mm if result.permitted else 0.0
     lines = []
-    for each in planes:
+    for each in found.planes:
         permitted, present, after = (
             number(unit.of(g_mm / 1e6), 4)
             for g_mm in (each.permitted_g_mm, each.present_g_mm, each.after_g_mm)
@@ -189,9 +187,9 @@ def _show_permitted(result: FieldBalance, system: System) -> Grid:
         ("plane", f"permitted, {unit.name}", f"there now, {unit.name}", "", f"after, {unit.name}"),
         tuple(lines),
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
-        f"{number(1e3 * specific_mm, 4)} µm. There now: {state}, by its readings; after: what the "
+        f"{number(1e3 * found.specific_mm, 4)} µm. There now: {state}, by its readings; after: what the "
         "corrections leave of it.",
-        frozenset((k, 3) for k, each in enumerate(planes) if not each.reached),
+        frozenset((k, 3) for k, each in enumerate(found.planes) if not each.reached),
         words=(0, 3),
     )
 
