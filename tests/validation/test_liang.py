@@ -13,6 +13,9 @@ import pytest
 
 from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
+from balcli.engine.build import build
+from balcli.engine.load import parse
+from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves
 from balcli.printed_tables.registry import recompute
 
 P = 2 / 7
@@ -70,3 +73,33 @@ def test_half_overbalance_leaves_half_the_first_order_turning_backward():
     """Section 2-1: cos th - e^{i th}/2 = e^{-i th}/2."""
     th = np.linspace(0, 2 * pi, 50)
     assert np.cos(th) - np.exp(1j * th) / 2 == pytest.approx(np.exp(-1j * th) / 2, abs=1e-14)
+
+
+def build_engine(text: str):
+    return build(
+        parse(
+            'crank = { stroke = "4 in" }\noperation = { speed = 4000 }\npiston = { mass = "1 lb" }\n' + text, "example"
+        )
+    )
+
+
+def test_engines_give_the_answers_of_the_table():
+    """The same figures from engine files, in lb and in: masses, acceleration, residual couple."""
+    pound, foot = 0.45359237, 0.3048
+    first = build_engine('rod = { length = "7 in", mass = "2.75 lb", cg = "2 in" }')
+    second = build_engine('rod = { length = "7 in", mass = "2.75 lb", cg = "7/3 in", inertia = "539/72 lb in^2" }')
+    top = compute_cylinder_curves(first, 1, np.zeros(1)).values["acceleration_m_per_s2"][0] / foot
+    couple = compute_engine_curves(second, np.array([90.0])).values["couple_Nm"][0] / (pound * 9.80665 * foot)
+    share = second.cylinders.couple[0] / (2.75 * pound * (7 * foot / 12) ** 2)
+    found = [first.cylinders.reciprocating[0] / pound, top, share, couple]
+    assert found == pytest.approx([answers()[k] for k in (0, 1, 5, 7)], rel=1e-12)
+
+
+def test_the_third_engine_gives_the_answers_of_the_table():
+    text = """
+        crank = { stroke = "6 in", throw_mass = "1 lb" }
+        rod = { length = "12 in", small_end = "2 lb", big_end = "3 lb" }
+        piston = { mass = "6 lb" }
+        """
+    c = build(parse(text, "example")).cylinders
+    assert [c.rotating[0] / 0.45359237, c.reciprocating[0] / 0.45359237] == pytest.approx(answers()[8:10], rel=1e-12)

@@ -187,8 +187,8 @@ def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> G
         ("plane", f"permitted, {unit.name}", f"there now, {unit.name}", "", f"after, {unit.name}"),
         tuple(lines),
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
-        f"{number(1e3 * found.specific_mm, 4)} µm. There now: {state}, by its readings; after: what "
-        "the corrections leave of it.",
+        f"{number(1e3 * found.specific_mm, 4)} µm. There now: {state}, by its readings; after: "
+        "what the corrections leave of it.",
         frozenset((k, 3) for k, each in enumerate(found.planes) if not each.reached),
         words=(0, 3),
     )
