@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from balcli.core.least_squares import solve
-from balcli.core.smallest_largest import ANYWHERE, Region, minimise_largest, minimise_squares
+from balcli.core.smallest_largest import Region, minimise
 from balcli.field_balancing.places import find_region
 
 
@@ -17,6 +17,10 @@ def problem(seed: int, readings: int, unknowns: int):
     parts = rng.normal(size=(2, readings, unknowns + 1))
     whole = parts[0] + 1j * parts[1]
     return whole[:, :-1], whole[:, -1], rng.uniform(0.5, 2.0, readings)
+
+
+def largest_of(found, weights) -> float:
+    return float((weights * np.abs(found.residual)).max())
 
 
 CASES = [(1, 4, 1), (2, 3, 2), (3, 8, 2), (4, 12, 3), (5, 24, 4), (6, 24, 6), (7, 7, 6)]
@@ -42,21 +46,21 @@ def test_it_is_proved_by_linear_programming(case):
     directions d cancel in every column: the dual of the linear program of all directions.
     """
     matrix, target, weights = problem(*case)
-    found = minimise_largest(matrix, target, weights)
+    found = minimise(matrix, target, weights, largest=True)
     residual = weights * (target - matrix @ found.x)
     multipliers, miss = dual_multipliers(weights[:, None] * matrix, residual)
     assert np.abs(miss).max() < 1e-6
     assert multipliers.min() > -1e-6
     bound = multipliers @ (np.conj(residual / np.abs(residual)) * weights * target).real
-    assert found.largest == pytest.approx(bound, rel=1e-7)
-    assert found.bound == pytest.approx(found.largest, rel=2e-8)
+    assert largest_of(found, weights) == pytest.approx(bound, rel=1e-7)
+    assert found.bound == pytest.approx(largest_of(found, weights), rel=2e-8)
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_largest_residuals_are_equal_and_no_step_makes_them_smaller(case):
     """Equioscillation."""
     matrix, target, weights = problem(*case)
-    found = minimise_largest(matrix, target, weights)
+    found = minimise(matrix, target, weights, largest=True)
     sizes = weights * np.abs(found.residual)
     assert np.sum(sizes > (1 - 1e-6) * sizes.max()) >= 2
     rng = np.random.default_rng(0)
@@ -69,7 +73,7 @@ def test_largest_residuals_are_equal_and_no_step_makes_them_smaller(case):
 def test_a_textbook_case():
     """3x - 2y = -1, 5x - 2y = 1, 5x - 3y = 0 in real numbers: all three residuals 0.4 at (1, 1.8)."""
     matrix = np.array([[3, -2], [5, -2], [5, -3]], dtype=complex)
-    found = minimise_largest(matrix, np.array([-1, 1, 0], dtype=complex), np.ones(3))
+    found = minimise(matrix, np.array([-1, 1, 0], dtype=complex), np.ones(3), largest=True)
     assert found.x == pytest.approx([1.0, 1.8], abs=1e-7)
     assert np.abs(found.residual) == pytest.approx([0.4] * 3, rel=1e-7)
 
@@ -77,7 +81,7 @@ def test_a_textbook_case():
 def test_what_can_be_cancelled_is_cancelled():
     matrix, _, weights = problem(8, 6, 3)
     planted = np.array([1 + 2j, -3j, 0.5])
-    found = minimise_largest(matrix, matrix @ planted, weights)
+    found = minimise(matrix, matrix @ planted, weights, largest=True)
     assert found.x == pytest.approx(planted, rel=1e-12)
     assert found.bound == 0
 
@@ -86,14 +90,14 @@ def test_what_can_be_cancelled_is_cancelled():
 def test_limits_of_the_largest(case):
     """The bound holds within the limits: no random point inside is better, and it is reached."""
     matrix, target, weights = problem(*case)
-    free = minimise_largest(matrix, target, weights)
+    free = minimise(matrix, target, weights, largest=True)
     most = 0.5 * abs(free.x[0])
     disc = Region(0j, most)
-    found = minimise_largest(matrix, target, weights, [disc, *[ANYWHERE] * (matrix.shape[1] - 1)])
+    found = minimise(matrix, target, weights, [disc, *[Region()] * (matrix.shape[1] - 1)], largest=True)
     assert abs(found.x[0]) <= most * (1 + 1e-12)
-    assert disc.has_at_edge(found.x[0], 1e-7 * most)
-    assert found.largest > free.largest
-    assert found.bound == pytest.approx(found.largest, rel=1e-5)
+    assert abs(disc.find_depth(found.x[0])) < 1e-7 * most
+    assert largest_of(found, weights) > largest_of(free, weights)
+    assert found.bound == pytest.approx(largest_of(found, weights), rel=1e-5)
 
 
 @pytest.mark.parametrize("case", [c for c in CASES if c[1] > c[2]])
@@ -101,8 +105,8 @@ def test_least_squares_within_limits_meets_the_conditions_of_the_optimum(case):
     """With a price p >= 0 on a limited unknown: column^H residual = p x, 0 for the others."""
     matrix, target, weights = problem(*case)
     most = 0.6 * abs(solve(matrix, target, weights).x[0])
-    regions = [Region(0j, most), *[ANYWHERE] * (matrix.shape[1] - 1)]
-    found = minimise_squares(matrix, target, weights, regions)
+    regions = [Region(0j, most), *[Region()] * (matrix.shape[1] - 1)]
+    found = minimise(matrix, target, weights, regions)
     pull = matrix.conj().T @ (weights**2 * found.residual)
     price = pull[0] / found.x[0]
     size = np.abs(matrix.T) @ (weights**2 * np.abs(target))
@@ -116,7 +120,7 @@ def test_limits_that_do_not_bind_change_nothing():
     matrix, target, weights = problem(9, 8, 2)
     free = solve(matrix, target, weights).x
     regions = [Region(0j, 1.01 * abs(x)) for x in free]
-    found = minimise_squares(matrix, target, weights, regions)
+    found = minimise(matrix, target, weights, regions)
     assert found.x == pytest.approx(free, rel=1e-13)
 
 
@@ -141,15 +145,15 @@ def test_least_squares_in_polygons(case):
     matrix, target, weights = problem(*case)
     free = np.abs(solve(matrix, target, weights).x)
     generators, most, regions = regions_of(np.random.default_rng(case[0]), free)
-    found = minimise_squares(matrix, target, weights, regions)
+    found = minimise(matrix, target, weights, regions)
     pull = matrix.conj().T @ (weights**2 * found.residual)
     assert found.residual == pytest.approx(target - matrix @ found.x)
     for k, (region, x) in enumerate(zip(regions, found.x, strict=True)):
-        assert region.has(x, 1e-10 * most[k])
+        assert abs(region.project(x)[0] - x) < 1e-10 * most[k]
         best = reach(generators[k], most[k], pull[k])
         size = np.abs(matrix[:, k]) @ (weights**2 * np.abs(target)) * most[k]
         assert (np.conj(pull[k]) * x).real == pytest.approx(best, abs=1e-7 * size)
-    assert any(r.has_at_edge(x, 1e-6 * m) for r, x, m in zip(regions, found.x, most, strict=True))
+    assert any(abs(r.find_depth(x)) < 1e-6 * m for r, x, m in zip(regions, found.x, most, strict=True))
 
 
 @pytest.mark.parametrize("case", [c for c in CASES if c[2] > 1])
@@ -158,10 +162,10 @@ def test_largest_in_polygons(case):
     matrix, target, weights = problem(*case)
     rng = np.random.default_rng(case[0])
     generators, most, regions = regions_of(rng, np.abs(solve(matrix, target, weights).x))
-    found = minimise_largest(matrix, target, weights, regions)
-    assert all(r.has(x, 1e-9 * m) for r, x, m in zip(regions, found.x, most, strict=True))
-    assert found.bound == pytest.approx(found.largest, rel=1e-6)
-    assert found.bound <= found.largest * (1 + 1e-12)
+    found = minimise(matrix, target, weights, regions, largest=True)
+    assert all(abs(r.project(x)[0] - x) < 1e-9 * m for r, x, m in zip(regions, found.x, most, strict=True))
+    assert found.bound == pytest.approx(largest_of(found, weights), rel=1e-6)
+    assert found.bound <= largest_of(found, weights) * (1 + 1e-12)
     for _ in range(200):
         amounts = [m * rng.uniform(0, 1, len(g)) for g, m in zip(generators, most, strict=True)]
         x = np.array([a @ g for a, g in zip(amounts, generators, strict=True)])
@@ -176,16 +180,17 @@ def test_regions_of_very_different_size(seed):
     matrix, target, weights = problem(seed, 5, 4)
     sizes = np.abs(solve(matrix, target, weights).x) * 10 ** rng.uniform(-2, 1, 4)
     _, most, regions = regions_of(rng, sizes)
-    found = minimise_largest(matrix, target, weights, regions)
-    assert found.bound == pytest.approx(found.largest, rel=1e-5)
-    assert all(r.has(x, 1e-9 * m) for r, x, m in zip(regions, found.x, most, strict=True))
+    found = minimise(matrix, target, weights, regions, largest=True)
+    assert found.bound == pytest.approx(largest_of(found, weights), rel=1e-5)
+    assert all(abs(r.project(x)[0] - x) < 1e-9 * m for r, x, m in zip(regions, found.x, most, strict=True))
 
 
 def test_one_unknown_in_a_wedge():
     """By hand: -1 is nearest to 0 among all weights at 0 and 60 deg, 1j to its edge at 60 deg."""
     wedge, one = [find_region(np.array([0.0, 60]), np.inf)], np.ones(1)
     matrix = np.ones((1, 1), dtype=complex)
-    for fit in (minimise_squares, minimise_largest):
-        assert fit(matrix, np.array([-1 + 0j]), one, wedge).x == pytest.approx(0, abs=1e-9)
-        edge = np.cos(np.pi / 6) * np.exp(1j * np.pi / 3)
-        assert fit(matrix, np.array([1j]), one, wedge).x == pytest.approx(edge, abs=1e-9)
+    edge = np.cos(np.pi / 6) * np.exp(1j * np.pi / 3)
+    for largest in (False, True):
+        for target, nearest in ((-1, 0), (1j, edge)):
+            found = minimise(matrix, np.array([target + 0j]), one, wedge, largest=largest)
+            assert found.x == pytest.approx(nearest, abs=1e-9)

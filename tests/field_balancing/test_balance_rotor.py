@@ -19,7 +19,7 @@ RELATIVE = 1e-12
 
 
 def totals(text: str, **options):
-    return np.array([p.total for p in find_corrections(parse_runs(text), **options).planes])
+    return np.array([p.weight for p in find_corrections(parse_runs(text), **options).corrections])
 
 
 def agree(found, planted, coefficients) -> bool:
@@ -74,9 +74,9 @@ def test_corrections_go_on_from_the_last_run_at_whatever_speed(trims):
         text += run([reading], states, f'speed = {speed}\nname = "{name}"')
     found = find_corrections(parse_runs(text))
     last = trims[-1][1]
-    assert found.influence.trimmed == last
-    assert agree(np.array([p.total for p in found.planes]), -excess, alpha)
-    assert agree(np.array([p.step for p in found.planes]), -excess - put_on[last], alpha)
+    assert found.trimmed == last
+    assert agree(np.array([p.weight for p in found.corrections]), -excess, alpha)
+    assert agree(np.array([p.step for p in found.corrections]), -excess - put_on[last], alpha)
 
 
 @pytest.mark.parametrize("rotation", ["lag", "lead"])
@@ -109,9 +109,9 @@ def test_a_run_with_the_correction_in_makes_it_better():
         text += run(alpha @ (excess + np.eye(2)[k]), [(name, 1.0)])
     text += run(alpha @ (excess + first), list(zip(names(2), first, strict=True)), 'name = "in"')
     result = find_corrections(parse_runs(text))
-    assert result.influence.trimmed == "in"
-    assert agree(np.array([p.step for p in result.planes]), -excess - first, alpha)
-    assert agree(np.array([p.total for p in result.planes]), -excess, alpha)
+    assert result.trimmed == "in"
+    assert agree(np.array([p.step for p in result.corrections]), -excess - first, alpha)
+    assert agree(np.array([p.weight for p in result.corrections]), -excess, alpha)
 
 
 def test_coefficients_after_a_correction_are_least_squares_over_all_runs():
@@ -120,9 +120,9 @@ def test_coefficients_after_a_correction_are_least_squares_over_all_runs():
     """
     text = head(1) + run([4]) + run([5], [("p1", 1)]) + run([1], [("p1", -2)])
     result = find_corrections(parse_runs(text))
-    assert result.influence.coefficients[0, 0] == pytest.approx(19 / 14, rel=1e-13)
-    assert result.planes[0].step == pytest.approx(-14 / 19, rel=1e-13)
-    assert result.planes[0].total == pytest.approx(-2 - 14 / 19, rel=1e-13)
+    assert result.influence[0, 0] == pytest.approx(19 / 14, rel=1e-13)
+    assert result.corrections[0].step == pytest.approx(-14 / 19, rel=1e-13)
+    assert result.corrections[0].weight == pytest.approx(-2 - 14 / 19, rel=1e-13)
 
 
 def test_weights_of_readings():
@@ -143,8 +143,8 @@ def test_a_plane_that_is_left_out():
 def test_the_largest_weight_of_a_plane():
     free = totals(three_runs())
     result = find_corrections(parse_runs(three_runs("most = [1.5, 5]")))
-    assert abs(result.planes[0].total) == pytest.approx(1.5, rel=1e-10)
-    assert [p.limited for p in result.planes] == [True, False]
+    assert abs(result.corrections[0].weight) == pytest.approx(1.5, rel=1e-10)
+    assert [p.at_limit for p in result.corrections] == [True, False]
     assert abs(free[0]) > 1.5
     assert result.rms > 1
 
@@ -155,19 +155,19 @@ def test_drilled_holes_remove_what_weights_would_add():
     text = three_runs(
         "radius = [90, 80]\nplaces = [12, [0, 60, 120, 180, 240, 300]]\ndrill = [6, 8]\ndeepest = [12, 20]"
     )
-    for p, rim, drill in zip(find_corrections(parse_runs(text)).planes, (90, 80), (6, 8), strict=True):
+    for p, rim, drill in zip(find_corrections(parse_runs(text)).corrections, (90, 80), (6, 8), strict=True):
         removed = 0
         for piece in p.pieces:
             area, depth = math.pi * (drill / 2e3) ** 2, piece.depth_mm / 1e3
             unbalance = STEEL * area * depth * (rim / 1e3 - depth / 2)
             removed += unbalance * np.exp(1j * np.radians(piece.angle_deg))
-        assert -removed == pytest.approx(p.total * 1e-3 * rim / 1e3, rel=1e-9)
+        assert -removed == pytest.approx(p.weight * 1e-3 * rim / 1e3, rel=1e-9)
 
 
 def test_holes_no_deeper_than_allowed_need_more_of_them():
     one = "radius = [90, 90]\nplaces = [24, 24]\ndrill = [6, 6]"
-    free = find_corrections(parse_runs(three_runs(one))).planes[0]
-    shallow = find_corrections(parse_runs(three_runs(one + "\ndeepest = [3, 3]"))).planes[0]
+    free = find_corrections(parse_runs(three_runs(one))).corrections[0]
+    shallow = find_corrections(parse_runs(three_runs(one + "\ndeepest = [3, 3]"))).corrections[0]
     assert len(free.pieces) == 2
     assert len(shallow.pieces) > 2
     assert max(piece.depth_mm for piece in shallow.pieces) <= 3 * (1 + 1e-9)
@@ -198,25 +198,26 @@ def test_what_does_not_fit_leaves_what_it_says(limits, sense, minimise):
     last = run([60, 70j], [("front", 0.3), ("rear", 0.2j)]) if "drill" in limits else ""
     text = three_runs(f'weights = "{sense}"\n{limits}', last)
     result = find_corrections(parse_runs(text), minimise)
-    on = put_on(result.planes, "drill" in limits)
-    assert on == pytest.approx([p.step for p in result.planes], rel=1e-8, abs=1e-9)
+    on = put_on(result.corrections, "drill" in limits)
+    assert on == pytest.approx([p.step for p in result.corrections], rel=1e-8, abs=1e-9)
     turn = np.conj if sense == "with" else np.asarray
-    after = result.influence.now + result.influence.coefficients @ turn(on)
-    assert result.after == pytest.approx(after, rel=1e-7, abs=1e-7)
+    after = result.before + result.influence @ turn(on)
+    assert result.residual == pytest.approx(after, rel=1e-7, abs=1e-7)
     assert result.limited
-    assert np.abs(result.after).max() > 1
+    assert np.abs(result.residual).max() > 1
     free = find_corrections(parse_runs(three_runs(f'weights = "{sense}"', last)), minimise)
-    wanted = [p.wanted for p in result.planes]
-    assert wanted == pytest.approx([p.step for p in free.planes], rel=1e-9)
+    for one, other in zip(result.corrections, free.corrections, strict=True):
+        assert one.at_limit == (one.wanted is not None)
+        assert one.wanted is None or one.wanted == pytest.approx(other.weight, rel=1e-9)
 
 
 def test_a_plane_that_fits_makes_up_for_one_that_does_not():
     """One sensor, by hand: 10 at 0 deg; what goes on at 90 deg only cannot help, the other can."""
     text = head(2, 'places = [[90], "free"]\ninfluence = [["1 @ 0", "1 @ 0"], ["0 @ 0", "0.1 @ 0"]]')
     result = find_corrections(parse_runs(text + run([10, 0])))
-    assert result.planes[0].pieces == ()
-    assert result.planes[1].step == pytest.approx(-10 / 1.01, rel=1e-9)
-    assert [p.limited for p in result.planes] == [True, False]
+    assert result.corrections[0].pieces == ()
+    assert result.corrections[1].step == pytest.approx(-10 / 1.01, rel=1e-9)
+    assert [p.at_limit for p in result.corrections] == [True, False]
 
 
 def test_the_grade_judges_what_is_there_not_what_fits():
@@ -224,16 +225,15 @@ def test_the_grade_judges_what_is_there_not_what_fits():
     grade = "grade = 6.3\nmass = 120\nspeed = 3000\nradius = [200, 200]\n"
     free = find_corrections(parse_runs(three_runs(grade)))
     tight = find_corrections(parse_runs(three_runs(grade + "most = [0.5, 0.5]")))
-    for one, other in zip(free.planes, tight.planes, strict=True):
-        assert one.permitted.present == pytest.approx(other.permitted.present, rel=1e-12)
-        assert one.permitted.after == 0
-        left = 200 * abs(other.wanted - other.step)
-        assert other.permitted.after == pytest.approx(left, rel=1e-12)
+    for one, other, limited in zip(free.permitted.planes, tight.permitted.planes, tight.corrections, strict=True):
+        assert one.present_g_mm == pytest.approx(other.present_g_mm, rel=1e-12)
+        assert one.after_g_mm == 0
+        assert other.after_g_mm == pytest.approx(200 * abs(limited.wanted - limited.weight), rel=1e-12)
 
 
 def test_places_are_numbered_as_the_file_has_them():
     text = head(2, 'places = [8, [200, 90, 100]]\ninfluence = [["1 @ 0", "0 @ 0"], ["0 @ 0", "1 @ 0"]]')
-    first, second = find_corrections(parse_runs(text + run([5j, -3j]))).planes
+    first, second = find_corrections(parse_runs(text + run([5j, -3j]))).corrections
     assert [(p.place, p.angle_deg) for p in first.pieces] == [(7, 270)]
     assert [(p.place, p.angle_deg) for p in second.pieces] == [(2, 90)]
 
@@ -245,17 +245,18 @@ def test_unbalances_instead_of_weights():
     text = three_runs(grade + 'weight_unit = "g mm"').replace("1.15 @", "230 @")
     moments = find_corrections(parse_runs(text))
     whole = 120e3 * 6.3 / (100 * math.pi)
-    for one, other, share in zip(grams.planes, moments.planes, (1 / 4, 3 / 4), strict=True):
-        assert one.unbalance == pytest.approx(other.unbalance, rel=1e-12)
-        assert one.unbalance == pytest.approx(200 * abs(one.total), rel=1e-12)
-        assert one.permitted.permitted == pytest.approx(whole * share, rel=1e-12)
-        assert one.permitted.present == pytest.approx(other.permitted.present, rel=1e-12)
-    assert grams.reached
+    for one, other in zip(grams.corrections, moments.corrections, strict=True):
+        assert one.unbalance_g_mm == pytest.approx(other.unbalance_g_mm, rel=1e-12)
+        assert one.unbalance_g_mm == pytest.approx(200 * abs(one.weight), rel=1e-12)
+    for one, other, share in zip(grams.permitted.planes, moments.permitted.planes, (1 / 4, 3 / 4), strict=True):
+        assert one.permitted_g_mm == pytest.approx(whole * share, rel=1e-12)
+        assert one.present_g_mm == pytest.approx(other.present_g_mm, rel=1e-12)
+    assert grams.permitted.reached
 
 
 def test_ounces():
     ounces = find_corrections(parse_runs(three_runs('weight_unit = "oz"\nradius = [100, 100]')))
-    assert ounces.planes[0].unbalance == pytest.approx(28.349523125 * 100 * 1.97946764, rel=1e-8)
+    assert ounces.corrections[0].unbalance_g_mm == pytest.approx(28.349523125 * 100 * 1.97946764, rel=1e-8)
 
 
 def test_what_stays_on_in_a_plane_left_out_counts_at_every_speed():
@@ -270,17 +271,15 @@ def test_what_stays_on_in_a_plane_left_out_counts_at_every_speed():
             text += run(rows @ (excess + np.eye(2)[k]), [(name, 1.0)], speed)
     text += run(alpha[:2] @ (excess + on), list(zip(names(2), on, strict=True)), "speed = 1000")
     result = find_corrections(parse_runs(text), without=["p2"])
-    left = alpha @ (excess + np.array([result.planes[0].total, on[1]]))
-    assert result.after == pytest.approx(left, rel=1e-10)
+    left = alpha @ (excess + np.array([result.corrections[0].weight, on[1]]))
+    assert result.residual == pytest.approx(left, rel=1e-10)
 
 
 # ------------------------------------------------------------------ doubts and refusals
 def test_doubts():
     text = head(2) + run([10, 10]) + run([10.5, 10], [("p1", 1)]) + run([10.5, 10.1], [("p2", 1)])
     small, far, *_ = find_corrections(parse_runs(text)).doubts[-4:]
-    assert small == (
-        "the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; a heavier one tells more"
-    )
+    assert small == ("the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; use a heavier one")
     assert far == (
         "the correction of 80 g in p1 is 80 times the largest weight tried there; put it on, read "
         "again, and add that run to the file"
@@ -297,7 +296,7 @@ def test_a_trial_weight_is_doubted_at_each_speed():
     (doubt,) = find_corrections(parse_runs(text)).doubts
     assert doubt == (
         "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0.11% of the "
-        "largest; a heavier one tells more"
+        "largest; use a heavier one"
     )
 
 
@@ -336,7 +335,7 @@ def test_a_correction_in_the_other_sense_is_doubted(known):
     start = head(1, 'influence = [["1 @ 0"]]' if known else "")
     (doubt,) = find_corrections(parse_runs('weights = "with"\n' + start + runs)).doubts
     assert doubt == (
-        "'in' reads 16 @ 90.0 at sensor 1, far from 0 @ 0.0, which the other runs foretell; had "
+        "'in' reads 16 @ 90.0 at sensor 1, far from 0 @ 0.0, which the other runs predict; had "
         'angles of weights been counted the other way round, weights = "against", it would be near'
     )
     assert find_corrections(parse_runs(start + runs)).doubts == ()
@@ -348,7 +347,7 @@ def test_a_run_far_from_what_others_foretell_is_doubted():
     off = 'sensors = ["rear"]\n' + head(1) + runs + run([9], [("p1", -5)])
     *_, doubt = find_corrections(parse_runs(off)).doubts
     assert doubt == (
-        "'run 3' reads 9 @ 0.0 at rear, far from 3 @ 0.0, which the other runs foretell; are its "
+        "'run 3' reads 9 @ 0.0 at rear, far from 3 @ 0.0, which the other runs predict; are its "
         "weights where the file says, and is the machine as it was? Else leave the run out"
     )
     near = head(1) + runs + run([5], [("p1", -5)])
@@ -368,9 +367,9 @@ def test_a_balanced_rotor_may_read_a_little_else_than_was_foretold():
 def test_as_found_is_the_mean_of_what_was_read_without_weights():
     """What least squares makes of it: 1 g takes their mean, 10, to 15."""
     result = find_corrections(parse_runs(head(1) + run([9]) + run([11]) + run([15], [("p1", 1)])))
-    assert result.influence.found == pytest.approx([10], rel=1e-13)
-    assert result.influence.coefficients[0] == pytest.approx([5], rel=1e-13)
-    assert result.planes[0].total == pytest.approx(-2, rel=1e-13)
+    assert result.runs.found == pytest.approx([10], rel=1e-13)
+    assert result.influence[0] == pytest.approx([5], rel=1e-13)
+    assert result.corrections[0].weight == pytest.approx(-2, rel=1e-13)
 
 
 def test_planes_that_are_nearly_alike_are_doubted():
@@ -421,8 +420,8 @@ REFUSED = [
     ),
     (
         head(2) + run([1, 2]) + run([2, 2], [("p1", 1), ("p2", 1)]) + run([2, 2], [("p1", 2), ("p2", 2)]),
-        "runs.toml: run: the trial weights in p1 and p2 are never apart, so what each does cannot be "
-        "told; of 3 runs here, 3 that differ are needed: one as found, and one for each plane",
+        "runs.toml: run: the trial weights in p1 and p2 are never apart, so their effects cannot be "
+        "separated; of 3 runs here, 3 that differ are needed: one as found, and one for each plane",
     ),
     (
         head(2) + run([1]) + run([2], [("p1", 1)]) + run([3], [("p2", 1)]),
@@ -458,7 +457,7 @@ def test_a_rotor_without_unbalance_needs_nothing():
     text = head(1, 'influence = [["1 @ 0"]]') + run([0])
     for minimise in ("squares", "max"):
         result = find_corrections(parse_runs(text), minimise)
-        assert result.planes[0].total == 0
+        assert result.corrections[0].weight == 0
         assert result.largest == 0
 
 

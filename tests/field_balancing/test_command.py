@@ -291,10 +291,10 @@ def test_the_library_offers_it(runs):
 
     result = balcli.balance_rotor(runs, "max")
     assert isinstance(result, balcli.FieldBalance)
-    assert result.planes[0].total == pytest.approx(balcli.balance_rotor(runs).planes[0].total)
+    assert result.corrections[0].weight == pytest.approx(balcli.balance_rotor(runs).corrections[0].weight)
     text = runs.read_text(encoding="utf-8")
     for source in (text, str(runs), tomllib.loads(text)):
-        assert balcli.balance_rotor(source, "max").planes == result.planes
+        assert balcli.balance_rotor(source, "max").corrections == result.corrections
 
 
 def test_readings_at_several_speeds_are_of_no_one_run():

@@ -47,15 +47,15 @@ CASES = [
     ),
     (
         with_first('"53 @ 78"', '"-53 @ 78"'),
-        'run.1.readings: the 2nd value "-53 @ 78" has a negative amplitude; leave the minus out and turn the angle by 180 degrees',
+        'run.1.readings: the 2nd value "-53 @ 78" has a negative amplitude; leave the minus out, turn the angle by 180 degrees',
     ),
     (
         with_first('"53 @ 78"', '"1e99 @ 78"'),
-        'run.1.readings: the 2nd value "1e99 @ 78" is too large; amplitudes go up to 1e+12, angles to 1e+06 degrees',
+        'run.1.readings: the 2nd value "1e99 @ 78" is too large or small; amplitudes are 0 or 1e-12 to 1e+12, angles up to 1e+06 degrees',
     ),
     (
         with_first('"53 @ 78"', '"1e-13 @ 78"'),
-        'run.1.readings: the 2nd value "1e-13 @ 78" is too small; amplitudes are 0, or 1e-12 and more',
+        'run.1.readings: the 2nd value "1e-13 @ 78" is too large or small; amplitudes are 0 or 1e-12 to 1e+12, angles up to 1e+06 degrees',
     ),
     (
         with_first('"53 @ 78"', '"nan @ 78"'),
@@ -67,7 +67,7 @@ CASES = [
     ),
     (
         with_first("1.15 @ 0", "0 @ 0"),
-        'run.2.weights.front: "0 @ 0" is a weight of 0, which tells nothing; give the weight that was on, or leave the plane out',
+        'run.2.weights.front: "0 @ 0" is a weight of 0, which has no effect; give the weight that was on, or leave the plane out',
     ),
     (with_first("{ front", "{ frnt"), "run.2.weights.frnt: is no plane; did you mean front?"),
     (with_first("{ front", "{ x"), "run.2.weights.x: is no plane; there are front, rear"),
@@ -80,7 +80,7 @@ CASES = [
         "run.1.readings: has 2 readings, but sensors names 1; give one for each sensor, in the same order in every run",
     ),
     (three_runs('sensors = ["a", "a"]'), 'sensors: names "a" twice; each needs a name of its own'),
-    (three_runs("radius = [200]"), "radius: has 1 value, but there are 2 planes; give one for each, in their order"),
+    (three_runs("radius = [200]"), "radius: has 1 value, but there are 2 planes; give one for each"),
     (
         three_runs("radius = [200, -1]"),
         'radius: the 2nd value -1 is not above 0; a length is wanted: a bare number in mm, or "90 mm" or "3.5 in", above 0',
@@ -117,11 +117,11 @@ CASES = [
     ),
     (
         three_runs("influence = [['1 @ 0', '2 @ 0']]"),
-        "influence: has 1 row, but there are 2 readings; give one row for each reading",
+        "influence: has 1 row, but there are 2 readings; give one for each",
     ),
     (
         three_runs("influence = [['1 @ 0', '2 @ 0'], ['1 @ 0']]"),
-        "influence.2: has 1 coefficient, but there are 2 planes; give one for each, in their order",
+        "influence.2: has 1 coefficient, but there are 2 planes; give one for each",
     ),
     (
         three_runs("grade = 6.3\nspeed = 3000\nradius = [1, 1]"),

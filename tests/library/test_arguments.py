@@ -19,7 +19,8 @@ CHAIN = {
         (lambda: balcli.tables("kvasnikov-1", angles="0:90:5"), "angles: table kvasnikov-1 takes ratios"),
         (
             lambda: balcli.tables("kvasnikov-1", ratios="0.9:1.1:0.1"),
-            "ratios '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1",
+            "ratios '0.9:1.1:0.1': lambda = 1, but a crank turns only with 0 < lambda < 1; "
+            "give crank radius over rod length, such as 0.25 or 1/3.5",
         ),
         (lambda: balcli.scatter(V8, mass=0), "nothing deviates; give a tolerance, such as mass 0.5%"),
         (

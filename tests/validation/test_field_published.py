@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from balcli.documents.records import angle_deg
 from balcli.field_balancing.balance import find_corrections
 from balcli.field_balancing.permitted import find_permitted_unbalance
 from balcli.field_balancing.read import parse_runs
-from balcli.field_balancing.shop import find_angle_deg
 
 EXAMPLE_6 = """
 planes = ["front", "rear"]
@@ -46,7 +46,7 @@ readings = ["0.54 @ 9", "0.52 @ 75", "0.81 @ 196", "0.9 @ 296"]
 
 
 def weights(text: str):
-    return [(abs(p.total), find_angle_deg(p.total)) for p in find_corrections(parse_runs(text)).planes]
+    return [(abs(p.weight), angle_deg(p.weight)) for p in find_corrections(parse_runs(text)).corrections]
 
 
 def test_bruel_kjaer_example_6():
@@ -54,10 +54,10 @@ def test_bruel_kjaer_example_6():
     (front, rear), result = weights(EXAMPLE_6), find_corrections(parse_runs(EXAMPLE_6))
     assert front == pytest.approx((1.979467642, 236.1703733), rel=1e-9)
     assert rear == pytest.approx((1.070509308, 121.8438999), rel=1e-9)
-    assert np.abs(result.influence.coefficients) == pytest.approx(
+    assert np.abs(result.influence) == pytest.approx(
         np.array([[78.43258624, 15.3399355], [9.461969824, 32.55988224]]), rel=1e-9
     )
-    assert not result.after.any()
+    assert not result.residual.any()
 
 
 def test_the_notes_own_answer_belongs_to_another_reading():
@@ -70,15 +70,15 @@ def test_the_notes_own_answer_belongs_to_another_reading():
 def test_goodman_least_squares():
     """17/21 and 31/21; residuals 10/21, 2/21, -8/21."""
     result = find_corrections(parse_runs(GOODMAN))
-    assert [p.total for p in result.planes] == pytest.approx([17 / 21, 31 / 21], rel=1e-13)
-    assert result.after == pytest.approx(np.array([10, 2, -8]) / 21, rel=1e-13)
+    assert [p.weight for p in result.corrections] == pytest.approx([17 / 21, 31 / 21], rel=1e-13)
+    assert result.residual == pytest.approx(np.array([10, 2, -8]) / 21, rel=1e-13)
     assert result.rms == pytest.approx(0.3563483225, rel=1e-9)
 
 
 def test_goodman_smallest_largest():
     """By hand: all three residuals are 0.4 at (1, 1.8)."""
     result = find_corrections(parse_runs(GOODMAN), "max")
-    assert [p.total for p in result.planes] == pytest.approx([1, 1.8], abs=1e-7)
+    assert [p.weight for p in result.corrections] == pytest.approx([1, 1.8], abs=1e-7)
     assert (result.largest, result.bound) == pytest.approx((0.4, 0.4), rel=1e-7)
 
 
@@ -89,7 +89,7 @@ def test_fan_whose_first_trial_weight_stays_in():
     first, second = weights(FAN.format(keep="true"))
     assert first == pytest.approx((15.32979775, 2.900369967), rel=1e-8)
     assert second == pytest.approx((6.616894702, 112.8743621), rel=1e-8)
-    left = np.abs(find_corrections(parse_runs(FAN.format(keep="true"))).after)
+    left = np.abs(find_corrections(parse_runs(FAN.format(keep="true"))).residual)
     assert left == pytest.approx([0.07833039767, 0.09071362293, 0.0504433618, 0.05116882373], rel=1e-8)
 
 
@@ -121,4 +121,4 @@ def test_planes_that_depend_on_one_another_are_named():
     with pytest.raises(Exception, match="front and middle depend on one another") as caught:
         find_corrections(parse_runs(DEPENDENT), name="runs.toml")
     assert "rear" not in str(caught.value)
-    assert len(find_corrections(parse_runs(DEPENDENT), without=["middle"]).planes) == 2
+    assert len(find_corrections(parse_runs(DEPENDENT), without=["middle"]).corrections) == 2

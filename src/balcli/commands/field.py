@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -13,15 +12,8 @@ from ..errors import BalcliError, Exit
 from ..render.formats import Units
 from .declare import optional
 from .file_names import picture_form, text_format
-from .options import FormatOption, Output
+from .options import FormatOption, Output, UnitsOption
 from .output import refuse_overwriting, show, write_figure
-
-
-class Minimised(StrEnum):
-    """What is made smallest of the readings."""
-
-    SQUARES = "squares"
-    MAX = "max"
 
 
 def field(
@@ -34,9 +26,9 @@ def field(
         ),
     ],
     minimise: Annotated[
-        Minimised,
+        Literal["squares", "max"],
         typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
-    ] = Minimised.SQUARES,
+    ] = "squares",
     without: Annotated[
         list[str] | None, optional("PLANE", "Leave this plane out; may be given again.")
     ] = None,
@@ -51,24 +43,14 @@ def field(
         ),
     ] = False,
     form: FormatOption = None,
-    units: Annotated[
-        Units,
-        typer.Option(
-            "--units",
-            case_sensitive=False,
-            envvar="BALCLI_UNITS",
-            show_envvar=False,
-            help="imperial: in, oz·in and lb in tables; weights and readings have the units of the "
-            "file, JSON and CSV stay metric.",
-        ),
-    ] = Units.SI,
+    units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
     """Balance a rotor on the machine or in its bearings: from readings with trial weights to
     correction weights, places or drill holes, and what is left.
 
     `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
-    with a trial weight in each plane.
+    with a trial weight in each plane. Weights and readings have the units of the file.
 
     \b
     Examples:
@@ -86,12 +68,12 @@ def field(
     file, name = read_runs(path), name_file(path)
     if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
-    result = find_corrections(file, minimise.value, without or (), name)
+    result = find_corrections(file, minimise, without or (), name)
     warn_each(result.doubts, name)
     if plot is not None and drawn is not None:
         from ..render.plot.field_balancing import make_field  # brings matplotlib
 
         write_figure(make_field(result), drawn, plot)
     show([result], renderer, form, output, units)
-    if check and not result.reached:
+    if check and result.permitted is not None and not result.permitted.reached:
         raise typer.Exit(Exit.DIFFERENCE)

@@ -74,6 +74,8 @@ def tables(
       balcli tables --errata --format json
     """
     form = text_format(output, form)
+    from dataclasses import replace
+
     from ..printed_tables.layouts import add_firing
     from ..printed_tables.registry import select_tables
 
@@ -85,6 +87,6 @@ def tables(
     elif name and chosen[0].name == "layouts" and digits is None:
         show([add_firing(chosen[0])], layouts, form, output)
     elif name:
-        show([printed_table.RoundedTable(chosen[0], digits)], printed_table, form, output)
+        show([replace(chosen[0], digits=digits)], printed_table, form, output)
     else:
         show([chosen], table_list, form, output)

@@ -9,7 +9,7 @@ DOCUMENTS = {
     "check": "regression:Check",
     "compare": "results.comparison:Comparison",
     "curves": "studies",
-    "field": "field",
+    "field": "field_balancing.balance:FieldBalance",
     "marine": "analysis",
     "mounts": "mounting.records:MountReport",
     "numbers": "studies.numbers:NamedNumbers",

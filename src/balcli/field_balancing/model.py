@@ -1,13 +1,14 @@
 """What a file of runs may say: readings as amplitude and phase, weights as amount and angle.
 
-Readings stay in whatever unit they were read in, weights in the file's own (`weight_unit`); lengths
-are mm, speeds rpm, the mass of the rotor kg, angles degrees.
+Readings keep the unit in which they were read, weights the unit of the file (`weight_unit`).
+Lengths are in mm, speeds in rpm, the mass of the rotor in kg, angles in degrees.
 """
 
 import cmath
 import math
 import re
-from typing import Annotated, Any
+from contextlib import suppress
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import Field
 
@@ -29,7 +30,6 @@ _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
 _AT = rf"\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*"
 _POLAR = re.compile(rf"\s*({BARE_FIGURE}){_AT}", re.ASCII)
 _WITH_UNIT = re.compile(rf"\s*({BARE_FIGURE})\s*([^\s\d.,@+-][^@]*?){_AT}", re.ASCII)
-_LARGEST, _SMALLEST = 1e12, 1e-12
 _FARTHEST_DEG = 1e6
 FREE = "free"  # places of a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", ("g", "oz", "g mm"))
@@ -68,25 +68,21 @@ class Polar(Number):
         if match is None:
             raise ValueError(f"{shorten(value)} {self._describe_misfit(text)}")
         amplitude, angle = map(float, match.groups())
+        wrong = ""
         if amplitude < 0:
-            raise ValueError(
-                f"{shorten(value)} has a negative amplitude; leave the minus out and turn the "
-                "angle by 180 degrees"
+            wrong = "has a negative amplitude; leave the minus out, turn the angle by 180 degrees"
+        elif amplitude == 0 and not self.zero:
+            wrong = (
+                "is a weight of 0, which has no effect; give the weight that was on, or leave the "
+                "plane out"
             )
-        if amplitude == 0 and not self.zero:
-            raise ValueError(
-                f"{shorten(value)} is a weight of 0, which tells nothing; give the weight that was "
-                "on, or leave the plane out"
-            )
-        if amplitude > _LARGEST or abs(angle) > _FARTHEST_DEG:
-            raise ValueError(
-                f"{shorten(value)} is too large; amplitudes go up to {_LARGEST:g}, angles to "
+        elif not (amplitude == 0 or 1e-12 <= amplitude <= 1e12) or abs(angle) > _FARTHEST_DEG:
+            wrong = (
+                "is too large or small; amplitudes are 0 or 1e-12 to 1e+12, angles up to "
                 f"{_FARTHEST_DEG:g} degrees"
             )
-        if 0 < amplitude < _SMALLEST:
-            raise ValueError(
-                f"{shorten(value)} is too small; amplitudes are 0, or {_SMALLEST:g} and more"
-            )
+        if wrong:
+            raise ValueError(f"{shorten(value)} {wrong}")
         return make_polar(amplitude, angle)
 
     def _describe_misfit(self, text: str) -> str:
@@ -117,16 +113,13 @@ class AmountUnit(Label):
 
     def read(self, value: object) -> str:
         name = super().read(value)
-        try:
-            unit = read_amount_unit(name)
-        except ValueError:
-            unit = None
-        if unit is None or unit.powers not in (MASS.powers, UNBALANCE.powers):
-            raise ValueError(
-                f"{shorten(value)} is no unit of weights; write g, kg, oz or lb, or of unbalances "
-                "g mm or oz in"
-            )
-        return name
+        with suppress(ValueError):
+            if read_amount_unit(name).powers in (MASS.powers, UNBALANCE.powers):
+                return name
+        raise ValueError(
+            f"{shorten(value)} is no unit of weights; write g, kg, oz or lb, or of unbalances "
+            "g mm or oz in"
+        )
 
 
 class PlaceAngles(Number):
@@ -160,24 +153,30 @@ def read_amount_unit(name: str) -> Unit:
     return read_unit(name, _AMOUNTS)
 
 
+T = TypeVar("T")
+ByPlane = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_BALANCING_PLANES)]
+BySensor = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_SENSORS)]
 Reading = Annotated[complex, Polar("170 @ 112", zero=True, unit="unit")]
 Weight = Annotated[complex, Polar("1.15 @ 0", zero=False, unit="weight_unit")]
 Coefficient = Annotated[complex, Polar("0.0155 @ 113", zero=True)]
 Amount = Annotated[float, Number(PLAIN, above=0, most=1e9)]
 Factor = Annotated[float, Number(PLAIN, least=1e-6, most=1e6)]
-Readings = Annotated[tuple[Reading, ...], Field(min_length=1, max_length=MOST_SENSORS)]
-Coefficients = Annotated[
-    tuple[Coefficient, ...], Field(min_length=1, max_length=MOST_BALANCING_PLANES)
-]
-PlacesOfPlane = Annotated[tuple[float, ...], PlaceAngles()]
-_PLANES = Field(min_length=1, max_length=MOST_BALANCING_PLANES)
+Places = Annotated[tuple[float, ...], PlaceAngles()]
+Sense = Literal["with", "against"]
+_PHASES = "lag: phases count against rotation, as most instruments do; lead: with it"
+_ANGLES = "with: their angles go the way the rotor turns; against: the other way"
+
+
+def _key(example: object, description: str, default: Any = None) -> Any:
+    """Return the declaration of a key that may be left out."""
+    return Field(default, examples=[example], description=description)
 
 
 class Run(FileTable):
     """One run of the machine."""
 
-    name: Name | None = Field(None, examples=["trial front"], description="what to call it")
-    readings: Readings = Field(
+    name: Name | None = _key("trial front", "what to call it")
+    readings: BySensor[Reading] = Field(
         examples=[["170 @ 112", "53 @ 78"]],
         description="amplitude @ phase in degrees of every sensor, in the same order in every run",
     )
@@ -187,106 +186,91 @@ class Run(FileTable):
         description="weights put on for this run: amount @ angle in degrees, by plane; none: the "
         "rotor as found",
     )
-    keep_trial: Annotated[bool, Flag()] = Field(
-        False,
-        examples=[True],
-        description="true: these weights stay on in the later runs at this speed",
+    keep_trial: Annotated[bool, Flag()] = _key(
+        True, "true: these weights stay on in the later runs at this speed", False
     )
-    speed: Speed | None = Field(
-        None, examples=[1500], description="speed of this run; each speed is a series of its own"
-    )
+    speed: Speed | None = _key(1500, "speed of this run; each speed is a series of its own")
 
 
 class RunsFile(FileTable):
     """Readings of a rotor with and without trial weights."""
 
-    name: Name | None = Field(None, examples=["fan 3"], description="what to call the rotor")
-    planes: Annotated[tuple[Name, ...], _PLANES] = Field(
+    name: Name | None = _key("fan 3", "what to call the rotor")
+    planes: ByPlane[Name] = Field(
         examples=[["front", "rear"]], description="names of the planes that take weights"
     )
-    sensors: Annotated[tuple[Name, ...], Field(min_length=1, max_length=MOST_SENSORS)] | None = (
-        Field(None, examples=[["front x", "rear x"]], description="names of the sensors")
+    sensors: BySensor[Name] | None = _key(["front x", "rear x"], "names of the sensors")
+    rotation: Annotated[str, OneOf("lag", "lead", meaning=_PHASES)] = _key(
+        "lag", "phases of readings count against rotation (lag) or with it (lead)", "lag"
     )
-    rotation: Annotated[
-        str,
-        OneOf(
-            "lag",
-            "lead",
-            meaning="lag: phases count against rotation, as most instruments do; lead: with it",
-        ),
-    ] = Field(
-        "lag",
-        examples=["lag"],
-        description="phases of readings count against rotation (lag) or with it (lead)",
+    weights: Annotated[Sense, OneOf("with", "against", meaning=_ANGLES)] | None = _key(
+        "with",
+        "angles of weights count with or against rotation; left out: the same way as the phases of "
+        "readings",
     )
-    weights: (
-        Annotated[
-            str,
-            OneOf(
-                "with",
-                "against",
-                meaning="with: their angles go the way the rotor turns; against: the other way",
-            ),
-        ]
-        | None
-    ) = Field(
-        None,
-        examples=["with"],
-        description="angles of weights count with or against rotation; left out: the same way as "
-        "the phases of readings",
+    unit: Name | None = _key("um", "unit of the readings, to show")
+    weight_unit: Annotated[str, AmountUnit()] = _key(
+        "g", "unit of the weights: of mass, or of mass times radius", "g"
     )
-    unit: Name | None = Field(None, examples=["um"], description="unit of the readings, to show")
-    weight_unit: Annotated[str, AmountUnit()] = Field(
-        "g", examples=["g"], description="unit of the weights: of mass, or of mass times radius"
+    reading_weights: BySensor[Factor] | None = _key(
+        [1, 2], "how much each sensor counts; left out: alike"
     )
-    reading_weights: (
-        Annotated[tuple[Factor, ...], Field(min_length=1, max_length=MOST_SENSORS)] | None
-    ) = Field(None, examples=[[1, 2]], description="how much each sensor counts; left out: alike")
-    influence: (
-        Annotated[tuple[Coefficients, ...], Field(min_length=1, max_length=MOST_SENSORS)] | None
-    ) = Field(
-        None,
-        examples=[[["0.0155 @ 113", "0.009 @ 10"]]],
-        description="influence coefficients, known from before: a row for each reading (of each "
-        "speed), reading per unit of weight for each plane",
+    influence: BySensor[ByPlane[Coefficient]] | None = _key(
+        [["0.0155 @ 113", "0.009 @ 10"]],
+        "influence coefficients, known from before: a row for each reading (of each speed), "
+        "reading per unit of weight for each plane",
     )
-    radius: Annotated[tuple[Size, ...], _PLANES] | None = Field(
-        None, examples=[[200, 200]], description="radius of the weights, or of the rim, by plane"
+    radius: ByPlane[Size] | None = _key(
+        [200, 200], "radius of the weights, or of the rim, by plane"
     )
-    most: Annotated[tuple[Amount, ...], _PLANES] | None = Field(
-        None,
-        examples=[[40, 40]],
-        description="largest weight of a plane, or at one of its places, by plane",
+    most: ByPlane[Amount] | None = _key(
+        [40, 40], "largest weight of a plane, or at one of its places, by plane"
     )
-    places: Annotated[tuple[PlacesOfPlane, ...], _PLANES] | None = Field(
-        None,
-        examples=[[12, [0, 30, 60]]],
-        description="where a plane takes weights, by plane: a number of places, evenly spaced from "
-        '0 on, a list of angles, or "free": at any angle',
+    places: ByPlane[Places] | None = _key(
+        [12, [0, 30, 60]],
+        "where a plane takes weights, by plane: a number of places, evenly spaced from 0 on, a "
+        'list of angles, or "free": at any angle',
     )
-    drill: Annotated[tuple[Size, ...], _PLANES] | None = Field(
-        None,
-        examples=[[12, 12]],
-        description="diameter of radial holes that remove steel from the rim, opposite to the "
-        "weight, by plane",
+    drill: ByPlane[Size] | None = _key(
+        [12, 12],
+        "diameter of radial holes that remove steel from the rim, opposite to the weight, by plane",
     )
-    deepest: Annotated[tuple[Size, ...], _PLANES] | None = Field(
-        None, examples=[[25, 25]], description="deepest hole, by plane"
+    deepest: ByPlane[Size] | None = _key([25, 25], "deepest hole, by plane")
+    grade: Annotated[float, Grade()] | None = _key(
+        6.3, "balance quality grade G of ISO 21940-11, mm/s"
     )
-    grade: Annotated[float, Grade()] | None = Field(
-        None, examples=[6.3], description="balance quality grade G of ISO 21940-11, mm/s"
-    )
-    mass: Annotated[float, Number(MASS, above=0, most=1e9)] | None = Field(
-        None, examples=[120], description="mass of the rotor"
-    )
-    speed: Speed | None = Field(
-        None, examples=[3000], description="service speed, for which the grade permits an unbalance"
-    )
-    shares: Annotated[tuple[Factor, ...], _PLANES] | None = Field(
-        None,
-        examples=[[0.4, 0.6]],
-        description="shares of the permitted unbalance, by plane; left out: equal ones",
+    mass: Annotated[float, Number(MASS, above=0, most=1e9)] | None = _key(120, "mass of the rotor")
+    speed: Speed | None = _key(3000, "service speed, for which the grade permits an unbalance")
+    shares: ByPlane[Factor] | None = _key(
+        [0.4, 0.6], "shares of the permitted unbalance, by plane; left out: equal ones"
     )
     run: tuple[Run, ...] = Field(
         min_length=1, max_length=MOST_RUNS, examples=[], description="the runs, in their order"
     )
+
+    @property
+    def weighs_masses(self) -> bool:
+        """Whether weights are masses; otherwise they are unbalances."""
+        return read_amount_unit(self.weight_unit).powers == MASS.powers
+
+    @property
+    def senses(self) -> tuple[Sense, Sense]:
+        """Senses in which phases of readings and angles of weights count rotation."""
+        phases: Sense = "against" if self.rotation == "lag" else "with"
+        return phases, self.weights or phases
+
+    def turn(self, weights: Any) -> Any:
+        """Return weights in the sense of the readings, or back in the sense of the file."""
+        phases, angles = self.senses
+        return weights if phases == angles else weights.conjugate()
+
+    def name_run(self, k: int) -> str:
+        """Return the name of the k-th run (from 0), or its number."""
+        return self.run[k].name or f"run {k + 1}"
+
+    def find_unbalance_per_weight(self, k: int) -> float | None:
+        """Return the unbalance of one unit of weight in the k-th plane, kg m; None: no radius."""
+        scale = float(read_amount_unit(self.weight_unit).scale)
+        if not self.weighs_masses:
+            return scale
+        return scale * self.radius[k] / 1e3 if self.radius else None

@@ -1,79 +1,166 @@
-"""A weight at some angle, put on where the shop can: at given angles, none of them too heavy."""
+"""What can be done in a plane: weights at places or at any angle, or holes in the rim.
+
+Weights at given angles, each from 0 to a largest one, make together any weight in a convex polygon
+(`find_region`). `split_weight` finds the lightest set of weights that makes a given one.
+"""
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.drilled_hole import find_drill_depth, find_drilled_unbalance
 from ..core.phasors import Array, Complex
 from ..core.smallest_largest import Region
+from ..documents.records import angle_deg
+from .model import RunsFile
 
 _ROUNDING = 1e-9  # share of a weight that is rounding
 
 
-class Placed(NamedTuple):
-    """One weight, at the angle of a place; which one that is, from 1 (None: anywhere)."""
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """Weight at a place, or a drilled hole: a part of a correction.
+
+    Attributes:
+        weight: Weight to put on, or weight at the rim to which the hole is equivalent.
+        angle_deg: Angle, in the sense in which the file counts angles of weights.
+        place: Number of the place in the file's list, from 1; left out at any angle.
+        depth_mm: Depth of the hole; left out for weights.
+    """
 
     weight: float
     angle_deg: float
-    number: int | None
+    place: int | None = None
+    depth_mm: float | None = None
+
+
+class _Hole(NamedTuple):
+    """Radial hole into a rim: radius of the rim and diameter of the hole, m; and the unbalance of
+    one unit of weight at the rim, kg m.
+    """
+
+    rim: float
+    diameter: float
+    per_weight: float
+
+
+class PlaneLimits(NamedTuple):
+    """Where one plane takes weights, and how heavy they may be. Angles are those of the file.
+
+    Attributes:
+        places_deg: Angles of the places, deg; empty: any angle.
+        most: Largest weight in the plane, at one place, or of one hole; infinite: no limit.
+        hole: Shape of holes, which remove weight opposite to it; None: weights are put on.
+    """
+
+    places_deg: tuple[float, ...]
+    most: float
+    hole: _Hole | None
+
+    @classmethod
+    def of_plane(cls, file: RunsFile, k: int) -> PlaneLimits:
+        """Return the limits of the k-th plane, from 0."""
+        places = file.places[k] if file.places else ()
+        most = file.most[k] if file.most else math.inf
+        per_weight = file.find_unbalance_per_weight(k)
+        if file.drill is None or file.radius is None or per_weight is None:
+            return cls(places, most, None)
+        hole = _Hole(file.radius[k] / 1e3, file.drill[k] / 1e3, per_weight)
+        deepest = file.deepest[k] / 1e3 if file.deepest else hole.rim
+        removed = find_drilled_unbalance(deepest, hole.rim, hole.diameter)
+        return cls(places, min(most, removed / per_weight), hole)
+
+    def make_region(self, weight_on: complex, sense: int) -> Region:
+        """Return the region of weights that can be added, in the sense of the readings.
+
+        Args:
+            weight_on: Weight that is on in the plane already, in the sense of the readings.
+            sense: -1 if phases of readings count against angles of weights, otherwise 1.
+        """
+        if self.places_deg:
+            angles_deg = sense * np.array(self.places_deg) + (180 if self.hole else 0)
+            return find_region(angles_deg, self.most)
+        return Region(0j if self.hole or math.isinf(self.most) else -weight_on, self.most)
+
+    def plan(self, weight: complex, negligible: float) -> tuple[Piece, ...]:
+        """Return the weights or holes that together make a weight in the region.
+
+        Args:
+            weight: Weight to add.
+            negligible: Weight that need not be put on.
+        """
+        if abs(weight) <= negligible:
+            return ()
+        amount = -weight if self.hole else weight
+        pieces: tuple[Piece, ...] | None = (Piece(weight=abs(amount), angle_deg=angle_deg(amount)),)
+        if self.places_deg:
+            pieces = split_weight(amount, np.array(self.places_deg), self.most, negligible)
+        if pieces is None:
+            raise AssertionError(f"{amount} is not in the region of {self.places_deg}")
+        return tuple(map(self._drill, pieces)) if self.hole else pieces
+
+    def _drill(self, piece: Piece) -> Piece:
+        """Return a weight as a hole."""
+        rim, diameter, per_weight = self.hole or (0.0, 0.0, 0.0)
+        unbalance = min(piece.weight, self.most) * per_weight
+        return replace(piece, depth_mm=1e3 * find_drill_depth(unbalance, rim, diameter))
 
 
 def split_weight(
     wanted: complex, angles_deg: Array, most: float, noise: float = 0.0
-) -> tuple[Placed, ...] | None:
-    """The least weight in all, spread over the angles, that does what one weight would do.
+) -> tuple[Piece, ...] | None:
+    """Return the lightest weights at given angles that together make a given weight.
 
-    The optimum of a linear program: all places of an arc of less than half a turn are full, its two
-    neighbours take what is left, all others are empty. Give the two components of the wanted weight
-    such prices that the two neighbours are worth just what they weigh: places between them are
-    worth more, all others less, which proves it.
+    This is the optimum of a linear program: all places of an arc of less than half a turn are full,
+    its two neighbors take what remains, all others are empty. Proof: price the two components of
+    the weight so that the two neighbors are worth what they weigh; then the places between them are
+    worth more and all others less.
 
     Args:
-        wanted: weight as a complex number. angles_deg: of the places.
-        most: largest weight at one place, infinite if there is no limit.
-        noise: a weight that is nothing, where it is more than rounding errors of the wanted one.
+        wanted: Weight to make.
+        angles_deg: Angles of the places, deg, shape (places,).
+        most: Largest weight at one place; infinite: no limit.
+        noise: Weight that is negligible, if it is more than rounding errors of `wanted`.
 
     Returns:
-        The places with a weight, or None if no weights there add up to it.
+        The places that get a weight; None if no weights there make the wanted one.
     """
-    if abs(wanted) <= noise:
+    size = abs(wanted)
+    if size <= noise:
         return ()
     angles, numbers, unit = _sort_places(angles_deg)
-    target, limit = wanted / abs(wanted), most / abs(wanted)
-    nothing = max(_ROUNDING, noise / abs(wanted))
+    target, limit, nothing = wanted / size, most / size, max(_ROUNDING, noise / size)
     count = len(angles)
-    alone = np.flatnonzero(np.abs(unit - target) < nothing)
-    if len(alone) and limit >= 1 - nothing:
-        i = int(alone[0])
-        return (Placed(abs(wanted), float(angles[i]), int(numbers[i])),)
     sums = np.concatenate([[0], np.cumsum(np.tile(unit, 2))])
     first = np.arange(count)
-    for between in range(count - 1 if np.isfinite(limit) else min(1, count - 1)):
+    for between in range(max(count - 1, 1) if np.isfinite(limit) else 1):
         last = first + between + 1
         full = (limit if between else 0.0) * (sums[last] - sums[first + 1])
-        at_first, at_last = _resolve(target - full, unit, unit[last % count])
-        low, high = np.minimum(at_first, at_last), np.maximum(at_first, at_last)
-        right = np.flatnonzero((low >= -nothing) & (high <= limit + nothing))
+        shares = _resolve(target - full, unit, unit[last % count], nothing)
+        right = np.flatnonzero(((shares >= -nothing) & (shares <= limit + nothing)).all(axis=0))
         if len(right):
             i = int(right[0])
-            parts = [at_first[i], *[limit] * between, at_last[i]]
-            places = [(i + k) % count for k in range(between + 2)]
+            amounts = enumerate([shares[0, i], *[limit] * between, shares[1, i]], i)
+            parts = [(k % count, float(share)) for k, share in amounts if share > nothing]
             return tuple(
-                Placed(float(part) * abs(wanted), float(angles[k]), int(numbers[k]))
-                for part, k in zip(parts, places, strict=True)
-                if part > nothing
+                Piece(weight=share * size, angle_deg=float(angles[k]), place=int(numbers[k]))
+                for k, share in parts
             )
     return None
 
 
 def find_region(angles_deg: Array, most: float) -> Region:
-    """Return the region of all weights that weights at these places can stand for together: a
-    polygon whose edges are parallel to the places, or without a limit a wedge.
+    """Return the region of weights that weights at given angles can make together: a polygon whose
+    edges are parallel to the places, or without a limit a wedge.
 
-    Args: as for `split_weight`.
+    Args:
+        angles_deg: Angles of the places, deg, shape (places,).
+        most: Largest weight at one place; infinite: no limit.
     """
     angles, _, unit = _sort_places(angles_deg)
     if np.isfinite(most):
@@ -81,30 +168,28 @@ def find_region(angles_deg: Array, most: float) -> Region:
         ways = np.append(unit, -unit)[order]
         lowest = (unit.imag < -_ROUNDING) | ((np.abs(unit.imag) <= _ROUNDING) & (unit.real < 0))
         starts = most * (unit[lowest].sum() + np.append(0, np.cumsum(ways)[:-1]))
-        return Region(starts=starts, ways=ways, lengths=np.full(len(ways), most), inward=1j * ways)
+        return Region(starts=starts, ways=ways, lengths=np.full(len(ways), most))
     gaps = np.append(angles[1:], angles[0] + 360) - angles
     before = np.flatnonzero(gaps >= 180 - _ROUNDING)
     after = (before + 1) % len(angles)
-    ways = np.append(unit[after], unit[before])
-    inward = np.append(1j * unit[after], -1j * unit[before])
-    zeros, endless = np.zeros(len(ways), complex), np.full(len(ways), np.inf)
-    return Region(starts=zeros, ways=ways, lengths=endless, inward=inward)
+    ways, far = np.append(unit[after], -unit[before]), np.full(len(before), np.inf)
+    return Region(starts=np.zeros_like(ways), ways=ways, lengths=np.append(far, -far))
 
 
 def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
-    """Angles in [0, 360), each once; which of the given ones, from 1; and as complex numbers."""
+    """Return the distinct angles in [0, 360), their numbers from 1, and their unit vectors."""
     rounded = np.round(np.asarray(angles_deg) % 360, 9) % 360
     angles, first = np.unique(rounded, return_index=True)
     return angles, first + 1, np.exp(1j * np.radians(angles))
 
 
-def _resolve(wanted: Complex, one: Complex, other: Complex) -> tuple[Array, Array]:
-    """Weights at two places, the other less than half a turn on from the one, that add up to what
-    is wanted; negative where the other is farther on.
+def _resolve(wanted: Complex, one: Complex, other: Complex, nothing: float) -> Array:
+    """Return the weights along `one` and `other` that add up to `wanted`, shape (2, places).
+
+    If `other` is half a turn or more on from `one`, `one` has to do alone; what cannot be is -1.
     """
-    across = (np.conj(one) * other).imag
-    usable = across > _ROUNDING
-    divisor = np.where(usable, across, 1.0)
-    at_one = np.where(usable, -(np.conj(other) * wanted).imag / divisor, -1.0)
-    at_other = np.where(usable, (np.conj(one) * wanted).imag / divisor, -1.0)
-    return at_one, at_other
+    across, miss = (np.conj(one) * other).imag, (np.conj(one) * wanted).imag
+    parts = np.array([-(np.conj(other) * wanted).imag, miss])
+    alone = np.where(np.abs(miss) < nothing, (np.conj(one) * wanted).real, -1.0)
+    two = across > _ROUNDING
+    return np.where(two, parts / np.where(two, across, 1.0), [alone, np.zeros_like(alone)])

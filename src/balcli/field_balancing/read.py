@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +14,9 @@ from ..enginefile.messages import describe_finding, join_path
 from ..enginefile.model import FileTable
 from ..enginefile.table_reader import TableReader
 from ..enginefile.toml_text import name_file, parse_toml, read_bytes
-from ..enginefile.units import MASS
 from ..errors import Problem
 from ..limits import MOST_RUNS
-from .model import Run, RunsFile, read_amount_unit
+from .model import Run, RunsFile
 
 BY_PLANE = ("radius", "most", "places", "drill", "deepest", "shares")
 _NEEDED = {
@@ -62,21 +61,11 @@ def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
         if isinstance(refused.draft, RunsFile) and "planes" not in refused.broken:
             head, broken = refused.draft, refused.broken  # as far as it can be read
     if head is not None:
-        numbered = [(k, run) for k, run in enumerate(runs, 1) if run is not None]
-        misfits = [*_find_misfits(head, numbered, len(numbered) == len(runs))]
-        for k, run in enumerate(runs, 1):  # what could not be read may name no planes, too
-            weights = _find_weights(data["run"][k - 1]) if run is None else ()
-            misfits += _check_planes(head, k, weights)
+        misfits = _find_misfits(head, runs, data.get("run"))
         reader.problems += (misfit for misfit in misfits if broken.isdisjoint(misfit.missing))
     if reader.problems or model is None:
         raise reader.refusal(file)
     return model
-
-
-def _find_weights(table: object) -> Iterable[object]:
-    """Names under `weights` in a table as TOML is read; none where there is no such table."""
-    weights = table.get("weights") if isinstance(table, Mapping) else None
-    return weights if isinstance(weights, Mapping) else ()
 
 
 def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
@@ -94,129 +83,114 @@ def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Probl
 
 
 # ------------------------------------------------------------------ what does not fit together
-def _find_misfits(file: RunsFile, runs: list[tuple[int, Run]], whole: bool) -> Iterator[Problem]:
-    """Args: runs that could be read, by their numbers; whether these are all."""
-    yield from _check_names(file)
+def _find_misfits(file: RunsFile, runs: Sequence[Run | None], tables: Any) -> Iterator[Problem]:
+    """Yield what does not fit together, as far as the file can be read.
+
+    Args:
+        file: everything but the runs.
+        runs: the runs; None for each that has mistakes.
+        tables: the runs as TOML is read.
+    """
     yield from _check_lists(file)
-    yield from _check_permitted(file)
-    yield from _check_shop(file)
-    yield from _check_runs(file, runs)
-    if whole and len({run.speed is None for _, run in runs}) == 1:  # else speeds are not known
-        yield from _check_influence_rows(file, [run for _, run in runs])
+    yield from _check_grade(file)
+    yield from _check_holes(file)
+    readable = {k: run for k, run in enumerate(runs, 1) if run is not None}
+    if readable:
+        yield from _check_runs(file, readable, len(readable) == len(runs))
+    for k, run in enumerate(runs, 1):  # a run that has mistakes may name wrong planes as well
+        if run is None and isinstance(tables[k - 1], Mapping):
+            weights = tables[k - 1].get("weights")
+            yield from _check_planes(file, k, weights if isinstance(weights, Mapping) else ())
 
 
-def _check_names(file: RunsFile) -> Iterator[Problem]:
-    for key in ("planes", "sensors"):
-        names = getattr(file, key) or ()
-        twice = sorted({name for name in names if names.count(name) > 1})
-        if twice:
-            yield Problem(key, f"names {shorten(twice[0])} twice; each needs a name of its own")
+def _check_count(path: str, values: Sized | None, what: str, wanted: int, of: str) -> list[Problem]:
+    """Return a problem if there is not one value for each plane or reading."""
+    if values is None or len(values) == wanted:
+        return []
+    text = f"has {counted(len(values), what)}, but there are {of}; give one for each"
+    return [Problem(path, text)]
 
 
 def _check_lists(file: RunsFile) -> Iterator[Problem]:
+    for key in ("planes", "sensors"):
+        names = getattr(file, key) or ()
+        if twice := sorted({name for name in names if names.count(name) > 1}):
+            yield Problem(key, f"names {shorten(twice[0])} twice; each needs a name of its own")
+    planes = len(file.planes)
     for key in BY_PLANE:
-        values = getattr(file, key)
-        if values is not None and len(values) != len(file.planes):
-            yield Problem(
-                key,
-                f"has {counted(len(values), 'value')}, but there are "
-                f"{counted(len(file.planes), 'plane')}; give one for each, in their order",
-            )
+        yield from _check_count(key, getattr(file, key), "value", planes, counted(planes, "plane"))
+    for k, row in enumerate(file.influence or (), 1):
+        path = f"influence.{k}"
+        yield from _check_count(path, row, "coefficient", planes, counted(planes, "plane"))
 
 
-def _check_permitted(file: RunsFile) -> Iterator[Problem]:
+def _check_grade(file: RunsFile) -> Iterator[Problem]:
     if file.shares is not None and file.grade is None:
         yield Problem.of_missing("grade", "shares are of what it permits, such as grade = 6.3")
-    if file.grade is not None:
-        for key, example in (("mass", "120"), ("speed", "3000")):
-            if getattr(file, key) is None:
-                hint = f"a grade permits an unbalance by it, such as {key} = {example}"
-                yield Problem.of_missing(key, hint)
-        if file.radius is None and is_mass(file):
-            yield Problem.of_missing(
-                "radius",
-                "a grade permits an unbalance, which is weight times radius: give the "
-                "radius of every plane, such as radius = [200, 200], or the weights as unbalances, "
-                'with weight_unit = "g mm"',
-            )
+    if file.grade is None:
+        return
+    for key, example in (("mass", "120"), ("speed", "3000")):
+        if getattr(file, key) is None:
+            hint = f"a grade permits an unbalance by it, such as {key} = {example}"
+            yield Problem.of_missing(key, hint)
+    if file.radius is None and file.weighs_masses:
+        yield Problem.of_missing(
+            "radius",
+            "a grade permits an unbalance, which is weight times radius: give the radius of every "
+            "plane, such as radius = [200, 200], or the weights as unbalances, with "
+            'weight_unit = "g mm"',
+        )
 
 
-def _check_shop(file: RunsFile) -> Iterator[Problem]:
+def _check_holes(file: RunsFile) -> Iterator[Problem]:
     if file.drill is not None and file.radius is None:
         yield Problem.of_missing("radius", "a drill needs the radius of the rim, in every plane")
     if file.deepest is not None and file.drill is None:
         yield Problem.of_missing("drill", "deepest belongs to holes, which have a diameter")
-    if file.drill and file.radius and len(file.drill) == len(file.radius):
-        for k, (drill, rim) in enumerate(zip(file.drill, file.radius, strict=True), 1):
-            if drill > 2 * rim:
-                yield Problem(
-                    "drill", f"hole {k} of {drill:g} mm is wider than its rim of radius {rim:g} mm"
-                )
-    if file.deepest and file.radius and len(file.deepest) == len(file.radius):
-        for k, (depth, rim) in enumerate(zip(file.deepest, file.radius, strict=True), 1):
-            if depth > rim:
-                yield Problem(
-                    "deepest", f"hole {k} of {depth:g} mm passes the axis, {rim:g} mm below the rim"
-                )
+    for k, rim in enumerate(file.radius or ()):
+        if (drill := _find_kth(file.drill, k)) > 2 * rim:
+            text = f"hole {k + 1} of {drill:g} mm is wider than its rim of radius {rim:g} mm"
+            yield Problem("drill", text)
+        if (depth := _find_kth(file.deepest, k)) > rim:
+            text = f"hole {k + 1} of {depth:g} mm passes the axis, {rim:g} mm below the rim"
+            yield Problem("deepest", text)
 
 
-def is_mass(file: RunsFile) -> bool:
-    """Whether weights are given as masses, not as unbalances."""
-    return read_amount_unit(file.weight_unit).powers == MASS.powers
+def _find_kth(values: Sequence[float] | None, k: int) -> float:
+    return values[k] if values and k < len(values) else 0.0
 
 
-def _check_runs(file: RunsFile, runs: list[tuple[int, Run]]) -> Iterator[Problem]:
-    if not runs:
-        return
-    first, pattern = runs[0]
-    wanted = len(file.sensors) if file.sensors else len(pattern.readings)
+def _check_runs(file: RunsFile, runs: Mapping[int, Run], whole: bool) -> Iterator[Problem]:
+    """Yield what does not fit in runs, which come by their numbers; `whole`: these are all."""
+    first, pattern = next(iter(runs.items()))
+    sensors = len(file.sensors or pattern.readings)
     whose = "sensors names" if file.sensors else f"run.{first} has"
-    spoken = [k for k, run in runs if run.speed is not None]
-    for k, run in runs:
-        if len(run.readings) != wanted:
+    with_speed = [k for k, run in runs.items() if run.speed is not None]
+    for k, run in runs.items():
+        if len(run.readings) != sensors:
             yield Problem(
                 f"run.{k}.readings",
-                f"has {counted(len(run.readings), 'reading')}, but {whose} {wanted}; give one for "
+                f"has {counted(len(run.readings), 'reading')}, but {whose} {sensors}; give one for "
                 "each sensor, in the same order in every run",
             )
         yield from _check_planes(file, k, run.weights)
-        if spoken and run.speed is None:
-            hint = f"run.{spoken[0]} gives its speed, so every run must"
+        if with_speed and run.speed is None:
+            hint = f"run.{with_speed[0]} gives its speed, so every run must"
             yield Problem.of_missing(f"run.{k}.speed", hint)
-    yield from _check_factors(file, wanted)
+    readings = counted(sensors, "reading")
+    key = "reading_weights"
+    yield from _check_count(key, file.reading_weights, "value", sensors, f"{readings} in a run")
+    if whole and len(with_speed) in (0, len(runs)):  # otherwise the speeds are not known
+        speeds = len({run.speed for run in runs.values()})
+        at = f" at {counted(speeds, 'speed')}" if speeds > 1 else ""
+        yield from _check_count(
+            "influence", file.influence, "row", sensors * speeds, f"{readings}{at}"
+        )
 
 
 def _check_planes(file: RunsFile, k: int, names: Iterable[object]) -> Iterator[Problem]:
-    """What takes a weight in the k-th run, and is no plane."""
+    """Yield names under `weights` of the k-th run that are no planes."""
     for name in names:
         if isinstance(name, str) and name not in file.planes:
             hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
             yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")
-
-
-def _check_factors(file: RunsFile, sensors: int) -> Iterator[Problem]:
-    if file.reading_weights and len(file.reading_weights) != sensors:
-        yield Problem(
-            "reading_weights",
-            f"has {counted(len(file.reading_weights), 'value')}, but there are "
-            f"{counted(sensors, 'reading')} in a run; give one for each",
-        )
-    for k, row in enumerate(file.influence or (), 1):
-        if len(row) != len(file.planes):
-            yield Problem(
-                f"influence.{k}",
-                f"has {counted(len(row), 'coefficient')}, but there are "
-                f"{counted(len(file.planes), 'plane')}; give one for each, in their order",
-            )
-
-
-def _check_influence_rows(file: RunsFile, runs: list[Run]) -> Iterator[Problem]:
-    speeds = len({run.speed for run in runs})
-    sensors = len(file.sensors or runs[0].readings)
-    if file.influence is not None and len(file.influence) != sensors * speeds:
-        at = f" at {counted(speeds, 'speed')}" if speeds > 1 else ""
-        yield Problem(
-            "influence",
-            f"has {counted(len(file.influence), 'row')}, but there are "
-            f"{counted(sensors, 'reading')}{at}; give one row for each reading",
-        )

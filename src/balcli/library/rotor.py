@@ -22,24 +22,23 @@ def balance_rotor(
     *,
     without: str | Collection[str] = (),
 ) -> FieldBalance:
-    """Balance a rotor on the machine or in its bearings: from readings with trial weights to
-    correction weights, places or drill holes, and what is left.
+    """Balance a rotor on the machine or in its bearings.
 
     Args:
-        runs: the path of a file of runs, its text (TOML), or a dict of its tables: `planes`, and
-            under `run` one dict a run with its `readings` and `weights`, such as "5 @ 30" (size and
-            angle in degrees).
+        runs: Path of a file of runs, its text (TOML), or a dict of its tables: `planes`, and under
+            `run` one dict for each run with its `readings` and `weights`, such as "5 @ 30"
+            (amplitude and angle in degrees).
         minimise: "squares", the least sum of squared readings, or "max", the smallest largest one.
-        without: names of planes that get no weight.
+        without: Names of planes that get no weight.
 
     Returns:
-        `planes`, each with its `total` weight (complex, in the file's unit) and `pieces`; `after`,
-        the readings that are to be expected, shape (readings,).
+        `corrections`, each with its `weight` (complex, in the file's unit) and `pieces`;
+        `residual`, the predicted readings, shape (readings,).
 
     Raises:
-        BalcliError: there is nothing to read; planes to leave out that are none, or all of them.
-        InputError: every mistake of the runs; runs that do not tell what each plane does.
-        TypeError: the runs are none of these; names that are no texts.
+        BalcliError: The file cannot be read; `without` names no plane, or all of them.
+        InputError: The runs have mistakes, or do not separate the effects of the planes.
+        TypeError: An argument has a wrong type.
 
     Example:
         >>> balance_rotor("fan.toml", "max").to_pandas()
@@ -48,9 +47,10 @@ def balance_rotor(
     if minimise not in ("squares", "max"):
         raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
     without = [without] if isinstance(without, str) else without
-    check_type("without", without, Collection, 'give names of planes, such as ["front"]')
-    for name in without:
-        check_type("without", name, str, 'give names of planes, such as ["front"]')
+    hint = 'give names of planes, such as ["front"]'
+    check_type("without", without, Collection, hint)
+    for plane in without:
+        check_type("without", plane, str, hint)
     wanted = "give the path, text or dict of a file of runs"
     tables, name = take_tables("balance_rotor", runs, wanted)
     return find_corrections(check_runs(tables, name), minimise, without, name or _UNNAMED)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from types import NoneType
 
-from ..errors import wrong_type
+from ..errors import check_type
 from ..limits import HIGHEST_POWER
-from ..printed_tables.ranges import Ranges, parse_crank_ratios, parse_range
 from ..printed_tables.recomputed import Table
 from ..printed_tables.registry import NAMES, recompute
 from .arguments import check_count, tell_arguments
@@ -37,17 +36,8 @@ def tables(
     Example:
         >>> tables("tsinghua-1-2").errata
     """
-    if not isinstance(name, str):
-        raise wrong_type("tables", name, f"give the name of a table, such as {NAMES[1]!r}")
-    for option, text, example in (
-        ("ratios", ratios, "0.20:0.40:0.01"),
-        ("angles", angles, "0:180:5"),
-    ):
-        if not isinstance(text, (str, NoneType)):
-            raise wrong_type(option, text, f'give a text, such as "{example}"')
-    ranges = Ranges(
-        None if ratios is None else parse_crank_ratios(ratios),
-        None if angles is None else parse_range(angles, "--angle"),
-        None if power is None else check_count("power", power, 0, HIGHEST_POWER),
-    )
-    return recompute(name, ranges)
+    check_type("tables", name, str, f"give the name of a table, such as {NAMES[1]!r}")
+    check_type("ratios", ratios, (str, NoneType), 'give a text, such as "0.20:0.40:0.01"')
+    check_type("angles", angles, (str, NoneType), 'give a text, such as "0:180:5"')
+    highest = None if power is None else check_count("power", power, 0, HIGHEST_POWER)
+    return recompute(name, ratios, angles, highest)

@@ -14,8 +14,8 @@ import numpy as np
 from ..core.mechanisms import closed_form
 from ..core.mechanisms import power_series as series
 from ..core.phasors import Array
-from .printed import Print, head_rows
-from .ranges import Ranges, as_numbers
+from .printed import Print, as_numbers, head_rows
+from .ranges import Ranges
 from .recomputed import Explanation, Row, Table
 
 Exact: TypeAlias = Callable[[list[int], Array], Array]
@@ -34,8 +34,7 @@ def tabulate_rod(printed: Print, ranges: Ranges) -> Table:
 
 def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Table:
     headings = ranges.lam or printed.headings()
-    lam = np.array(as_numbers(headings))
-    stub = [label or "" for label in printed.column("coefficient")]
+    lam, stub = as_numbers(headings), printed.column("coefficient")
     orders = [int(label.partition("_")[2]) for label in stub]
     columns = (printed.columns[0], *headings)
 

@@ -29,7 +29,7 @@ ORDERS = (1, 2, 4, 6)
 def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
     """One row an engine; semi-axes (equal: a circle) of force F and moment M of each order."""
     ends = [f"{letter}{n}_{axis}" for n in ORDERS for letter in "FM" for axis in ("major", "minor")]
-    rows = [_row(name or "") for name in printed.column("engine")]
+    rows = [_row(name) for name in printed.column("engine")]
     return printed.compare(("engine", "layout", "cylinders", *ends), rows, stub=3)
 
 

@@ -8,16 +8,15 @@ at radii b''' and b'' in the same proportion; sliders cancel the components Z_x 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from decimal import Decimal
 from math import cos, radians
 from typing import TypeAlias
 
 import numpy as np
 
 from ..core.phasors import Array, unit
-from .printed import Print, as_cells, head_rows
-from .ranges import Ranges, as_numbers
-from .recomputed import Explanation, Row, Table, parse_decimals
+from .printed import Print, as_cells, as_numbers, head_rows
+from .ranges import Ranges
+from .recomputed import Explanation, Row, Table
 
 Cosine: TypeAlias = Callable[[Array], Array]  # of degrees
 ROUGH = "author's approximation: cos 45° taken as 0.706"
@@ -40,33 +39,30 @@ def _rough(degrees: Array) -> Array:
 
 def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
     """Table 1: radii of the two shafts over gamma, their ratio, and the same for their rates."""
-    gamma = np.array(as_numbers(printed.headings()))
-    return _laid_out(
-        printed,
-        _paths(gamma, _cos),
-        [
-            Explanation(ROUGH, _labelled(printed, _paths(gamma, _rough))),
-            Explanation("quotient of the rounded lines above", _quotients(printed)),
-        ],
-    )
+    gamma = as_numbers(printed.headings())
+    stub = printed.column(printed.columns[0])
+    explanations = [
+        Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough))),
+        Explanation("quotient of the rounded lines above", _quotients(printed)),
+    ]
+    rows = head_rows(stub, _paths(gamma, _cos))
+    return printed.compare(printed.columns, rows, explanations=explanations)
 
 
 def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
     """Table 2: the two rotating vectors."""
-    gamma = np.array(as_numbers(printed.headings()))
-    return _laid_out(printed, np.array([_cos(gamma / 2), _cos(3 * gamma / 2)]))
+    gamma = as_numbers(printed.headings())
+    vectors = [_cos(gamma / 2), _cos(3 * gamma / 2)]
+    rows = head_rows(printed.column(printed.columns[0]), vectors)
+    return printed.compare(printed.columns, rows)
 
 
 def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
     """Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
-    gammas = [None if text is None else float(text) for text in printed.column("gamma_deg")]
-    rough = _sliders(printed, gammas, _rough)
-    return printed.compare(
-        printed.columns,
-        _sliders(printed, gammas, _cos),
-        explanations=[Explanation(ROUGH, rough)],
-        stub=2,
-    )
+    gammas = [float(text) if text else None for text in printed.column("gamma_deg")]
+    explanations = [Explanation(ROUGH, _sliders(printed, gammas, _rough))]
+    rows = _sliders(printed, gammas, _cos)
+    return printed.compare(printed.columns, rows, explanations=explanations, stub=2)
 
 
 def _paths(gamma: Array, cosine: Cosine) -> Array:
@@ -83,7 +79,7 @@ def _paths(gamma: Array, cosine: Cosine) -> Array:
 
 
 def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> tuple[Row, ...]:
-    alpha = np.array(as_numbers(printed.headings()))
+    alpha = as_numbers(printed.headings())
     double, sine = cosine(2 * alpha), cosine(2 * alpha - 90)
     margin = {"2alpha_deg": 2 * alpha, "cos 2alpha": double, "sin 2alpha": sine}
 
@@ -93,29 +89,21 @@ def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> 
         near, far = cosine(np.array(gamma / 2)), cosine(np.array(3 * gamma / 2))
         return (far - near) * sine if label == "Zx" else (far + near) * double
 
-    labels = [label or "" for label in printed.column("row")]
     return tuple(
-        (label, g, *as_cells(line(label, g).tolist()))
-        for label, g in zip(labels, gammas, strict=True)
+        (label, g, *as_cells(line(label, g)))
+        for label, g in zip(printed.column("row"), gammas, strict=True)
     )
 
 
 def _quotients(printed: Print) -> tuple[Row, ...]:
-    """Lines 3 and 6 of Table 1 from the lines before them as printed."""
-    nothing = (None,) * len(printed.columns)
-    a, b, _, c, d, _ = map(parse_decimals, printed.rows)
+    """Return lines 3 and 6 of Table 1 from the lines before them as printed."""
+    a, b, _, c, d, _ = (as_numbers(word or "" for word in words) for words in printed.rows)
+    nothing: Row = (None,) * len(a)
     return (nothing, nothing, _divide(a, b), nothing, nothing, _divide(c, d))
 
 
-def _divide(above: Sequence[Decimal | None], below: Sequence[Decimal | None]) -> Row:
-    """Cell by cell; None where there is nothing to divide, or to divide by."""
-    pairs = zip(above, below, strict=True)
-    return tuple(float(a / b) if a is not None and b else None for a, b in pairs)
-
-
-def _labelled(printed: Print, body: Array) -> tuple[Row, ...]:
-    return head_rows(printed.column(printed.columns[0]), body)
-
-
-def _laid_out(printed: Print, body: Array, explanations: Sequence[Explanation] = ()) -> Table:
-    return printed.compare(printed.columns, _labelled(printed, body), explanations=explanations)
+def _divide(above: Array, below: Array) -> Row:
+    """Return the quotients of cells; None where there is nothing to divide, or to divide by."""
+    known = np.isfinite(above) & np.isfinite(below) & (below != 0)
+    quotients = above / np.where(known, below, 1.0)
+    return tuple(float(q) if k else None for q, k in zip(quotients, known, strict=True))

@@ -5,13 +5,12 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from importlib.resources import files
-from typing import TypeAlias
 
-from .recomputed import Cell, Explanation, Row, Table, Words
+import numpy as np
 
-Key: TypeAlias = Fraction | str
+from ..core.phasors import Array
+from .recomputed import Cell, Explanation, Row, Table, Words, parse_number
 
 
 @dataclass(frozen=True)
@@ -24,29 +23,24 @@ class Print:
     columns: tuple[str, ...]
     rows: tuple[Words, ...]
 
-    def column(self, heading: str) -> Words:
-        return tuple(row[self.columns.index(heading)] for row in self.rows)
-
-    def numbers(self, heading: str) -> list[float]:
-        """A column all of whose cells are numbers."""
-        return [float(parse_number(text or "")) for text in self.column(heading)]
+    def column(self, heading: str) -> tuple[str, ...]:
+        """Return the texts of a column; empty where nothing is printed."""
+        return tuple(row[self.columns.index(heading)] or "" for row in self.rows)
 
     def headings(self) -> tuple[str, ...]:
-        """The headings that are numbers: 0.24, 1/4.5."""
-        return tuple(c for c in self.columns if isinstance(identify(c), Fraction))
+        """Return the headings that are numbers: 0.24, 1/4.5."""
+        return tuple(c for c in self.columns if parse_number(c) is not None)
 
-    def align_cells(self, stub: Sequence[str], columns: Sequence[str]) -> tuple[Words, ...]:
-        """The printed cells of these rows (found by the first column) and columns; None where
-        nothing is printed.
+    def align_cells(self, stub: Sequence[str], columns: Sequence[str]) -> list[Words]:
+        """Return the printed cells of these rows (found by the first column) and columns; numbers
+        are the same however they are written. Cells that are not printed are None.
         """
         rows = {identify(row[0] or ""): row for row in self.rows}
-        places = {identify(c): j for j, c in enumerate(self.columns)}
-
-        def cell(row: Words | None, column: str) -> str | None:
-            place = places.get(identify(column))
-            return None if row is None or place is None else row[place]
-
-        return tuple(tuple(cell(rows.get(identify(s)), c) for c in columns) for s in stub)
+        numbers = {identify(c): j for j, c in enumerate(self.columns)}
+        places = [numbers.get(identify(c)) for c in columns]
+        nothing = (None,) * len(self.columns)
+        found = [rows.get(identify(name), nothing) for name in stub]
+        return [tuple(None if j is None else row[j] for j in places) for row in found]
 
     def compare(
         self,
@@ -56,25 +50,43 @@ class Print:
         explanations: Sequence[Explanation] = (),
         stub: int = 1,
     ) -> Table:
-        """The recomputed rows beside the print; without `printed`, row by row, further columns
-        having no print.
+        """Return the recomputed rows next to the print.
+
+        Args:
+            columns: Names of the columns.
+            rows: Recomputed rows.
+            printed: Printed texts of the rows; None: row by row, further columns have no print.
+            explanations: Explanations of errata.
+            stub: How many leading columns name a row.
         """
         if printed is None:
             printed = [words + (None,) * (len(columns) - len(words)) for words in self.rows]
-        return Table(
-            self.name,
-            self.title,
-            self.source,
-            tuple(columns),
-            tuple(rows),
-            tuple(printed),
-            tuple(explanations),
-            stub,
-        )
+        shape = tuple(columns), tuple(rows), tuple(printed)
+        return Table(self.name, self.title, self.source, *shape, tuple(explanations), stub)
+
+    def compare_answers(
+        self, answers: Sequence[float], others: Sequence[tuple[str, int, float]]
+    ) -> Table:
+        """Return the exact answers of worked examples, which stand at the ends of the rows.
+
+        Args:
+            answers: Exact answers.
+            others: What authors took instead: the kind of erratum, the number of the answer (from
+                0), their value.
+        """
+        rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
+        blank: Row = (None,) * len(self.columns)
+        explanations = [
+            Explanation(
+                kind, tuple((*blank[1:], value if k == n else None) for k in range(len(rows)))
+            )
+            for kind, n, value in others
+        ]
+        return self.compare(self.columns, rows, explanations=explanations, stub=4)
 
 
 def load_print(name: str) -> Print:
-    """The print of a table: `# source:` and `# title:` lines, headings, rows."""
+    """Return the print of a table: `# source:` and `# title:` lines, headings, rows."""
     text = files(__package__).joinpath("data", f"{name}.csv").read_text(encoding="utf-8")
     lines = text.splitlines()
     notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
@@ -83,32 +95,22 @@ def load_print(name: str) -> Print:
     return Print(name, notes["source"], notes["title"], tuple(head), rows)
 
 
-def parse_number(text: str) -> Fraction:
-    """`0.24`, `1/4.5`, `.0048` or `-1.6`, exactly.
-
-    Raises:
-        ValueError: the text is no number.
-    """
-    above, _, below = text.strip().partition("/")
-    try:
-        return Fraction(above) / Fraction(below or 1)
-    except ZeroDivisionError:
-        raise ValueError(text) from None
+def identify(text: str) -> object:
+    """Return what identifies a row or column: its number (0.3 is 0.30), or its text."""
+    number = parse_number(text)
+    return text if number is None else number
 
 
-def identify(text: str) -> Key:
-    """What identifies a row or column: its number (0.3 is 0.30), or else its text."""
-    try:
-        return parse_number(text)
-    except ValueError:
-        return text
+def as_numbers(texts: Iterable[str]) -> Array:
+    """Return the numbers that texts are; nan for a text that is none."""
+    return np.array([np.nan if (n := parse_number(text)) is None else float(n) for text in texts])
 
 
 def as_cells(values: Iterable[float]) -> list[Cell]:
-    """Numbers of any kind as plain floats; minus zero as zero."""
+    """Return numbers of any kind as plain floats; minus zero as zero."""
     return [float(v) + 0.0 for v in values]
 
 
 def head_rows(stub: Iterable[Cell], body: Iterable[Iterable[float]]) -> tuple[Row, ...]:
-    """Rows of numbers, each headed by its cell of the stub."""
+    """Return rows of numbers, each headed by its cell of the stub."""
     return tuple((head, *as_cells(line)) for head, line in zip(stub, body, strict=True))

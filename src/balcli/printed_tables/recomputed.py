@@ -1,4 +1,4 @@
-"""A recomputed table beside its print, and the rule that says which printed figures are wrong."""
+"""A recomputed table next to its print, and the rule that says which printed figures are wrong."""
 
 from __future__ import annotations
 
@@ -14,24 +14,15 @@ Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
 
-NEAR_A_TIE = Decimal("0.1")  # units of the last printed digit
-
 
 @dataclass(frozen=True)
 class Explanation:
-    """Figures as the author may have computed them, in the places of the exact ones; None where it
-    says nothing.
+    """Figures as the author may have computed them, in the places of the exact ones; None where the
+    explanation has no figure.
     """
 
     kind: str
     rows: tuple[Row, ...]
-
-    @classmethod
-    def of_answer(cls, kind: str, number: int, value: Cell, table: Sequence[Row]) -> Explanation:
-        """Another value of one answer (from 0), each of which stands at the end of its row."""
-        blank = tuple((None,) * len(row) for row in table)
-        told = (*blank[number][:-1], value)
-        return cls(kind, (*blank[:number], told, *blank[number + 1 :]))
 
 
 @dataclass(frozen=True)
@@ -50,14 +41,15 @@ class Table(Result):
     """Rows as recomputed and as printed, of one shape; `errata` follow from the two.
 
     Attributes:
-        name: by which it is asked for.
-        title: what it shows.
-        source: where it is printed.
-        columns: their names.
-        exact: a row of cells for each of the table.
-        printed: the same as texts, as they are printed.
-        explanations: of errata.
-        stub: how many leading columns name a row.
+        name: Name of the table.
+        title: Title of the table.
+        source: Book or paper that prints it.
+        columns: Names of the columns.
+        exact: Cells of every row.
+        printed: Printed texts of every row.
+        explanations: Explanations of errata.
+        stub: How many leading columns name a row.
+        digits: Decimals of the figures that are shown; None: as printed.
     """
 
     name: str
@@ -68,10 +60,11 @@ class Table(Result):
     printed: tuple[Words, ...]
     explanations: tuple[Explanation, ...] = ()
     stub: int = 1
+    digits: int | None = None
 
     @property
     def summary(self) -> str:
-        """Its name and title."""
+        """Name and title of the table."""
         return f"{self.name}: {self.title}"
 
     @property
@@ -80,30 +73,22 @@ class Table(Result):
         return tuple(self._errata())
 
     def label(self, row: int) -> str:
-        """What names a row: the cells of its stub."""
-        shown = [
-            f"{c:.15g}" if isinstance(c, (int, float)) else c for c in self.exact[row][: self.stub]
-        ]
-        return ", ".join(text for text in shown if text)
+        """Return the name of a row: the cells of its stub."""
+        cells = self.exact[row][: self.stub]
+        shown = [c if isinstance(c, str) else f"{c:.15g}" for c in cells if c is not None]
+        return ", ".join(filter(None, shown))
 
     def _errata(self) -> Iterator[Erratum]:
         for i, (row, words) in enumerate(zip(self.exact, self.printed, strict=True)):
             for j, (value, text) in enumerate(zip(row, words, strict=True)):
                 if text is not None and deviates(value, text):
-                    yield Erratum(i, self.columns[j], text, value, self._kind(i, j))
-
-    def _kind(self, i: int, j: int) -> str:
-        value, text = self.exact[i][j], self.printed[i][j] or ""
-        for explanation in self.explanations:
-            supposed = explanation.rows[i][j]
-            found = explain_figure(supposed, text)
-            if found is not None and not _same(supposed, value):
-                return explanation.kind + found
-        return _plain_kind(value, text)
+                    supposed = [(each.kind, each.rows[i][j]) for each in self.explanations]
+                    kind = _find_kind(value, text, supposed)
+                    yield Erratum(i, self.columns[j], text, value, kind)
 
 
 def parse_decimal(text: str) -> Decimal | None:
-    """The printed decimal with its digits (`.4312`, `+1.0`, `-0.5`), None if the text is none."""
+    """Return the printed decimal with its digits (`.4312`, `+1.0`, `-0.5`); None for others."""
     try:
         value = Decimal(text.strip().replace("−", "-"))
     except InvalidOperation:
@@ -111,82 +96,64 @@ def parse_decimal(text: str) -> Decimal | None:
     return value if value.is_finite() else None
 
 
-def parse_decimals(words: Words) -> tuple[Decimal | None, ...]:
-    """The printed decimals of a row, None where it has none."""
-    return tuple(parse_decimal(text or "") for text in words)
-
-
-def parse_fraction(cell: Cell) -> Fraction | None:
-    """`15/128` as a fraction, None for any other text."""
+def parse_number(cell: Cell) -> Fraction | None:
+    """Return `0.24`, `1/4.5`, `.0048` or `15/128` exactly; None for any other text."""
+    above, _, below = str(cell).replace(" ", "").partition("/")
     try:
-        return Fraction(str(cell).replace(" ", ""))
+        return Fraction(above) / Fraction(below or 1)
     except (ValueError, ZeroDivisionError):
         return None
 
 
 def round_like(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> Decimal:
-    """The value with as many decimals as a printed figure, halves rounded away from zero."""
-    return Decimal(repr(float(value))).quantize(_unit(like), rounding)
+    """Return the value with the decimals of a printed figure, halves rounded away from zero."""
+    return Decimal(repr(float(value))).quantize(Decimal(1).scaleb(_exponent(like)), rounding)
 
 
 def deviates(value: Cell, text: str) -> bool:
-    """Whether a printed figure is not the exact value rounded; words and ranges never deviate."""
-    printed = parse_decimal(text)
+    """Return whether a printed figure is not the exact value rounded; words never deviate."""
+    printed, fraction = parse_decimal(text), parse_number(text)
     if isinstance(value, (int, float)):
         if printed is not None:
             return round_like(value, printed) != printed
-        exact = parse_fraction(text)
-        return exact is not None and abs(value - exact) > 1e-12 * abs(exact)
-    exact, fraction = parse_fraction(value), parse_fraction(text)
+        return fraction is not None and abs(value - fraction) > 1e-12 * abs(fraction)
+    exact = parse_number(value)
     return exact is not None and fraction is not None and exact != fraction
 
 
 def explain_figure(value: Cell, text: str) -> str | None:
-    """How this value leads to the printed figure: "", ", truncated", ...; None: it does not."""
+    """Return how a value leads to the printed figure: "", ", truncated", ", digits transposed";
+    None: it does not.
+    """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
         return None
-    if round_like(value, printed) == printed:
+    rounded = round_like(value, printed)
+    if rounded == printed:
         return ""
     if round_like(value, printed, ROUND_DOWN) == printed:
         return ", truncated"
-    return ", digits transposed" if _transposed(round_like(value, printed), printed) else None
+    x, y = str(rounded), str(printed)
+    swaps = (f"{x[:i]}{x[i + 1]}{x[i]}{x[i + 2 :]}" for i in range(len(x) - 1))
+    return ", digits transposed" if y in swaps else None
 
 
-def _plain_kind(value: Cell, text: str) -> str:
-    """The kind of an erratum by its digits alone."""
+def _find_kind(value: Cell, text: str, supposed: Sequence[tuple[str, Cell]]) -> str:
+    """Return the kind of an erratum: the first explanation that leads to it, or what its digits
+    show.
+    """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
         return "misprint"
-    exact = round_like(value, printed)
-    if abs(exact - printed) > _unit(printed):
-        return "misprint, digits transposed" if _transposed(exact, printed) else "misprint"
-    tie = abs(Decimal(repr(float(value))) - (exact + printed) / 2)
-    if tie <= NEAR_A_TIE * _unit(printed):
-        return "last digit, near a tie"
-    return (
-        "last digit, truncated"
-        if round_like(value, printed, ROUND_DOWN) == printed
-        else "last digit"
-    )
+    for kind, other in supposed:
+        differs = isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value)
+        if differs and (found := explain_figure(other, text)) is not None:
+            return kind + found
+    error = abs(round_like(value, printed) - printed).scaleb(-_exponent(printed))
+    kind = "misprint" if error > 1 else "last digit"
+    return kind + (explain_figure(value, text) or "")
 
 
-def _same(a: Cell, b: Cell) -> bool:
-    return (
-        isinstance(a, (int, float)) and isinstance(b, (int, float)) and abs(a - b) <= 1e-9 * abs(b)
-    )
-
-
-def _unit(printed: Decimal) -> Decimal:
+def _exponent(printed: Decimal) -> int:
     exponent = printed.as_tuple().exponent
-    return Decimal(1).scaleb(exponent if isinstance(exponent, int) else 0)
-
-
-def _transposed(a: Decimal, b: Decimal) -> bool:
-    """Whether two figures differ by an exchange of two neighbouring digits."""
-    x, y = str(a), str(b)
-    differing = [i for i, (p, q) in enumerate(zip(x, y, strict=False)) if p != q]
-    if len(x) != len(y) or len(differing) != 2:
-        return False
-    i, j = differing
-    return j == i + 1 and x[i] == y[j] and x[j] == y[i]
+    return exponent if isinstance(exponent, int) else 0

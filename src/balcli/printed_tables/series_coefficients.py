@@ -43,9 +43,8 @@ def tabulate_series(printed: Print, ranges: Ranges) -> Table:
     power = POWER if ranges.power is None else ranges.power
     shown = [words for words in printed.rows if int(words[2] or 0) <= power]
     pairs = sorted([*_beside(shown), *_unprinted(shown, power)], key=lambda pair: _place(pair[0]))
-    return printed.compare(
-        COLUMNS, [row for row, _ in pairs], [words for _, words in pairs], stub=3
-    )
+    rows, words = zip(*pairs, strict=True)
+    return printed.compare(COLUMNS, rows, words, stub=3)
 
 
 def _beside(shown: list[Words]) -> Iterator[tuple[Row, Words]]:

@@ -13,7 +13,7 @@ from ..core.speed_variation import surplus
 from ..core.speeds import RPM
 from .printed import Print
 from .ranges import Ranges
-from .recomputed import Explanation, Table
+from .recomputed import Table
 
 # fmt: off
 _UICKER = [  # N m, every 10 deg of two turns
@@ -32,19 +32,13 @@ def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
     uicker = polyline(np.radians(np.arange(0, 721, 10)), [*_UICKER, _UICKER[0]])
     energy = surplus(uicker).energy
     answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
-    rows = [(*words[:-1], answer) for words, answer in zip(printed.rows, answers, strict=True)]
-    work = _simpson_mean() * 4 * np.pi
+    whole = _uicker_inertia(_simpson_mean() * 4 * np.pi)
     others = (
         ("author's approximation: two terms of the motion", 0, _bevan(two_terms=True)),
         ("the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
-        (
-            "the work of a whole cycle is taken for the fluctuation of energy",
-            4,
-            _uicker_inertia(work),
-        ),
+        ("the work of a whole cycle is taken for the fluctuation of energy", 4, whole),
     )
-    explanations = [Explanation.of_answer(*other, rows) for other in others]
-    return printed.compare(printed.columns, rows, stub=4, explanations=explanations)
+    return printed.compare_answers(answers, others)
 
 
 # ------------------------------------------------------------------ Bevan 12.3

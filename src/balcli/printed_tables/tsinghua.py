@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from decimal import Decimal
+from collections.abc import Callable
 from math import pi
 from typing import TypeAlias
 
@@ -13,9 +12,9 @@ from ..core.mechanisms import slidercrank as sc
 from ..core.phasors import Array
 from ..errors import BalcliError
 from ..limits import MOST_TABLE_VALUES
-from .printed import Print, as_cells, head_rows
-from .ranges import Ranges, as_numbers
-from .recomputed import Cell, Explanation, Row, Table, Words, parse_decimal, parse_decimals
+from .printed import Print, as_cells, as_numbers, head_rows
+from .ranges import Ranges
+from .recomputed import Cell, Explanation, Row, Table, Words, parse_number
 
 ByAngle: TypeAlias = Callable[[Array, Array], Array]  # degrees, lambda
 
@@ -24,19 +23,13 @@ def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
     """Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r from the dimensions given."""
 
     def row(words: Words, **computed: float) -> Row:
-        return tuple(
-            computed.get(head, _given(text))
-            for head, text in zip(printed.columns, words, strict=True)
-        )
+        pairs = zip(printed.columns, words, strict=True)
+        return tuple(computed.get(head, _given(text)) for head, text in pairs)
 
-    def number(head: str, words: Words) -> float:
-        return float(words[printed.columns.index(head)] or "")
-
+    heads = ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
+    lines = np.array([as_numbers(printed.column(head)) for head in heads]).T.tolist()
     rows, supposed = [], []
-    for words in printed.rows:
-        r, length, e, stroke, rpm = (
-            number(h, words) for h in ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
-        )
+    for words, (r, length, e, stroke, rpm) in zip(printed.rows, lines, strict=True):
         rows.append(row(words, Cm_m_per_s=stroke * rpm / 30e3, xi=e / r, **{"lambda": r / length}))
         supposed.append(row(words, **{"lambda": r / 280}))
     shorter = Explanation("misprint, as with l = 280 mm", tuple(supposed))
@@ -67,7 +60,7 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
     then exactly.
     """
     headings = ranges.lam or printed.headings()
-    lam = np.array(as_numbers(headings))
+    lam = as_numbers(headings)
     columns = (printed.columns[0], *headings, *(f"exact {h}" for h in headings))
     approximate, exact = (
         _extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest)
@@ -76,7 +69,7 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
     return printed.compare(
         columns,
         head_rows(stub, np.hstack([approximate, exact])),
-        printed.align_cells([s or "" for s in stub], columns),
+        printed.align_cells(stub, columns),
         [Explanation("sum of the rounded lines above", _sums(printed, columns))],
     )
 
@@ -93,26 +86,22 @@ def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tab
         BalcliError: they are too many.
     """
     headings = ranges.lam or printed.headings()
-    stub = ranges.angle or tuple(text or "" for text in printed.column("alpha_deg"))
+    stub = ranges.angle or printed.column("alpha_deg")
     if (count := len(stub) * len(headings)) > MOST_TABLE_VALUES:
         raise BalcliError(
             f"{len(stub)} angles of {len(headings)} crank ratios are {count} figures, and at most "
             f"{MOST_TABLE_VALUES} are tabulated: take larger steps of --angle or --lambda"
         )
-    angles = np.array(as_numbers(stub))
-    body = function(angles[:, None], np.array(as_numbers(headings))[None, :])
+    angles = as_numbers(stub)
+    body = function(angles[:, None], as_numbers(headings)[None, :])
     signs = "sign_left" in printed.columns
-    inner = (*(["sign_left"] if signs else []), *headings, *(["sign_right"] if signs else []))
+    inner = ("sign_left", *headings, "sign_right") if signs else headings
     columns = ("alpha_deg", *inner, "alpha_right_deg")
-    rows = [_margins(float(a), as_cells(line), signs) for a, line in zip(angles, body, strict=True)]
+    rows: list[Row] = []
+    for angle, line in zip(angles.tolist(), map(as_cells, body), strict=True):
+        left, right = "+-" if angle % 360 <= 180 else "-+"
+        rows.append((angle, *((left, *line, right) if signs else line), 360 - angle))
     return printed.compare(columns, rows, printed.align_cells(stub, columns))
-
-
-def _margins(angle: float, line: list[Cell], signs: bool) -> Row:
-    if not signs:
-        return (angle, *line, 360 - angle)
-    down = angle % 360 <= 180
-    return (angle, "+-"[not down], *line, "-+"[not down], 360 - angle)
 
 
 def _extreme(lam: Array, psi: Array, value: Array) -> Array:
@@ -124,19 +113,16 @@ def _extreme(lam: Array, psi: Array, value: Array) -> Array:
 
 
 def _sums(printed: Print, columns: tuple[str, ...]) -> tuple[Row, ...]:
-    """Lines 4 and 5 of Table 1-4 from lines 1 to 3 as printed."""
-    stub = [text or "" for text in printed.column(printed.columns[0])[:3]]
-    first, second, beta = map(parse_decimals, printed.align_cells(stub, columns))
-    nothing = (None,) * len(columns)
-
-    def add_beta(angles: Sequence[Decimal | None], sign: int) -> Row:
-        pairs = zip(angles, beta, strict=True)
-        return tuple(None if a is None or b is None else float(a + sign * b) for a, b in pairs)
-
-    return (nothing, nothing, nothing, add_beta(first, 1), add_beta(second, -1), nothing, nothing)
+    """Return lines 4 and 5 of Table 1-4 from lines 1 to 3 as printed."""
+    cells = printed.align_cells(printed.column(printed.columns[0])[:3], columns)
+    first, second, beta = (as_numbers(word or "" for word in words) for words in cells)
+    sums = [first + beta, second - beta]
+    nothing: Row = (None,) * len(columns)
+    lines = [tuple(None if np.isnan(x) else float(x) for x in line) for line in sums]
+    return (nothing, nothing, nothing, *lines, nothing, nothing)
 
 
 def _given(text: str | None) -> Cell:
-    """A figure that is an input, as a number; words as they are."""
-    value = parse_decimal(text or "")
+    """Return a figure that is an input as a number; words as they are."""
+    value = parse_number(text)
     return text if value is None else float(value)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.phasors import Array
-from .printed import Print, as_cells
+from .printed import Print, as_cells, as_numbers
 from .ranges import Ranges
 from .recomputed import Explanation, Row, Table
 
@@ -27,7 +27,9 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
     whole revolution.
     """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
-    lams, k0, alpha0 = (printed.numbers(head) for head in ("lambda", "k0", "alpha0_deg"))
+    lams, k0, alpha0 = (
+        as_numbers(printed.column(head)).tolist() for head in ("lambda", "k0", "alpha0_deg")
+    )
     searches = [_half_cycle(lam) for lam in lams]
     rows: list[Row] = []
     for lam, search, k, alpha in zip(lams, searches, k0, alpha0, strict=True):
@@ -35,9 +37,8 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
         rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    return printed.compare(
-        columns, rows, explanations=[Explanation("half-cycle search", search_rows)]
-    )
+    explained = [Explanation("half-cycle search", search_rows)]
+    return printed.compare(columns, rows, explanations=explained)
 
 
 def _true(lam: float) -> Row:

@@ -11,12 +11,10 @@ import numpy as np
 
 from ..errors import BalcliError
 from ..files import replacing
-from ..printed_tables.recomputed import Table
 from ..result import Result
 from ..version import __version__
 from .csv import Column, Columns, Rows
 from .json import stamp
-from .printed_table import RoundedTable
 from .units import SI
 
 # Which module shows a kind of answer: its document, and its columns or the rows of its CSV.
@@ -38,16 +36,14 @@ RENDERERS = {
 INSTALLED_BY = {"pandas": "pandas", "pyarrow": "balcli[scale]"}
 
 
-def find_renderer(result: Result) -> tuple[Any, Any]:
-    """The module that shows an answer, and what it takes."""
-    renderer = import_module(f".{RENDERERS[type(result).__name__]}", __package__)
-    return renderer, RoundedTable(result) if isinstance(result, Table) else result
+def find_renderer(result: Result) -> Any:
+    """The module that shows an answer."""
+    return import_module(f".{RENDERERS[type(result).__name__]}", __package__)
 
 
 def describe(result: Result) -> dict[str, Any]:
     """The JSON document of an answer."""
-    renderer, shown = find_renderer(result)
-    found: dict[str, Any] = stamp(renderer.document(shown))
+    found: dict[str, Any] = stamp(find_renderer(result).document(result))
     return found
 
 
@@ -65,9 +61,9 @@ def _none_for_nan(value: Any) -> Any:
 
 def list_columns(result: Result) -> Columns:
     """The columns of an answer: those that its renderer names, or those of its CSV."""
-    renderer, shown = find_renderer(result)
+    renderer = find_renderer(result)
     named = hasattr(renderer, "columns")
-    found: Columns = renderer.columns(shown) if named else _read_columns(renderer.rows(shown, SI))
+    found: Columns = renderer.columns(result) if named else _read_columns(renderer.rows(result, SI))
     return found._replace(values={k: _fill_gaps(column) for k, column in found.values.items()})
 
 

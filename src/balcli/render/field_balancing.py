@@ -1,39 +1,73 @@
-"""What a person reads of field balancing: how angles count, corrections, what the shop does, and
-the readings before and after.
-"""
+"""Field balancing as people read it (tables), and as programs do (JSON, CSV)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import Any
 
-from ..field_balancing.balance import FieldBalance, PlaneCorrection, find_eccentricity
-from ..field_balancing.influence import find_senses, has_opposite_senses
-from ..field_balancing.read import is_mass
-from ..field_balancing.shop import Piece, find_angle_deg
-from .field_balancing_document import document, find_sensor_name, rows
-from .sheet import Facts, Grid, Sheet, Text, degrees, number
-from .units import ShownUnit, System
+from ..core.phasors import Complex
+from ..documents.records import Node, angle_deg, list_figures, to_document
+from ..field_balancing.balance import FieldBalance, Permitted
+from .csv import Rows, name_cell
+from .sheet import UNKNOWN, Facts, Grid, Sheet, Text, degrees, number
+from .units import System
 
-__all__ = ["document", "rows", "sheet"]
-
+_HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
 _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
 
 
+# ------------------------------------------------------------------ for programs
+def document(result: FieldBalance) -> Node:
+    """Return the JSON document `balcli.field/1`."""
+    return to_document(result)
+
+
+def rows(result: FieldBalance, system: System) -> Rows:
+    """Return every figure of corrections and readings as CSV, in the units of the file."""
+    return Rows(_HEADER, _list_lines(to_document(result), result.file.planes))
+
+
+def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[Any, ...]]:
+    for each in found["corrections"]:
+        yield from _list_part("correction", each, each["plane"], found["weight_unit"])
+    for part in ("before", "residual"):
+        for reading, value in zip(found["readings"], found[part], strict=True):
+            yield from _list_part(part, value, unit=found["unit"] or "", **reading)
+    for reading, line in zip(found["readings"], found["influence"], strict=True):
+        for plane, value in zip(planes, line, strict=True):
+            name = f"{reading['sensor']} by {plane}"
+            yield from _list_part("influence", value, name, "", reading["speed_rpm"])
+    for each in found.get("permitted", {"planes": ()})["planes"]:
+        yield from _list_part("permitted", each, each["plane"])
+    keys = ("condition", "largest", "rms", "bound")
+    yield from _list_part("details", {key: found[key] for key in keys if key in found})
+
+
+def _list_part(
+    part: str, found: Node, sensor: str = "", unit: str = "", speed_rpm: float | None = None
+) -> Iterator[tuple[Any, ...]]:
+    """Yield a line for each figure of an object; `unit` is that of weights and amplitudes."""
+    for name, value, known in list_figures(found, ("plane",)):
+        of_file = name.rpartition(".")[2] in ("weight", "amplitude")
+        cells = part, speed_rpm, name_cell(sensor), name, value
+        yield *cells, name_cell(unit) if of_file else known
+
+
+# ------------------------------------------------------------------ for people
 def sheet(result: FieldBalance, system: System) -> Sheet:
-    """Everything, the corrections first; weights and readings are in the units of the file."""
+    """Return all tables; weights and readings are in the units of the file."""
     file = result.file
-    parts: list[Grid | Facts | Text] = [_angles(result), _corrections(result, system)]
+    parts: list[Grid | Facts | Text] = [_show_senses(result), _show_corrections(result, system)]
     if file.places or file.drill:
-        parts.append(_work(result, system.length))
-    if file.grade is not None:
-        parts.append(_permitted(result, system))
-    parts += [_readings(result), _influence(result)]
-    title = f"{file.name or 'rotor without a name'}: field balancing"
-    return Sheet(title, tuple(parts))
+        parts.append(_show_pieces(result, system))
+    if result.permitted is not None:
+        parts.append(_show_permitted(result, result.permitted, system))
+    parts += [_show_readings(result), _show_influence(result)]
+    return Sheet(f"{file.name or 'rotor without a name'}: field balancing", tuple(parts))
 
 
-def _angles(result: FieldBalance) -> Text:
-    phases, weights = find_senses(result.file)
+def _show_senses(result: FieldBalance) -> Text:
+    phases, weights = result.phases, result.weights
     same = "as phases do" if phases == weights else "the other way round than phases"
     senses = (
         f"Phases of readings {result.file.rotation}: they count {phases} rotation. Angles of "
@@ -43,193 +77,176 @@ def _angles(result: FieldBalance) -> Text:
     return Text("How angles count", (senses, picture))
 
 
-def _corrections(result: FieldBalance, system: System) -> Grid:
-    file, trimmed = result.file, result.influence.trimmed
-    heads = ["plane", f"weight, {file.weight_unit}", "at, deg"]
-    if trimmed:
-        heads += [f"add now, {file.weight_unit}", "at, deg"]
-    moments = all(p.unbalance is not None for p in result.planes) and file.radius is not None
-    if moments:
-        heads += [f"radius, {system.length.name}", f"unbalance, {system.unbalance.name}"]
-    heads += ["own effect"]
+def _polar(value: complex, digits: int = 4) -> tuple[str, str]:
+    """Return the cells of a weight or reading: magnitude and angle."""
+    return number(abs(value), digits), degrees(angle_deg(value)) if value else UNKNOWN
 
-    def row(p: PlaneCorrection) -> tuple[str, ...]:
-        cells = [p.plane, *_polar(p.total)]
-        if trimmed:
-            cells += _polar(p.step)
-        if moments and file.radius is not None and p.unbalance is not None:
-            radius = file.radius[file.planes.index(p.plane)]
+
+def _weight_text(result: FieldBalance, value: complex) -> str:
+    amount, angle = _polar(value)
+    return f"{amount} {result.weight_unit} at {angle} deg"
+
+
+def _show_corrections(result: FieldBalance, system: System) -> Grid:
+    file, unit = result.file, result.weight_unit
+    columns = ["plane", f"weight, {unit}", "at, deg"]
+    columns += [f"add now, {unit}", "at, deg"] if result.trimmed else []
+    if file.radius is not None:
+        columns += [f"radius, {system.length.name}", f"unbalance, {system.unbalance.name}"]
+    lines = []
+    for each in result.corrections:
+        cells = [each.plane, *_polar(each.weight), *(_polar(each.step) if result.trimmed else ())]
+        if file.radius is not None:
+            radius = file.radius[file.planes.index(each.plane)]
             cells.append(number(system.length.of(radius / 1e3), 4))
-            cells.append(number(system.unbalance.of(p.unbalance / 1e6), 4))
-        return (*cells, f"{p.own:.0%}{', at its limit' if p.limited else ''}")
-
-    marked = frozenset((k, 1) for k, p in enumerate(result.planes) if p.limited)
-    note = " ".join(_explain_corrections(result))
-    return Grid("Corrections", tuple(heads), tuple(map(row, result.planes)), note, marked)
+            cells.append(number(system.unbalance.of((each.unbalance_g_mm or 0.0) / 1e6), 4))
+        limit = ", at its limit" if each.at_limit else ""
+        lines.append((*cells, f"{each.own_effect:.0%}{limit}"))
+    return Grid(
+        "Corrections",
+        (*columns, "own effect"),
+        tuple(lines),
+        " ".join(_explain_corrections(result)),
+        frozenset((k, 1) for k, each in enumerate(result.corrections) if each.at_limit),
+    )
 
 
 def _explain_corrections(result: FieldBalance) -> Iterator[str]:
-    file, trimmed = result.file, result.influence.trimmed
     yield "Weights to add, counted from the rotor as found, all trial weights off."
-    if trimmed:
-        yield f"Add now: on top of what was on in '{trimmed}'."
+    if result.trimmed:
+        yield f"Add now: on top of what was on in '{result.trimmed}'."
     yield f"Own effect: what no other plane can do; condition {number(result.condition, 3)}."
-    for p in result.planes:
-        if p.limited:
-            amount, angle = _polar(p.total - p.step + p.wanted)
-            best = f"{amount} {file.weight_unit} at {angle} deg"
-            yield f"Without its limit, {p.plane} would take {best}."
-    left_out = [plane for plane in file.planes if plane not in {p.plane for p in result.planes}]
-    if left_out:
-        yield f"Left out: {', '.join(left_out)}."
-    for plane in left_out:
-        if weight := _find_weight_on(result, plane):
-            amount, angle = _polar(weight)
-            kept = f"{amount} {file.weight_unit} at {angle} deg"
-            yield f"What was on in '{trimmed}' stays on in {plane}: {kept}."
+    for each in result.corrections:
+        if each.wanted is not None:
+            best = _weight_text(result, each.wanted)
+            yield f"Without its limit, {each.plane} would take {best}."
+    if result.left_out:
+        yield f"Left out: {', '.join(result.left_out)}."
+    for plane, weight in zip(result.file.planes, result.runs.weights_on, strict=True):
+        if weight and plane in result.left_out:
+            kept = _weight_text(result, result.file.turn(complex(weight)))
+            yield f"What was on in '{result.trimmed}' stays on in {plane}: {kept}."
 
 
-def _find_weight_on(result: FieldBalance, plane: str) -> complex:
-    """What was on in the last run with a correction in, angles as the file counts them."""
-    weight = complex(result.influence.on[result.file.planes.index(plane)])
-    return weight.conjugate() if has_opposite_senses(result.file) else weight
-
-
-def _polar(value: complex, size: int = 4) -> tuple[str, str]:
-    return number(abs(value), size), degrees(find_angle_deg(value)) if value else "–"
-
-
-def _work(result: FieldBalance, length: ShownUnit) -> Grid:
-    file = result.file
-    drilled = file.drill is not None
-    heads = ["plane", "hole" if drilled else "place", "at, deg", f"weight, {file.weight_unit}"]
-    if drilled:
-        heads += [f"drill, {length.name}", f"depth, {length.name}"]
-    rows: list[tuple[str, ...]] = []
-    for p in result.planes:
-        for piece in p.pieces:
-            cells = [p.plane, _place(result, p, piece)]
-            cells += [degrees(piece.angle_deg), number(piece.weight, 4)]
+def _show_pieces(result: FieldBalance, system: System) -> Grid:
+    file, length = result.file, system.length
+    columns = ["plane", "hole" if file.drill else "place", "at, deg"]
+    columns += [f"weight, {file.weight_unit}"]
+    columns += [f"drill, {length.name}", f"depth, {length.name}"] if file.drill else []
+    lines: list[tuple[str, ...]] = []
+    for each in result.corrections:
+        k = file.planes.index(each.plane)
+        for piece in each.pieces:
+            count = len(file.places[k]) if file.places else 0
+            place = UNKNOWN if piece.place is None else f"{piece.place} of {count}"
+            cells = [each.plane, place, degrees(piece.angle_deg), number(piece.weight, 4)]
             if file.drill is not None and piece.depth_mm is not None:
-                drill = file.drill[file.planes.index(p.plane)]
-                cells.append(number(length.of(drill / 1e3), 6))
+                cells.append(number(length.of(file.drill[k] / 1e3), 6))
                 cells.append(number(length.of(piece.depth_mm / 1e3), 3))
-            rows.append(tuple(cells))
-        if not p.pieces:
-            rows.append((p.plane, *["–"] * (len(heads) - 1)))
-    what = "Holes to drill" if drilled else "Weights to put on"
-    when = f", on top of '{result.influence.trimmed}'" if result.influence.trimmed else ""
-    return Grid(f"{what}{when}", tuple(heads), tuple(rows), " ".join(_explain_work(result)))
+            lines.append(tuple(cells))
+        if not each.pieces:
+            lines.append((each.plane, *[UNKNOWN] * (len(columns) - 1)))
+    what = "Holes to drill" if file.drill else "Weights to put on"
+    when = f", on top of '{result.trimmed}'" if result.trimmed else ""
+    note = " ".join(_explain_pieces(result))
+    return Grid(f"{what}{when}", tuple(columns), tuple(lines), note)
 
 
-def _explain_work(result: FieldBalance) -> Iterator[str]:
-    drilled = result.file.drill is not None
+def _explain_pieces(result: FieldBalance) -> Iterator[str]:
+    file, drilled = result.file, result.file.drill is not None
     if drilled:
         yield "Radial holes in steel, from the rim inwards, opposite to where weights would go."
         as_much = "Each does as much as this weight at the rim; its steel, further in, weighs more."
-        yield as_much if is_mass(result.file) else "Each removes this unbalance."
+        yield as_much if file.weighs_masses else "Each removes this unbalance."
     else:
         yield "Together they do what the corrections do."
-    if drilled and result.influence.trimmed:
+    if drilled and result.trimmed:
         yield "Depths are of new holes: those drilled before are not in the file."
-    elif result.influence.trimmed and result.file.most is not None:
+    elif result.trimmed and file.most is not None:
         yield "The limit is for these alone: what a place carries already is not in the file."
     if result.limited:
         yield "Places and limits allow no better: see the readings below."
-    if result.limited and drilled and result.file.places is None:
-        some = [24] * len(result.file.planes)
-        yield f"For more than one hole in a plane give places, such as places = {some}."
+    if result.limited and drilled and file.places is None:
+        example = [24] * len(file.planes)
+        yield f"For more than one hole in a plane give places, such as places = {example}."
 
 
-def _place(result: FieldBalance, p: PlaneCorrection, piece: Piece) -> str:
-    """Which of the places it is."""
-    places = result.file.places
-    if piece.place is None or not places:
-        return "–"
-    return f"{piece.place} of {len(places[result.file.planes.index(p.plane)])}"
-
-
-def _permitted(result: FieldBalance, system: System) -> Grid:
+def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> Grid:
     file, unit, mass = result.file, system.unbalance, system.mass
-
-    def told(unbalance: float) -> str:
-        return number(unit.of(unbalance / 1e6), 4)
-
-    rows, marked = [], set()
-    for k, p in enumerate(result.planes):
-        if p.permitted is not None:
-            rows.append(
-                (
-                    p.plane,
-                    told(p.permitted.permitted),
-                    told(p.permitted.present),
-                    "reached" if p.permitted.reached else "not reached",
-                    told(p.permitted.after),
-                )
-            )
-            if not p.permitted.reached:
-                marked.add((k, 3))
-    trimmed = result.influence.trimmed
-    state = f"in '{trimmed}'" if trimmed else "in the rotor as found"
-    eccentricity = number(1e3 * (find_eccentricity(file) or 0.0), 4)
+    lines = []
+    for each in found.planes:
+        permitted, present, after = (
+            number(unit.of(g_mm / 1e6), 4)
+            for g_mm in (each.permitted_g_mm, each.present_g_mm, each.after_g_mm)
+        )
+        verdict = "reached" if each.reached else "not reached"
+        lines.append((each.plane, permitted, present, verdict, after))
+    state = f"in '{result.trimmed}'" if result.trimmed else "in the rotor as found"
     return Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
         ("plane", f"permitted, {unit.name}", f"there now, {unit.name}", "", f"after, {unit.name}"),
-        tuple(rows),
-        f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: {eccentricity} µm. "
-        f"There now: {state}, by its readings; after: what the corrections leave of it.",
-        frozenset(marked),
+        tuple(lines),
+        f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
+        f"{number(1e3 * found.specific_mm, 4)} µm. There now: {state}, by its readings; after: "
+        "what the corrections leave of it.",
+        frozenset((k, 3) for k, each in enumerate(found.planes) if not each.reached),
         words=(0, 3),
     )
 
 
-def find_label(result: FieldBalance, k: int) -> str:
-    """Name of a reading: its sensor, and its speed where there are several."""
-    speeds, name = result.influence.speeds_rpm, find_sensor_name(result, k)
-    return f"{name}, {speeds[k]:g} rpm" if len(set(speeds)) > 1 else name
-
-
-def _readings(result: FieldBalance) -> Grid:
-    influence = result.influence
-    unit = f", {result.file.unit}" if result.file.unit else ""
-    states = [("as found", influence.found)]
-    if influence.trimmed:
-        states.append((influence.state, influence.now))
-    states.append(("after", result.after))
-    heads = ["reading", *(head for name, _ in states for head in (f"{name}{unit}", "at, deg"))]
-    rows = [
-        (
-            find_label(result, k),
-            *(cell for _, values in states for cell in _polar(complex(values[k]))),
-        )
-        for k in range(len(result.after))
+def name_readings(result: FieldBalance) -> list[str]:
+    """Return a name for every reading: its sensor, and its speed where there are several."""
+    several = len({each.speed_rpm for each in result.readings}) > 1
+    return [
+        f"{each.sensor}, {each.speed_rpm:g} rpm" if several else each.sensor
+        for each in result.readings
     ]
+
+
+def _show_readings(result: FieldBalance) -> Grid:
+    unit = f", {result.unit}" if result.unit else ""
+    states = {f"as found{unit}": result.runs.found}
+    if result.trimmed:
+        states[f"{result.runs.state}{unit}"] = result.before
+    states[f"after{unit}"] = result.residual
     weighted = " weighted" if result.file.reading_weights else ""
     note = f"Largest{weighted} after: {number(result.largest, 4)}, rms {number(result.rms, 4)}. "
-    if not result.after.any():
+    if not result.residual.any():
         note = "All readings are cancelled."
-    elif result.minimise == "max":
+    elif result.bound is not None:
         which = "No weights that fit" if result.limited else "No weights"
         note += f"{which} leave less than {number(result.bound, 4)} as the largest."
     else:
         which = "that the places and limits allow" if result.limited else "possible"
         note += f"The sum of their squares is the least {which}."
-    return Grid("Readings, predicted after the corrections", tuple(heads), tuple(rows), note)
+    title = "Readings, predicted after the corrections"
+    return _show_polar(title, result, [*states], [*states.values()], 4, note)
 
 
-def _influence(result: FieldBalance) -> Grid:
-    planes = [result.file.planes.index(p.plane) for p in result.planes]
-    heads = ["reading"]
-    for p in result.planes:
-        heads += [p.plane, "at, deg"]
-    rows = [
-        (find_label(result, k), *(cell for j in planes for cell in _polar(complex(row[j]), 5)))
-        for k, row in enumerate(result.influence.coefficients)
-    ]
+def _show_influence(result: FieldBalance) -> Grid:
+    planes = [each.plane for each in result.corrections]
+    columns = [result.influence[:, result.file.planes.index(plane)] for plane in planes]
     note = (
-        f"Change of a reading by 1 {result.file.weight_unit} at 0 deg in the plane; angles count "
-        f"as phases do, {find_senses(result.file)[0]} rotation."
+        f"Change of a reading by 1 {result.weight_unit} at 0 deg in the plane; angles count as "
+        f"phases do, {result.phases} rotation."
     )
-    if result.influence.trimmed and result.file.influence is None:
+    if result.trimmed and result.file.influence is None:
         note += " By least squares over all runs."
-    return Grid("Influence coefficients", tuple(heads), tuple(rows), note)
+    return _show_polar("Influence coefficients", result, planes, columns, 5, note)
+
+
+def _show_polar(
+    title: str,
+    result: FieldBalance,
+    names: Sequence[str],
+    columns: Sequence[Complex],
+    digits: int,
+    note: str,
+) -> Grid:
+    """Return a table of complex columns, a line for each reading."""
+    heads = [head for name in names for head in (name, "at, deg")]
+    lines = [
+        (name, *(cell for value in values for cell in _polar(complex(value), digits)))
+        for name, *values in zip(name_readings(result), *columns, strict=True)
+    ]
+    return Grid(title, ("reading", *heads), tuple(lines), note)

@@ -41,9 +41,9 @@ def sheet(result: Layouts, _system: System) -> Sheet:
 
 def document(result: Layouts) -> dict[str, Any]:
     """`balcli.table/1`."""
-    return printed_table.document(printed_table.RoundedTable(result.table))
+    return printed_table.document(result.table)
 
 
 def rows(result: Layouts, system: System) -> Rows:
     """CSV: the exact figures of all orders."""
-    return printed_table.rows(printed_table.RoundedTable(result.table), system)
+    return printed_table.rows(result.table, system)

@@ -31,10 +31,10 @@ def _make_sheet(result: Engine | Result) -> Sheet:
         return Sheet(result.name or NAMELESS, (facts,))
     if isinstance(result, Analysis):
         return analysis.sheet(result, SI)
-    renderer, shown = find_renderer(result)
+    renderer = find_renderer(result)
     if not hasattr(renderer, "sheet"):
         return Sheet(repr(result)[1:-1], (outline(list_columns(result)),))
-    sheet: Sheet = renderer.sheet(shown, SI)
+    sheet: Sheet = renderer.sheet(result, SI)
     return sheet
 
 

@@ -6,14 +6,14 @@ JSON and CSV hold full precision.
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..printed_tables.recomputed import (
     Cell,
     Table,
     deviates,
     parse_decimal,
-    parse_fraction,
+    parse_number,
     round_like,
 )
 from .csv import Rows
@@ -21,29 +21,22 @@ from .sheet import Facts, Grid, Sheet
 from .units import System
 
 
-class RoundedTable(NamedTuple):
-    """A table, and how many decimals its figures are to have (None: as printed)."""
-
-    table: Table
-    digits: int | None = None
-
-
-def sheet(result: RoundedTable, _system: System) -> Sheet:
-    """Source, the table as printed, and how many figures deviate."""
-    table, digits = result
+def sheet(table: Table, _system: System) -> Sheet:
+    """Return source, the table as printed, and how many figures deviate."""
     columns = range(len(table.columns))
-    rows = tuple(
-        tuple(_shown(table, i, j, digits) for j in columns) for i in range(len(table.exact))
-    )
+    rows = tuple(tuple(_shown(table, i, j) for j in columns) for i in range(len(table.exact)))
     wrong = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
-    words = tuple(j for j in columns if j == 0 or all(_is_word(row[j]) for row in table.exact))
+    words = tuple(
+        j
+        for j in columns
+        if j == 0 or all(isinstance(row[j], str) and not _is_figure(row[j]) for row in table.exact)
+    )
     grid = Grid("", table.columns, rows, note=count_deviations(table), marked=wrong, words=words)
     return Sheet(f"{table.name}: {table.title}", (Facts((("source", table.source),)), grid))
 
 
-def document(result: RoundedTable) -> dict[str, Any]:
-    """`balcli.table/1`: the exact figures, the printed texts, and the errata."""
-    table = result.table
+def document(table: Table) -> dict[str, Any]:
+    """Return `balcli.table/1`: the exact figures, the printed texts, and the errata."""
     return {
         "format": "balcli.table/1",
         "name": table.name,
@@ -56,22 +49,19 @@ def document(result: RoundedTable) -> dict[str, Any]:
     }
 
 
-def rows(result: RoundedTable, _system: System) -> Rows:
-    """CSV: the exact figures, or with the decimals that are asked for."""
-    table, digits = result
+def rows(table: Table, _system: System) -> Rows:
+    """Return the exact figures as CSV, with as many decimals as the table asks for."""
 
     def cell(value: Cell) -> Cell:
-        return value if digits is None or not isinstance(value, float) else f"{value:.{digits}f}"
+        rounded = table.digits is not None and isinstance(value, float)
+        return f"{value:.{table.digits}f}" if rounded else value
 
     return Rows(table.columns, [[cell(value) for value in row] for row in table.exact])
 
 
 def count_deviations(table: Table) -> str:
-    """A sentence on how many of the printed figures are not the exact ones rounded."""
-    words = [text for row in table.printed for text in row[table.stub :] if text is not None]
-    printed = sum(
-        parse_decimal(text) is not None or parse_fraction(text) is not None for text in words
-    )
+    """Return a sentence on how many of the printed figures are not the exact ones rounded."""
+    printed = sum(_is_figure(text) for row in table.printed for text in row[table.stub :])
     wrong = len(table.errata)
     if not printed:
         return "no printed source"
@@ -81,35 +71,34 @@ def count_deviations(table: Table) -> str:
 
 
 # ------------------------------------------------------------------ cells
-def _shown(table: Table, i: int, j: int, digits: int | None) -> str:
-    """A cell as the print would have it, followed by the print where that deviates."""
+def _is_figure(cell: Cell) -> bool:
+    return parse_decimal(str(cell)) is not None or parse_number(cell) is not None
+
+
+def _shown(table: Table, i: int, j: int) -> str:
+    """Return a cell as the print would have it, followed by the print where that deviates."""
     value, text = table.exact[i][j], table.printed[i][j]
     like = text or next((row[j] for row in table.printed if row[j]), None)
-    named = j < table.stub or (text is None and _is_whole(like, value))
-    shown = _rounded_like(text, value, None if named else digits)
+    if not isinstance(value, (int, float)):
+        shown = value or ""
+    elif table.digits is not None and j >= table.stub and not _is_whole(like, value):
+        shown = f"{value:.{table.digits}f}"
+    else:
+        shown = _round_as_printed(value, text or "")
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
 
 
-def _is_word(cell: Cell) -> bool:
-    return isinstance(cell, str) and parse_decimal(cell) is None and parse_fraction(cell) is None
+def _is_whole(text: str | None, value: float) -> bool:
+    """Return whether a whole number is printed as one, such as an angle."""
+    return text is not None and text.lstrip("+-").isdigit() and float(value).is_integer()
 
 
-def _is_whole(text: str | None, value: Cell) -> bool:
-    """Whether a whole number is printed as one, such as an angle."""
-    printed = text is not None and text.lstrip("+-").isdigit()
-    return printed and isinstance(value, (int, float)) and float(value).is_integer()
-
-
-def _rounded_like(text: str | None, value: Cell, digits: int | None) -> str:
-    """A value with these decimals, or as the printed text has it: its decimals, its sign, and
-    whether a 0 stands before the point.
+def _round_as_printed(value: float, text: str) -> str:
+    """Return a value as the printed text has it: its decimals, its sign, and whether a 0 stands
+    before the point.
     """
-    if not isinstance(value, (int, float)):
-        return value or ""
-    like = parse_decimal(text) if text else None
-    if digits is not None and not _is_whole(text, value):
-        return f"{value:.{digits}f}"
-    if like is None or text is None:
+    like = parse_decimal(text)
+    if like is None:
         return f"{value:.6g}"
     shown = f"{round_like(value, like):f}"
     if text.lstrip("+-").startswith(".") and abs(value) < 1:
