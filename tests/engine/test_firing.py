@@ -127,7 +127,7 @@ def test_pins_count_from_cylinder_1_wherever_it_stands():
 
 def test_an_order_that_takes_more_than_a_cycle():
     assert refused(crank={"throws": [0, 180, 180, 0]}, layout={"firing_order": [1, 4, 2, 3]}) == (
-        "engine: layout.firing_order: 1-4-2-3 would take 1080 deg with these throws, a cycle has "
+        "engine: layout.firing_order: 1-4-2-3 would take 1080 deg with these crank.throws, a cycle has "
         "720; firing evenly, every 180 deg, cylinder 4 is the first that is not at top dead centre "
         "when it fires (allowed difference 1 deg): change firing_order or crank.throws, or leave "
         "crank.throws out. It fits with crank.throws = [0, 0, 180, 180]"
@@ -172,7 +172,7 @@ def test_the_first_cylinder_that_cannot_fire_in_time_is_named():
     """
     pin = {1: 0.0, 2: -170.0, 3: -160.0, 4: -150.0}
     message = (
-        "1-2-3-4 would take 1080 deg with these throws, a cycle has 720; firing evenly, every 180 "
+        "1-2-3-4 would take 1080 deg with these crank.throws, a cycle has 720; firing evenly, every 180 "
         "deg, cylinder 2 is the"
     )
     with pytest.raises(InputError, match=message):

@@ -14,7 +14,6 @@ from ..errors import BalcliError, naming_file, warn
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..process import count_cores
-from ..render.sweep_plot import check_drawable, make_sweep
 from ..studies.quantity_names import describe_names
 from .declare import optional
 from .file_names import (
@@ -31,6 +30,7 @@ from .output import is_seen, refuse_overwriting, write_figure
 from .progress import reporting
 
 if TYPE_CHECKING:
+    from ..render.sweep_plot import check_drawable, make_sweep
     from ..studies.sweep import Chunk, Share, Sweep
 
 

@@ -45,8 +45,6 @@ from inspect import cleandoc
 from types import NoneType, UnionType
 from typing import Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
-import numpy as np
-
 Node = dict[str, Any]  # an object of JSON
 
 # Units by the ending of a name, longest first.
@@ -145,7 +143,7 @@ def to_document(record: Any) -> Node:
 
 def write_each(value: Any, polar: Polar | None = None) -> Any:
     """Return a number, word, record, or list or dict of these, as JSON has it."""
-    if isinstance(value, (np.ndarray, np.generic)):
+    if hasattr(value, "tolist"):  # an array or number of numpy, which is not imported here
         value = value.tolist()
     if isinstance(value, (list, tuple)) and not hasattr(value, "_fields"):
         return [write_each(item, polar) for item in value]
@@ -275,6 +273,8 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
 
 def _describe_many(origin: Any, arguments: Any, each: _Attribute, definitions: Node) -> Node:
     """Return the schema of an array, dict, tuple or list."""
+    import numpy as np  # schemas are seldom asked for
+
     if issubclass(origin, np.ndarray):
         node = _describe(float, each, definitions)
         for _ in range(next((mark.number for mark in each.marks if isinstance(mark, Axes)), 1)):

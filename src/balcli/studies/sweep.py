@@ -182,13 +182,13 @@ def check_corners(sweep: Sweep) -> None:
         raise BalcliError(
             f"{len(sweep.parameters)} numbers vary; at most {MOST_PARAMETERS} can at once"
         )
-    refuse_unknown(build_corners(sweep), sweep.of_engine)
     try:
         refuse_unknown_of_chapters(sweep.file, sweep.quantities)
     except InputError as error:
         raise InputError(error.problems, sweep.name) from None
     except BalcliError as error:
         raise BalcliError(f"{sweep.name}: {error}") from None
+    refuse_unknown(build_corners(sweep), sweep.of_engine)
 
 
 def build_corners(sweep: Sweep) -> Engine:
