@@ -30,7 +30,6 @@ from .output import is_seen, refuse_overwriting, write_figure
 from .progress import reporting
 
 if TYPE_CHECKING:
-    from ..render.sweep_plot import check_drawable, make_sweep
     from ..studies.sweep import Chunk, Share, Sweep
 
 
@@ -117,6 +116,7 @@ def sweep(
     if force and not (output and output.is_folder):
         warn("--force is for a folder of parts (-o variants/); a file is replaced without it")
     drawn = picture_form(plot, "--plot") if plot is not None else None
+    from ..render.sweep_plot import check_drawable, make_sweep
     from ..studies.sweep import evaluate_chunks, join_chunks, read_sweep
     from .sweep_folder import write_blocks
     from .sweep_output import write_sweep

@@ -111,8 +111,8 @@ def _impossible(
     culprit = order[late[0] if len(late) else -1]
     return Problem(
         "layout.firing_order",
-        f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a cycle has "
-        f"{cycle:g}; firing evenly, every {interval:g} deg, cylinder {culprit} is the first that "
+        f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a cycle "
+        f"has {cycle:g}; firing evenly, every {interval:g} deg, cylinder {culprit} is the first that "
         f"is not at top dead centre when it fires (allowed difference {TOLERANCE_DEG:g} deg): "
         "change firing_order or crank.throws, or leave crank.throws out",
     )

@@ -452,8 +452,8 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
         gaps = _list_gaps(parts)
         if layout.firing_intervals is None and len(gaps) > 2 and max(gaps) > TURN + TOLERANCE_DEG:
             yield (
-                f"layout.firing_order: {order} fires after {_join(gaps)} deg with these crank.throws; "
-                f"if it is so, say layout.firing_intervals = [{_join(gaps)}]"
+                f"layout.firing_order: {order} fires after {_join(gaps)} deg with these "
+                f"crank.throws; if it is so, say layout.firing_intervals = [{_join(gaps)}]"
             )
     elif layout.firing_intervals is None and layout.strokes == 4:
         usual = _find_usual_orders(parts)
