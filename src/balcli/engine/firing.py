@@ -112,8 +112,8 @@ def _impossible(
     return Problem(
         "layout.firing_order",
         f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a cycle "
-        f"has {cycle:g}; firing evenly, every {interval:g} deg, cylinder {culprit} is the first that "
-        f"is not at top dead centre when it fires (allowed difference {TOLERANCE_DEG:g} deg): "
+        f"has {cycle:g}; firing evenly, every {interval:g} deg, cylinder {culprit} is the first "
+        f"that is not at top dead centre when it fires (allowed difference {TOLERANCE_DEG:g} deg): "
         "change firing_order or crank.throws, or leave crank.throws out",
     )
 
