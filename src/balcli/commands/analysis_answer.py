@@ -60,7 +60,7 @@ def _choose_result(
             height, speeds = asked.height_m, asked.speeds_rpm
             return find_marine_sheet(engine, speeds, asked.orders, height, every_order=asked.whole)
 
-        return find_sheet, marine
+        return find_sheet, marine.RENDERER
     if asked.over_speed:
         from ..render import speeds
         from ..results.speeds import analyze_speeds
@@ -69,8 +69,8 @@ def _choose_result(
             ask = _ask(asked, engine, for_people)
             return analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
 
-        return find_series, speeds
-    return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), analyses
+        return find_series, speeds.RENDERER
+    return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), analyses.RENDERER
 
 
 def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Analysis]:

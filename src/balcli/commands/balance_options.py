@@ -109,9 +109,9 @@ def show_balance(result: Balance, form: BalanceFormat, output: Path | None, unit
 
         emit(write_page(result), output)
     else:
-        from ..render import balance as renderer
+        from ..render.balance import RENDERER
 
-        show([result], renderer, Format(form), output, units)
+        show([result], RENDERER, Format(form), output, units)
 
 
 def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:

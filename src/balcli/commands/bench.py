@@ -17,11 +17,11 @@ def bench(form: FormatOption = None, output: Output = None) -> None:
       balcli bench -o bench.svg
     """
     from ..bench import measure
-    from ..render import bench as renderer
+    from ..render.bench import RENDERER, draw_bench
 
     chosen = format_of(output, form, {**TEXTS, ".svg": "svg"}, "table")
     found = measure()
     if output is not None and chosen == "svg":
-        write_file(renderer.draw_bench(found), output)
+        write_file(draw_bench(found), output)
         chosen, output = "table", None
-    show([found], renderer, Format(chosen), output)
+    show([found], RENDERER, Format(chosen), output)

@@ -44,7 +44,7 @@ def compare(
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
-    from ..render import comparison as renderer
+    from ..render.comparison import RENDERER
     from ..results.comparison import compare_engines
     from .inputs import name_engines, read_engine
 
@@ -53,7 +53,7 @@ def compare(
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = name_engines([engine.name for engine in engines], paths)
     found = compare_engines(engines, names, asked, chosen, whole)
-    show([found], renderer, form, output, units)
+    show([found], RENDERER, form, output, units)
 
 
 def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:

@@ -62,7 +62,7 @@ def field(
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..field_balancing.balance import find_corrections
     from ..field_balancing.read import read_runs
-    from ..render import field_balancing as renderer
+    from ..render.field_balancing import RENDERER
     from .inputs import warn_each
 
     file, name = read_runs(path), name_file(path)
@@ -74,6 +74,6 @@ def field(
         from ..render.plot.field_balancing import make_field  # brings matplotlib
 
         write_figure(make_field(result), drawn, plot)
-    show([result], renderer, form, output, units)
+    show([result], RENDERER, form, output, units)
     if check and result.permitted is not None and not result.permitted.reached:
         raise typer.Exit(Exit.DIFFERENCE)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..render import layouts as renderer
+from ..render.layouts import RENDERER
 from .file_names import text_format
 from .options import FormatOption, Output
 from .output import show
@@ -20,4 +20,4 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
     from ..printed_tables.layouts import add_firing
     from ..printed_tables.registry import recompute
 
-    show([add_firing(recompute("layouts"))], renderer, form, output)
+    show([add_firing(recompute("layouts"))], RENDERER, form, output)

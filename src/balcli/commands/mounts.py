@@ -68,7 +68,7 @@ def mounts(
     scheme = choose_beside(scheme, options)
     from ..mounting.read import read_mounted
     from ..mounting.report import report_mounts
-    from ..render import mounts as renderer
+    from ..render.mounts import RENDERER
     from .inputs import name_engines, read_engine, silence_cylinders, warn_each
 
     name, silent = name_file(paths[0]), misfire or ()
@@ -91,4 +91,4 @@ def mounts(
         from ..render.plot.mounts import make_mounts  # brings matplotlib
 
         write_figure(make_mounts(result, SYSTEMS[units]), drawn, plot)
-    show([result], renderer, form, output, units)
+    show([result], RENDERER, form, output, units)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..render import numbers as renderer
+from ..render.numbers import RENDERER
 from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import refuse_overwriting, show
@@ -22,4 +22,4 @@ def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) 
     from ..studies.numbers import name_numbers
     from .inputs import read_engine
 
-    show([name_numbers(read_engine(path, asked=()).model)], renderer, form, output)
+    show([name_numbers(read_engine(path, asked=()).model)], RENDERER, form, output)

@@ -9,7 +9,7 @@ import typer
 
 from ..enginefile.toml_text import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES
-from ..render import scatter as renderer
+from ..render.scatter import RENDERER
 from .file_names import text_format
 from .options import EnginePath, FormatOption, Output
 from .output import refuse_overwriting, show
@@ -116,5 +116,5 @@ def scatter(
     count = variants.usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
         found = variants.draw(Drawing(count, seed, distribution.value, progress))
-    show([found], renderer, form, output)
+    show([found], RENDERER, form, output)
     exit_if_cut_short(progress, "the figures are of these")

@@ -10,7 +10,7 @@ import typer
 from ..enginefile.toml_text import name_file, read_bytes
 from ..errors import naming_file
 from ..limits import MOST_FOUND
-from ..render import search as renderer
+from ..render.search import RENDERER
 from .declare import optional
 from .file_names import require_ending, text_format
 from .options import EnginePath, FormatOption, Output
@@ -103,7 +103,7 @@ def search(
     watching = reporting if any("=" in one for one in over) else reporting_until_stopped
     with watching("arrangements") as progress, naming_file(name):
         found = search_arrangements(model, over, goal, top, bool(require), progress)
-    show([found], renderer, form, output)
+    show([found], RENDERER, form, output)
     if write is not None:
         write_file(write_design(text, found.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")

@@ -54,7 +54,7 @@ def sum(  # noqa: A001 (the command's name)
     """
     refuse_overwriting(reads=[first, second], writes={"--output": output})
     form = text_format(output, form)
-    from ..render import two_engines as renderer
+    from ..render.two_engines import RENDERER
     from ..results.two_engines import Arrangement, combine_engines
     from .inputs import named_by_file, read_engine
 
@@ -64,4 +64,4 @@ def sum(  # noqa: A001 (the command's name)
     arrangement = Arrangement(lead, (x, y, z), turned, reverse, load)
     engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
     result = combine_engines(engines[0], engines[1], arrangement, asked)
-    show([result], renderer, form, output, units)
+    show([result], RENDERER, form, output, units)

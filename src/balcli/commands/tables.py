@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ..limits import HIGHEST_POWER
-from ..render import errata as errata_renderer
+from ..render import errata as misprints
 from ..render import layouts, printed_table, table_list
 from .amounts import as_bare_angles
 from .completion import complete_tables
@@ -83,10 +83,10 @@ def tables(
         angle = as_bare_angles("--angle", angle)
     chosen = select_tables(name, lam, angle, power)
     if errata:
-        show([chosen], errata_renderer, form, output)
+        show([chosen], misprints.RENDERER, form, output)
     elif name and chosen[0].name == "layouts" and digits is None:
-        show([add_firing(chosen[0])], layouts, form, output)
+        show([add_firing(chosen[0])], layouts.RENDERER, form, output)
     elif name:
-        show([replace(chosen[0], digits=digits)], printed_table, form, output)
+        show([replace(chosen[0], digits=digits)], printed_table.RENDERER, form, output)
     else:
-        show([chosen], table_list, form, output)
+        show([chosen], table_list.RENDERER, form, output)

@@ -120,7 +120,7 @@ def torque(
     ):
         if misplaced:
             raise BalcliError(f"{option} needs {needs}")
-    from ..render import torque as renderer
+    from ..render.torque import RENDERER
     from .inputs import (
         exit_on_errors,
         named_by_file,
@@ -161,7 +161,7 @@ def torque(
             warn(f"{name_file(path or '')}: main bearings: {found.loads.obstacle}")
         if write is not None:
             write_uneven(path or "", source.text, found, write)
-    show([found], renderer, form, output, units)
+    show([found], RENDERER, form, output, units)
     if found.flywheel is not None and found.flywheel.stall and fluctuation is None:
         exit_on_errors([f"{name_file(path or str(curve))}: {found.flywheel.stall}"])
 

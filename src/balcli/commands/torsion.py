@@ -111,8 +111,8 @@ def torsion(
     drawn = None if plot is None else picture_form(plot, "--plot")
     require_ending(write, ".toml", "--write")
     from ..enginefile.toml_text import name_file
-    from ..render import torsion as renderer
     from ..render.plot.torsion import make_torsion
+    from ..render.torsion import RENDERER
     from ..render.units import SYSTEMS
     from ..torsion.analysis import answer_question
     from ..torsion.load import load_source
@@ -140,4 +140,4 @@ def torsion(
         write_file(insert_damper(source.text, sized.node, sized.damper), write)
     if plot is not None and drawn is not None:
         write_figure(make_torsion(result, what, SYSTEMS[units]), drawn, plot)
-    show([result], renderer, form, output, units)
+    show([result], RENDERER, form, output, units)

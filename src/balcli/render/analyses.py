@@ -10,6 +10,7 @@ from typing import Any
 
 from ..results.analysis import Analysis
 from .csv import Rows, name_cell
+from .formats import Renderer
 from .sheet import Sheet
 from .units import System
 from .view import NamedResult
@@ -36,3 +37,6 @@ def rows(one: NamedResult[Analysis], system: System) -> Rows:
     devices = "sizing" in one.view.parts
     header, lines = analysis_document.rows(one.result, system, devices=devices)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

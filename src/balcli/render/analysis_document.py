@@ -19,6 +19,7 @@ from .figures import (
     order_entries,
     peak_entries,
 )
+from .formats import Columnar
 
 if TYPE_CHECKING:
     from ..results.analysis import Analysis
@@ -128,3 +129,6 @@ def _all_rows(result: Analysis, system: System, *, devices: bool) -> Iterator[Fi
         from . import symmetry
 
         yield from symmetry.rows(result.why)
+
+
+RENDERER = Columnar(document=document, columns=columns)

@@ -25,6 +25,7 @@ from .devices import (
     practical_grid,
 )
 from .figures import assumptions, figure_rows
+from .formats import Renderer
 from .order_tables import fit_largest
 from .overview import find_orders_that_matter, name_column, tell_others
 from .scheme_details import details_document, details_parts, tell_growing_rolls
@@ -269,3 +270,6 @@ def _with_paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
         return
     for key, part in members:
         yield from _with_paths(part, f"{path}.{key}".lstrip("."))
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows, columns=columns)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..documents.records import to_document
 from .csv import Rows
+from .formats import Renderer
 from .plot import style
 from .sheet import Grid, Sheet, number
 
@@ -79,3 +80,6 @@ def draw_bench(result: Bench) -> bytes:
                     lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}"
                 )
         return style.save_figure(page, "svg")
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -10,6 +10,7 @@ from ..documents.records import to_document
 from ..forces.kinds import TORQUE
 from .csv import Rows, name_cell
 from .engine_facts import tell_speed
+from .formats import Renderer
 from .sheet import (
     NEGLIGIBLE,
     UNKNOWN,
@@ -129,3 +130,6 @@ def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
         first,
         *(cell for pair in zip(others, ratios, strict=True) for cell in pair),
     )
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -7,6 +7,7 @@ from typing import Any
 from ..forces.curves import Curves
 from .csv import Columns, Rows
 from .figures import assumptions
+from .formats import Columnar
 
 
 def document(curves: Curves) -> dict[str, Any]:
@@ -31,3 +32,6 @@ def rows(curves: Curves) -> Rows:
     known = curves.known()
     columns = [curves.crank_deg.tolist(), *(y.tolist() for y in known.values())]
     return Rows(("crank_deg", *known), zip(*columns, strict=True))
+
+
+RENDERER = Columnar(document=document, columns=columns)

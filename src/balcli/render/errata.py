@@ -8,6 +8,7 @@ from typing import Any
 
 from ..printed_tables.recomputed import Erratum, Table
 from .csv import Rows
+from .formats import Renderer
 from .sheet import Grid, Sheet
 from .units import System
 
@@ -39,3 +40,6 @@ def _lines(tables: Sequence[Table]) -> Iterator[tuple[str, ...]]:
 
 def _exact(erratum: Erratum) -> str:
     return f"{erratum.exact:.8g}" if isinstance(erratum.exact, float) else str(erratum.exact)
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -14,6 +14,7 @@ from ..files import replacing
 from ..result import Result
 from ..version import __version__
 from .csv import Column, Columns, Rows
+from .formats import Columnar, Renderer
 from .json import stamp
 from .units import SI
 
@@ -36,9 +37,11 @@ RENDERERS = {
 INSTALLED_BY = {"pandas": "pandas", "pyarrow": "balcli[scale]"}
 
 
-def find_renderer(result: Result) -> Any:
-    """The module that shows an answer."""
-    return import_module(f".{RENDERERS[type(result).__name__]}", __package__)
+def find_renderer(result: Result) -> Columnar[Any]:
+    """Return what shows an answer."""
+    module = import_module(f".{RENDERERS[type(result).__name__]}", __package__)
+    renderer: Columnar[Any] = module.RENDERER
+    return renderer
 
 
 def describe(result: Result) -> dict[str, Any]:
@@ -62,8 +65,10 @@ def _none_for_nan(value: Any) -> Any:
 def list_columns(result: Result) -> Columns:
     """The columns of an answer: those that its renderer names, or those of its CSV."""
     renderer = find_renderer(result)
-    named = hasattr(renderer, "columns")
-    found: Columns = renderer.columns(result) if named else _read_columns(renderer.rows(result, SI))
+    if renderer.columns is None and isinstance(renderer, Renderer):
+        found = _read_columns(renderer.rows(result, SI))
+    elif renderer.columns is not None:
+        found = renderer.columns(result)
     return found._replace(values={k: _fill_gaps(column) for k, column in found.values.items()})
 
 

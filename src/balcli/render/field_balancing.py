@@ -9,6 +9,7 @@ from ..core.phasors import Complex
 from ..documents.records import Node, angle_deg, list_figures, to_document
 from ..field_balancing.balance import FieldBalance, Permitted
 from .csv import Rows, name_cell
+from .formats import Renderer
 from .sheet import UNKNOWN, Facts, Grid, Sheet, Text, degrees, number
 from .units import System
 
@@ -250,3 +251,6 @@ def _show_polar(
         for name, *values in zip(name_readings(result), *columns, strict=True)
     ]
     return Grid(title, ("reading", *heads), tuple(lines), note)
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, assert_never
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, assert_never
 
 if TYPE_CHECKING:
-    from .csv import Rows
+    from .csv import Columns, Rows
     from .sheet import Sheet
     from .units import System
 
@@ -46,22 +47,32 @@ def get_digits(usual: int = USUAL_DIGITS) -> int:
 
 
 Shown = TypeVar("Shown")
-Shown_contra = TypeVar("Shown_contra", contravariant=True)
 
 
-class Renderer(Protocol[Shown_contra]):
-    """How results of one kind are shown; the modules of `render/` that are named as a kind of
-    result are such.
+@dataclass(frozen=True, kw_only=True)
+class Columnar(Generic[Shown]):
+    """How results of one kind become documents and columns.
+
+    Attributes:
+        document: Makes what JSON says, in SI units.
+        columns: Makes the columns of DataFrames; None: those of the rows of CSV.
     """
 
-    def sheet(self, result: Shown_contra, system: System, /) -> Sheet:
-        """What a person reads, in these units."""
+    document: Callable[[Shown], Any]
+    columns: Callable[[Shown], Columns] | None = None
 
-    def document(self, result: Shown_contra, /) -> Any:
-        """What JSON says, in SI units."""
 
-    def rows(self, result: Shown_contra, system: System, /) -> Rows:
-        """What CSV lists, in these units."""
+@dataclass(frozen=True, kw_only=True)
+class Renderer(Columnar[Shown]):
+    """How results of one kind are shown.
+
+    Attributes:
+        sheet: Makes what a person reads, in these units.
+        rows: Makes what CSV lists, in these units.
+    """
+
+    sheet: Callable[[Shown, System], Sheet]
+    rows: Callable[[Shown, System], Rows]
 
 
 def render(

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import printed_table
+from .formats import Renderer
 from .sheet import UNKNOWN, Grid, Sheet, number
 
 if TYPE_CHECKING:
@@ -47,3 +48,6 @@ def document(result: Layouts) -> dict[str, Any]:
 def rows(result: Layouts, system: System) -> Rows:
     """CSV: the exact figures of all orders."""
     return printed_table.rows(result.table, system)
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

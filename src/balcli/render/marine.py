@@ -13,6 +13,7 @@ from ..results.marine import FIGURES
 from .csv import Rows, name_cell
 from .engine_facts import engine_facts
 from .figures import clean, clean_each
+from .formats import Renderer
 from .guide_moments import define_guide_moments
 from .sheet import (
     NAMELESS,
@@ -195,3 +196,6 @@ def _tell_axes(result: MarineSheet) -> str:
     stand = ", ".join(f"{axis:g}" for axis in axes)
     what = "midway between the banks" if mirrored and len(axes) == 2 else f"banks at {stand} deg"
     return f"V is along x, from which bank angles count ({what}), H along y."
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

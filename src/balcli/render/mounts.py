@@ -22,6 +22,7 @@ from ..mounting.records import (
 from .csv import Rows, name_cell
 from .engine_facts import list_silent
 from .figures import clean, silent_entries
+from .formats import Renderer
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name
 from .units import ShownUnit, System
 
@@ -333,3 +334,6 @@ def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tup
         for s, rpm in enumerate(response.speeds_rpm):
             for order, name, curve in curves:
                 yield *head, order, clean(rpm), name, clean(unit.of(curve[s])), unit.name
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -12,6 +12,7 @@ from . import analysis
 from .csv import Columns
 from .engine_facts import engine_facts
 from .exchange import find_renderer, list_columns
+from .formats import Renderer
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, number
 from .units import SI
 
@@ -32,10 +33,10 @@ def _make_sheet(result: Engine | Result) -> Sheet:
     if isinstance(result, Analysis):
         return analysis.sheet(result, SI)
     renderer = find_renderer(result)
-    if not hasattr(renderer, "sheet"):
-        return Sheet(repr(result)[1:-1], (outline(list_columns(result)),))
-    sheet: Sheet = renderer.sheet(result, SI)
-    return sheet
+    if isinstance(renderer, Renderer):
+        sheet: Sheet = renderer.sheet(result, SI)
+        return sheet
+    return Sheet(repr(result)[1:-1], (outline(list_columns(result)),))
 
 
 def outline(columns: Columns) -> Grid:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..documents.records import to_document
 from .csv import Rows
+from .formats import Renderer
 from .sheet import NAMELESS, UNKNOWN, Grid, Sheet
 from .units import System
 
@@ -65,3 +66,6 @@ def rows(result: NamedNumbers, _system: System) -> Rows:
             *(("quantity", q.name, None, q.unit, q.meaning) for q in result.quantities),
         ],
     )
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -17,6 +17,7 @@ from ..printed_tables.recomputed import (
     round_like,
 )
 from .csv import Rows
+from .formats import Renderer
 from .sheet import Facts, Grid, Sheet
 from .units import System
 
@@ -104,3 +105,6 @@ def _round_as_printed(value: float, text: str) -> str:
     if text.lstrip("+-").startswith(".") and abs(value) < 1:
         shown = shown.replace("0.", ".", 1)
     return f"+{shown}" if text.startswith("+") else shown
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from ..documents.records import to_document
 from ..studies.quantity_names import tell_assumed_speed, tell_speeds
 from .csv import Rows
+from .formats import Renderer
 from .sheet import NAMELESS, Grid, Sheet, number
 
 if TYPE_CHECKING:
@@ -63,3 +64,6 @@ def sheet(result: Scatter, system: System) -> Sheet:
         words=tuple(range(SHOWN + 1)),
     )
     return Sheet(result.model.name or NAMELESS, (spread, shares))
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..studies.quantity_names import tell_assumed_speed, tell_speeds
 from .csv import Columns, Rows
+from .formats import Renderer
 from .sheet import NAMELESS, Grid, Sheet, number
 from .units import name_with_unit
 
@@ -116,3 +117,6 @@ def _exactly(value: float | list[float] | list[int]) -> str:
     """The setting of one key in full precision."""
     numbers = value if isinstance(value, list) else [value]
     return "-".join(repr(number).removesuffix(".0") for number in numbers)
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows, columns=columns)

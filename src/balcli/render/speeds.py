@@ -12,6 +12,7 @@ from . import analysis_document, symmetry
 from .comparison import TITLES, find_lines_that_matter, fit_unit, show_sizes
 from .csv import Rows, name_cell
 from .engine_facts import engine_facts
+from .formats import Renderer
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, capitalized, given, order_name, size_text
 from .view import NamedResult
 
@@ -84,3 +85,6 @@ def _kind_part(
     )
     title = f"{capitalized(title)}, {unit.name}: largest by order"
     return Grid(title, ("rpm", *heads), table, words=())
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

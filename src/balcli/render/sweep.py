@@ -14,6 +14,7 @@ import numpy as np
 from ..core.phasors import Array
 from ..studies.quantity_names import tell_assumed_speed
 from .csv import Columns
+from .formats import Columnar
 from .json import stamp
 from .sheet import NAMELESS, Grid, Sheet, given, number
 from .units import name_with_unit, unit_of_name
@@ -109,3 +110,6 @@ def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
         notes += [assumed]
     grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
     return Sheet(f"{sweep.file.name or NAMELESS}: variants", (grid,))
+
+
+RENDERER = Columnar(document=document, columns=columns)

@@ -7,6 +7,7 @@ from typing import Any
 
 from ..printed_tables.recomputed import Table
 from .csv import Rows
+from .formats import Renderer
 from .sheet import Grid, Sheet
 from .units import System
 
@@ -36,3 +37,6 @@ def rows(tables: Sequence[Table], _system: System) -> Rows:
 
 def _lines(tables: Sequence[Table]) -> list[tuple[str, str, str, int]]:
     return [(t.name, t.title, t.source, len(t.errata)) for t in tables]
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

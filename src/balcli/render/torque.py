@@ -15,6 +15,7 @@ from ..torque.loads import CycleLoad
 from .csv import Rows
 from .engine_facts import list_silent, tell_speed, tell_strokes
 from .figures import FigureRow, order_rows
+from .formats import Renderer
 from .sheet import (
     NAMELESS,
     UNKNOWN,
@@ -267,3 +268,6 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
         if not is_engine or not all(harmonic.balanced for harmonic in line)
     ]
     return Grid(f"Torque by order, {unit.name}", ("order", *heads), tuple(shown), note)
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

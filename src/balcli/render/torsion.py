@@ -17,6 +17,7 @@ from ..torsion.response import ShaftResponse, TorsionResponse
 from ..torsion.system import Excitation, TorsionalSystem
 from .csv import Rows, name_cell
 from .engine_facts import list_silent
+from .formats import Renderer
 from .sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
 from .units import SI, ShownUnit, System
 
@@ -416,3 +417,6 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
     if bare:
         named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
         yield "not judged", f"{named}: no diameter, so that no stress is known"
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -17,6 +17,7 @@ from .figures import (
     order_entries,
     peak_entries,
 )
+from .formats import Renderer
 from .order_tables import order_tables, peak_facts
 from .sheet import Facts, Grid, Sheet, number
 
@@ -98,3 +99,6 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
 
 def _tell_place(point: Iterable[Any], unit: ShownUnit) -> str:
     return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
