@@ -14,7 +14,7 @@ import numpy as np
 
 from balcli.bench import V8, WAYS, run_sweep, time_run
 from balcli.engine.build import build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.forces.kinds import DEFAULT_QUANTITIES, KINDS
 from balcli.forces.spectrum import compute_spectra
 from balcli.results.analysis import analyze

@@ -23,7 +23,7 @@ import numpy as np
 from .core.mechanisms import power_series
 from .core.phasors import Array, Complex
 from .engine.build import Engine, build
-from .engine.load import parse
+from .engine.parse import parse
 from .forces.kinds import DEFAULT_QUANTITIES
 from .forces.spectrum import compute_spectra
 from .studies.parameters import Parameter, ladder

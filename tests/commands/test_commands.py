@@ -293,7 +293,8 @@ def test_a_minimax_weight_in_two_planes_leaves_the_moment_that_turns_with_the_cr
 def test_mistakes_of_a_built_model_name_its_file():
     import tomli_w
 
-    from balcli.engine.load import build_named, parse
+    from balcli.engine.load import build_named
+    from balcli.engine.parse import parse
 
     model = parse(tomli_w.dumps(tables(crank={"throws": [0, 180], "spacing": 100})))
     broken = model.model_copy(update={"rod": model.rod.model_copy(update={"length": 40.0})})

@@ -13,7 +13,7 @@ from balcli.core.mechanisms.fourier import SERIES, Series, select_cylinders
 from balcli.core.phases import Phases
 from balcli.core.phasors import EPS
 from balcli.engine.build import build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.forces.spectrum import compute_spectra
 from balcli.studies.parameters import parse_parameter as parameter
 from balcli.studies.sweep import Sweep

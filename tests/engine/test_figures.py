@@ -12,7 +12,7 @@ import tomli_w
 from support.engines import GOOD, RADIAL, changed
 
 from balcli.engine.build import Engine, build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.errors import BalcliError
 from balcli.studies.parameters import find_numbers
 

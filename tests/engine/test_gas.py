@@ -12,7 +12,8 @@ from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import write
 
 from balcli.core.cylinder_pressure import find_highest
-from balcli.engine.load import load, parse
+from balcli.engine.load import load
+from balcli.engine.parse import parse
 from balcli.errors import InputError
 
 TWO_STROKE = FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2")

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from support.cases import cases
 from support.engines import GOOD, changed, mistakes_in
 
-from balcli.engine.load import parse, read
+from balcli.engine.parse import parse, read
 from balcli.errors import BalcliError, InputError
 from balcli.limits import LARGEST_FILE_BYTES
 

@@ -278,7 +278,7 @@ def test_articulated_rods_fire_at_their_true_dead_centres(intervals, good):
     ],
 )
 def test_strokes_left_out_of_a_crosshead_engine_are_doubted(stroke, bore, speed, keys, doubted):
-    from balcli.engine.load import parse_dict
+    from balcli.engine.parse import parse_dict
     from balcli.enginefile.suspicious import find_suspicious
 
     model = parse_dict(

@@ -10,7 +10,7 @@ from support.paths import ENGINES
 
 import balcli
 from balcli.engine.build import build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.sizing.remedy import fit_devices
 
 FILES = sorted(ENGINES.glob("*.toml"))

@@ -8,7 +8,7 @@ from support.engines import GOOD
 from support.mounts import block
 from support.rotors import three_runs
 
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.enginefile.templates import template
 from balcli.errors import InputError
 

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from support.cases import cases
 from support.engines import GOOD, changed, mistakes_in
 
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.enginefile import model
 from balcli.enginefile.articulation_tables import ArticulatedRod
 from balcli.enginefile.messages import import_lists, import_tables

@@ -12,7 +12,7 @@ from support.gas_engines import PETROL_FOUR
 from support.paths import write
 
 from balcli import load
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.enginefile.suspicious import find_suspicious
 from balcli.enginefile.units import LENGTH, SPEED, convert
 from balcli.errors import InputError

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from support.engines import GOOD, changed
 
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.enginefile import templates as new
 from balcli.enginefile.suspicious import find_suspicious
 

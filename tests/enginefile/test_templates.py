@@ -10,7 +10,7 @@ import tomllib
 
 import pytest
 
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.enginefile.templates import ENGINE_KINDS, template
 from balcli.errors import BalcliError
 

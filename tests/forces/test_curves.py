@@ -10,7 +10,7 @@ from support.engines import build_text
 from support.paths import ENGINES
 
 from balcli.engine.build import build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.errors import BalcliError
 from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
 from balcli.forces.orders import find_relevant_orders

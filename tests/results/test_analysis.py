@@ -14,7 +14,7 @@ from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
 from balcli.engine.build import Engine, build
-from balcli.engine.load import read
+from balcli.engine.parse import read
 from balcli.errors import BalcliError
 from balcli.forces.kinds import KINDS
 from balcli.forces.orders import SHOWN, find_relevant_orders

@@ -12,7 +12,7 @@ import pytest
 from support.engines import build_text, engine_text
 
 from balcli import analyze, analyze_mounts, analyze_torque, analyze_torsion, balance, balance_rotor, load
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
 from balcli.results.knuckles import balance_knuckles
 from balcli.sizing.schemes import SCHEMES

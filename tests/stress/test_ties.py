@@ -12,7 +12,8 @@ import pytest
 from docs_examples import ROOT
 from support.searches import search_least
 
-from balcli.engine.load import load, read
+from balcli.engine.load import load
+from balcli.engine.parse import read
 from balcli.forces.crankshaft import compute_inner_loads
 from balcli.studies.scatter import Drawing, Tolerances, scatter_engine
 from balcli.studies.search.objective import Objective

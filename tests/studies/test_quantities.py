@@ -9,7 +9,7 @@ import pytest
 from support.commands import refusal, run_here
 from support.paths import ENGINES
 
-from balcli.engine.load import read
+from balcli.engine.parse import read
 from balcli.studies.quantities import list_quantities, parse_quantities
 from balcli.studies.quantity_names import BEGINNINGS, CHAPTERS, describe_names
 

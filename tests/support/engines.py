@@ -129,7 +129,7 @@ def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
 def build_text(text: str) -> Engine:
     """The engine of a file's text."""
     from balcli.engine.build import build
-    from balcli.engine.load import parse
+    from balcli.engine.parse import parse
 
     return build(parse(text))
 
@@ -159,7 +159,7 @@ def mistakes_in(text: str | bytes) -> str:
     """All of what is said against the text of an engine file, without its name."""
     import pytest
 
-    from balcli.engine.load import parse
+    from balcli.engine.parse import parse
     from balcli.errors import InputError
 
     with pytest.raises(InputError) as caught:

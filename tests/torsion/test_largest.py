@@ -12,7 +12,7 @@ from support.paths import ENGINES
 from balcli import BalcliError, analyze_torsion
 from balcli.core.peaks import find_swing
 from balcli.engine.build import build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.torsion.build_engine import build_engine_system, excite_engine
 from balcli.torsion.motion import move
 from balcli.torsion.quantity import Variants, parse_quantity

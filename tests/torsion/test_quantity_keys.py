@@ -10,7 +10,7 @@ import pytest
 import tomli_w
 
 from balcli.engine.build import Engine, build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.engine.variants import EngineVariants
 from balcli.enginefile.model import EngineFile
 from balcli.studies.parameters import find_numbers

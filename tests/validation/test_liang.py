@@ -14,7 +14,7 @@ import pytest
 from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
 from balcli.engine.build import build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.printed_tables.registry import recompute
 
 P = 2 / 7

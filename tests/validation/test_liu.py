@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from balcli.engine.build import build
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.forces.spectrum import compute_spectra
 from balcli.printed_tables.registry import recompute
 

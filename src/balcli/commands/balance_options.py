@@ -14,10 +14,10 @@ from ..render.formats import Format, Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
 from .amounts import read_length, read_number
-from .completion import complete_schemes
 from .declare import optional
 from .file_names import format_of, format_option, text_format
 from .output import emit, show
+from .scheme_options import complete_schemes
 
 if TYPE_CHECKING:
     from ..engine.build import Engine

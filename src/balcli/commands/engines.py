@@ -10,9 +10,15 @@ import typer
 
 from ..enginefile import examples
 from ..errors import BalcliError
-from .completion import complete_examples
 from .file_names import parse_output, require_ending
 from .output import emit, refuse_existing
+
+
+def complete_examples(incomplete: str) -> list[str]:
+    """Return the example engines that begin with this text."""
+    from ..enginefile import examples
+
+    return [name for name in examples.names() if name.startswith(incomplete)]
 
 
 def engines(

@@ -12,7 +12,8 @@ from typing import NamedTuple, TypeVar
 import typer
 
 from ..engine.build import NO_GAS, Engine, take_model
-from ..engine.load import build_named, parse
+from ..engine.load import build_named
+from ..engine.parse import parse
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..enginefile.file_kinds import OtherKindError
 from ..enginefile.model import EngineFile

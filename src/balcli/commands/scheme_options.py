@@ -12,8 +12,15 @@ from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..render.formats import Units
 from ..sizing.options import SchemeOptions
 from .amounts import read_lengths, read_mass_on_scales, read_share
-from .completion import complete_schemes
 from .declare import optional
+
+
+def complete_schemes(incomplete: str) -> list[str]:
+    """Return the balance schemes that begin with this text."""
+    from ..sizing.schemes import NAMES
+
+    return [name for name in NAMES if name.startswith(incomplete)]
+
 
 Scheme = Annotated[
     str | None,

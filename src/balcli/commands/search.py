@@ -84,7 +84,7 @@ def search(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..engine.load import parse
+    from ..engine.parse import parse
     from ..studies.search.designs import write_design
     from ..studies.search.objective import parse_objective
     from ..studies.search.search import search_arrangements

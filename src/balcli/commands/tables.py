@@ -10,11 +10,18 @@ from ..limits import HIGHEST_POWER
 from ..render import errata as misprints
 from ..render import layouts, printed_table, table_list
 from .amounts import as_bare_angles
-from .completion import complete_tables
 from .declare import optional
 from .file_names import text_format
 from .options import FormatOption, Output
 from .output import show
+
+
+def complete_tables(incomplete: str) -> list[str]:
+    """Return the printed tables that begin with this text."""
+    from ..printed_tables import registry
+
+    return [name for name in registry.NAMES if name.startswith(incomplete)]
+
 
 Name = Annotated[
     str | None,

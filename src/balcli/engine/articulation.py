@@ -5,7 +5,7 @@ what does not fit together in [articulation].
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import numpy as np
 
@@ -14,57 +14,14 @@ from ..core.mechanisms.articulated import Articulated
 from ..core.mechanisms.linkage import STEPS, Linkage, revolution
 from ..core.mechanisms.motion import Motion
 from ..core.mechanisms.rotary import Rotary
-from ..core.phasors import Array, Figure, unit
+from ..core.phasors import Array, Figure
 from ..enginefile.articulation_tables import Articulation
 from ..enginefile.fields import counted
 from ..enginefile.model import EngineFile
 from ..errors import Problem
 from ..limits import NEAREST_TO_LOCK
-from .arrays import column
+from .assembly import Assembly
 from .layout import Plan
-
-if TYPE_CHECKING:
-    from .assembly import Assembly
-
-
-def build_linkage(parts: Assembly, at_pistons: Array) -> Linkage:
-    """Return the mechanism of an engine with articulated rods, or whose cylinders turn.
-
-    Args:
-        parts: the engine as far as it is put together.
-        at_pistons: masses at the piston pins, kg, one row a cylinder or one for all.
-    """
-    hung = None if parts.model.articulation is None else _hang_rods(parts, parts.model.articulation)
-    if not parts.model.layout.rotary:
-        return cast(Linkage, hung)
-    if hung is None:
-        return Rotary(at_pistons)
-    both = at_pistons + hung.mass
-    return Rotary(both, hung, hung.mass / np.where(both == 0, 1.0, both))
-
-
-def _hang_rods(parts: Assembly, table: Articulation) -> Articulated:
-    """Return the mechanism of master and articulated rods. Seen from turning cylinders all angles
-    are in the mirror (core.rotary).
-    """
-    numbers, masters, axes, rank = parts.numbers, parts.masters, parts.axes_deg, parts.rank
-    angles = {n: axes[n] - axes[master] for n, master in masters.items()}
-    if (given := parts.knuckle_angles_deg) is not None:
-        angles = {c.number: given[c.bank] for c in parts.plan.cells if c.number in masters}
-    radius_mm = parts.figures.take("articulation.knuckle_radius", table.knuckle_radius)
-    stroke_mm = parts.figures.take("crank.stroke", parts.model.crank.stroke)
-    ratio = radius_mm / (stroke_mm / 2)
-    pins_deg = column([parts.sense * angles.get(n, 0.0) for n in numbers], rank)
-    of_master = [masters.get(n, n) for n in numbers]
-    leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
-    masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
-    ratios = column([ratio if n in masters else 0.0 for n in numbers], rank)
-    return Articulated(
-        mass=column(masses, rank),
-        master=np.array([numbers.index(master) for master in of_master]),
-        knuckle=ratios * unit(pins_deg),
-        lead_deg=column(leads, rank),
-    )
 
 
 # ------------------------------------------------------------------ what does not fit together

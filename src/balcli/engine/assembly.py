@@ -8,13 +8,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from ..core.cylinders import Cylinders
-from ..core.phasors import Array, Figure
+from ..core.mechanisms.articulated import Articulated
+from ..core.mechanisms.rotary import Rotary
+from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
+from ..enginefile.articulation_tables import Articulation
 from ..enginefile.model import ONE_BY_ONE, EngineFile
 from . import firing
 from .arrays import column, shared_column
@@ -45,7 +48,7 @@ class Assembly:
         rank: trailing axes of the engine, if more than `varied` has.
         legible: keys of the file that can be relied on (`enginefile.read.Draft`). What needs others
             must not be asked for.
-        known_gas: what `gas` would find, if that is known.
+        known_gas: gas of the cylinders, if that is known; else the rules build it.
     """
 
     def __init__(
@@ -56,7 +59,7 @@ class Assembly:
         legible: Iterable[str] = ALL_KEYS,
         known_gas: EngineGas | None = None,
     ) -> None:
-        self.model, self._known_gas = model, known_gas
+        self.model, self.gas = model, known_gas
         self.figures = FileFigures(varied or {}, model)
         self.varies = bool(varied)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
@@ -336,8 +339,6 @@ class Assembly:
         at_pistons = self._of_each(lambda n: weighed[n].reciprocating)
         linkage: Linkage | None = None
         if self.model.articulation is not None or self.model.layout.rotary:
-            from .articulation import build_linkage
-
             linkage = build_linkage(self, at_pistons)
         turning = linkage is not None and linkage.turning
         return Cylinders(
@@ -375,12 +376,42 @@ class Assembly:
             return None
         return self.figures.take_each("articulation.knuckle_angles", table.knuckle_angles)
 
-    # ------------------------------------------------------------------ gas
-    @cached_property
-    def gas(self) -> EngineGas | None:
-        """Gas of the cylinders; None without [gas], and for variants, whose figures are arrays."""
-        if self._known_gas is not None or self.model.gas is None or self.rank:
-            return self._known_gas
-        from .build_gas import build_gas  # files without [gas] do not pay for it
 
-        return build_gas(self)
+def build_linkage(parts: Assembly, at_pistons: Array) -> Linkage:
+    """Return the mechanism of an engine with articulated rods, or whose cylinders turn.
+
+    Args:
+        parts: the engine as far as it is put together.
+        at_pistons: masses at the piston pins, kg, one row a cylinder or one for all.
+    """
+    hung = None if parts.model.articulation is None else _hang_rods(parts, parts.model.articulation)
+    if not parts.model.layout.rotary:
+        return cast(Linkage, hung)
+    if hung is None:
+        return Rotary(at_pistons)
+    both = at_pistons + hung.mass
+    return Rotary(both, hung, hung.mass / np.where(both == 0, 1.0, both))
+
+
+def _hang_rods(parts: Assembly, table: Articulation) -> Articulated:
+    """Return the mechanism of master and articulated rods. Seen from turning cylinders all angles
+    are in the mirror (core.rotary).
+    """
+    numbers, masters, axes, rank = parts.numbers, parts.masters, parts.axes_deg, parts.rank
+    angles = {n: axes[n] - axes[master] for n, master in masters.items()}
+    if (given := parts.knuckle_angles_deg) is not None:
+        angles = {c.number: given[c.bank] for c in parts.plan.cells if c.number in masters}
+    radius_mm = parts.figures.take("articulation.knuckle_radius", table.knuckle_radius)
+    stroke_mm = parts.figures.take("crank.stroke", parts.model.crank.stroke)
+    ratio = radius_mm / (stroke_mm / 2)
+    pins_deg = column([parts.sense * angles.get(n, 0.0) for n in numbers], rank)
+    of_master = [masters.get(n, n) for n in numbers]
+    leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
+    masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
+    ratios = column([ratio if n in masters else 0.0 for n in numbers], rank)
+    return Articulated(
+        mass=column(masses, rank),
+        master=np.array([numbers.index(master) for master in of_master]),
+        knuckle=ratios * unit(pins_deg),
+        lead_deg=column(leads, rank),
+    )

@@ -13,11 +13,12 @@ from ..core.phasors import Array, Figure, Phasors
 from ..core.speed_ripple import RippleLine
 from ..core.speeds import RPM
 from ..enginefile.model import EngineFile
-from ..enginefile.plain_tables import list_tables
-from ..errors import BalcliError, InputError, check_type, wrong_type
+from ..enginefile.plain_tables import change_tables, list_tables
+from ..errors import BalcliError, InputError, check_type, naming_file, wrong_type
 from .assembly import Assembly
 from .devices import build_devices
 from .numbering import doubt_firing, find_fitting_splay, list_inferred
+from .parse import parse_dict
 from .positions import MOMENTS_UNKNOWN, are_places_known
 from .rods import Weighed
 from .rules import find_contradictions
@@ -130,8 +131,6 @@ class Engine:
         Example:
             >>> engine.vary({"layout.bank_angle": 60, "rod.length": "6 in"})
         """
-        from .vary import vary_engine
-
         check_type("vary", changes, Mapping, 'give a dict, such as {"rod.length": 150}')
         return vary_engine(self, {**changes, **named})
 
@@ -397,3 +396,36 @@ def _find_flywheel(parts: Assembly, table: Flywheel) -> Figure | None:
 def _find_bearings(table: Bearing) -> Bearings:
     pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
     return Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
+
+
+# Changes that leave it out.
+NO_FIRING_ORDER: dict[str, Any] = {"layout.firing_order": None, "layout.firing_intervals": None}
+
+
+def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
+    """The engine of the same file with other values of some keys, by dotted names; errors as of
+    `Engine.vary`.
+    """
+    for path in changes:
+        if not isinstance(path, str):
+            raise wrong_type("vary", path, 'name a key of the engine file, such as "rod.length"')
+    model = take_model(engine)
+    changes = dict(changes)
+    try:
+        return _build_changed(engine, changes)
+    except InputError:
+        kept = model.crank.throws is None or model.gas is not None
+        if kept or model.layout.firing_order is None or NO_FIRING_ORDER.keys() & changes.keys():
+            raise
+        first = NO_FIRING_ORDER | changes
+    try:
+        return _build_changed(engine, first)
+    except InputError:
+        return _build_changed(engine, changes)  # with all that is wrong of it
+
+
+def _build_changed(engine: Engine, changes: Mapping[str, Any]) -> Engine:
+    model = take_model(engine)
+    name = f"{engine.name or 'engine'} with {', '.join(changes)}"
+    with naming_file(name):
+        return build(parse_dict(change_tables(model, changes), model.folder))

@@ -9,15 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from ..enginefile.model import EngineFile
-from ..enginefile.plain_tables import normalize_tables, take_tables
-from ..enginefile.read import Draft, check_tables, read_tables
-from ..enginefile.table_reader import refuse
-from ..enginefile.toml_text import name_file, read_bytes
+from ..enginefile.plain_tables import take_tables
+from ..enginefile.toml_text import name_file
 from ..errors import naming_file
-from .assembly import Assembly
 from .build import Engine, build
-from .numbering import infer_numbering
-from .rules import find_contradictions
+from .parse import parse_tables
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
@@ -49,7 +45,7 @@ def build_tables(tables: Mapping[str, Any], name: str) -> Engine:
     Raises:
         InputError: every mistake of the tables.
     """
-    model = _refuse_mistakes(check_tables(tables, Path(name).parent, name), name)
+    model = parse_tables(tables, name)
     with naming_file(name):
         return build(model)
 
@@ -62,43 +58,3 @@ def build_named(model: EngineFile, path: str | Path) -> Engine:
     """
     with naming_file(name_file(path)):
         return build(model)
-
-
-def read(path: str | Path) -> EngineFile:
-    """The model of the engine file at a path, or from standard input for "-".
-
-    Raises:
-        BalcliError: there is nothing to read.
-        InputError: every mistake that the text has.
-    """
-    return parse(read_bytes(path), name_file(path))
-
-
-def parse(text: str | bytes, name: str = "") -> EngineFile:
-    """The model of an engine that a TOML text describes; `name` is that of its file, for messages.
-
-    Raises:
-        InputError: every mistake that the text has; and then also what does not fit together in the
-            tables that could be read.
-    """
-    return _refuse_mistakes(read_tables(text, name), name)
-
-
-def parse_dict(tables: Mapping[str, Any], folder: Path | None = None) -> EngineFile:
-    """The model of an engine that the tables of a dict describe.
-
-    Args:
-        tables: as a file has them.
-        folder: in which the files are that they name; default: the working directory.
-
-    Raises:
-        InputError: as of `parse`.
-    """
-    return _refuse_mistakes(check_tables(normalize_tables(tables), folder or Path()))
-
-
-def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
-    if not draft.problems:
-        return infer_numbering(draft.model)
-    contradictions = find_contradictions(Assembly(draft.model, legible=draft.legible))
-    raise refuse([*draft.problems, *contradictions], name)

@@ -192,8 +192,10 @@ def check_gas(parts: Assembly) -> Iterator[Problem]:
                         f"cylinder.{number}.{key}",
                         "needs [gas], which says what the gas does in all cylinders",
                     )
-    else:
-        _ = parts.gas  # raises InputError with all mistakes
+    elif parts.gas is None and not parts.rank:
+        from .build_gas import build_gas  # files without [gas] do not pay for it
+
+        parts.gas = build_gas(parts)  # raises InputError with all mistakes
 
 
 _WHOLE = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder"})

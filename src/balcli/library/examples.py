@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..engine.build import Engine, build
-from ..engine.load import parse
+from ..engine.parse import parse
 from ..enginefile.examples import text
 from ..errors import wrong_type
 

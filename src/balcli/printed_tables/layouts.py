@@ -56,7 +56,7 @@ def _find_gaps(engine: Engine) -> tuple[float, ...]:
 
 
 def _read(name: str) -> EngineFile:
-    from ..engine.load import parse
+    from ..engine.parse import parse
 
     return parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
 

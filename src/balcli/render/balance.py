@@ -13,7 +13,6 @@ from ..engine.positions import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..results.balance import Balance
 from ..sizing.device_tables import find_unbalance, name_kind
-from ..studies.quantity_names import tell_assumed_speed
 from .analysis_document import brief_document
 from .csv import Columns, Rows
 from .devices import (
@@ -24,6 +23,7 @@ from .devices import (
     number_devices,
     practical_grid,
 )
+from .engine_facts import tell_assumed_speed
 from .figures import assumptions, figure_rows
 from .formats import Renderer
 from .order_tables import fit_largest

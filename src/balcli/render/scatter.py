@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..documents.records import to_document
-from ..studies.quantity_names import tell_assumed_speed, tell_speeds
+from ..studies.quantity_names import tell_speeds
 from .csv import Rows
+from .engine_facts import tell_assumed_speed
 from .formats import Renderer
 from .sheet import NAMELESS, Grid, Sheet, number
 

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 
 from ..documents.records import find_unit, remove_unit
 from ..results.balance import Balance
-from ..sizing.balance_factor import FactorPeaks, PlaneNeed, name_one_cylinder
-from ..sizing.bobweight_card import Bobweight
+from ..sizing.balance_factor import name_one_cylinder
+from ..sizing.bobweight_card import Bobweight, FactorPeaks, PlaneNeed
 from ..sizing.device_tables import measure_direction
 from .bobweight_page import group_equal_pins, multiply, name_pins, percent
 from .sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text

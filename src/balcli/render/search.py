@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..studies.quantity_names import tell_assumed_speed, tell_speeds
+from ..studies.quantity_names import tell_speeds
 from .csv import Columns, Rows
+from .engine_facts import tell_assumed_speed
 from .formats import Renderer
 from .sheet import NAMELESS, Grid, Sheet, number
 from .units import name_with_unit

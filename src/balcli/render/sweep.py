@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.phasors import Array
-from ..studies.quantity_names import tell_assumed_speed
 from .csv import Columns
+from .engine_facts import tell_assumed_speed
 from .formats import Columnar
 from .json import stamp
 from .sheet import NAMELESS, Grid, Sheet, given, number

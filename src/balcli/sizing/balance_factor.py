@@ -6,8 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,15 +15,14 @@ from ..core.golden_section import find_least
 from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
-from ..documents.records import HIDDEN, INLINE, Node, Polar
 from ..engine.build import Engine
 from ..engine.positions import MOMENTS_UNKNOWN
 from ..errors import BalcliError
 from ..forces.orders import find_relevant_orders
 from ..forces.spectrum import compute_spectra
 from ..limits import LARGEST_FACTOR
-from .bobweight_card import DEFINITION, NO_THROW, fill_card
-from .device_tables import find_unbalance, measure_direction
+from .bobweight_card import DEFINITION, NO_THROW, FactorPeaks, PlaneNeed, fill_card
+from .device_tables import find_unbalance
 from .effects import LEFT, Slot
 from .fitting import Fitting
 from .options import SchemeOptions
@@ -42,67 +40,6 @@ OWN_PLACES = (
     "these planes are where the counterweights of the file stand; --planes throws asks what is "
     "missing at every throw instead"
 )
-
-
-class _FromPin(Polar):
-    """Mark of an unbalance: its angle counts from cylinder 1's pin, deg, in (-180, 180]."""
-
-    def split(self, value: complex) -> Node:
-        """Return size and angle."""
-        angle = measure_direction(value) if value else None
-        return {self.magnitude: abs(value), self.angle: angle}
-
-
-@dataclass(frozen=True, kw_only=True)
-class PlaneNeed:
-    """What a balance factor asks for in one plane of the crankshaft.
-
-    Attributes:
-        position_mm: Place of the plane along the crankshaft.
-        wanted: Counterweight for all pins, as far as this plane takes it, kg m.
-        present: Unbalance of the file's counterweights there, kg m.
-        missing: Unbalance that is still to be added, kg m.
-    """
-
-    position_mm: float
-    wanted: Annotated[complex, _FromPin("wanted_kg_m", "wanted_deg"), INLINE]
-    present: Annotated[complex, _FromPin("present_kg_m", "present_deg"), INLINE]
-    missing: Annotated[complex, _FromPin("missing_kg_m", "missing_deg"), INLINE]
-
-
-@dataclass(frozen=True, kw_only=True, order=True)
-class FactorPeaks:
-    """What an engine balanced by the shop's factor still shakes: largest values over a revolution,
-    of all orders.
-
-    Attributes:
-        factor: Balance factor.
-        peak_force_N: Largest force.
-        along_N: Largest component of the force along the axis of the first bank.
-        across_N: Largest component across it.
-        peak_moment_Nm: Largest moment.
-        bobweight_g: Bobweight of the first pin.
-        counterweight_kg_m: Largest weight that is missing.
-        by_moment: Whether the moment says which factor is best: the pins balance each other, so
-            that no factor changes much of the force.
-    """
-
-    factor: float
-    peak_force_N: float
-    along_N: float
-    across_N: float
-    peak_moment_Nm: float
-    bobweight_g: float
-    counterweight_kg_m: float
-    by_moment: Annotated[bool, HIDDEN]
-
-    @property
-    def cost(self) -> tuple[float, float]:
-        """Figures that are least at the best factor: the force, or else the moment; then the
-        other.
-        """
-        force, moment = round(self.peak_force_N, 6), round(self.peak_moment_Nm, 6)
-        return (moment, force) if self.by_moment else (force, moment)
 
 
 class _Pin(NamedTuple):

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
+from ..documents.records import HIDDEN, INLINE, Node, Polar
 from ..engine.build import Engine
 from ..engine.rods import Weighed
+from .device_tables import measure_direction
 
 DEFINITION = (
     "bobweight of a crank pin = rotating mass + factor x reciprocating mass of the rods on that "
@@ -128,3 +131,64 @@ def _list_lines(masses: list[Weighed]) -> tuple[CardLine, ...]:
         for part in (*ROTATING, *PISTON, "small end")
         if any(part in rod for rod in rods)
     )
+
+
+class _FromPin(Polar):
+    """Mark of an unbalance: its angle counts from cylinder 1's pin, deg, in (-180, 180]."""
+
+    def split(self, value: complex) -> Node:
+        """Return size and angle."""
+        angle = measure_direction(value) if value else None
+        return {self.magnitude: abs(value), self.angle: angle}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneNeed:
+    """What a balance factor asks for in one plane of the crankshaft.
+
+    Attributes:
+        position_mm: Place of the plane along the crankshaft.
+        wanted: Counterweight for all pins, as far as this plane takes it, kg m.
+        present: Unbalance of the file's counterweights there, kg m.
+        missing: Unbalance that is still to be added, kg m.
+    """
+
+    position_mm: float
+    wanted: Annotated[complex, _FromPin("wanted_kg_m", "wanted_deg"), INLINE]
+    present: Annotated[complex, _FromPin("present_kg_m", "present_deg"), INLINE]
+    missing: Annotated[complex, _FromPin("missing_kg_m", "missing_deg"), INLINE]
+
+
+@dataclass(frozen=True, kw_only=True, order=True)
+class FactorPeaks:
+    """What an engine balanced by the shop's factor still shakes: largest values over a revolution,
+    of all orders.
+
+    Attributes:
+        factor: Balance factor.
+        peak_force_N: Largest force.
+        along_N: Largest component of the force along the axis of the first bank.
+        across_N: Largest component across it.
+        peak_moment_Nm: Largest moment.
+        bobweight_g: Bobweight of the first pin.
+        counterweight_kg_m: Largest weight that is missing.
+        by_moment: Whether the moment says which factor is best: the pins balance each other, so
+            that no factor changes much of the force.
+    """
+
+    factor: float
+    peak_force_N: float
+    along_N: float
+    across_N: float
+    peak_moment_Nm: float
+    bobweight_g: float
+    counterweight_kg_m: float
+    by_moment: Annotated[bool, HIDDEN]
+
+    @property
+    def cost(self) -> tuple[float, float]:
+        """Figures that are least at the best factor: the force, or else the moment; then the
+        other.
+        """
+        force, moment = round(self.peak_force_N, 6), round(self.peak_moment_Nm, 6)
+        return (moment, force) if self.by_moment else (force, moment)

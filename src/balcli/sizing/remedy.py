@@ -13,8 +13,7 @@ from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
 from .device_tables import KINDS, DeviceTable, find_free, name_kind
 
 if TYPE_CHECKING:
-    from .balance_factor import FactorPeaks, PlaneNeed
-    from .bobweight_card import Bobweight
+    from .bobweight_card import Bobweight, FactorPeaks, PlaneNeed
 
 
 class Remedy(NamedTuple):

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..engine.build import build
-from ..engine.load import parse
+from ..engine.parse import parse
 from ..enginefile.edit import format_value, rewrite, set_keys
 from ..errors import BalcliError, InputError
 from .device_tables import FIELDS, DeviceTable, name_kind

@@ -17,7 +17,8 @@ from ..forces.crankshaft import InnerLoads
 from ..forces.spectrum import compute_spectra
 from ..results.analysis import Analysis, analyze, find_inner_loads
 from ..results.balance import balance
-from ..sizing.balance_factor import FactorPeaks, find_best_factor
+from ..sizing.balance_factor import find_best_factor
+from ..sizing.bobweight_card import FactorPeaks
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy
 from ..sizing.sizing import size

@@ -13,7 +13,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from ..enginefile.model import EngineFile
+    pass
 
 
 class Form(NamedTuple):
@@ -179,10 +179,3 @@ def tell_speeds(names: Iterable[str]) -> str:
     told = [_OF_MOUNTS] * any(name.startswith(("mount.", "point.")) for name in asked)
     told += [_OF_SHAFTS] * any(name.startswith("shaft.") for name in asked)
     return " ".join(told)
-
-
-def tell_assumed_speed(model: EngineFile | None) -> str:
-    """A sentence, where there is a file that gives no speed."""
-    if model is None or "speed" in model.operation.model_fields_set:
-        return ""
-    return f"The file gives no speed: figures are those at {model.operation.speed:g} rpm."

@@ -23,7 +23,7 @@ import numpy as np
 from ..core.phasors import Array
 from ..engine.build import Engine
 from ..engine.gas_figures import concerns_gas
-from ..engine.load import read
+from ..engine.parse import read
 from ..enginefile.model import EngineFile
 from ..enginefile.toml_text import name_file
 from ..errors import BalcliError, InputError, naming_file

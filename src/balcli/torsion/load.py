@@ -8,7 +8,8 @@ from typing import Any
 
 from ..core.vibration import Real
 from ..engine.build import Engine
-from ..engine.load import build_named, parse
+from ..engine.load import build_named
+from ..engine.parse import parse
 from ..enginefile.file_kinds import CHAIN, ENGINE, refuse_other_kind
 from ..enginefile.model import EngineFile
 from ..enginefile.shafting import Damper

@@ -14,7 +14,7 @@ from support.diesel import write_diesel
 from support.paths import ENGINES, write
 
 from balcli.core.telling import tell_nobody
-from balcli.engine.load import parse
+from balcli.engine.parse import parse
 from balcli.studies.search import evaluate
 from balcli.studies.search.local import Box, Effort, find_local_optima
 from balcli.studies.search.objective import Merit, parse_objective

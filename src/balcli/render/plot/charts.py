@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.phasors import Array, Phasors
 from ...forces.crankshaft import AlongCrank
-from ...sizing.balance_factor import FactorPeaks
+from ...sizing.bobweight_card import FactorPeaks
 from ..order_tables import fit_largest
 from ..sheet import number, order_name, size_text
 from ..units import ShownUnit, System

@@ -23,6 +23,7 @@ from ..bobweight_page import percent
 from ..engine_facts import tell_pivot
 from ..sheet import NAMELESS, NEGLIGIBLE, size_text, small_text
 from ..units import SI, ShownUnit, System
+from .bank_angle import draw_end_curves, draw_roses
 from .charts import (
     draw_along,
     draw_curves,
@@ -32,7 +33,7 @@ from .charts import (
     visible_rows,
 )
 from .gas import draw_main, draw_p_v, draw_pin, draw_pressure, draw_torque
-from .plane import draw_end_curves, draw_locus, draw_order, draw_roses
+from .plane import draw_locus, draw_order
 from .style import fit_name, inline_svg, open_figure, put_title, save_figure
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Pictures in the plane of forces and moments: loci, rotating vectors, and a vee by bank angle.
+"""Pictures in the plane of forces and moments: loci and rotating vectors.
 
 The plane is seen from the free end: x up, y to the right, so that the crank turns clockwise.
 """
@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.phasors import Array, Complex, Phasors
-from ...studies.pictures import Banks
 from ..sheet import NOTHING, number, order_name, size_text
 from ..units import ShownUnit
 from ..view import VISIBLE
@@ -19,10 +18,9 @@ from .style import BLUE, INK, PAPER, RED, SOFT, put_legend_above
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
+FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
 _ORDER_ANGLE = 36  # degrees of the order's own angle, at which both of its vectors are seen apart
 _BOX: Any = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
-_BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
 def set_up_plane(ax: Axes, largest: float, what: str = "", unit: str = "") -> float:
@@ -116,7 +114,7 @@ def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> 
     order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_ORDER_ANGLE))
     s = unit.fit(float(curve.major[k]))
     forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size
-    path = forward * np.exp(1j * _FINE) + backward * np.exp(-1j * _FINE)
+    path = forward * np.exp(1j * FINE) + backward * np.exp(-1j * FINE)
     set_up_plane(ax, float(np.abs(path).max()), what, s.name)
     ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
     ax.plot(path.imag, path.real, color=INK)
@@ -127,7 +125,7 @@ def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> 
     ):
         if not vector:
             continue
-        ring, tip = start + vector * np.exp(1j * _FINE), start + vector
+        ring, tip = start + vector * np.exp(1j * FINE), start + vector
         ax.plot(ring.imag, ring.real, color=colour, linewidth=0.7, linestyle=":")
         look: Any = {"color": colour, "linestyle": style}
         _draw_arrow(ax, start, tip, linewidth=1.5, mutation_scale=11, **look)
@@ -135,49 +133,3 @@ def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> 
         ax.plot([], [], label=label, **look)
         start = tip
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, columnspacing=1)
-
-
-def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
-    """Draw the path of the force's tip for several bank angles."""
-    from matplotlib import colormaps
-
-    shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in _BANKS_DEG]
-    s = unit.fit(float(banks.force.major.max(initial=0)))
-    ahead, against = banks.force.forward[0, shown], banks.force.backward[0, shown]
-    turn = np.exp(1j * _FINE)
-    paths = (ahead[:, None] * turn + against[:, None] / turn) / s.size
-    set_up_plane(ax, float(np.abs(paths).max()), "force", s.name)
-    for path, angle, shade in zip(paths, _BANKS_DEG, np.linspace(0, 0.9, 7), strict=True):
-        colour = colormaps["viridis"](shade)
-        ax.plot(
-            path.imag, path.real, "o-", color=colour, markevery=360, markersize=3, label=f"{angle}°"
-        )
-    ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle")
-    put_legend_above(ax, len(_BANKS_DEG))
-
-
-def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
-    """Draw the sizes of both rotating vectors as radii in the directions of the two banks, whose
-    angle is varied.
-    """
-    ahead, against = np.abs(banks.force.forward[0]), np.abs(banks.force.backward[0])
-    largest = float(max(ahead.max(), against.max()))
-    s = unit.fit(largest)
-    ax.set_theta_zero_location("N")
-    ax.set_theta_direction(-1)
-    half = np.radians(banks.angles_deg) / 2
-    for size, colour, style, label in (
-        (ahead, BLUE, "-", "with the crank"),
-        (against, RED, (0, (5, 1.5)), "against it"),
-    ):
-        both = np.concatenate([size[::-1], size]) / s.size
-        angles = np.concatenate([-half[::-1], half])
-        ax.plot(angles, both, color=colour, linestyle=style, label=label)
-    if banks.own_deg <= 180:
-        for side in (-0.5, 0.5):
-            ax.axvline(np.radians(side * banks.own_deg), color=INK, linewidth=0.9, linestyle=":")
-    marks = np.arange(-90, 91, 30)
-    ax.set_thetagrids(marks, [f"{abs(2 * mark):g}°" for mark in marks])
-    ax.set(thetamin=-90, thetamax=90, rmax=1.08 * largest / s.size or 1)
-    ax.set_title(f"Its two vectors by bank angle, {s.name} (dotted: this engine)", pad=6)
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.02), ncols=2)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from ...engine.build import build
 from ...engine.layout import plan_cylinders
-from ...engine.load import parse
+from ...engine.parse import parse
 from ...enginefile.edit import set_keys
 from ...enginefile.model import EngineFile
 from ...errors import BalcliError, InputError

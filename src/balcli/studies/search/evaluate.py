@@ -15,7 +15,7 @@ from ...engine.arrays import ranked
 from ...engine.build import Engine
 from ...engine.firing import TOLERANCE_DEG
 from ...engine.layout import cycle_deg, plan_cylinders
-from ...engine.load import parse_dict
+from ...engine.parse import parse_dict
 from ...enginefile.model import EngineFile
 from ...enginefile.plain_tables import change_tables
 from ...errors import BalcliError, InputError

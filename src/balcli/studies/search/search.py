@@ -12,10 +12,9 @@ import numpy as np
 
 from ...core.phases import TURN
 from ...core.telling import Tell, tell_nobody
-from ...engine.build import Engine, build
+from ...engine.build import Engine, build, vary_engine
 from ...engine.layout import plan_cylinders
-from ...engine.load import parse_dict
-from ...engine.vary import vary_engine
+from ...engine.parse import parse_dict
 from ...enginefile.fields import nearest
 from ...enginefile.model import EngineFile
 from ...enginefile.plain_tables import change_tables
