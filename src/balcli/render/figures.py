@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -17,13 +17,25 @@ from ..forces.spectrum import Spectra
 from .sheet import order_number
 from .units import ShownUnit, System
 
-if TYPE_CHECKING:
-    from ..forces.curves import Curves
-    from ..results.analysis import Analysis
-    from ..results.two_engines import Combined
 
-    OrdersAndPeaks: TypeAlias = Analysis | Combined
-    Located: TypeAlias = OrdersAndPeaks | Curves
+class Located(Protocol):
+    """A result of an engine whose file may say where its throws stand."""
+
+    @property
+    def moments_known(self) -> bool: ...
+
+
+class OrdersAndPeaks(Located, Protocol):
+    """A result with orders and peaks: an analysis, or the sum of two engines."""
+
+    @property
+    def spectra(self) -> Spectra: ...
+
+    @property
+    def peaks(self) -> list[tuple[Kind, Peak]]: ...
+
+    @property
+    def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
 
 
 class FigureRow(NamedTuple):
