@@ -17,7 +17,7 @@ from support.engines import RADIAL, build_text
 from balcli.core.mechanisms.articulated import Articulated
 from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
-from balcli.engine import load as enginefile
+from balcli.engine import parse as enginefile
 from balcli.errors import InputError
 from balcli.forces import spectrum
 from balcli.forces.orders import find_relevant_orders

@@ -10,7 +10,7 @@ from support.engines import INLINE, alone, build_text, inline_engine
 from support.paths import ENGINES
 
 from balcli.core.peaks import find_peak
-from balcli.engine import load as enginefile
+from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces import spectrum
 from balcli.forces.crankshaft import compute_inner_loads, place_bearings
@@ -139,11 +139,7 @@ def _height_of_pin(angle, r, rod):
 def test_each_cylinder_is_what_it_is_alone(name):
     layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
     ripple = "speed_ripple = [{order = 2, amplitude = 0.02, angle = 30}]\n"
-    subject = (
-        inline_engine([0, 180, 180, 0], layout, ripple)
-        if name == "ripple"
-        else enginefile.load(ENGINES / f"{name}.toml")
-    )
+    subject = inline_engine([0, 180, 180, 0], layout, ripple) if name == "ripple" else load(ENGINES / f"{name}.toml")
     together = spectrum.compute_each_cylinder(subject, ORDERS)
     for row, number in enumerate(subject.numbers):
         for quantity, single in spectrum.compute_spectra(alone(subject, number), ORDERS).items():

@@ -8,7 +8,7 @@ from support.cases import cases
 from support.engines import VEE
 
 from balcli.engine.build import build
-from balcli.engine.load import parse as load
+from balcli.engine.parse import parse as load
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.spectrum import compute_spectra

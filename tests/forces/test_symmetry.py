@@ -11,7 +11,7 @@ from support.engines import build_text
 from support.paths import ENGINE_FILES
 
 from balcli.engine import build as engine
-from balcli.engine import load as enginefile
+from balcli.engine import parse as enginefile
 from balcli.forces import spectrum
 from balcli.forces.symmetry import explain_symmetry
 from balcli.render.analysis_document import document as analysis_document

@@ -10,7 +10,7 @@ from support.commands import ask_json, refusal, run_here
 from support.engines import RADIAL
 from support.paths import ENGINES
 
-from balcli.engine import load as enginefile
+from balcli.engine import parse as enginefile
 from balcli.errors import BalcliError
 from balcli.results.knuckles import even_knuckles
 

@@ -8,7 +8,7 @@ import pytest
 from support.engines import GOOD, changed
 from support.paths import ENGINES
 
-from balcli.engine.load import parse as load
+from balcli.engine.parse import parse as load
 from balcli.errors import BalcliError
 from balcli.studies.parameters import find_numbers, ladder, parse_parameter
 

@@ -13,7 +13,7 @@ from support.paths import ENGINES
 
 import balcli
 from balcli.engine.build import build
-from balcli.engine.load import parse as load
+from balcli.engine.parse import parse as load
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.studies.quantities import parse_quantities

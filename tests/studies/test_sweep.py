@@ -12,7 +12,7 @@ import pytest
 from support.engines import GOOD, VEE, changed
 
 from balcli.engine.build import build
-from balcli.engine.load import parse as load
+from balcli.engine.parse import parse as load
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.render.sweep import sweep_csv, sweep_json

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -384,11 +384,12 @@ def build_linkage(parts: Assembly, at_pistons: Array) -> Linkage:
         parts: the engine as far as it is put together.
         at_pistons: masses at the piston pins, kg, one row a cylinder or one for all.
     """
-    hung = None if parts.model.articulation is None else _hang_rods(parts, parts.model.articulation)
-    if not parts.model.layout.rotary:
-        return cast(Linkage, hung)
-    if hung is None:
+    table = parts.model.articulation
+    if table is None:
         return Rotary(at_pistons)
+    hung = _hang_rods(parts, table)
+    if not parts.model.layout.rotary:
+        return hung
     both = at_pistons + hung.mass
     return Rotary(both, hung, hung.mass / np.where(both == 0, 1.0, both))
 

@@ -23,7 +23,6 @@ from .devices import (
     number_devices,
     practical_grid,
 )
-from .engine_facts import tell_assumed_speed
 from .figures import assumptions, figure_rows
 from .formats import Renderer
 from .order_tables import fit_largest
@@ -45,6 +44,7 @@ from .sheet import (
     size_cell,
 )
 from .units import SI, ShownUnit, System
+from .view import tell_assumed_speed
 
 _TURNING_WEIGHTS = (
     "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis, which is "

@@ -11,7 +11,6 @@ import numpy as np
 from ..core.phasors import Figure
 from ..engine.build import Engine, SilentCylinders
 from ..enginefile.fields import count_lambda_digits
-from ..enginefile.model import EngineFile
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
 from .formats import get_digits
@@ -204,10 +203,3 @@ def list_silent(silent: SilentCylinders) -> list[tuple[str, str]]:
         (key.replace("_", " "), ", ".join(map(str, numbers)))
         for key, numbers in silent_entries(silent).items()
     ]
-
-
-def tell_assumed_speed(model: EngineFile | None) -> str:
-    """A sentence, where there is a file that gives no speed."""
-    if model is None or "speed" in model.operation.model_fields_set:
-        return ""
-    return f"The file gives no speed: figures are those at {model.operation.speed:g} rpm."

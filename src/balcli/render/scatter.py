@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 from ..documents.records import to_document
 from ..studies.quantity_names import tell_speeds
 from .csv import Rows
-from .engine_facts import tell_assumed_speed
 from .formats import Renderer
 from .sheet import NAMELESS, Grid, Sheet, number
+from .view import tell_assumed_speed
 
 if TYPE_CHECKING:
     from ..studies.scatter import Scatter

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from ..studies.quantity_names import tell_speeds
 from .csv import Columns, Rows
-from .engine_facts import tell_assumed_speed
 from .formats import Renderer
 from .sheet import NAMELESS, Grid, Sheet, number
 from .units import name_with_unit
+from .view import tell_assumed_speed
 
 if TYPE_CHECKING:
     from ..studies.search.designs import Found

@@ -13,11 +13,11 @@ import numpy as np
 
 from ..core.phasors import Array
 from .csv import Columns
-from .engine_facts import tell_assumed_speed
 from .formats import Columnar
 from .json import stamp
 from .sheet import NAMELESS, Grid, Sheet, given, number
 from .units import name_with_unit, unit_of_name
+from .view import tell_assumed_speed
 
 if TYPE_CHECKING:
     from ..studies.sweep import Chunk, Sweep, Swept

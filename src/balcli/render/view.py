@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+
+if TYPE_CHECKING:
+    from ..enginefile.model import EngineFile
+
 
 VISIBLE = 1e-3  # share of the largest, below which an order is too small for a picture
 
@@ -41,3 +45,10 @@ class NamedResult(NamedTuple, Generic[R]):
     name: str
     result: R
     view: View
+
+
+def tell_assumed_speed(model: EngineFile | None) -> str:
+    """A sentence, where there is a file that gives no speed."""
+    if model is None or "speed" in model.operation.model_fields_set:
+        return ""
+    return f"The file gives no speed: figures are those at {model.operation.speed:g} rpm."

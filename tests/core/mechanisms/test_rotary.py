@@ -8,7 +8,7 @@ from support.engines import GNOME, build_text, rotary_engine
 
 from balcli.core.strokes import find_travel
 from balcli.engine import build as engine
-from balcli.engine import load as enginefile
+from balcli.engine import parse as enginefile
 from balcli.errors import BalcliError, InputError
 from balcli.forces import spectrum
 from balcli.render.page_scene import scene

@@ -13,7 +13,7 @@ from support.engines import RADIAL
 from support.searches import search_least
 
 from balcli.engine.build import build
-from balcli.engine.load import parse as load
+from balcli.engine.parse import parse as load
 from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities

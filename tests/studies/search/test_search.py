@@ -11,7 +11,7 @@ from support.searches import search_least
 
 from balcli.engine.build import build
 from balcli.engine.layout import plan_cylinders
-from balcli.engine.load import parse as load
+from balcli.engine.parse import parse as load
 from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities
