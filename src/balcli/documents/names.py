@@ -1,24 +1,23 @@
 """Which documents there are, without what it takes to describe them."""
 
-# By name, which stands in `format` too: the module here with the TypedDict that is called so, or
-# the module of the package and the class of records that `to_document` writes.
+# By name, which stands in `format` too: module of the package, and the class that declares it.
 DOCUMENTS = {
-    "analysis": "analysis",
-    "balance": "analysis",
+    "analysis": "documents.analysis:Analysis",
+    "balance": "documents.analysis:Balance",
     "bench": "bench:Bench",
     "check": "regression:Check",
     "compare": "results.comparison:Comparison",
-    "curves": "studies",
+    "curves": "documents.studies:Curves",
     "field": "field_balancing.balance:FieldBalance",
-    "marine": "analysis",
+    "marine": "documents.analysis:Marine",
     "mounts": "mounting.records:MountReport",
     "numbers": "studies.numbers:NamedNumbers",
     "scatter": "studies.scatter:Scatter",
-    "search": "studies",
-    "speeds": "analysis",
-    "sum": "analysis",
-    "sweep": "studies",
-    "table": "studies",
+    "search": "documents.studies:Search",
+    "speeds": "documents.analysis:Speeds",
+    "sum": "documents.analysis:Sum",
+    "sweep": "documents.studies:Sweep",
+    "table": "documents.studies:Table",
     "torque": "torque.answer:TorqueAnalysis",
     "torsion": "torsion.analysis:TorsionAnalysis",
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import is_dataclass
 from importlib import import_module
 from typing import Any
 
@@ -16,14 +17,14 @@ def describe_document(name: str) -> Node:
     """JSON Schema (draft 2020-12) of one of `DOCUMENTS`. Further keys are allowed: new ones may be
     added under the same version.
     """
-    place, _, record = DOCUMENTS[name].partition(":")
-    if record:  # a class of records
-        described = describe_record(getattr(import_module(f"balcli.{place}"), record))
+    place, _, declared = DOCUMENTS[name].partition(":")
+    kind = getattr(import_module(f"balcli.{place}"), declared)
+    if is_dataclass(kind):
+        described = describe_record(kind)  # type: ignore[arg-type]
         described["properties"] = {"version": {"type": "string"}} | described["properties"]
         described["required"] = ["version", *described["required"]]
     else:
-        module = import_module(f".{place}", __package__)
-        described = _tidy(TypeAdapter(getattr(module, name.capitalize())).json_schema())
+        described = _tidy(TypeAdapter(kind).json_schema())
     head = {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}:1"}
     return {**head, **described, "title": f"balcli.{name}/1"}
 
