@@ -11,13 +11,13 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+from balcli.results.analysis import analyze
 
 from balcli.bench import V8, WAYS, run_sweep, time_run
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.forces.kinds import DEFAULT_QUANTITIES, KINDS
 from balcli.forces.spectrum import compute_spectra
-from balcli.results.analysis import analyze
 from balcli.studies.parameters import Parameter
 from balcli.studies.quantities import parse_quantities
 from balcli.studies.sweep import Sweep

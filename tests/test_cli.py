@@ -25,7 +25,7 @@ from support.paths import ENGINES, ROOT, write
 
 from balcli import __version__
 from balcli.cli import COMMANDS
-from balcli.render.formats import Format
+from balcli.show.formats import Format
 
 I4 = str(ENGINES / "i4.toml")
 V8 = str(ENGINES / "v8_crossplane.toml")

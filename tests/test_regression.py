@@ -14,8 +14,8 @@ from support.engines import GOOD, build_text, changed
 from support.paths import ENGINE_FILES, ENGINES, write
 
 from balcli import load_example
+from balcli.analysis.answer import analyze
 from balcli.regression import TOLERANCE, find_differences, find_record, record_result
-from balcli.results.analysis import analyze
 
 
 @pytest.fixture

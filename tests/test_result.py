@@ -16,9 +16,9 @@ from support.paths import ENGINES, write
 from support.rotors import three_runs
 
 import balcli
-from balcli.render import exchange
-from balcli.result import Result
-from balcli.results.analysis import QUANTITIES
+from balcli.analysis.answer import QUANTITIES
+from balcli.show import result as exchange
+from balcli.show.result import Result
 
 FILES = {name: str(ENGINES / f"{name}.toml") for name in ("i3", "i4", "i4_wiebe", "i6_diesel", "i4_mounts")}
 SPREAD = "force.2.major"

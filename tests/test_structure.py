@@ -16,7 +16,7 @@ from support.paths import PACKAGE, ROOT
 
 import balcli
 from balcli.cli import COMMANDS
-from balcli.documents.names import DOCUMENTS
+from balcli.show.formats import DOCUMENTS
 
 FILES = sorted(PACKAGE.rglob("*.py"))
 MOST_MODULES, MOST_LINES = 385, 630  # of the package; of a module, docstrings and all

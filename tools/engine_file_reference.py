@@ -11,9 +11,10 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
-from balcli.enginefile.messages import find_table, import_lists, import_tables
-from balcli.enginefile.model import EngineFile, FileTable, Override
-from balcli.enginefile.schema import describe_engine_file
+from balcli.file.messages import find_table, import_lists, import_tables
+from balcli.file.model import EngineFile, Override
+from balcli.file.schema import describe_engine_file
+from balcli.file.table import FileTable
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "engine-file.md"
 BEGIN, END = "<!-- tables: python tools/engine_file_reference.py -->\n", "<!-- end of tables -->\n"

@@ -15,39 +15,29 @@ TYPE_CHECKING = (
     False  # typing takes longer than all else here, and until then Ctrl-C is a traceback
 )
 if TYPE_CHECKING:
+    from .analysis.answer import Analysis, analyze
+    from .analysis.comparison import Comparison, compare
+    from .analysis.curves import Curves, curves
+    from .analysis.two_engines import Combined, combine
+    from .balancing.answer import Balance, balance
+    from .books.answer import tables
+    from .books.recomputed import Table
     from .engine.build import Engine
-    from .engine.load import load
+    from .engine.load import load, load_example
     from .errors import BalcliError, InputError
-    from .field_balancing.balance import FieldBalance
-    from .forces.curves import Curves
-    from .library.balance import balance
-    from .library.combine import combine
-    from .library.compare import compare
-    from .library.curves import curves
-    from .library.examples import load_example
-    from .library.mounts import analyze_mounts
-    from .library.plot import plot
-    from .library.rotor import balance_rotor
-    from .library.scatter import scatter
-    from .library.search import search
-    from .library.sweep import sweep
-    from .library.tables import tables
-    from .library.torque import analyze_torque
-    from .library.torsion import analyze_torsion
-    from .mounting.records import MountReport
-    from .printed_tables.recomputed import Table
-    from .result import Result
-    from .results.analysis import Analysis, analyze
-    from .results.balance import Balance
-    from .results.comparison import Comparison
-    from .results.two_engines import Combined
+    from .field.answer import FieldBalance, balance_rotor
+    from .mounts.answer import analyze_mounts
+    from .mounts.records import MountReport
+    from .report.plot import plot
+    from .show.result import Result
     from .sizing.options import SchemeOptions
     from .sizing.workshop import Tools
-    from .studies.scatter import Scatter
-    from .studies.search.search import Search
-    from .studies.sweep import Swept
-    from .torque.answer import TorqueAnalysis
-    from .torsion.analysis import TorsionAnalysis
+    from .studies.scatter import Scatter, scatter
+    from .studies.search.answer import Search, search
+    from .studies.sweep import Swept, sweep
+    from .torque.answer import analyze_torque
+    from .torque.records import TorqueAnalysis
+    from .torsion.answer import TorsionAnalysis, analyze_torsion
 
 __all__ = [
     "Analysis",
@@ -89,41 +79,41 @@ __all__ = [
 ]
 
 _ROOMS = {
-    "Analysis": "results.analysis",
-    "analyze": "results.analysis",
-    "Balance": "results.balance",
-    "balance": "library.balance",
+    "Analysis": "analysis.answer",
+    "analyze": "analysis.answer",
+    "Balance": "balancing.answer",
+    "balance": "balancing.answer",
     "BalcliError": "errors",
     "InputError": "errors",
-    "Combined": "results.two_engines",
-    "combine": "library.combine",
-    "Comparison": "results.comparison",
-    "compare": "library.compare",
-    "Curves": "forces.curves",
-    "curves": "library.curves",
+    "Combined": "analysis.two_engines",
+    "combine": "analysis.two_engines",
+    "Comparison": "analysis.comparison",
+    "compare": "analysis.comparison",
+    "Curves": "analysis.curves",
+    "curves": "analysis.curves",
     "Engine": "engine.build",
     "load": "engine.load",
-    "load_example": "library.examples",
-    "FieldBalance": "field_balancing.balance",
-    "balance_rotor": "library.rotor",
-    "MountReport": "mounting.records",
-    "plot": "library.plot",
-    "analyze_mounts": "library.mounts",
-    "Result": "result",
+    "load_example": "engine.load",
+    "FieldBalance": "field.answer",
+    "balance_rotor": "field.answer",
+    "MountReport": "mounts.records",
+    "plot": "report.plot",
+    "analyze_mounts": "mounts.answer",
+    "Result": "show.result",
     "Scatter": "studies.scatter",
-    "scatter": "library.scatter",
+    "scatter": "studies.scatter",
     "SchemeOptions": "sizing.options",
-    "Search": "studies.search.search",
-    "search": "library.search",
+    "Search": "studies.search.answer",
+    "search": "studies.search.answer",
     "Swept": "studies.sweep",
-    "sweep": "library.sweep",
-    "Table": "printed_tables.recomputed",
-    "tables": "library.tables",
+    "sweep": "studies.sweep",
+    "Table": "books.recomputed",
+    "tables": "books.answer",
     "Tools": "sizing.workshop",
-    "TorqueAnalysis": "torque.answer",
-    "analyze_torque": "library.torque",
-    "TorsionAnalysis": "torsion.analysis",
-    "analyze_torsion": "library.torsion",
+    "TorqueAnalysis": "torque.records",
+    "analyze_torque": "torque.answer",
+    "TorsionAnalysis": "torsion.answer",
+    "analyze_torsion": "torsion.answer",
 }
 
 

@@ -3,6 +3,8 @@
 The methods: the two-term formula, the series that books print, the closed form, the FFT of samples,
 and differences of the piston's position (time stepping). Each is written as one would write it with
 numpy alone; the closed form is balcli itself. Errors are relative to exact fractions.
+
+Results of the benchmark: table, JSON, CSV, and run time against error as a picture.
 """
 
 from __future__ import annotations
@@ -16,19 +18,28 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from .core.mechanisms import power_series
 from .core.phasors import Array, Complex
+from .core.records import to_document
 from .engine.build import Engine, build
 from .engine.parse import parse
 from .forces.kinds import DEFAULT_QUANTITIES
 from .forces.spectrum import compute_spectra
+from .show import plot_style as style
+from .show.csv import Rows
+from .show.formats import Renderer
+from .show.sheet import Grid, Sheet, number
 from .studies.parameters import Parameter, ladder
 from .studies.quantities import parse_quantities
 from .studies.sweep import Sweep, evaluate_chunks
+
+if TYPE_CHECKING:
+    from .show.units import System
+
 
 LAM = 0.28
 ORDERS = [1, 2, 4, 6, 8]
@@ -368,3 +379,74 @@ def _start(*argv: str, text: str = "") -> float:
         env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
     )
     return time.perf_counter() - start
+
+
+ROUNDING = 1e-13  # errors below it are rounding, which a picture shows here
+
+
+def document(result: Bench) -> dict[str, Any]:
+    """Return `balcli.bench/1`."""
+    return to_document(result)
+
+
+def rows(result: Bench, _system: System) -> Rows:
+    """CSV: run times in seconds and relative errors, then ratios."""
+    return Rows(
+        ("task", "method", "seconds", "error", "ratio"),
+        [
+            *((r.task, r.method, r.seconds, r.error, None) for r in result.rows),
+            *(("ratio", r.what, None, None, r.value) for r in result.ratios),
+        ],
+    )
+
+
+def sheet(result: Bench, _system: System) -> Sheet:
+    """A table a task, and the ratios."""
+    grids = [
+        Grid(
+            f"{task[0].upper()}{task[1:]}",
+            ("method", "µs", "relative error"),
+            tuple(
+                (r.method, number(r.seconds * 1e6, 3), _error(r))
+                for r in result.rows
+                if r.task == task
+            ),
+        )
+        for task in dict.fromkeys(r.task for r in result.rows)
+    ]
+    ratios = Grid(
+        "Ratios of run times",
+        ("", "ratio"),
+        tuple((r.what, number(r.value, 3)) for r in result.ratios),
+    )
+    return Sheet("Run time against error", (*grids, ratios))
+
+
+def _error(row: Row) -> str:
+    """Two digits, where it is more than rounding."""
+    return "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
+
+
+def draw_bench(result: Bench) -> bytes:
+    """SVG: run time and error of every method, a panel a task, both axes logarithmic."""
+    tasks = list(dict.fromkeys(r.task for r in result.rows))
+    with style.open_figure(5.2 * len(tasks), 4.6) as page:
+        for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
+            points = [r for r in result.rows if r.task == task]
+            for r in points:
+                spot = r.seconds * 1e6, max(r.error, ROUNDING)
+                axes.plot(
+                    *spot,
+                    "o",
+                    color=style.RED if r.method.startswith("closed form") else style.BLUE,
+                )
+                axes.annotate(r.method, spot, xytext=(4, 3), textcoords="offset points", fontsize=7)
+            axes.set(xscale="log", yscale="log", xlabel="µs", ylabel="relative error", title=task)
+            for axis in (axes.xaxis, axes.yaxis):  # no mathematical text in our style
+                axis.set_major_formatter(
+                    lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}"
+                )
+        return style.save_figure(page, "svg")
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -23,7 +23,7 @@ from typer.main import get_command
 
 from .errors import BalcliError, Exit, Loudness, note, say, set_loudness, warn
 from .limits import MOST_DIGITS
-from .render.formats import USUAL_DIGITS, set_digits
+from .show.sheet import USUAL_DIGITS, set_digits
 from .version import __version__
 
 # What each does in a line; the first paragraph of its own help says the same.
@@ -83,6 +83,32 @@ GROUPS = {
 }
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
 
+# The module of each; its function is called like the command.
+MODULES = {
+    "analyze": "analysis.command",
+    "compare": "analysis.command",
+    "sum": "analysis.command",
+    "layouts": "books.command",
+    "torque": "torque.command",
+    "curves": "analysis.command",
+    "plot": "report.command",
+    "report": "report.command",
+    "balance": "balancing.command",
+    "field": "field.command",
+    "numbers": "studies.numbers",
+    "sweep": "studies.sweep_command",
+    "search": "studies.search.command",
+    "scatter": "studies.scatter_command",
+    "mounts": "mounts.command",
+    "torsion": "torsion.command",
+    "new": "commands",
+    "engines": "commands",
+    "schema": "commands",
+    "check": "commands",
+    "tables": "books.command",
+    "bench": "commands",
+}
+
 IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
 
 
@@ -113,7 +139,7 @@ class _OnDemand(TyperGroup):
         single = typer.Typer(
             add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None
         )
-        function = getattr(import_module(f"balcli.commands.{cmd_name}"), cmd_name)
+        function = getattr(import_module(f"balcli.{MODULES[cmd_name]}"), cmd_name)
         text = function.__doc__ or COMMANDS[cmd_name]  # `python -OO` has no docstrings
         single.command(cmd_name, cls=_Command, help=_unwrapped(cleandoc(text)))(function)
         command = get_command(single)

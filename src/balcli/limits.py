@@ -5,6 +5,8 @@ memory, as a result or as a message that names the limit. What only steers a met
 search, results computed at a time) stands beside the method.
 """
 
+from __future__ import annotations
+
 # Text of an engine file ----------------------------------------------------------------------
 LARGEST_FILE_BYTES = 6_000_000  # no more is ever read, from a device without end either
 MOST_TOML_MARKS = 180_000  # of "[", "{", ".", ",", "=": each stands for up to 1 kB in tomllib

@@ -1,10 +1,14 @@
-"""Process: signals that end it, what it takes from its surroundings, and its cores."""
+"""Process: signals that end it, what it takes from its surroundings, and its cores.
+
+What long computations are given to tell how far they are.
+"""
 
 from __future__ import annotations
 
 import errno
 import os
 import signal
+from collections.abc import Callable
 from contextlib import chdir
 
 WINDOWS = os.name == "nt"
@@ -47,3 +51,13 @@ def count_cores() -> int:
         return len(os.sched_getaffinity(0))
     except AttributeError:  # only Linux has it
         return os.cpu_count() or 1
+
+
+# Is told, time and again, how much is done: a share from 0 to 1, or a number where the function
+# says so; True: that is enough, what can end early does so.
+Tell = Callable[[float], bool]
+
+
+def tell_nobody(done: float) -> bool:
+    """For those who do not want to know."""
+    return False

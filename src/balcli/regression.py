@@ -18,15 +18,15 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from .analysis import show as renderer
+from .analysis.answer import analyze
+from .analysis.curves import compute_engine_curves
 from .engine.build import Engine
-from .enginefile.model import EngineFile
 from .errors import BalcliError
-from .forces.curves import compute_engine_curves
+from .file.model import EngineFile
 from .forces.kinds import GAS, GAS_KINDS, KINDS
 from .forces.spectrum import Spectra
 from .limits import LARGEST_FILE_BYTES
-from .render import analysis_document as renderer
-from .results.analysis import analyze
 
 TOLERANCE = 1e-9  # share of the largest figure of a group, beyond what rounding may do
 PEAK_ANGLE_DEG = 1e-3  # a peak is flat: rounding moves its angle more than its value
@@ -214,9 +214,9 @@ def _describe(
 
 def _describe_chapters(engine: Engine) -> dict[str, Any]:
     """Return the main figures of the chapters that the engine file has."""
-    from .library.mounts import analyze_mounts
-    from .library.torque import analyze_torque
-    from .library.torsion import analyze_torsion
+    from .mounts.answer import analyze_mounts
+    from .torque.answer import analyze_torque
+    from .torsion.answer import analyze_torsion
 
     model: EngineFile | None = engine.model
     found: dict[str, Any] = {}

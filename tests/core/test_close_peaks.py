@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.close_peaks import find_highest, find_peaks_between
+from balcli.core.extrema import find_highest, find_peaks_between
 
 
 def find_each(function, low, high):

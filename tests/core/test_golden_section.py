@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from balcli.core.golden_section import find_least
+from balcli.core.extrema import find_least
 
 
 @pytest.mark.parametrize("place", [0.0, 0.1, math.pi / 10, 0.5, 0.9, 1.0])

@@ -9,7 +9,7 @@ import pytest
 from support.engines import alone, build_text, engine, engine_text
 
 from balcli.core.loads import Loads
-from balcli.core.mechanisms.fourier import SERIES, Series, select_cylinders
+from balcli.core.mechanisms.closed_form import SERIES, Series, select_cylinders
 from balcli.core.phases import Phases
 from balcli.core.phasors import EPS
 from balcli.engine.build import build

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from balcli.core.cylinders import Cylinders
-from balcli.core.mechanisms.fourier import Series
+from balcli.core.mechanisms.closed_form import Series
 from balcli.core.phases import Phases, SeparatePhases, Vectors
 
 ORDERS = np.array([0.0, 1.0, 2.0, 5.0])

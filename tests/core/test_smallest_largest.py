@@ -9,7 +9,7 @@ import pytest
 
 from balcli.core.least_squares import solve
 from balcli.core.smallest_largest import Region, minimise
-from balcli.field_balancing.places import find_region
+from balcli.field.places import find_region
 
 
 def problem(seed: int, readings: int, unknowns: int):

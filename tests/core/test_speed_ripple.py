@@ -12,11 +12,10 @@ import pytest
 from support.engines import engine, refused
 from support.in_time import run_in_time
 
+from balcli.analysis.curves import compute_engine_curves
 from balcli.core import speed_ripple as ripple
 from balcli.core.phasors import Phasors
-from balcli.forces.curves import compute_engine_curves
-from balcli.forces.orders import find_relevant_orders
-from balcli.forces.spectrum import compute_spectra
+from balcli.forces.spectrum import compute_spectra, find_relevant_orders
 
 RELATIVE = 1e-9  # central differences of sixth order at STEP
 STEP = 2e-3

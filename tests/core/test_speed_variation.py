@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 
 from balcli.core.piecewise import polyline, resolved
-from balcli.core.speed_variation import StallError, energy, needed_inertia, small_fluctuation, speed_variation, surplus
+from balcli.core.speed_ripple import (
+    StallError,
+    energy,
+    needed_inertia,
+    small_fluctuation,
+    speed_variation,
+    surplus,
+)
 
 TURN = 2 * np.pi
 MEAN = 30.0  # rad/s

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from balcli.engine.arrays import find_first_largest, ranked
+from balcli.engine.figures import find_first_largest, ranked
 
 
 def test_what_differs_by_rounding_alone_is_equal_where_it_is_put_in_order():

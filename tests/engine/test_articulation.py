@@ -14,13 +14,13 @@ from oracle import momentum
 from support.cases import cases
 from support.engines import RADIAL, build_text
 
-from balcli.core.mechanisms.articulated import Articulated
-from balcli.core.strokes import find_travel
+from balcli.core.cylinders import find_travel
+from balcli.core.mechanisms.linkage import Articulated
 from balcli.engine import build as engine
 from balcli.engine import parse as enginefile
 from balcli.errors import InputError
 from balcli.forces import spectrum
-from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import find_relevant_orders
 
 
 def built(*changes: tuple[str, str], more: str = "") -> engine.Engine:

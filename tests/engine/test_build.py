@@ -10,7 +10,7 @@ from support.cases import cases
 from support.engines import engine, refused
 
 from balcli.core.phasors import unit
-from balcli.enginefile.units import STANDARD_GRAVITY
+from balcli.file.units import STANDARD_GRAVITY
 
 TIGHT = 1e-14
 

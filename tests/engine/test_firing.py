@@ -7,7 +7,7 @@ import math
 import pytest
 from support.engines import engine, refused
 
-from balcli.engine.firing import check_firing, find_dead_centres, find_intervals
+from balcli.engine.layout import check_firing, find_dead_centres, find_intervals
 from balcli.errors import InputError
 
 TIGHT = 1e-9  # deg

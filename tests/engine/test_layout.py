@@ -9,7 +9,7 @@ from support.engines import engine, refused
 
 from balcli.engine.figures import FileFigures
 from balcli.engine.layout import bank_angles, cycle_deg, plan_cylinders
-from balcli.enginefile.model import Crank, Layout
+from balcli.file.model import Crank, Layout
 
 
 def planned(throws=None, **layout):

@@ -279,7 +279,7 @@ def test_articulated_rods_fire_at_their_true_dead_centres(intervals, good):
 )
 def test_strokes_left_out_of_a_crosshead_engine_are_doubted(stroke, bore, speed, keys, doubted):
     from balcli.engine.parse import parse_dict
-    from balcli.enginefile.suspicious import find_suspicious
+    from balcli.file.doubts import find_suspicious
 
     model = parse_dict(
         {

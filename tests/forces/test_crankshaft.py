@@ -14,8 +14,8 @@ from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces import spectrum
 from balcli.forces.crankshaft import compute_inner_loads, place_bearings
-from balcli.forces.guide_moments import compute_guide_moments
-from balcli.forces.orders import find_relevant_orders
+from balcli.forces.guide import compute_guide_moments
+from balcli.forces.spectrum import find_relevant_orders
 
 ORDERS = np.arange(1.0, 5.0)
 OMEGA = 3000 * np.pi / 30

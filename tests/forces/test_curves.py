@@ -9,13 +9,13 @@ import pytest
 from support.engines import build_text
 from support.paths import ENGINES
 
+from balcli.analysis.curves import compute_cylinder_curves, compute_engine_curves
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.errors import BalcliError
-from balcli.forces.curves import compute_cylinder_curves, compute_engine_curves, divide_revolution
-from balcli.forces.orders import find_relevant_orders
-from balcli.forces.spectrum import compute_spectra
-from balcli.render.figures import order_entries
+from balcli.forces.curves import divide_revolution
+from balcli.forces.spectrum import compute_spectra, find_relevant_orders
+from balcli.show.figures import order_entries
 
 RELATIVE = 1e-12  # of the largest parts that are added up
 

@@ -11,12 +11,11 @@ from support.engines import RADIAL, build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import write
 
+from balcli.analysis.answer import analyze
 from balcli.core.mechanisms.closed_form import find_harmonics
 from balcli.engine.load import load
-from balcli.forces.gas import compute_gas_torque, compute_gas_torque_of_each
-from balcli.forces.spectrum import compute_spectra
+from balcli.forces.spectrum import compute_gas_torque, compute_gas_torque_of_each, compute_spectra
 from balcli.forces.symmetry import explain_symmetry
-from balcli.results.analysis import analyze
 
 ORDERS = np.arange(0, 24.5, 0.5)
 OF_THE_LARGEST = 1e-12

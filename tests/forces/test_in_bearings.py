@@ -13,12 +13,11 @@ from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.in_time import run_in_time
 from support.paths import ENGINES
 
+from balcli.analysis.curves import compute_engine_curves
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError
-from balcli.forces import in_bearings
-from balcli.forces.crankshaft import compute_inner_loads, place_bearings
-from balcli.forces.curves import compute_engine_curves
-from balcli.forces.in_bearings import compute_forces_along, compute_loads_with_gas
+from balcli.forces import crankshaft as in_bearings
+from balcli.forces.crankshaft import compute_forces_along, compute_inner_loads, compute_loads_with_gas, place_bearings
 from balcli.forces.spectrum import compute_device_force
 from balcli.torque.loads import analyze_loads
 

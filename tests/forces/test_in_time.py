@@ -11,8 +11,8 @@ from support.in_time import run_in_time
 from support.mounts import ENGINE
 
 from balcli.errors import BalcliError
-from balcli.forces.in_time import compute_spectra_in_time
 from balcli.forces.spectrum import compute_spectra
+from balcli.mounts.loads import compute_spectra_in_time
 
 FIRED = f"""{ENGINE}
 [layout]

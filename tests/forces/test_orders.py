@@ -9,20 +9,27 @@ from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
 
+from balcli.analysis.answer import analyze
+from balcli.analysis.order_tables import tell_rocking
+from balcli.analysis.two_engines import Arrangement, combine_engines
 from balcli.core.phasors import Phasors
 from balcli.engine.build import take_model
 from balcli.engine.load import load
 from balcli.errors import BalcliError
-from balcli.forces.guide_moments import compute_guide_moments
-from balcli.forces.orders import choose_orders, is_order, list_gas_orders, mark_considerable, merge_orders, parse_order
-from balcli.forces.spectrum import Spectra
-from balcli.mounting.loads import find_loads
-from balcli.render.gas_torque import tell_rocking
-from balcli.render.units import SI
-from balcli.results.analysis import analyze
-from balcli.results.two_engines import Arrangement, combine_engines
-from balcli.torque.analysis import analyze_torque
-from balcli.torsion.build_engine import excite_engine
+from balcli.forces.guide import compute_guide_moments
+from balcli.forces.spectrum import (
+    Spectra,
+    choose_orders,
+    is_order,
+    list_gas_orders,
+    mark_considerable,
+    merge_orders,
+    parse_order,
+)
+from balcli.mounts.loads import find_loads
+from balcli.show.units import SI
+from balcli.torque.answer import analyze_torque_of_engine as analyze_torque
+from balcli.torsion.build import excite_engine
 
 
 @cases("forces/orders", "the_order_that_a_text_names")

@@ -7,12 +7,12 @@ import pytest
 from support.cases import cases
 from support.engines import VEE
 
+from balcli.analysis.answer import analyze
 from balcli.engine.build import build
 from balcli.engine.parse import parse as load
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.spectrum import compute_spectra
-from balcli.results.analysis import analyze
 from balcli.studies.quantities import parse_quantities
 
 

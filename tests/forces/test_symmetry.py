@@ -10,13 +10,13 @@ import pytest
 from support.engines import build_text
 from support.paths import ENGINE_FILES
 
+from balcli.analysis import answer as analysis
+from balcli.analysis.show import document as analysis_document
 from balcli.engine import build as engine
 from balcli.engine import parse as enginefile
 from balcli.forces import spectrum
 from balcli.forces.symmetry import explain_symmetry
-from balcli.render.analysis_document import document as analysis_document
-from balcli.render.json import json_text
-from balcli.results import analysis
+from balcli.show.csv import json_text
 
 BASE = """\
 [crank]

@@ -16,11 +16,10 @@ from hypothesis import strategies as st
 from support.cases import cases
 from support.engines import build_text, engine_text
 
-from balcli.core import enclosing_circle as circle
 from balcli.core.peaks import find_peak
 from balcli.core.phasors import Phasors
-from balcli.forces.orders import find_relevant_orders
-from balcli.forces.spectrum import compute_spectra
+from balcli.forces.spectrum import compute_spectra, find_relevant_orders
+from balcli.sizing import minimax as circle
 
 pytestmark = pytest.mark.slow
 

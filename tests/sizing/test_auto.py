@@ -7,8 +7,8 @@ from support.engines import build_text
 from support.remedies import fit_scheme, write_engine
 
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.auto import size_auto
 from balcli.sizing.remedy import Remedy, fit_devices
+from balcli.sizing.sizing import size_auto
 
 
 def test_every_device_has_its_reason():

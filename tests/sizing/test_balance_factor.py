@@ -15,13 +15,13 @@ from support.engines import build_text, changed
 from support.paths import write
 from support.remedies import SMALL, figures, size_scheme, write_engine
 
+from balcli.balancing.answer import insert_remedy
 from balcli.core.phasors import unit
 from balcli.errors import BalcliError
-from balcli.sizing.balance_factor import name_one_cylinder
+from balcli.sizing.factor import name_one_cylinder
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
 from balcli.sizing.sizing import size
-from balcli.sizing.write import insert_remedy
 
 FORD = """\
 name = "Ford 302"

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from balcli.sizing.device_tables import measure_direction
 from balcli.sizing.effects import Slot
+from balcli.sizing.planes import measure_direction
 
 
 @given(st.floats(-720, 720), st.floats(-180, 180))

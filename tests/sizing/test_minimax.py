@@ -10,10 +10,10 @@ import pytest
 from support.engines import build_text
 from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
-from balcli.core import enclosing_circle as circle
 from balcli.core.peaks import find_peak
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
+from balcli.sizing import minimax as circle
 from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 

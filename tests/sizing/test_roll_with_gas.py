@@ -9,7 +9,7 @@ import pytest
 from support.commands import ask_json, run_here
 from support.paths import write
 
-from balcli.enginefile import examples
+from balcli.file import examples
 
 # As of the file: crank radius, rod, bore (m), reciprocating mass (kg), crank speed (rad/s).
 R, L, BORE, MASS, OMEGA = 0.043, 0.139, 0.086, 0.5, 4000 * np.pi / 30

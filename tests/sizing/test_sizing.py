@@ -12,13 +12,12 @@ from support.cases import cases
 from support.engines import build_text, engine_text
 from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
-from balcli.enginefile.model import Counterweight
 from balcli.errors import BalcliError
+from balcli.file.model import Counterweight
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.auto import size_auto
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy, fit_devices
-from balcli.sizing.sizing import size
+from balcli.sizing.sizing import size, size_auto
 
 # ------------------------------------------------------------------ all schemes
 UNEVEN = SMALL["vee"] + "[cylinder.3]\npiston_mass = 2.5\n"  # its two vectors act at different places

@@ -7,12 +7,12 @@ from support.engines import GOOD, SINGLE, build_text
 from support.paths import ENGINE_FILES
 from support.remedies import size_scheme
 
+from balcli.analysis.answer import analyze
+from balcli.balancing.answer import insert_remedy
 from balcli.errors import BalcliError
-from balcli.results.analysis import analyze
+from balcli.sizing.options import SCHEMES
 from balcli.sizing.remedy import Remedy, fit_devices
-from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.sizing import size
-from balcli.sizing.write import insert_remedy
 
 
 def figures(engine):

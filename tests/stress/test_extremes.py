@@ -13,14 +13,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.engines import engine
 
-from balcli.core.mechanisms import closed_form, fourier, harmonics, sampled
-from balcli.core.mechanisms.fourier import SERIES
+from balcli.analysis.answer import QUANTITIES, analyze
+from balcli.core.mechanisms import (
+    closed_form,
+    harmonics,
+)
+from balcli.core.mechanisms import (
+    closed_form as fourier,
+)
+from balcli.core.mechanisms import (
+    harmonics as sampled,
+)
+from balcli.core.mechanisms.closed_form import SERIES
 from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
 from balcli.errors import InputError
-from balcli.forces.orders import find_relevant_orders
-from balcli.forces.spectrum import Spectra, compute_spectra
-from balcli.results.analysis import QUANTITIES, analyze
+from balcli.forces.spectrum import Spectra, compute_spectra, find_relevant_orders
 
 pytestmark = pytest.mark.stress
 

@@ -85,7 +85,7 @@ LARGEST = """
 import tracemalloc
 from support.engines import alone, engine
 from balcli.core.peaks import find_peak
-from balcli.forces.orders import find_relevant_orders
+from balcli.forces.spectrum import find_relevant_orders
 from balcli.forces.spectrum import compute_spectra
 whole = engine(crank={"stroke": 100, "throws": [7.3 * k % 360 for k in range(512)], "spacing": 1}, rod={"ratio": 1 - 1e-6})
 orders = find_relevant_orders(whole)

@@ -15,8 +15,9 @@ from support.searches import search_least
 from balcli.engine.load import load
 from balcli.engine.parse import read
 from balcli.forces.crankshaft import compute_inner_loads
-from balcli.studies.scatter import Drawing, Tolerances, scatter_engine
-from balcli.studies.search.objective import Objective
+from balcli.studies.deviations import Tolerances
+from balcli.studies.scatter import Drawing, scatter_engine
+from balcli.studies.search.designs import Objective
 
 pytestmark = pytest.mark.stress
 

@@ -16,8 +16,9 @@ from balcli.engine.build import build
 from balcli.engine.parse import parse as load
 from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
+from balcli.studies.deviations import Tolerances
 from balcli.studies.quantities import parse_quantities
-from balcli.studies.scatter import Drawing, Spread, Tolerances, Variants, read_tolerances, scatter_engine
+from balcli.studies.scatter import Drawing, Spread, Variants, read_tolerances, scatter_engine
 
 FORCES = "force.1.major,force.2.major,moment.1.major"
 TWIN = changed(

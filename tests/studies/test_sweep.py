@@ -11,15 +11,14 @@ import numpy as np
 import pytest
 from support.engines import GOOD, VEE, changed
 
+from balcli.core.phasors import Array
 from balcli.engine.build import build
 from balcli.engine.parse import parse as load
 from balcli.errors import BalcliError, InputError
 from balcli.forces.quantity import evaluate_quantities
-from balcli.render.sweep import sweep_csv, sweep_json
 from balcli.studies.parameters import parse_parameter
 from balcli.studies.quantities import parse_quantities
 from balcli.studies.sweep import (
-    Array,
     Sweep,
     check_corners,
     count_at_once,
@@ -30,6 +29,7 @@ from balcli.studies.sweep import (
     share_among_threads,
     split_columns,
 )
+from balcli.studies.sweep_show import sweep_csv, sweep_json
 
 pytestmark = pytest.mark.slow
 
@@ -237,7 +237,7 @@ def test_a_mistake_in_a_later_box_is_told_by_threads_too(monkeypatch: pytest.Mon
 
 def test_cluster_gives_identical_rows() -> None:
     distributed = pytest.importorskip("distributed")
-    from balcli.studies import dask_cluster as cluster
+    from balcli.studies import sweep_write as cluster
 
     sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
     with (

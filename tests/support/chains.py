@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from support import high_precision
 
-from balcli.core.torsional_chain import Chain, ChainShaft, Damping, follow_gears, incidence, join_chain
+from balcli.torsion.chain import Chain, ChainShaft, Damping, follow_gears, incidence, join_chain
 
 KINDS = ("plain", "geared", "branched", "clamped", "clamped at both ends", "massless", "looped")
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from contextlib import ExitStack
 from unittest.mock import patch
 
-from balcli.render.plot.pages import PageSubject, make_page
-from balcli.render.plot.style import Form, save_figure
+from balcli.report.pages import PageSubject, make_page
+from balcli.show.plot_style import Form, save_figure
 
 
 def draw_page(subject: PageSubject, what: str, form: Form) -> bytes:
@@ -18,7 +18,7 @@ def without_pictures() -> ExitStack:
     """A context in which reports have empty pictures: drawing them takes most of their time."""
     stack = ExitStack()
     for name in ("draw_panel", "inline_svg"):
-        stack.enter_context(patch(f"balcli.render.html.{name}", lambda *_: "<svg></svg>"))
-    for name in ("balcli.render.html.save_figure", "balcli.render.plot.torsion.make_torsion"):
+        stack.enter_context(patch(f"balcli.report.page.{name}", lambda *_: "<svg></svg>"))
+    for name in ("balcli.report.page.save_figure", "balcli.torsion.plot.make_torsion"):
         stack.enter_context(patch(name, lambda *_, **__: b""))
     return stack

@@ -8,7 +8,7 @@ import numpy as np
 from support.engines import engine_text
 
 from balcli.core.phasors import Phasors
-from balcli.documents.records import remove_unit
+from balcli.core.records import remove_unit
 from balcli.engine.build import Engine
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions

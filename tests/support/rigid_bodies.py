@@ -6,8 +6,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from balcli.core.rigid_body import apply_couplings, couple_mounts, damping_matrix, mass_matrix, stiffness_matrix
 from balcli.core.vibration import solve_response
+from balcli.mounts.rigid_body import (
+    apply_couplings,
+    couple_mounts,
+    damping_matrix,
+    mass_matrix,
+    stiffness_matrix,
+)
 
 
 class BodyResponse(NamedTuple):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from balcli.enginefile.model import EngineFile
-from balcli.studies.search.objective import parse_objective
-from balcli.studies.search.search import Search, search_arrangements
+from balcli.file.model import EngineFile
+from balcli.studies.search.answer import Search, search_arrangements
+from balcli.studies.search.designs import parse_objective
 
 
 def search_least(

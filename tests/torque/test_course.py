@@ -13,15 +13,15 @@ from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.engine.load import load
 from balcli.errors import BalcliError
-from balcli.forces.spectrum import compute_spectra
-from balcli.torque.analysis import analyze_torque
-from balcli.torque.course import (
+from balcli.forces.gas_torque import (
     find_constant_inertia,
     find_inertia_torque,
     find_moving_inertia,
     find_torque_curves,
     silence,
 )
+from balcli.forces.spectrum import compute_spectra
+from balcli.torque.answer import analyze_torque_of_engine as analyze_torque
 
 HALVES = np.arange(25)
 FLYWHEEL = "[flywheel]\ninertia = {}\n"
@@ -142,7 +142,7 @@ def speed_by_steps(found, first: float, steps: int = 24):
 @pytest.mark.parametrize("seed", [0, 5])
 def test_the_speed_against_steps_in_time(seed):
     found = on_crank(150000, seed)
-    from balcli.core.speed_variation import speed_variation  # the curve itself
+    from balcli.core.speed_ripple import speed_variation
 
     parts, still = find_moving_inertia(found), found.flywheel_inertia
     gas = find_torque_curves(found).gas

@@ -10,11 +10,11 @@ from oracle import momentum, newton_euler
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
+from balcli.analysis.curves import compute_engine_curves
 from balcli.core.phasors import unit
 from balcli.errors import BalcliError
-from balcli.forces.curves import compute_engine_curves
+from balcli.forces.gas_torque import find_torque_curves
 from balcli.forces.rod_forces import compute_rod_forces, list_hung_rows
-from balcli.torque.course import find_torque_curves
 from balcli.torque.loads import analyze_loads, find_bearing_loads, find_pin_loads
 
 ANGLES = np.arange(0.0, 720.0, 7.0)

@@ -12,7 +12,7 @@ from support.cases import cases
 from support.commands import ask_csv, ask_torsion, refusal, run_here
 from support.paths import ENGINES
 
-from balcli.enginefile.templates import template
+from balcli.file.examples import template
 
 CHAIN = template("torsion")  # the file to start from
 

@@ -14,8 +14,8 @@ from support.diesel import write_diesel
 from support.paths import ENGINES, write
 
 from balcli import analyze_torsion
-from balcli.enginefile.templates import template
-from balcli.render.plot.torsion import make_torsion
+from balcli.file.examples import template
+from balcli.torsion.plot import make_torsion
 
 pytestmark = pytest.mark.slow
 

@@ -13,7 +13,7 @@ from balcli import BalcliError, analyze_torsion
 from balcli.core.peaks import find_swing
 from balcli.engine.build import build
 from balcli.engine.parse import parse
-from balcli.torsion.build_engine import build_engine_system, excite_engine
+from balcli.torsion.build import build_engine_system, excite_engine
 from balcli.torsion.motion import move
 from balcli.torsion.quantity import Variants, parse_quantity
 
@@ -113,7 +113,7 @@ def test_between_two_barred_resonances_runs_are_allowed():
 
 def test_beside_a_single_speed_nothing_is_looked_for(monkeypatch):
     """A chain of two hundred took eight seconds."""
-    monkeypatch.delattr("balcli.torsion.largest.find_poles")
+    monkeypatch.delattr("balcli.torsion.response.find_poles")
     text = write_engine(0.005)
     for shaft in ask_torsion(text, "--speeds", "1790")["response"]["shafts"]:
         assert shaft["worst"]["speed_rpm"] == 1790

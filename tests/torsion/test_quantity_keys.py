@@ -10,11 +10,11 @@ import pytest
 import tomli_w
 
 from balcli.engine.build import Engine, build
+from balcli.engine.load import EngineVariants
 from balcli.engine.parse import parse
-from balcli.engine.variants import EngineVariants
-from balcli.enginefile.model import EngineFile
+from balcli.file.model import EngineFile
 from balcli.studies.parameters import find_numbers
-from balcli.torsion.build_engine import build_engine_system, excite_engine
+from balcli.torsion.build import build_engine_system, excite_engine
 from balcli.torsion.modes import find_natural_modes
 from balcli.torsion.quantity import Variants, choose_torsion_speeds, parse_quantity
 from balcli.torsion.response import find_response

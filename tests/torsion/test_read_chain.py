@@ -8,9 +8,9 @@ import math
 import pytest
 from support.commands import ask_torsion, refusal, run_here
 
-from balcli.enginefile.toml_text import parse_toml
-from balcli.torsion.build_chain import build_chain
-from balcli.torsion.read_chain import read_chain_tables
+from balcli.file.toml import parse_toml
+from balcli.torsion.build import build_chain
+from balcli.torsion.tables import read_chain_tables
 
 TWO = """
 [[node]]

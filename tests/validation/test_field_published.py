@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.documents.records import angle_deg
-from balcli.field_balancing.balance import find_corrections
-from balcli.field_balancing.permitted import find_permitted_unbalance
-from balcli.field_balancing.read import parse_runs
+from balcli.core.records import angle_deg
+from balcli.core.unbalance import find_permitted_unbalance
+from balcli.field.answer import find_corrections
+from balcli.field.tables import parse_runs
 
 EXAMPLE_6 = """
 planes = ["front", "rear"]

@@ -9,7 +9,7 @@ import pytest
 from support import two_term
 from support.pistons import slider_crank_piston
 
-from balcli.core.speed_variation import small_fluctuation
+from balcli.core.speed_ripple import small_fluctuation
 
 
 def test_example_12_3():

@@ -14,7 +14,7 @@ from support.pistons import slider_crank_piston
 
 from balcli.core.mechanisms import slidercrank
 from balcli.core.piecewise import polyline, resolved
-from balcli.core.speed_variation import needed_inertia, small_fluctuation, speed_variation, surplus
+from balcli.core.speed_ripple import needed_inertia, small_fluctuation, speed_variation, surplus
 
 G = 9.81
 TURN = 2 * np.pi

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from balcli.core.piecewise import polyline
-from balcli.core.speed_variation import needed_inertia, small_fluctuation, surplus
+from balcli.core.speed_ripple import needed_inertia, small_fluctuation, surplus
 
 # fmt: off
 TORQUE = [  # N m, every 10 deg

@@ -10,10 +10,10 @@ from math import sqrt
 import numpy as np
 import pytest
 
+from balcli.books.answer import recompute
 from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
 from balcli.core.phasors import unit
-from balcli.printed_tables.registry import recompute
 
 LAM = np.array([1 / 6, 1 / 4])
 

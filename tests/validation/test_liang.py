@@ -11,11 +11,11 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
+from balcli.books.answer import recompute
 from balcli.core.mechanisms import closed_form
 from balcli.core.mechanisms import power_series as series
 from balcli.engine.build import build
 from balcli.engine.parse import parse
-from balcli.printed_tables.registry import recompute
 
 P = 2 / 7
 OMEGA = 4000 * 2 * pi / 60

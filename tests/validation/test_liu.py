@@ -12,10 +12,10 @@ from math import atan, cos, degrees, pi, radians, sqrt
 import numpy as np
 import pytest
 
+from balcli.books.answer import recompute
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.forces.spectrum import compute_spectra
-from balcli.printed_tables.registry import recompute
 
 GAMMA = np.radians(np.arange(0.0, 180.0, 0.01))
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from support.rigid_bodies import respond_body
 
-from balcli.core.rigid_body import Body, Mounts
+from balcli.mounts.rigid_body import Body, Mounts
 
 G = 32.2 * 12  # in/s^2
 SPEED = 1200 * np.pi / 30

@@ -12,15 +12,14 @@ import pytest
 from support.engines import build_text, engine_text
 from support.remedies import figures, fit_scheme, size_scheme
 
+from balcli.analysis.answer import analyze
 from balcli.core.mechanisms import closed_form
 from balcli.engine.build import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
-from balcli.results.analysis import analyze
-from balcli.sizing.auto import size_auto
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
-from balcli.sizing.sizing import size
+from balcli.sizing.sizing import size, size_auto
 
 M, R, LAM = 1.0, 0.05, 0.25
 A2 = float(closed_form.piston([2], LAM)[0])

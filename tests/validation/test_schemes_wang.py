@@ -15,13 +15,13 @@ from support.cases import cases
 from support.engines import build_text, engine_text
 from support.remedies import figures, fit_scheme, size_scheme
 
+from balcli.analysis.answer import analyze
 from balcli.core.mechanisms import closed_form, slidercrank
 from balcli.engine.build import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
-from balcli.results.analysis import analyze
-from balcli.sizing.eccentric_slider import DESIGNS, find_optimum
 from balcli.sizing.remedy import fit_devices
+from balcli.sizing.single_cylinder import DESIGNS, find_optimum
 from balcli.sizing.sizing import size
 
 M, R = 1.0, 0.05

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.torsional_chain import ChainShaft, join_chain
-from balcli.core.torsional_modes import find_chain_modes
 from balcli.core.vibration import scale_shapes
+from balcli.torsion.chain import ChainShaft, join_chain
+from balcli.torsion.modes import find_chain_modes
 
 
 def hollow(diameter, bore=0.0):

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from support.cases import cases
 
-from balcli.core.torsional_chain import ChainShaft, join_chain
-from balcli.core.torsional_modes import find_chain_modes
+from balcli.torsion.chain import ChainShaft, join_chain
+from balcli.torsion.modes import find_chain_modes
 
 INF = np.inf
 

@@ -14,10 +14,10 @@ from support.chains import balance_power
 from support.paths import ROOT
 
 from balcli.core.peaks import find_swing, sum_amplitudes
-from balcli.core.torsional_chain import ChainShaft, Damping, join_chain
-from balcli.core.torsional_modes import find_chain_modes, locate_nodes
-from balcli.core.torsional_response import respond_chain
 from balcli.core.vibration import frequencies
+from balcli.torsion.chain import ChainShaft, Damping, join_chain
+from balcli.torsion.modes import find_chain_modes, locate_nodes
+from balcli.torsion.motion import respond_chain
 
 DOCUMENT = ROOT / "docs" / "torsion.md"
 LOSS = 0.035

@@ -6,10 +6,9 @@ from __future__ import annotations
 
 import pytest
 
-from balcli.core.holzer_table import tabulate_holzer
-from balcli.core.torsional_chain import ChainShaft, join_chain
-from balcli.core.torsional_modes import find_chain_modes
 from balcli.core.vibration import scale_shapes
+from balcli.torsion.chain import ChainShaft, join_chain
+from balcli.torsion.modes import find_chain_modes, tabulate_holzer
 
 CHAIN = join_chain([5, 11, 22], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5)])
 

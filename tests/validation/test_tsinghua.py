@@ -14,8 +14,8 @@ import pytest
 from support import two_term
 from support.two_term import PSI, largest_error
 
+from balcli.books.answer import recompute
 from balcli.core.mechanisms import slidercrank as sc
-from balcli.printed_tables.registry import recompute
 
 LAM = 0.32  # the largest ratio of the tables
 

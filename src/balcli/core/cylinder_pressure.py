@@ -19,15 +19,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .cylinders import Cylinders
+from .cylinders import Cylinders, find_travel
 from .mechanisms import slidercrank
-from .mechanisms.articulated import Articulated
-from .mechanisms.linkage import Linkage
+from .mechanisms.linkage import Articulated, Linkage, Rotary
 from .mechanisms.motion import Motion
-from .mechanisms.rotary import Rotary
 from .phasors import Array, Complex
 from .piecewise import Extreme, PiecewiseCurve, merged_breaks, resolved
-from .strokes import find_travel
 
 _SAME = 1e-8  # rad; a highest pressure so near to a corner is at the corner
 

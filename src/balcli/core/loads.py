@@ -15,7 +15,7 @@ from operator import add
 import numpy as np
 
 from .cylinders import Cylinders, Device
-from .mechanisms.fourier import Harmonics, Series
+from .mechanisms.closed_form import Harmonics, Series
 from .phases import SUM, Phases, Vectors
 from .phasors import Array, Complex, Figure, Phasors, put_together
 

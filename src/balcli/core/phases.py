@@ -10,10 +10,13 @@ along the axis gives
 with `S_b` the sum over its cylinders of `c_i e^{i n pin_i}`. So each bank is summed once, and what
 variants have in common is not computed again. Arrays: order first, cylinder (or bank) next, then
 any trailing axes; an axis along which nothing varies has length 1.
+
+Speeds of rotation.
 """
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 from itertools import groupby
 from typing import NamedTuple
@@ -21,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .cylinders import Cylinders
-from .mechanisms.fourier import Series
+from .mechanisms.closed_form import Series
 from .mechanisms.harmonics import narrow
 from .phasors import EPS, Array, Complex, FactoredPhasors, Phasors, unit
 
@@ -199,3 +202,6 @@ class SeparatePhases(Phases):
     def _ones(self) -> Array:
         """A 1 for each cylinder, shape (cylinders,)."""
         return np.ones(self.count)
+
+
+RPM = math.pi / 30  # rad/s

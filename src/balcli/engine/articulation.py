@@ -10,15 +10,12 @@ from typing import cast
 import numpy as np
 
 from ..core.cylinders import Cylinders
-from ..core.mechanisms.articulated import Articulated
-from ..core.mechanisms.linkage import STEPS, Linkage, revolution
+from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
 from ..core.mechanisms.motion import Motion
-from ..core.mechanisms.rotary import Rotary
 from ..core.phasors import Array, Figure
-from ..enginefile.articulation_tables import Articulation
-from ..enginefile.fields import counted
-from ..enginefile.model import EngineFile
 from ..errors import Problem
+from ..file.fields import counted
+from ..file.model import Articulation, EngineFile
 from ..limits import NEAREST_TO_LOCK
 from .assembly import Assembly
 from .layout import Plan

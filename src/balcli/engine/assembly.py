@@ -13,22 +13,31 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.cylinders import Cylinders
-from ..core.mechanisms.articulated import Articulated
-from ..core.mechanisms.rotary import Rotary
+from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
-from ..enginefile.articulation_tables import Articulation
-from ..enginefile.model import ONE_BY_ONE, EngineFile
-from . import firing
-from .arrays import column, shared_column
-from .figures import NOTHING, FileFigures, OwnFigures, RodFigures, either, own_figures, rod_figures
+from ..file.model import ONE_BY_ONE, Articulation, EngineFile
+from . import layout as firing
+from .figures import (
+    NOTHING,
+    FileFigures,
+    OwnFigures,
+    RodFigures,
+    column,
+    either,
+    own_figures,
+    rod_figures,
+    shared_column,
+)
 from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
 from .rods import RodPlace, RunningGear, Weighed, weigh_rod
 
-# Few engines have rods on rods, turn, or say of gas: those that do import what it takes.
 if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Linkage
     from .gas import EngineGas
+
+
+# Few engines have rods on rods, turn, or say of gas: those that do import what it takes.
 
 # What a file without mistakes has that can be relied on (`enginefile.read.Draft`).
 ALL_KEYS = frozenset(EngineFile.model_fields) | {
@@ -197,7 +206,7 @@ class Assembly:
         """
         if self.model.articulation is None or self.rank:
             return self.tops_deg
-        from ..core.strokes import find_travel
+        from ..core.cylinders import find_travel
 
         tops = zip(self.numbers, find_travel(self.cylinders).top_deg, strict=True)
         return {n: self.axes_deg[n] + self.sense * float(top) for n, top in tops}

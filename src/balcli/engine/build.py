@@ -9,23 +9,23 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Cylinders, Device
+from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
 from ..core.speed_ripple import RippleLine
-from ..core.speeds import RPM
-from ..enginefile.model import EngineFile
-from ..enginefile.plain_tables import change_tables, list_tables
 from ..errors import BalcliError, InputError, check_type, naming_file, wrong_type
+from ..file.model import EngineFile
+from ..file.plain_tables import change_tables, list_tables
 from .assembly import Assembly
 from .devices import build_devices
+from .layout import MOMENTS_UNKNOWN, are_places_known
 from .numbering import doubt_firing, find_fitting_splay, list_inferred
-from .parse import parse_dict
-from .positions import MOMENTS_UNKNOWN, are_places_known
+from .parse import find_contradictions, parse_dict
 from .rods import Weighed
-from .rules import find_contradictions
 
 if TYPE_CHECKING:
-    from ..enginefile.gas_tables import Bearing, Flywheel
+    from ..file.gas_tables import Bearing, Flywheel
     from .gas import EngineGas
+
 
 NO_GAS = (
     'has no [gas]; give a diagram, a cycle or harmonics, such as cycle = "wiebe", '
@@ -155,7 +155,7 @@ class Engine:
     @property
     def unlikely(self) -> tuple[str, ...]:
         """What its file says that is allowed and yet unlikely, in words."""
-        from ..enginefile.suspicious import find_suspicious
+        from ..file.doubts import find_suspicious
 
         of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
@@ -176,7 +176,7 @@ class Engine:
     def _repr_html_(self) -> str:
         from importlib import import_module
 
-        return import_module("balcli.render.notebook").show_in_notebook(self)
+        return import_module("balcli.report.notebook").show_in_notebook(self)
 
     @property
     def speed_assumed(self) -> bool:

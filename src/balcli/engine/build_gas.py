@@ -1,4 +1,8 @@
-"""From [gas], and what cylinders say of it, to the gas in an engine's cylinders."""
+"""From [gas], and what cylinders say of it, to the gas in an engine's cylinders.
+
+Indicator diagrams: measured pressures over the crank angle, in files beside the engine file;
+straight lines between the rows, periodic.
+"""
 
 from __future__ import annotations
 
@@ -8,28 +12,179 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, pistons, press
+from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, find_highest, pistons, press
 from ..core.gas_cycle import GasCycle, Goal, Process, find_cycle_mistakes, gas_cycle
 from ..core.phasors import Array
-from ..core.piecewise import resolved
-from ..enginefile.csv_columns import NumberColumns, locate_beside, read_columns
-from ..enginefile.gas_tables import DIAGRAM_KEYS, Gas
-from ..enginefile.model import Override
-from ..enginefile.units import BAR
+from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..errors import BalcliError, InputError, Problem
+from ..file.csv_columns import NumberColumns, locate_beside, read_columns
+from ..file.doubts import MAX_PRESSURE
+from ..file.gas_tables import DIAGRAM_KEYS, Gas
+from ..file.model import Override
+from ..file.units import BAR, INCH, POUND_FORCE
 from ..limits import HIGHEST_TABLE_ORDER
-from . import indicator_diagram as diagrams
 from .gas import CylinderGas, EngineGas
-
-# Heat of fuel that uses up all air, over pressure times volume of that air: 2.95 MJ/kg of petrol
-# and Diesel fuel alike, at 300 K; more than HEAT_MOST is doubted.
-HEAT_OF_AIR, HEAT_MOST = 34, 40.0
 
 if TYPE_CHECKING:
     from ..core.cylinders import Cylinders
     from .assembly import Assembly
+
+
+ATMOSPHERE = 101325.0  # Pa, what gauge pressures lack
+WIDEST_GAP = 30.0  # deg between two rows; beyond, straight lines say nothing about an engine
+FLAT_GAP = 45.0  # deg; the same while the gas is exchanged, where the pressure hardly changes
+_FLAT = 0.01  # of the highest pressure
+_SAME = 1e-6  # deg; rows so near to one period apart are the two ends of it
+_PSI = POUND_FORCE / float(INCH) ** 2  # Pa
+_GAUGE_HEADS = {"pressure_barg": BAR, "pressure_psig": _PSI}  # over the atmosphere
+_PRESSURE_HEADS = {
+    "pressure_bar": BAR,
+    "pressure_MPa": 1e6,
+    "pressure_kPa": 1e3,
+    "pressure_Pa": 1.0,
+    "pressure_psi": _PSI,
+    **_GAUGE_HEADS,
+}
+HEADS = (("angle_deg",), tuple(_PRESSURE_HEADS))  # of its columns
+LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
+ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
+NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engine is highest
+SAME_IMEP = 0.03  # by which a diagram may miss the stated mean effective pressure
+
+
+def build_diagram(gas: Gas, name: str, columns: NumberColumns, strokes: int) -> PiecewiseCurve:
+    """Return the absolute pressure (Pa) over a cycle by the columns of the file of this name.
+
+    Raises:
+        BalcliError: The first mistake in the file, by its line.
+    """
+    angle, pressure = _read(gas, columns)
+    for row, message in find_diagram_mistakes(angle, pressure, strokes=strokes):
+        line = "" if row is None else f"line {columns.lines[row]}: "
+        below_zero = row is not None and pressure[row] < 0
+        hint = ASK_GAUGE if below_zero and not _is_gauge(gas, columns) else ""
+        raise BalcliError(f"{name}: {line}{message}{hint}")
+    firing = 360.0 if gas.zero == "gas-exchange" else 0.0
+    return draw_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
+
+
+def _read(gas: Gas, columns: NumberColumns) -> tuple[Array, Array]:
+    """Return angles, deg, and absolute pressures, Pa, each of shape (rows,)."""
+    gauge = ATMOSPHERE if _is_gauge(gas, columns) else 0.0
+    pressure = np.array(columns.column(1)) * _PRESSURE_HEADS[columns.heads[1]] + gauge
+    return np.array(columns.column(0)), pressure
+
+
+def _is_gauge(gas: Gas, columns: NumberColumns) -> bool:
+    return gas.pressure == "gauge" or columns.heads[1] in _GAUGE_HEADS
+
+
+def _is_closed(angle: Array, period: float) -> bool:
+    """Return whether a diagram has a row at both ends of the period; the first holds."""
+    return len(angle) > 1 and abs(angle[-1] - angle[0] - period) < _SAME
+
+
+def draw_diagram(
+    angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4, firing_deg: float = 0.0
+) -> PiecewiseCurve:
+    """Return the pressure at cycle angles, of rows without what `find_diagram_mistakes` finds.
+
+    Args:
+        angle_deg: Rising angles, shape (rows,).
+        pressure: Absolute, Pa, shape (rows,).
+        strokes: 4 or 2; the period is 720 or 360 deg.
+        firing_deg: Angle at which the piston is at its firing dead centre: 0 less the phase, or
+            360 less the phase where the diagram counts from the gas-exchange dead centre.
+    """
+    angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
+    period = 180.0 * strokes
+    kept = slice(-1 if _is_closed(angle, period) else None)
+    corners = np.append(angle[kept], angle[0] + period) - firing_deg
+    return polyline(np.radians(corners), np.append(values[kept], values[0]))
+
+
+def find_diagram_mistakes(
+    angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4
+) -> Iterator[tuple[int | None, str]]:
+    """Yield what is wrong with the rows of a diagram: the row (from 0; None: the diagram) and the
+    mistake; arguments as of `draw_diagram`.
+    """
+    angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
+    period = 180.0 * strokes
+    if len(angle) < 2:
+        yield None, f"has {len(angle)} rows; a cycle of {period:g}° needs more"
+        return
+    for row in np.flatnonzero(values < 0).tolist():
+        yield row, f"the absolute pressure is {values[row] / 1e5:g} bar: give 0 or more"
+    falling = (np.flatnonzero(np.diff(angle) <= 0) + 1).tolist()
+    for row in falling:
+        yield row, f"the angle {angle[row]:g}° does not exceed the {angle[row - 1]:g}° before it"
+    if falling:
+        return
+    span = angle[-1] - angle[0]
+    if span > period + _SAME:
+        yield None, f"covers {span:g}°; a cycle of {strokes} strokes has {period:g}°"
+        return
+    flat = np.abs(values - np.roll(values, 1)) <= _FLAT * values.max()
+    widest = np.where(flat, FLAT_GAP, WIDEST_GAP)  # behind the row before, or the last
+    close = f"give rows at most {WIDEST_GAP:g}° apart"
+    for row in (np.flatnonzero(np.diff(angle) > widest[1:]) + 1).tolist():
+        gap = angle[row] - angle[row - 1]
+        yield row, f"lies {gap:g}° after the row before it: {close}"
+    if (gap := period - span) > widest[0]:
+        yield None, f"covers {span:g}° of {period:g}°, a gap of {gap:g}° at its end: {close}"
+
+
+def list_doubts(
+    gas: Gas, path: str, name: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
+) -> Iterator[str]:
+    """Yield what is suspicious of a diagram, each with its path in the engine file.
+
+    Args:
+        gas: The table of the file.
+        path, name: Key and name of the diagram's file.
+        columns: Columns of this file.
+        found: Pressure at cycle angles, Pa.
+        imep: Indicated mean effective pressure, Pa.
+    """
+    angle, pressure = _read(gas, columns)
+    first, last = pressure[0] / BAR, pressure[-1] / BAR
+    if first != last and _is_closed(angle, math.degrees(found.period)):
+        yield (
+            f"{path}: {name}: the last row closes the cycle with {last:.4g} bar, the first has "
+            f"{first:.4g} bar; the first is taken"
+        )
+    top, value = find_highest(found)
+    if abs(math.degrees(top)) > NEAR_DEG:
+        yield (
+            f"{path}: the highest pressure, {value / BAR:.4g} bar, stands at "
+            f"{math.degrees(top):.4g} deg from the firing dead centre, where within "
+            f"{NEAR_DEG:g} is usual; are gas.zero and gas.phase right?"
+        )
+    if value > MAX_PRESSURE * BAR:
+        yield (
+            f"{path}: the highest pressure is {value / BAR:.4g} bar, where at most "
+            f"{MAX_PRESSURE:g} is usual; does the heading of its column name the right unit?"
+        )
+    lowest = found.extremes()[0].value / BAR
+    if lowest < LOW_PRESSURE:
+        yield (
+            f"{path}: the lowest pressure is {lowest:.4g} bar absolute, where at least "
+            f"{LOW_PRESSURE:g} is usual{ASK_GAUGE}"
+        )
+    stated, measured = gas.imep if path == "gas.indicator" else None, imep / BAR
+    if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
+        yield (
+            f"gas.imep is {stated:g} bar, and the diagram has {measured:.4g} bar; a phase of one "
+            "degree makes 3 to 7 %: is gas.phase right?"
+        )
+
+
+# Heat of fuel that uses up all air, over pressure times volume of that air: 2.95 MJ/kg of petrol
+# and Diesel fuel alike, at 300 K; more than HEAT_MOST is doubted.
+HEAT_OF_AIR, HEAT_MOST = 34, 40.0
 
 
 def build_gas(parts: Assembly, cylinders: Cylinders | None = None) -> EngineGas:
@@ -197,14 +352,14 @@ class _Builder:
         try:
             if own.indicator is None:
                 return self._read_harmonics(name, piston)
-            columns = self._columns(name, diagrams.HEADS)
-            pressure = diagrams.build_diagram(gas, name, columns, self.strokes)
+            columns = self._columns(name, HEADS)
+            pressure = build_diagram(gas, name, columns, self.strokes)
         except BalcliError as error:
             path = "gas.harmonics" if own.indicator is None else own.path
             self.problems.append(Problem(path, str(error)))
             return None
         found = press(piston, pressure, pressure.breaks, gas.crankcase * BAR)
-        self.doubts += diagrams.list_doubts(gas, own.path, name, columns, pressure, found.imep)
+        self.doubts += list_doubts(gas, own.path, name, columns, pressure, found.imep)
         return found
 
     def _read_harmonics(self, name: str, piston: GasPiston) -> GasTorque:

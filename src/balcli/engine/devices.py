@@ -8,9 +8,8 @@ import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
-from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
-from .arrays import place_in_plane
-from .figures import AS_GIVEN, FileFigures, or_nothing
+from ..file.model import Counterweight, EngineFile, Shaft, Slider
+from .figures import AS_GIVEN, FileFigures, or_nothing, place_in_plane
 
 
 def build_devices(

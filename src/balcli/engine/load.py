@@ -1,19 +1,28 @@
 """Engine file -> engine: read, checked against the rules, built; every mistake at once, each by its
 path in the file and with what would be right.
+
+`balcli.load_example`
+
+Which figures of an engine file the gas in its cylinders depends on: those of the mechanism, of
+when a cylinder fires, and of the gas itself; no masses, places along the crank, speed.
+
+Engines of one file of which some figures vary, one engine after the other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
-from ..enginefile.model import EngineFile
-from ..enginefile.plain_tables import take_tables
-from ..enginefile.toml_text import name_file
-from ..errors import naming_file
+from ..errors import naming_file, wrong_type
+from ..file.examples import text
+from ..file.model import EngineFile
+from ..file.plain_tables import take_tables
+from ..file.toml import name_file
 from .build import Engine, build
-from .parse import parse_tables
+from .gas import EngineGas
+from .parse import parse, parse_tables
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
@@ -58,3 +67,113 @@ def build_named(model: EngineFile, path: str | Path) -> Engine:
     """
     with naming_file(name_file(path)):
         return build(model)
+
+
+def load_example(name: str) -> Engine:
+    """One of the engines that come with balcli, ready to analyse.
+
+    Args:
+        name: as `balcli engines` lists it, such as "i4", "v8_crossplane" or "radial7_articulated".
+
+    Raises:
+        BalcliError: there is none of this name, with the nearest ones.
+        TypeError: the name is no text.
+
+    Example:
+        >>> engine = load_example("v8_crossplane")
+    """
+    if not isinstance(name, str):
+        raise wrong_type("load_example", name, 'give the name of an example, such as "i4"')
+    return build(parse(text(name), name))
+
+
+_WHOLE = frozenset({"gas", "layout", "articulation"})  # tables all of whose figures count
+_KEYS = {
+    "crank": frozenset({"stroke", "throws", "splay"}),
+    "rod": frozenset({"length", "ratio"}),
+    "piston": frozenset({"bore", "offset"}),
+}
+_OF_CYLINDER = frozenset(
+    {"piston_offset", "rod_length", "rod_ratio", "bank", "throw", "gas", "heat"}
+)
+
+
+def concerns_gas(path: str) -> bool:
+    """Whether the gas torque of some cylinder depends on a figure, by its dotted name."""
+    table, _, key = path.partition(".")
+    if table == "cylinder":
+        return key.partition(".")[2] in _OF_CYLINDER
+    return table in _WHOLE or key.partition(".")[0] in _KEYS.get(table, ())
+
+
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+Asked = TypeVar("Asked")
+Values = tuple[tuple[str, float], ...]  # figures by dotted name
+_KEPT = 64  # variants that are remembered: as many as are computed at a time
+
+
+class EngineVariants:
+    """Builds variants of an engine; what their figures do not change is not built again: the same
+    engine, or the gas of one that has other masses, or runs at another speed.
+
+    Args:
+        model: the file.
+    """
+
+    def __init__(self, model: EngineFile) -> None:
+        self._model = model
+        self._engines: dict[Values, Engine] = {}
+        self._gas: dict[Values, EngineGas | None] = {}
+
+    def build(self, values: Mapping[str, float]) -> Engine:
+        """The engine with these figures, by dotted name, in place of the file's.
+
+        Raises:
+            InputError, BalcliError: it cannot be.
+        """
+        of_gas = tuple((path, value) for path, value in values.items() if concerns_gas(path))
+
+        def make() -> Engine:
+            engine = build(self._model, values, gas=self._gas.get(of_gas))
+            remember(self._gas, of_gas, lambda: engine.gas)
+            return engine
+
+        return remember(self._engines, tuple(values.items()), make)
+
+
+class FiguresOfVariants(Generic[Asked]):
+    """Evaluates quantities of variants of a file one by one.
+
+    Args:
+        evaluate: the value of each quantity of one engine.
+        model: whose engine has what they are of.
+    """
+
+    def __init__(
+        self,
+        evaluate: Callable[[Engine, Sequence[Asked]], list[float]],
+        model: EngineFile,
+        quantities: Sequence[Asked],
+    ) -> None:
+        self._evaluate, self._quantities = evaluate, quantities
+        self._engines = EngineVariants(model)
+
+    def evaluate(self, values: Mapping[str, float]) -> list[float]:
+        """The value of each quantity for one variant, by the figures that vary.
+
+        Raises:
+            InputError, BalcliError: it cannot be, or what is asked of it is not known.
+        """
+        return self._evaluate(self._engines.build(values), self._quantities)
+
+
+def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:
+    """What is known under a key, or is now made; all is forgotten when there is much of it."""
+    found = known.get(key)
+    if found is None:
+        found = make()
+        if len(known) >= _KEPT:
+            known.clear()
+        known[key] = found
+    return found

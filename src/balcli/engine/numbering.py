@@ -26,17 +26,24 @@ from itertools import groupby, pairwise
 import numpy as np
 
 from ..core.loads import Loads, find_needed_series
-from ..core.mechanisms.fourier import select_cylinders
-from ..core.phases import TURN, Phases
+from ..core.mechanisms.closed_form import select_cylinders
+from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
-from ..core.speeds import RPM
-from ..enginefile.model import EngineFile
 from ..errors import InputError, Problem
-from .arrays import place_in_plane
+from ..file.model import EngineFile
 from .assembly import Assembly
 from .devices import build_devices
-from .firing import TOLERANCE_DEG, check_firing, find_instants, find_pins
-from .layout import Cell, Plan, bank_angles, cycle_deg
+from .figures import place_in_plane
+from .layout import (
+    TOLERANCE_DEG,
+    Cell,
+    Plan,
+    bank_angles,
+    check_firing,
+    cycle_deg,
+    find_instants,
+    find_pins,
+)
 
 LIST_LENGTH = 3  # engines among which a user is asked to choose
 FREE_END = (

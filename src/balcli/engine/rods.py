@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.phasors import Figure
-from ..enginefile.units import STANDARD_GRAVITY
 from ..errors import Problem
+from ..file.units import STANDARD_GRAVITY
 from ..limits import NEAREST_TO_LOCK
 from .figures import PendulumTest, RodFigures, or_nothing
 

@@ -1,24 +1,27 @@
 """What sweep, search and scatter are about: single figures of an engine such as `force.2.major` or
 `peak.moment`.
+
+Quantities of something by its number or name: `mode.3.Hz`, `mount.left.force`, `guide.6.H`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
-from ..engine.positions import MOMENTS_UNKNOWN
+from ..engine.layout import MOMENTS_UNKNOWN
 from ..errors import BalcliError
+from ..file.fields import shorten, suggest_nearest
 from ..limits import HIGHEST_ORDER
 from .kinds import EVERY_KIND, GAS_KINDS, TORQUE_TOTAL, VECTORS
-from .orders import find_relevant_orders, split_order
-from .spectrum import compute_spectra
+from .spectrum import compute_spectra, find_relevant_orders, split_order
 
 _SIZES = ("major", "minor", "forward", "backward")
 _ALONG_AXES = ("x", "y", "x_cos", "x_sin", "y_cos", "y_sin")
@@ -165,3 +168,68 @@ def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], 
         orders = tuple(sorted({q.order for q in members}))
         groups.setdefault(orders, []).extend(members)
     return [(list(orders), members) for orders, members in groups.items()]
+
+
+class Subject(NamedTuple):
+    """What quantities are of, by the word that their names begin with.
+
+    Attributes:
+        example: one of its numbers or names, for messages.
+        units: SI unit of everything that can be asked of it.
+    """
+
+    example: str
+    units: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class TargetQuantity:
+    """One figure.
+
+    Attributes:
+        kind: of what, such as `mount`.
+        target: its number or name.
+        part: what of it.
+        unit: SI, or percent.
+    """
+
+    kind: str
+    target: str
+    part: str
+    unit: str = field(compare=False)
+
+    @property
+    def name(self) -> str:
+        """As a user writes it."""
+        return f"{self.kind}.{self.target}.{self.part}"
+
+
+def parse_target_quantity(text: str, subjects: Mapping[str, Subject]) -> TargetQuantity:
+    """`kind.target.part`, the kind one of the subjects.
+
+    Raises:
+        BalcliError: a part that there is not, or no target, with what there is.
+    """
+    kind, _, rest = text.partition(".")
+    target, _, part = rest.rpartition(".")
+    units = subjects[kind].units
+    if part not in units or not target:
+        there = " or ".join(f"{kind}.{subjects[kind].example}.{each}" for each in units)
+        raise BalcliError(f"{text} is no quantity: give {there}")
+    return TargetQuantity(kind, target, part, units[part])
+
+
+def refuse_stranger(q: TargetQuantity, there: Sequence[str]) -> None:
+    """Nothing, unless the file does not have what a quantity is of.
+
+    Args:
+        there: names of what it has of this kind.
+
+    Raises:
+        BalcliError: with the nearest name, or some of those that there are.
+    """
+    if q.target in there:
+        return
+    some = f"there are {', '.join(there[:8])}" if there else "there is none"
+    hint = suggest_nearest(q.target, there, some)
+    raise BalcliError(f"{q.name}: the file has no {q.kind} {shorten(q.target)}; {hint}")

@@ -28,11 +28,10 @@ from ..core.phasors import Array, Complex, unit
 from ..engine.build import Engine
 from ..errors import BalcliError
 from .curves import EngineMotion, as_rows
-from .gas import take_gas
+from .spectrum import take_gas
 
 if TYPE_CHECKING:
-    from ..core.mechanisms.articulated import Articulated
-    from ..core.mechanisms.rotary import Rotary
+    from ..core.mechanisms.linkage import Articulated, Rotary
 
 
 class RodForces(NamedTuple):

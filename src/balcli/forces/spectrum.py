@@ -1,26 +1,48 @@
-"""Engine -> free forces and moments by order, computing only what is asked for."""
+"""Engine -> free forces and moments by order, computing only what is asked for.
+
+Which orders there are, and which of them an engine has worth computing or showing.
+
+An order is how often something happens in a revolution of the crankshaft. Pistons, rods and devices
+repeat themselves after each revolution, and have whole orders. What happens once in a cycle of four
+strokes (gas pressure, and a crank speed that is uneven by it) has halves of whole numbers. All
+orders are therefore multiples of 1/2, and exact as floating-point numbers.
+
+Torque of the gas on the crank, by order, of an engine that has gas (`Engine.gas`).
+
+Gas presses on piston and head alike: it makes no free force and no free moment, only torque and its
+reaction on the frame. With t_h the coefficients of one cylinder's torque over its cycle, a cylinder
+that fires at the crank angle f adds `t_h e^{i h (theta - f)/2}`: order n = h/2.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add, sub
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
-from ..core.mechanisms.fourier import select_cylinders, select_orders
-from ..core.phases import Phases, SeparatePhases
-from ..core.phasors import Array, Complex, Phasors, join_orders
-from ..engine.arrays import place_in_plane
-from ..engine.build import Engine
-from ..errors import BalcliError
-from ..limits import MOST_LOADS_APART
-from .kinds import EVERY_KIND, KINDS, Kind
+from ..core.mechanisms.closed_form import select_cylinders, select_orders
+from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
+from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
+from ..engine.build import NO_GAS, Engine
+from ..engine.figures import place_in_plane
+from ..engine.gas import CylinderGas, EngineGas
+from ..errors import BalcliError, wrong_type
+from ..file.fields import shorten
+from ..limits import (
+    HIGHEST_GAS_ORDER_UNASKED,
+    HIGHEST_ORDER,
+    HIGHEST_ORDER_UNASKED,
+    MOST_LOADS_APART,
+)
+from .kinds import EVERY_KIND, GAS_KINDS, KINDS, Kind
 
 # orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
 _AT_ONCE = 1 << 18
@@ -176,9 +198,8 @@ def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart
 
 
 def _compute_gas(engine: Engine, orders: Array, *, apart: bool) -> Phasors:
-    from . import gas  # engines without gas do not pay for it
 
-    compute = gas.compute_gas_torque_of_each if apart else gas.compute_gas_torque
+    compute = compute_gas_torque_of_each if apart else compute_gas_torque
     return compute(engine, orders)
 
 
@@ -265,3 +286,181 @@ def dense_orders(highest: float, mixed: Iterable[float]) -> Array:
     """
     step = ripple.find_step(mixed)
     return np.arange(round(highest / step) + 1.0) * step
+
+
+SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
+
+
+def is_order(number: float) -> bool:
+    """Whether it is an order that may be asked for: a multiple of 1/2, 0 to HIGHEST_ORDER."""
+    return 0 <= number <= HIGHEST_ORDER and number % 0.5 == 0
+
+
+def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> Array:
+    """Orders that were asked for, ascending, each once.
+
+    Args:
+        orders: as asked for.
+        engines: whose they are: one at least has to have half orders if some are asked for.
+
+    Raises:
+        BalcliError: there are none, some are no orders, or half orders that no engine has.
+        TypeError: they are no numbers.
+    """
+    asked = sorted(set(_list_numbers(orders)))
+    if not asked or not all(map(is_order, asked)):
+        named = ", ".join(shorten(n) for n in asked[:8]) or "none"
+        raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
+    halves = ", ".join(f"{n:g}" for n in asked if n % 1)
+    if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
+        give = "" if any(engine.gas for engine in engines) else "give [gas], or "
+        raise BalcliError(
+            f"orders {halves}: half orders are those of gas pressure in four strokes; {give}ask "
+            "for whole orders"
+        )
+    return np.array(asked, float)
+
+
+def _list_numbers(orders: object) -> list[float]:
+    strange: object = orders
+    is_number = isinstance(orders, np.ndarray) and orders.ndim == 0
+    if isinstance(orders, Iterable) and not (is_number or isinstance(orders, (str, bytes))):
+        given = list(orders)
+        strangers = [one for one in given if not isinstance(one, (int, float, np.number))]
+        if not strangers:
+            return given
+        strange = strangers[0]
+    raise wrong_type("orders", strange, "give numbers, such as [1, 2, 4]")
+
+
+def parse_order(text: str) -> float | None:
+    """The order that a text names, such as `2` or `1.5`; None if it names none."""
+    short = len(text) <= len(f"{HIGHEST_ORDER}.5") + 1
+    if not short or not re.fullmatch(r"[0-9]+(\.[05])?", text, re.ASCII):
+        return None
+    number = float(text) if "." in text else int(text)
+    return number if is_order(number) else None
+
+
+def split_order(text: str) -> tuple[float | None, str]:
+    """`1.5.amplitude` as the order 1.5 and what comes after it; None where there is no order."""
+    match = re.fullmatch(r"([^.]*(?:\.[05](?=\.|$))?)(?:\.(.*))?", text, re.DOTALL)
+    if match is None:
+        return None, text
+    return parse_order(match[1]), match[2] or ""
+
+
+def find_relevant_orders(engine: Engine) -> Array:
+    """The orders 1 .. n beyond which nothing exceeds rounding errors, shape (orders,); 0 .. n at
+    uneven speed, with halves where its lines have some.
+    """
+    of_devices = [device.order for device in engine.devices]
+    highest = max([engine.cylinders.find_highest_order(), *of_devices])
+    if not engine.ripple:
+        return np.arange(1.0, highest + 1)
+    lines = [line.order for line in engine.ripple]
+    return dense_orders(highest + 2 * max(lines), lines)
+
+
+def list_gas_orders(engine: Engine) -> Array:
+    """Orders of gas torque that are worth showing unless others are asked for: multiples of 1/2 (of
+    1 in two-stroke engines) up to HIGHEST_GAS_ORDER_UNASKED, shape (orders,). Of so many cylinders
+    that all of these may cancel, also the order of their firing, and its double.
+    """
+    step = 2 / engine.strokes
+    firing = step * len(engine.numbers)
+    higher = [firing, 2 * firing] if firing > HIGHEST_GAS_ORDER_UNASKED else []
+    return np.array([*np.arange(step, HIGHEST_GAS_ORDER_UNASKED + step, step), *higher])
+
+
+def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
+    """Orders in which something exceeds SHOWN of its own largest order, shape (orders,); none above
+    HIGHEST_ORDER_UNASKED.
+    """
+    sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
+    large = sizes > SHOWN * sizes.max(initial=0)
+    return np.asarray(large & (phasors.orders <= HIGHEST_ORDER_UNASKED))
+
+
+def choose_orders(found: Spectra, *engines: Engine) -> Array:
+    """The orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable, of gas
+    those that are listed for one of the engines.
+    """
+    due = (found.orders <= 2) & (found.orders % 1 == 0)
+    listed = set(merge_orders(*map(list_gas_orders, engines)).tolist())
+    for kind, phasors in found.items():
+        worth = mark_considerable(phasors)
+        if kind.name in GAS_KINDS:
+            worth &= [order in listed for order in found.orders.tolist()]
+        due |= worth
+    return found.orders[due]
+
+
+def merge_orders(*several: Iterable[float]) -> Array:
+    """All orders of several, ascending, each once."""
+    # np.union1d would import masked arrays, which takes longer than all the rest
+    return np.array(sorted({float(order) for orders in several for order in orders}))
+
+
+_LEAST = 24  # harmonics that are computed at least, so that the largest is among them
+_QUADRATURE = 8 * EPS  # error of a coefficient, of the largest
+
+
+def take_gas(engine: Engine) -> EngineGas:
+    """Return the gas of an engine.
+
+    Raises:
+        BalcliError: The engine has none.
+    """
+    if engine.gas is None:
+        raise BalcliError(f"{engine.name or 'the engine'}: {NO_GAS}")
+    return engine.gas
+
+
+def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
+    """Return the torque of all cylinders' gas on the crank, N m, noise included.
+
+    Args:
+        engine: without trailing axes, or variants whose gas may be asked for.
+        orders: multiples of 1/2, shape (orders,).
+
+    Raises:
+        BalcliError: the engine has no gas.
+    """
+    if engine.gas_of_variants is not None:
+        return engine.gas_of_variants(orders)
+    each = compute_gas_torque_of_each(engine, orders)
+    count = len(take_gas(engine).cylinders)
+    rounding = SUM * count + ANGLE * orders
+    noise = each.noise.sum(axis=1) + rounding * np.abs(each.forward).sum(axis=1)
+    return Phasors(orders, each.vectors.sum(axis=2), noise)
+
+
+def compute_gas_torque_of_each(engine: Engine, orders: Array) -> Phasors:
+    """Return the torque of each cylinder's gas on the crank, N m, shape (orders, cylinders), the
+    cylinders in the order of `engine.numbers`; arguments and errors as of `compute_gas_torque`.
+    """
+    gas = take_gas(engine)
+    courses, errors = find_courses(gas, orders)
+    fires = np.stack([_turn(cylinder, orders) for cylinder in gas.cylinders], axis=1)
+    return Phasors.from_scalar(orders, courses * fires, errors)
+
+
+def find_courses(gas: EngineGas, orders: Array) -> tuple[Complex, Array]:
+    """Return the torque of each cylinder's gas by its own cycle angle, N m, shape (orders,
+    cylinders): `Re sum c_n e^{i n theta}`; and its error, likewise.
+    """
+    halves = np.rint(2 * orders).astype(np.intp)
+    courses = np.empty((len(orders), len(gas.cylinders)), complex)
+    errors = np.empty(courses.shape)
+    for torque, rows in gas.group_equal():
+        lowest = np.abs(torque.harmonics(np.arange(1, _LEAST + 1)))
+        courses[:, rows] = torque.harmonics(halves)[:, None]
+        errors[:, rows] = _QUADRATURE * float(lowest.max())
+    courses *= gas.shares
+    return courses, gas.shares * errors
+
+
+def _turn(cylinder: CylinderGas, orders: Array) -> Complex:
+    """e^{-i n f}: the nominal angle turns exactly, so that cylinders that fire evenly cancel."""
+    return np.exp(-1j * orders * cylinder.piston.top) * unit(-orders * cylinder.nominal_deg)

@@ -19,8 +19,7 @@ from ..core.phasors import Array
 from ..engine.build import Engine
 from ..engine.gas import EngineGas
 from .kinds import KINDS
-from .orders import merge_orders
-from .spectrum import Spectra, compute_each_cylinder, compute_spectra
+from .spectrum import Spectra, compute_each_cylinder, compute_spectra, merge_orders
 from .textbook import Textbook, find_textbook, without_devices
 
 # Kinds that are judged together, by the name of their group, and this name in words.

@@ -23,7 +23,8 @@ from .kinds import Kind
 from .spectrum import Spectra, compute_spectra
 
 if TYPE_CHECKING:
-    from ..core.mechanisms.articulated import Articulated
+    from ..core.mechanisms.linkage import Articulated
+
 
 _NO_FORCE = 1e-12  # A_n of an order that the piston does not have
 

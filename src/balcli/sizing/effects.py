@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from ..core import least_squares
 from ..core.cylinders import Device
 from ..core.phasors import EPS, unit
-from ..enginefile.model import Counterweight, Shaft, Slider
 from ..errors import BalcliError
-from .device_tables import DeviceTable, as_millimetres, measure_direction
+from ..file.model import Counterweight, Shaft, Slider
+from .planes import DeviceTable, as_millimetres, measure_direction
 from .residual import ReferencePoint, Residual, ResidualPart
 
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel

@@ -1,25 +1,135 @@
 """The scheme `minimax`: the counterweight with which the largest force over a revolution is as
 small as a weight on the crankshaft can make it.
+
+Smallest circle that encloses a closed curve, found on the analytic curve itself.
+
+The curve is a force seen from the turning crank, `f = F e^{-i theta}`. An exchange: the smallest
+circle of a few of its points, which can only be too small, then the peaks of the difference
+between curve and centre, which become points as well, until both radii agree. The smaller radius
+bounds the larger one: the error is known.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
-from ..core import enclosing_circle
 from ..core.cylinders import DeviceKind
+from ..core.peaks import find_near_peaks
+from ..core.phasors import EPS, Complex, Phasors
+from ..core.vibration import Real
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .balance_factor import find_curve, find_factor_peaks
 from .effects import Slot, size_unbalances
+from .factor import find_curve, find_factor_peaks
 from .fitting import Fitting
 from .options import SchemeOptions
 from .planes import SAME_PLACE, find_crank_middle, read_planes
 from .remedy import Remedy
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
+
+_SAME = 8 * EPS  # points no farther outside than this, relative, are on the circle
+_TOUCHING = 1e-11  # the same for the angles that are reported
+_APART = 1e-3  # rad; angles nearer than this are one peak
+_ROUNDS = 60
+
+
+class Circle(NamedTuple):
+    """Smallest circle around a curve.
+
+    Attributes:
+        centre: complex, in the unit of the curve.
+        radius: largest distance of the curve from the centre.
+        theta: angles (rad, ascending) at which the curve touches it.
+        excess: bound by which the radius may be too large; 0 if that is no more than `noise`.
+        noise: rounding error of the radius.
+    """
+
+    centre: complex
+    radius: float
+    theta: Real
+    excess: float
+    noise: float = 0.0
+
+
+def enclose_curve(curve: Phasors) -> Circle:
+    """Return the smallest circle around `F e^{-i theta}`.
+
+    Args:
+        curve: phasors of whole orders, 1 among them, without trailing axes.
+    """
+    there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
+    if not np.any(curve.major):
+        return Circle(0j, 0.0, np.zeros(0), 0.0)
+    curve = Phasors(curve.orders[there], curve.vectors[:, there], np.zeros(1))
+    noise = _SAME * float(curve.major.sum())
+    best = _reach(curve, complex(curve.forward[curve.orders == 1].sum()))
+    theta, lower = best.theta, 0.0
+    for _ in range(_ROUNDS):
+        points = _seen(curve, theta)
+        centre, fixing = enclose_points(points)
+        lower = max(lower, float(np.abs(points[fixing] - centre).max()))
+        trial = _reach(curve, centre)
+        best = min(best, trial, key=lambda circle: circle.radius)
+        if best.radius - lower <= noise:
+            break
+        theta = np.concatenate([theta[fixing], trial.theta])
+    on = np.abs(_seen(curve, best.theta) - best.centre) >= best.radius * (1 - _TOUCHING) - noise
+    excess = best.radius - lower
+    return Circle(
+        best.centre, best.radius, best.theta[on], max(excess, 0.0) * (excess > noise), noise
+    )
+
+
+def enclose_points(points: Complex) -> tuple[complex, list[int]]:
+    """Return the centre of the smallest circle around some points, and the (at most three) points
+    that fix it: of those and the farthest point, again and again.
+    """
+    centre, radius, fixing = complex(points[0]), 0.0, [0]
+    for _ in range(len(points) + _ROUNDS):
+        distance = np.abs(points - centre)
+        farthest = int(np.argmax(distance))
+        if distance[farthest] <= radius * (1 + _SAME) or farthest in fixing:
+            break
+        few = [*fixing, farthest]
+        circles = []
+        for some in (list(some) for k in (2, 3) for some in combinations(few, k)):
+            middle = _find_middle(points[some])
+            circles.append((float(np.abs(points[few] - middle).max()), middle, some))
+        radius, centre, fixing = min(circles, key=lambda circle: circle[0])
+    return centre, fixing
+
+
+def _find_middle(points: Complex) -> complex:
+    """Return the centre of the circle through two points (as diameter) or three; inf: in line."""
+    a, b = complex(points[0]), complex(points[1] - points[0])
+    if len(points) == 2:
+        return a + b / 2
+    c = complex(points[2]) - a
+    across = 2 * (b.conjugate() * c).imag
+    return a + 1j * (b * abs(c) ** 2 - c * abs(b) ** 2) / across if across else complex(np.inf)
+
+
+def _reach(curve: Phasors, centre: complex) -> Circle:
+    """Return the smallest circle with this centre, and the peaks of the difference."""
+    forward = np.where(curve.orders == 1, curve.forward - centre, curve.forward)
+    difference = Phasors.of(curve.orders, forward, curve.backward, curve.noise)
+    if not np.any(difference.vectors):
+        return Circle(centre, 0.0, np.zeros(1), np.inf)
+    theta = find_near_peaks(difference)
+    first = np.diff(theta, prepend=theta[-1] - 2 * np.pi) > _APART
+    theta = theta[first] if np.any(first) else theta[:1]
+    return Circle(centre, float(np.abs(difference.values(theta)).max()), theta, np.inf)
+
+
+def _seen(curve: Phasors, theta: Real) -> Complex:
+    """Return the curve seen from the crank, at angles (rad)."""
+    return curve.values(theta) * np.exp(-1j * theta)
+
 
 _LEFT = 1e-9  # of what is to be cancelled: more, and these planes cannot take the moment
 
@@ -36,7 +146,7 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: no weight makes the largest force smaller.
     """
     fitting = Fitting.start(engine, "minimax", 1)
-    circle = enclosing_circle.enclose_curve(find_curve(fitting.engine, "force"))
+    circle = enclose_curve(find_curve(fitting.engine, "force"))
     newtons_per_kg_m = float(engine.omega) ** 2
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
     centred = abs(circle.centre) <= max(noise, circle.noise)
@@ -80,7 +190,7 @@ def _split(
     return slots, fit.unbalances
 
 
-def _compare_with_half(engine: Engine, circle: enclosing_circle.Circle) -> dict[str, float]:
+def _compare_with_half(engine: Engine, circle: Circle) -> dict[str, float]:
     """Return the largest force with the weights of factor 0.5 instead of the engine's own, and by
     which share the circle is smaller; nothing of a rotary engine, which has no factor.
     """

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..core.cylinders import Device
 from ..engine.build import Engine
 from ..engine.devices import build_device
-from ..enginefile.model import Counterweight, EngineFile, Shaft, Slider
-from .device_tables import KINDS, DeviceTable, find_free, name_kind
+from ..file.model import Counterweight, EngineFile, Shaft, Slider
+from .planes import KINDS, DeviceTable, find_free, name_kind
 
 if TYPE_CHECKING:
-    from .bobweight_card import Bobweight, FactorPeaks, PlaneNeed
+    from .bobweights import Bobweight, FactorPeaks, PlaneNeed
 
 
 class Remedy(NamedTuple):

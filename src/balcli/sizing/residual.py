@@ -9,9 +9,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ..engine.build import Engine
-from ..engine.positions import MOMENTS_UNKNOWN
-from ..enginefile.exclusive import join_words
+from ..engine.layout import MOMENTS_UNKNOWN
 from ..errors import BalcliError
+from ..file.fields import join_words
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
 from .options import SchemeOptions

@@ -1,13 +1,28 @@
-"""The schemes `single-shaft` and `couple-shaft`: balancer shafts for any order."""
+"""The schemes `single-shaft` and `couple-shaft`: balancer shafts for any order.
+
+The schemes `two-shaft` and `four-shaft`: pairs of shafts that turn against each other.
+
+A stands for the shaft that turns against the crank, B for the one that turns with it; V- and V+ are
+the two parts of the force of their order, p_A and p_B places x + iy from the crank axis. The shafts
+make a roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A conj(V-)`.
+"""
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Sequence
 
 from ..engine.build import Engine
 from ..errors import BalcliError
 from .effects import Slot
-from .fitting import Fitting
+from .fitting import (
+    Fitting,
+    explain_counterweights,
+    explain_couple,
+    explain_one_eccentric,
+    explain_shaft,
+)
 from .options import SchemeOptions
 from .planes import (
     choose_plane,
@@ -16,7 +31,6 @@ from .planes import (
     read_two_planes,
     takes_moment,
 )
-from .reasons import explain_counterweights, explain_couple, explain_one_eccentric, explain_shaft
 from .remedy import Remedy
 from .residual import (
     BACKWARD,
@@ -25,6 +39,7 @@ from .residual import (
     FORWARD,
     FORWARD_FORCE,
     FORWARD_MOMENT,
+    NothingToBalanceError,
     Residual,
     choose_residual,
 )
@@ -107,3 +122,120 @@ def _read_places(options: SchemeOptions, senses: Sequence[int]) -> dict[int, com
         told = "two shafts" if len(senses) == 2 else "one shaft"
         raise BalcliError(f"--at: this moment takes {told}; give no more places")
     return {sense: at[k] if k < len(at) else 0j for k, sense in enumerate(senses)}
+
+
+Places = dict[int, tuple[complex, ...]]  # x + iy (m) of the shafts that turn in each sense
+
+
+def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Shafts at +N and -N for the force of order N, placed such that no roll is added, or such that
+    none is left (option `roll`).
+    """
+    try:
+        residual = choose_residual(engine, options, ("force",))
+    except NothingToBalanceError as reason:
+        if options.roll:
+            raise BalcliError(
+                f"{reason}; shafts without unbalance can do nothing about the roll"
+            ) from None
+        raise
+    fitting = Fitting.start(engine, "two-shaft", residual.order, residual.note)
+    return _add_pair(fitting, residual, options).remedy
+
+
+def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
+    fitting = Fitting.start(engine, "four-shaft")
+    residuals = [fitting.find_residual(order) for order in (1, 2)]
+    forces = [residual for residual in residuals if residual.has("force", (1, -1))]
+    if not forces:
+        raise NothingToBalanceError(
+            "there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes "
+            "moments"
+        )
+    for residual in forces:
+        fitting = _add_pair(fitting, residual, options)
+    return fitting.remedy
+
+
+def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
+    """With shafts at +N and -N for the force of this order; where one part of it is missing, with
+    one shaft, or two halves of it.
+    """
+    places = _choose_places(residual, options)
+    for sense, standing in places.items():
+        z = choose_plane(fitting.engine, options, residual, sense)
+        slots = [Slot("shaft", residual.order, sense, z, place) for place in standing]
+        whole, more = takes_moment(residual, sense, z), "takes eccentrics in two planes"
+        reason = explain_one_eccentric(residual, sense, whole, more, halves=len(slots) > 1)
+        share = -residual.force(sense) / len(slots)
+        fitting = fitting.add(slots, [share] * len(slots), reason)
+    left = fitting.find_residual(residual.order)
+    group, moment = f"order_{residual.order}", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
+    fitting = fitting.add_details(group, **_describe_places(places), moment_left_Nm=moment)
+    return fitting.describe_roll(residual, group)
+
+
+def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
+    """Return where the shafts of each sense stand: as asked for; what is not given, such that the
+    pair adds no roll, or with `roll` such that none is left.
+
+    A pair makes minus a roll (kg m^2) where `conj(p_B) V+ - p_A conj(V-) = i roll`
+    (docs/theory.md). Without a place that was given, those nearest to the crank are taken (least
+    squares).
+    """
+    at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
+    if len(at) > 2:
+        raise BalcliError(
+            "--at: a pair of shafts has two places, first that of the shaft turning against the "
+            "crank"
+        )
+    if not (forward and backward):
+        return _choose_place_of_one(residual, options)
+    if len(at) == 2 and options.roll:
+        raise BalcliError(
+            "--roll zero fixes the place of the second shaft; give one --at, or two without --roll"
+        )
+    if len(at) == 2:
+        return {-1: (at[0],), 1: (at[1],)}
+    wanted = 1j * _find_roll_about_crank(residual) if options.roll else 0j
+    against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
+    with_crank = (wanted + against * backward.conjugate()) / forward
+    return {-1: (against,), 1: (with_crank.conjugate(),)}
+
+
+def _choose_place_of_one(residual: Residual, options: SchemeOptions) -> Places:
+    """Return places for a force that turns in one sense alone: one shaft on the crank axis, or two
+    halves at the place asked for and opposite to it.
+    """
+    sense = 1 if residual.force(1) else -1
+    if options.roll:
+        raise BalcliError(
+            f"order {residual.order}: its force turns {'with' if sense > 0 else 'against'} the "
+            "crank alone, so that one shaft takes it and none is left to be placed for the roll; "
+            "leave out --roll"
+        )
+    place = options.at[0] if options.at else 0j
+    return {sense: (place, -place) if place else (0j,)}
+
+
+def _find_roll_about_crank(residual: Residual) -> complex:
+    """The roll taken about the crank axis instead of the point of reference, kg m^2."""
+    place = residual.reference.place
+    moved = place.conjugate() * residual.force(1) - place * residual.force(-1).conjugate()
+    return residual.roll - 1j * moved
+
+
+def _describe_places(places: Places) -> dict[str, float]:
+    """Return distance from the crank axis and direction of the shafts of each sense, and the ratio
+    of the distances (with the crank : against it).
+    """
+    details = {}
+    for sense, name in ((1, "with_crank"), (-1, "against_crank")):
+        for place in places.get(sense, ())[:1]:
+            details[f"radius_{name}_mm"] = 1e3 * abs(place)
+            if place:  # on the crank axis there is no direction
+                details[f"direction_{name}_deg"] = math.degrees(cmath.phase(place))
+    if len(places) == 2 and (against := abs(places[-1][0])):
+        details["radius_ratio"] = abs(places[1][0]) / against
+    return details

@@ -1,24 +1,249 @@
 """Schemes for one cylinder whose devices no engine file can describe: shafts of variable speed, and
 Oldham couplings (Wang).
+
+Balance shafts turned unevenly by an eccentric slider: the best throw and mass for a single
+cylinder (Wang, section 2.4).
+
+Two shafts, symmetric to the cylinder axis, turn by phi(theta); their force along the axis is `2 m_b
+r_b omega^2 (phi'^2 cos phi + phi'' sin phi) = -2 m_b r_b omega^2 (cos phi)''` (the sign of the
+second term is misprinted in the source). In units of m r omega^2 what remains is `P = f(theta) - 2
+mu g(theta; k)`, an even function; k and mu are sought.
+
+Below, `c` holds cosine coefficients of an even function, shape (orders,), and `x` the two unknowns
+k and mu, shape (2,).
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from itertools import combinations, product
+from math import nan
 
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.phasors import unit
-from ..documents.records import to_document
+from ..core.mechanisms import closed_form
+from ..core.phasors import Array, Complex, unit
+from ..core.records import to_document
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .eccentric_slider import Optimum, expand_shaft_wave, find_optima
 from .effects import Slot
 from .fitting import Fitting
 from .options import SchemeOptions
 from .remedy import Remedy
 from .residual import FORWARD_FORCE
+
+DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
+CRITERIA = ("largest", "mean")
+FORCES = ("orders 1+2", "all orders")  # cos theta + lambda cos 2 theta; the exact force
+_LEAST_K, _MOST_K = 1.2, 1e12  # k is sought between; nearer to 1 its series is too long
+_COUNT = 512  # samples of a revolution: enough for k above _LEAST_K
+_GRID = np.linspace(0, np.pi, 1025)
+_ORDERS = np.arange(_COUNT // 4)
+_ROUNDS = 60
+_NOISE = 5e-16  # of the transform; squares of the orders would multiply it
+_SETTLED = 1e-10  # relative
+_FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # share of k by which it moves in one step
+_SINGULAR = 1e-14  # determinant of a triple that fixes nothing
+_BELOW_0 = -1e-12  # a weight above this is 0 but for rounding
+_NEWTON_STEPS = 8  # from the middle of a cell of the grid to a root, to rounding
+
+
+@dataclass(frozen=True, kw_only=True)
+class Optimum:
+    """The best pair of unevenly turning shafts by one criterion.
+
+    Attributes:
+        design: One of `DESIGNS`.
+        criterion: One of `CRITERIA`.
+        engine_force: One of `FORCES`.
+        k: Radius of the driving pin over the eccentricity, r_b/e.
+        mu: Unbalance of each shaft in units of m r (reciprocating mass times crank radius).
+        unbalance_kg_m: Unbalance of each shaft of an engine; nan of none in particular.
+        largest: Largest absolute force that is left, in units of m r omega^2.
+        mean: Mean absolute force that is left, in units of m r omega^2.
+    """
+
+    design: str
+    criterion: str
+    engine_force: str
+    k: float
+    mu: float
+    unbalance_kg_m: float = nan
+    largest: float
+    mean: float
+
+
+def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> Optimum:
+    """Return the best k and mu of one design by one criterion.
+
+    Args:
+        design: One of `DESIGNS`.
+        criterion: One of `CRITERIA`.
+        engine_force: One of `FORCES`.
+        lam: Crank radius over rod length.
+
+    Raises:
+        BalcliError: lambda is so large that the search does not settle.
+    """
+    engine = _expand_engine_force(engine_force, lam)
+    try:
+        start = np.array([2 / lam, 0.5])
+        x = _iterate(lambda x: _step_to_peak(design, engine, x), start, _FARTHEST_TO_PEAK)
+        if criterion == "mean":
+            x = _iterate(lambda x: _step_to_mean(design, engine, x), x, _FARTHEST_TO_MEAN)
+    except (np.linalg.LinAlgError, ArithmeticError):
+        raise BalcliError(
+            f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the "
+            "second order is too strong for an eccentric smaller than its pin radius"
+        ) from None
+    remaining = _find_remaining(design, engine, x)
+    primitive = _evaluate(remaining, _find_zeros(remaining), -1)
+    return Optimum(
+        design=design,
+        criterion=criterion,
+        engine_force=engine_force,
+        k=float(x[0]),
+        mu=float(x[1]),
+        largest=float(np.abs(_evaluate(remaining, _find_zeros(remaining, 1))).max()),
+        mean=float(np.abs(np.diff(primitive)).sum()) / np.pi,
+    )
+
+
+def find_optima(lam: float) -> tuple[Optimum, ...]:
+    """Return the optima of both designs by both criteria for both forces: first the smallest peak
+    of design a for orders 1 and 2.
+
+    At lambda above 0.6 some searches do not settle, as k would fall below 1: their optima are left
+    out.
+
+    Raises:
+        BalcliError: the first one does not settle.
+    """
+    (force, design, criterion), *others = product(FORCES, DESIGNS, CRITERIA)
+    optima = [find_optimum(design, criterion, force, lam)]
+    for force, design, criterion in others:
+        with suppress(BalcliError):
+            optima.append(find_optimum(design, criterion, force, lam))
+    return tuple(optima)
+
+
+def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
+    """Return cosine coefficients of cos phi over the crank angle, and their derivatives by k; phi
+    is the angle of the shafts.
+    """
+    theta = np.arange(_COUNT) * np.float64(2 * np.pi / _COUNT)
+    cosine, step = np.cos(theta), 1e-30
+    moved = k + 1j * step  # complex step: the derivative to rounding
+    wave: Complex
+    if design == "a":
+        wave = (cosine * np.sqrt(moved**2 - np.sin(theta) ** 2) - np.sin(theta) ** 2) / moved
+    else:
+        wave = (moved * cosine - 1) / np.sqrt(1 + moved**2 - 2 * moved * cosine)
+    c = np.fft.rfft([wave.real, wave.imag / step]).real / _COUNT * 2
+    values, by_k = np.where(np.abs(c) > _NOISE, c, 0)[:, : len(_ORDERS)]
+    return values, by_k
+
+
+def _expand_engine_force(engine_force: str, lam: float) -> Array:
+    """Return cosine coefficients of the force of the piston in units of m r omega^2."""
+    if engine_force == "all orders":
+        return closed_form.piston(_ORDERS, lam)
+    return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
+
+
+def _find_remaining(design: str, engine: Array, x: Array) -> Array:
+    """Return cosine coefficients of P, what remains of the engine's force."""
+    if not _LEAST_K < x[0] < _MOST_K:
+        raise ArithmeticError(f"k must stay above {_LEAST_K}")
+    return engine - 2 * x[1] * _ORDERS**2 * expand_shaft_wave(design, x[0])[0]
+
+
+def _find_slopes(design: str, x: Array) -> Array:
+    """Return derivatives of the coefficients of P by k and by mu, shape (2, orders)."""
+    wave, by_k = expand_shaft_wave(design, x[0])
+    return -2 * _ORDERS**2 * np.stack([x[1] * by_k, wave])
+
+
+# ------------------------------------------------------------------ even series
+def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
+    """Return values at some angles, shape (angles,), or (angles, 2) for two series in rows;
+    differentiated so many times, or integrated (-1).
+    """
+    rate = (np.where(_ORDERS, _ORDERS, np.inf) if derivative < 0 else _ORDERS) ** float(derivative)
+    angle = np.multiply.outer(theta, _ORDERS) + derivative * np.pi / 2
+    values: Array = np.cos(angle) @ (rate * c).T
+    return values
+
+
+def _find_zeros(c: Array, derivative: int = 0) -> Array:
+    """Return 0, the zeros of a derivative in between, and pi, by Newton's method within cells."""
+    values = _evaluate(c, _GRID, derivative)
+    if derivative == 1:  # an even function, about pi as well
+        values[[0, -1]] = 0
+    cells = np.flatnonzero(values[:-1] * values[1:] < 0)
+    low, high = _GRID[cells], _GRID[cells + 1]
+    theta = (low + high) / 2
+    for _ in range(_NEWTON_STEPS):
+        move = _evaluate(c, theta, derivative) / _evaluate(c, theta, derivative + 1)
+        theta = np.clip(theta - move, low, high)
+    return np.concatenate([[0.0], theta, [np.pi]])
+
+
+# ------------------------------------------------------------------ the two criteria
+def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array:
+    """Return where steps end; k changes by the share `farthest` of itself at most in each."""
+    for _ in range(_ROUNDS):
+        move = step(x)
+        share: float = farthest * x[0] / max(abs(move[0]), 1e-300)
+        x = x + move * min(1.0, share)
+        if np.all(np.abs(move) <= _SETTLED * np.abs(x)):
+            return x
+    raise ArithmeticError("no convergence")
+
+
+def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
+    """Return the step d that makes the largest of `values + slopes d` over the extremes of P
+    smallest: that of the three extremes whose bound is highest (de la Vallee-Poussin).
+    """
+    remaining = _find_remaining(design, engine, x)
+    theta = _find_zeros(remaining, 1)
+    values = _evaluate(remaining, theta)
+    slopes = np.sign(values)[:, None] * _evaluate(_find_slopes(design, x), theta)
+    top, best = -np.inf, None
+    for triple in map(list, combinations(range(len(values)), 3)):
+        system = np.column_stack([slopes[triple], -np.ones(3)])
+        if abs(np.linalg.det(system)) < _SINGULAR:
+            continue
+        weights = np.linalg.solve(system.T, [0, 0, -1.0])
+        solution = np.linalg.solve(system, -np.abs(values[triple]))
+        if np.all(weights >= _BELOW_0) and solution[2] > top:
+            top, best = solution[2], solution[:2]
+    if best is None:
+        raise ArithmeticError("no three extremes balance")
+    return np.asarray(best)
+
+
+def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
+    """Return the step of Newton's method on the gradient of the integral of |P|, which the zeros
+    of P give in closed form.
+    """
+
+    def find_gradient(x: Array) -> Array:
+        remaining = _find_remaining(design, engine, x)
+        zeros = _find_zeros(remaining)
+        signs = np.sign(_evaluate(remaining, (zeros[:-1] + zeros[1:]) / 2))
+        gradient: Array = signs @ np.diff(_evaluate(_find_slopes(design, x), zeros, -1), axis=0)
+        return gradient
+
+    columns = [
+        (find_gradient(x + step) - find_gradient(x - step)) / (2 * step.sum())
+        for step in np.diag(1e-6 * x)
+    ]
+    return -np.linalg.solve(np.column_stack(columns), find_gradient(x))
+
 
 _SMALLEST = 1e-17  # harmonics of the shafts below this share are left out
 _ECCENTRIC_SLIDER = (

@@ -1,23 +1,163 @@
 """Sizing of counterweights, balancer shafts and sliders: every scheme is a choice of devices for
 one least squares.
+
+The default remedy: fewest weights and shafts that leave nothing free of orders 1 and 2.
+
+The scheme `counterweights`: weights on the crankshaft for all of order 1 that turns with it.
+
+The scheme `slider`: reciprocating masses for any order.
 """
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Callable
 
+from ..core.phasors import wrap_degrees
 from ..engine.build import Engine
-from .auto import size_auto
-from .balance_factor import size_by_factor
-from .counterweights import size_counterweights
+from ..errors import BalcliError
+from .effects import Slot, size_unbalances
+from .factor import size_by_factor
+from .fitting import Fitting, explain_counterweights, explain_shaft, explain_sliders
 from .minimax import size_minimax
 from .options import SchemeOptions
+from .planes import (
+    SAME_PLACE,
+    choose_plane,
+    find_counterweight_planes,
+    find_length,
+    find_planes,
+    measure_direction,
+    read_planes,
+)
 from .remedy import Remedy
-from .residual import NothingToBalanceError
-from .shaft_pair import size_four_shaft, size_two_shaft
-from .shafts import size_couple_shaft, size_single_shaft
+from .residual import (
+    BACKWARD,
+    BACKWARD_FORCE,
+    BACKWARD_MOMENT,
+    FORWARD,
+    FORWARD_FORCE,
+    FORWARD_MOMENT,
+    NothingToBalanceError,
+    Residual,
+    choose_residual,
+)
+from .shafts import size_couple_shaft, size_four_shaft, size_single_shaft, size_two_shaft
 from .single_cylinder import size_eccentric_slider, size_oldham
-from .sliders import size_sliders
+
+
+def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
+    """Counterweights for the forward part of order 1, then shafts at -1, +2 and -2, each only where
+    that part is not balanced.
+
+    Counterweights stand in the end planes (first and last throw), or in the one plane of all throws
+    if that suffices; a shaft carries one eccentric where a force remains and one can take its
+    moment too, else two; two opposite ones where only a moment remains.
+    """
+    fitting = Fitting.start(engine, "auto")
+    # A device leaves other orders, and what turns the other way, as they are.
+    first, second = fitting.find_residual(1), fitting.find_residual(2)
+    slots = [Slot("counterweight", 1, 1, z) for z in find_counterweight_planes(engine, first)]
+    fitting = fitting.cancel(slots, FORWARD, explain_counterweights(first), first)
+    for residual, sense in ((first, -1), (second, 1), (second, -1)):
+        planes = find_planes(engine, residual, sense)
+        slots = [Slot("shaft", residual.order, sense, z) for z in planes]
+        parts = FORWARD if sense > 0 else BACKWARD
+        reason = explain_shaft(residual, sense, len(slots))
+        fitting = fitting.cancel(slots, parts, reason, residual)
+    return fitting.remedy
+
+
+def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Counterweights for the force and the moment of order 1 that turn with the crank, in the
+    planes asked for; in a single plane as well as it can be done, or, where moments are not known,
+    for the force alone.
+
+    Raises:
+        BalcliError: another order is asked for, or the planes cannot take the moment.
+        NothingToBalanceError: nothing of order 1 turns with the crank.
+    """
+    if options.order not in (None, 1):
+        raise BalcliError(
+            f"order {options.order} cannot be cancelled by anything on the crankshaft, which turns "
+            "at order 1: use a shaft scheme"
+        )
+    fitting = Fitting.start(engine, "counterweights", 1)
+    residual = fitting.find_residual(1)
+    if not any(residual.parts[part] for part in FORWARD):
+        raise NothingToBalanceError(_tell_not_needed(engine))
+    if options.planes is None:
+        planes = find_counterweight_planes(engine, residual)
+    else:
+        planes = read_planes(engine, options)
+    slots = [Slot("counterweight", 1, 1, z) for z in planes]
+    if len(slots) > 1 or not engine.places_known:
+        parts = FORWARD if len(slots) > 1 else [FORWARD_FORCE]
+        remedy = fitting.cancel(slots, parts, explain_counterweights(residual)).remedy
+    else:
+        remedy = _compromise(fitting, slots, residual)
+    if not remedy.devices and not remedy.note:  # dust was left
+        raise NothingToBalanceError(_tell_not_needed(engine))
+    return remedy
+
+
+def _tell_not_needed(engine: Engine) -> str:
+    what = "force or moment" if engine.places_known else "force"
+    return f"there is no free {what} of order 1 turning with the crank: no counterweight is needed"
+
+
+def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
+    """A weight in one plane, which cannot take a moment that acts elsewhere.
+
+    A plane near the point of reference has hardly an arm there: a weight for the moment would leave
+    a far larger force, so that the moment counts by the engine's arms, too.
+    """
+    fit = size_unbalances(slots, residual, FORWARD, _find_engine_arm(fitting.engine, residual))
+    fitting = fitting.add(
+        slots,
+        fit.unbalances,
+        "One plane takes the force and moment of order 1 turning with the crank as well as "
+        "one can (least squares of force, and of moment over the longest arm of weight, rods and "
+        "crank radius)",
+    )
+    left = fitting.find_residual(1)
+    fitting = fitting.add_details(
+        force_with_crank_left_N=left.size(FORWARD_FORCE),
+        moment_with_crank_left_Nm=left.size(FORWARD_MOMENT),
+    )
+    return fitting.remedy._replace(note=SAME_PLACE if left.moment(1) else "")
+
+
+def _find_engine_arm(engine: Engine, residual: Residual) -> float:
+    """How far the engine goes from the point of reference along the crank, m; the crank radius at
+    the least.
+    """
+    ends = (abs(z - residual.reference.z) for z in find_length(engine))
+    return max(float(engine.cylinders.radius), *ends)
+
+
+def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Two reciprocating masses along the axes of the ellipse of order N: `m r = (|V+| +- |V-|) /
+    (n^2 omega^2)`.
+
+    They stand where the stronger of the two rotating forces acts, unless a place is asked for.
+    """
+    residual = choose_residual(engine, options, ("force",))
+    forward, backward = residual.force(1), residual.force(-1)
+    stronger = 1 if abs(forward) >= abs(backward) else -1
+    z, place = choose_plane(engine, options, residual, stronger), options.read_place()
+    axis = float(wrap_degrees(measure_direction(cmath.sqrt(forward * backward)), 180))
+    across = axis + 90 if axis <= 0 else axis - 90
+    slots = [Slot("slider", residual.order, 0, z, place, direction) for direction in (axis, across)]
+    fit = size_unbalances(slots, residual, (FORWARD_FORCE, BACKWARD_FORCE))
+    rounding = 2 * residual.noise[FORWARD_FORCE]
+    unbalances = [u if abs(u) > rounding else 0j for u in fit.unbalances]
+    fitting = Fitting.start(engine, "slider", residual.order, residual.note)
+    fitting = fitting.add(slots, unbalances, explain_sliders(residual))
+    left = fitting.find_residual(residual.order)
+    moment = left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
+    return fitting.add_details(moment_left_Nm=moment).describe_roll(residual).remedy
+
 
 SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
     "auto": size_auto,

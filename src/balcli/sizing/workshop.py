@@ -8,13 +8,13 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from ..core.drilled_hole import STEEL, find_drill_depth, find_drilled_unbalance
 from ..core.phasors import wrap_degrees
+from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.build import Engine
-from ..enginefile.model import Counterweight, Shaft, Slider
 from ..errors import BalcliError, check_number
+from ..file.model import Counterweight, Shaft, Slider
 from ..limits import MOST_HOLES
-from .device_tables import DeviceTable, find_unbalance
+from .planes import DeviceTable, find_unbalance
 from .remedy import Remedy
 
 ROUNDING = 1e-12  # of a hole: that much more than the deepest one is still one

@@ -1,95 +1,95 @@
-"""What can be varied of an engine file, and what can be asked of it, by their names."""
+"""Numbers that can be varied and quantities that can be asked for, as a table, JSON and CSV.
+
+`balcli numbers`
+"""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from typing import Literal
+import re
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
 
-from ..enginefile.fields import RIGID
-from ..enginefile.model import EngineFile, FileTable, Override
-from .parameters import find_numbers
-from .quantities import NamedEngine, list_quantities
+from ..core.records import to_document
+from ..shell.file_names import text_format
+from ..shell.options import EnginePath, FormatOption, Output
+from ..shell.output import refuse_overwriting, show
+from ..show.csv import Rows
+from ..show.formats import Renderer
+from ..show.sheet import NAMELESS, UNKNOWN, Grid, Sheet
+from ..show.units import System
 
-
-@dataclass(frozen=True)
-class FileNumber:
-    """A number of an engine file.
-
-    Attributes:
-        path: Dotted name, as `--vary` takes it.
-        value: Value in its unit, or "rigid"; null: it is not in the file.
-        unit: Unit of the value, as the file has it without one; empty: a plain number.
-        meaning: Meaning in words.
-    """
-
-    path: str
-    value: float | str | None
-    unit: str
-    meaning: str
+if TYPE_CHECKING:
+    from .quantities import FileNumber, NamedNumbers
 
 
-@dataclass(frozen=True)
-class NamedQuantity:
-    """Quantities by a pattern.
-
-    Attributes:
-        name: N stands for an order, PART for a word of the meaning.
-        unit: SI unit.
-        meaning: Meaning in words.
-    """
-
-    name: str
-    unit: str
-    meaning: str
+_OF_CYLINDER = re.compile(r"cylinder\.\d+\.")
 
 
-@dataclass(frozen=True, kw_only=True)
-class NamedNumbers:
-    """What can be varied of an engine file, and what can be asked of it.
+def sheet(result: NamedNumbers, _system: System) -> Sheet:
+    """Both, a name a row; what no cylinder has of its own is told once for all of them."""
+    rows = dict.fromkeys(_list_rows(result.numbers))
+    numbers = Grid(
+        "Numbers: sweep --vary NAME=VALUES",
+        ("name", "value", "unit", "meaning"),
+        tuple(rows),
+        words=(0, 2, 3),
+        note="–: not in the file; N stands for the number of a cylinder.",
+    )
+    quantities = Grid(
+        "Quantities: --quantity NAME,... (search --minimise, too)",
+        ("name", "unit", "meaning"),
+        tuple((q.name, q.unit, q.meaning) for q in result.quantities),
+        words=(0, 1, 2),
+        note="N stands for an order, PART for one of the words after the colon.",
+    )
+    return Sheet(result.engine.name or NAMELESS, (numbers, quantities))
 
-    Attributes:
-        format: Name and version of the document.
-        engine: The engine.
-        numbers: Numbers of the file.
-        quantities: Quantities that it has.
-    """
 
-    format: Literal["balcli.numbers/1"] = "balcli.numbers/1"
-    engine: NamedEngine
-    numbers: tuple[FileNumber, ...]
-    quantities: tuple[NamedQuantity, ...]
+def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, str]]:
+    """Of the members of a list, the first has the meaning."""
+    before = ""
+    for number in numbers:
+        stem = number.path.rstrip("0123456789")
+        meaning = "" if stem == before and stem.endswith(".") else number.meaning
+        before = stem
+        if number.value is not None:
+            value = number.value if isinstance(number.value, str) else f"{number.value:.12g}"
+            yield number.path, value, number.unit, meaning
+        else:
+            yield _OF_CYLINDER.sub("cylinder.N.", number.path), UNKNOWN, number.unit, meaning
 
 
-def name_numbers(model: EngineFile) -> NamedNumbers:
-    """Return all that `sweep` can vary of a file and ask of it."""
-    tables = dict(model.tables())
-    return NamedNumbers(
-        engine=NamedEngine(model.name),
-        numbers=tuple(
-            _describe(path, number.dimension.unit, tables)
-            for path, number in find_numbers(model).items()
-        ),
-        quantities=tuple(
-            NamedQuantity(form.pattern, form.unit, form.words) for form in list_quantities(model)
-        ),
+def document(result: NamedNumbers) -> dict[str, Any]:
+    """Return `balcli.numbers/1`."""
+    return to_document(result)
+
+
+def rows(result: NamedNumbers, _system: System) -> Rows:
+    """CSV: a name a line; quantities have no value."""
+    return Rows(
+        ("kind", "name", "value", "unit", "meaning"),
+        [
+            *(("number", n.path, n.value, n.unit, n.meaning) for n in result.numbers),
+            *(("quantity", q.name, None, q.unit, q.meaning) for q in result.quantities),
+        ],
     )
 
 
-def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
-    """A number found by its path: first the table of that name, then its keys and places."""
-    parts = path.split(".")
-    heads = (".".join(parts[:k]) for k in range(len(parts) - 1, 0, -1))
-    head = next((name for name in heads if name in tables), "")
-    if not head:  # of a cylinder that does not differ from the others
-        return FileNumber(path, None, unit, Override.keys()[parts[-1]].description or "")
-    found: object = tables[head]
-    meaning = ""
-    for part in parts[head.count(".") + 1 :]:
-        if isinstance(found, FileTable):
-            meaning = found.keys()[part].description or ""
-            found = getattr(found, part)
-        elif isinstance(found, tuple):
-            found = found[int(part) - 1]
-    value = float(found) if isinstance(found, int | float) else None
-    return FileNumber(path, RIGID if value == math.inf else value, unit, meaning)
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+
+
+def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) -> None:
+    """What can be varied of an engine file, and what can be asked of it: names for `sweep`,
+    `search` and `scatter`, with values, units and meanings.
+
+    \b
+    Examples:
+      balcli numbers v8.toml
+      balcli numbers v8.toml --format csv
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output})
+    form = text_format(output, form)
+    from ..shell.inputs import read_engine
+    from .quantities import name_numbers
+
+    show([name_numbers(read_engine(path, asked=()).model)], RENDERER, form, output)

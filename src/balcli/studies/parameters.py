@@ -16,11 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine.layout import plan_cylinders
-from ..enginefile.fields import Number, nearest, shorten
-from ..enginefile.model import EngineFile, FileTable, Override
-from ..enginefile.units import BARE_FIGURE, convert_exactly
-from ..enginefile.unknown_keys import SYNONYMS
 from ..errors import BalcliError, wrong_type
+from ..file.fields import Number, nearest, shorten
+from ..file.messages import SYNONYMS
+from ..file.model import EngineFile, Override
+from ..file.table import FileTable
+from ..file.units import BARE_FIGURE, convert_exactly
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers

@@ -75,7 +75,7 @@ ENGINE = Chapter(
     ),
 )
 GUIDE = Chapter(
-    "forces.guide_quantity",
+    "forces.guide",
     (
         Form("guide.N.H", "N·m", "H-type guide-force moment, gas included"),
         Form("guide.N.X", "N·m", "X-type guide-force moment, gas included"),
@@ -92,7 +92,7 @@ CYCLE = Chapter(
 )
 _OF_MOTION = "the mode that has most of this motion"
 MOUNTS = Chapter(
-    "mounting.quantity",
+    "mounts.quantity",
     (
         Form("mode.N.Hz", "Hz", "natural frequency on the mounts", "mount"),
         Form("mode.N.share", "%", "largest share of its energy in one motion", "mount"),

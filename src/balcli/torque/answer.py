@@ -1,211 +1,123 @@
-"""Torque on the crank: what `balcli torque` and `analyze_torque` answer."""
+"""Torque of an engine: by order and over the cycle, its means and extremes, and the flywheel.
+
+`balcli.analyze_torque`
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Literal
+from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.phasors import Array, Complex
-from ..core.piecewise import PiecewiseCurve
-from ..core.speed_variation import Surplus
-from ..documents.records import HIDDEN, INLINE, angle_deg
-from ..engine.build import Engine
-from ..forces.spectrum import Spectra
-from ..result import Result
-from .flywheel import Flywheel, degrees_in_cycle
-from .loads import CycleLoads
+from ..core.cylinder_pressure import find_highest
+from ..core.speed_ripple import surplus
+from ..engine.build import Engine, check_engine, find_row
+from ..errors import BalcliError, check_number, check_type, list_words
+from ..forces.gas_torque import find_constant_inertia, find_moving_inertia, find_torque_curves
+from ..forces.spectrum import (
+    check_orders,
+    compute_each_cylinder,
+    compute_spectra,
+    list_gas_orders,
+    take_gas,
+)
+from ..shell.arguments import tell_arguments
+from .flywheel import find_flywheel
+from .loads import KINDS_OF_LOAD, analyze_loads
+from .records import (
+    TorqueAnalysis,
+    TorqueOrder,
+    list_torques,
+    measure_curve,
+    measure_energy,
+    write_whole,
+)
+
+KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Harmonic:
-    """One order of a torque: cos * cos(order * angle) + sin * sin(order * angle).
+def analyze_torque_of_engine(
+    engine: Engine,
+    orders: Iterable[float] | None = None,
+    *,
+    cylinder: int = 1,
+    fluctuation: float | None = None,
+    loads: str | Iterable[str] = (),
+) -> TorqueAnalysis:
+    """Return the torque of gas and inertia on the crank of an engine.
 
-    Attributes:
-        cos: Cosine part, N·m.
-        sin: Sine part, N·m.
-        amplitude: Amplitude, N·m.
-        peak_deg: First crank angle of the largest value; null for a mean and where there is none.
-        balanced: Whether nothing is left but rounding.
+    Args:
+        engine: With gas, without trailing axes. An uneven speed in its file does not count here.
+        orders: Orders to show; default: halves to 12, of a two-stroke engine whole ones; of many
+            cylinders also the order of their firing and its double.
+        cylinder: Cylinder whose torque is shown next to the engine's.
+        fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
+        loads: "pin" (of crank pins), "main" (of main bearings), or both.
+
+    Raises:
+        BalcliError: No gas; no such cylinder; a fluctuation that is not between 1e-9 and 2; loads
+            that are not known.
+        TypeError: What is no engine, no number, no words.
+
+    Example:
+        >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed_kg_m2
     """
-
-    cos: float
-    sin: float
-    amplitude: float
-    peak_deg: float | None
-    balanced: bool
-
-
-@dataclass(frozen=True, kw_only=True)
-class Torques:
-    """Torques of one order.
-
-    Attributes:
-        inertia_torque_Nm: Torque of the inertia.
-        gas_torque_Nm: Torque of the gas.
-        torque_Nm: Both together, or the given curve.
-    """
-
-    inertia_torque_Nm: Harmonic | None = None
-    gas_torque_Nm: Harmonic | None = None
-    torque_Nm: Harmonic | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class TorqueOrder:
-    """One order of the engine, and of one cylinder.
-
-    Attributes:
-        order: Times the crank speed.
-        torques: Torques of the engine.
-        one_cylinder: Torques of one cylinder alone.
-    """
-
-    order: float
-    torques: Annotated[Torques, INLINE]
-    one_cylinder: Torques | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Extremes:
-    """Largest and smallest torque over a cycle.
-
-    Attributes:
-        max_Nm: Largest torque.
-        max_deg: Its crank angle.
-        min_Nm: Smallest torque.
-        min_deg: Its crank angle.
-        reversals: How often the torque changes its sign.
-    """
-
-    max_Nm: float
-    max_deg: float
-    min_Nm: float
-    min_deg: float
-    reversals: int
-
-
-@dataclass(frozen=True, kw_only=True)
-class Energy:
-    """Energy that the torque gives above its mean between two angles.
-
-    Attributes:
-        surplus_J: The largest such energy.
-        from_deg: Crank angle at which it begins, where the crank is slowest.
-        to_deg: Crank angle at which it ends, where the crank is fastest.
-        work_J: Work of a cycle.
-    """
-
-    surplus_J: float
-    from_deg: float
-    to_deg: float
-    work_J: float
-
-
-@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class TorqueAnalysis(Result):
-    """Torque on the crank over the cycle, of an engine or of a given curve, at the mean speed.
-
-    Attributes:
-        speed_rpm: Mean speed.
-        no_gas_in: Cylinders without gas force.
-        no_burning_in: Cylinders that compress and burn nothing.
-        cycle_deg: Cycle of the engine, or period of the curve.
-        imep_Pa: Indicated mean effective pressure: work of all cylinders over their swept volume.
-        bmep_Pa: Brake mean effective pressure.
-        max_pressure_Pa: Highest pressure in any cylinder that has gas.
-        max_pressure_deg: Its cycle angle, from the firing dead centre.
-        mean_torque_Nm: Mean torque, indicated.
-        power_W: Power, indicated.
-        torque: Largest and smallest torque.
-        orders: Torque by order.
-        energy: Surplus energy of the torque.
-        flywheel: Inertia and uneven speed; left out where no inertia is given and none was asked
-            for.
-        loads: Loads of pins and bearings, as far as they were asked for.
-        name: Name of the engine or curve.
-        curve: Torque over the crank angle (rad), N m: of gas and inertia, or the given one.
-        engine: The engine as analyzed; None of a given curve.
-        spectra: Gas, inertia and total torque of the engine by order.
-        cylinder: Number of the cylinder in `orders`.
-        load_Nm: Mean of the given load of a curve, and the mean torque above it.
-    """
-
-    format: Literal["balcli.torque/1"] = "balcli.torque/1"
-    speed_rpm: float | None = None
-    no_gas_in: tuple[int, ...] | None = None
-    no_burning_in: tuple[int, ...] | None = None
-    cycle_deg: float
-    imep_Pa: float | None = None
-    bmep_Pa: float | None = None
-    max_pressure_Pa: float | None = None
-    max_pressure_deg: float | None = None
-    mean_torque_Nm: float
-    power_W: float | None = None
-    torque: Extremes
-    orders: tuple[TorqueOrder, ...]
-    energy: Energy
-    flywheel: Flywheel | None = None
-    loads: CycleLoads | None = None
-    name: Annotated[str, HIDDEN]
-    curve: Annotated[PiecewiseCurve, HIDDEN]
-    engine: Annotated[Engine | None, HIDDEN] = None
-    spectra: Annotated[Spectra | None, HIDDEN] = None
-    cylinder: Annotated[int, HIDDEN] = 0
-    load_Nm: Annotated[tuple[float, float] | None, HIDDEN] = None
-
-    @property
-    def summary(self) -> str:
-        """A few words on what the answer is of, and its mean torque."""
-        of = self.name if self.engine is None else self.engine.summary
-        return f"of {of}; mean {self.mean_torque_Nm:.4g} N m"
-
-
-def measure_curve(torque: PiecewiseCurve) -> Extremes:
-    """Return the extremes of a torque (N m)."""
-    lowest, highest = torque.extremes()
-    return Extremes(
-        max_Nm=highest.value,
-        max_deg=degrees_in_cycle(highest.angle, torque.period),
-        min_Nm=lowest.value,
-        min_deg=degrees_in_cycle(lowest.angle, torque.period),
-        reversals=torque.reversals(),
+    gas = take_gas(check_engine("analyze_torque", engine))
+    check_type("cylinder", cylinder, (int, np.integer), "give a whole number from 1")
+    if fluctuation is not None:
+        fluctuation = check_number("fluctuation", fluctuation, "give a number, as 1 / 200")
+    wanted = list_words("loads", loads, '["pin", "main"]')
+    if strange := [word for word in wanted if word not in KINDS_OF_LOAD]:
+        raise BalcliError(f"--loads: {strange[0]!r}; choose from {', '.join(KINDS_OF_LOAD)}")
+    steady = replace(engine, ripple=())
+    shown = list_gas_orders(engine) if orders is None else check_orders(orders)
+    row = find_row(engine, cylinder, "--cylinder")
+    curves = find_torque_curves(steady)
+    above, omega = surplus(curves.total), float(engine.omega)
+    imep = sum(c.share * c.torque.work for c in gas.cylinders)
+    imep /= sum(c.piston.swept for c in gas.cylinders)
+    efficiency, silent = engine.mechanical_efficiency, engine.silent
+    pressures = [t.pressure for t, rows in gas.group_equal() if gas.shares[rows].any()]
+    tops = [find_highest(pressure) for pressure in pressures if pressure is not None]
+    highest = max(tops, key=lambda extreme: extreme.value, default=None)
+    spectra = compute_spectra(steady, shown, KINDS_OF_TORQUE)
+    single = compute_each_cylinder(steady, shown, KINDS_OF_TORQUE).select_place(row)
+    each = zip(spectra.orders, list_torques(spectra), list_torques(single), strict=True)
+    return TorqueAnalysis(
+        speed_rpm=float(engine.speed_rpm),
+        no_gas_in=silent.without_gas or None,
+        no_burning_in=silent.without_burning or None,
+        cycle_deg=gas.cycle_deg,
+        imep_Pa=imep,
+        bmep_Pa=None if efficiency is None else imep * efficiency,
+        max_pressure_Pa=None if highest is None else highest.value,
+        max_pressure_deg=None if highest is None else float(np.degrees(highest.angle)),
+        mean_torque_Nm=curves.gas.mean,
+        power_W=curves.gas.mean * omega,
+        torque=measure_curve(curves.total),
+        orders=tuple(
+            TorqueOrder(order=write_whole(n), torques=all_of_it, one_cylinder=one)
+            for n, all_of_it, one in each
+        ),
+        energy=measure_energy(above, gas.cycle, curves.gas.integral),  # inertia does no work
+        flywheel=find_flywheel(
+            curves.gas_once,
+            above.energy,
+            omega,
+            find_constant_inertia(engine),
+            find_moving_inertia(engine),
+            fluctuation,
+        ),
+        loads=analyze_loads(engine, wanted) if wanted else None,
+        name=engine.name,
+        curve=curves.total,
+        engine=engine,
+        spectra=spectra,
+        cylinder=cylinder,
     )
 
 
-def measure_energy(surplus: Surplus, period: float, work: float) -> Energy:
-    """Return the surplus energy of a torque with this work (J) in a period (rad)."""
-    start, end = (degrees_in_cycle(at, period) for at in (surplus.start, surplus.end))
-    return Energy(surplus_J=surplus.energy, from_deg=start, to_deg=end, work_J=work)
-
-
-def list_harmonics(orders: Array, c: Complex, balanced: NDArray[np.bool_]) -> list[Harmonic]:
-    """Return the orders of a torque `Re sum c_n e^{i n theta}`, N m, each of shape (orders,)."""
-    return [
-        Harmonic(
-            cos=value.real,
-            sin=-value.imag,
-            amplitude=abs(value),
-            peak_deg=angle_deg(value.conjugate()) / order if value and order else None,
-            balanced=none,
-        )
-        for order, value, none in zip(orders, c.tolist(), balanced.tolist(), strict=True)
-    ]
-
-
-def list_torques(spectra: Spectra) -> list[Torques]:
-    """Return the torques of every order."""
-    kinds = {
-        kind.key: list_harmonics(spectra.orders, phasors.x, phasors.balanced)
-        for kind, phasors in spectra.items()
-    }
-    rows = zip(*kinds.values(), strict=True)
-    return [Torques(**dict(zip(kinds, row, strict=True))) for row in rows]
-
-
-def write_whole(value: float) -> float | int:
-    """Return a number to 1e-9, a whole one without a decimal point."""
-    near = round(float(value), 9)
-    return int(near) if near == int(near) else near
+analyze_torque = tell_arguments()(analyze_torque_of_engine)
+analyze_torque.__name__ = analyze_torque.__qualname__ = "analyze_torque"
+analyze_torque.__module__ = __name__  # where pickle finds it

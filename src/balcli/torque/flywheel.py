@@ -7,12 +7,17 @@ from typing import Annotated
 
 import numpy as np
 
+from ..core.phases import RPM
 from ..core.phasors import Array, Complex
 from ..core.piecewise import Function, PiecewiseCurve, resolved
-from ..core.speed_ripple import RippleLine
-from ..core.speed_variation import StallError, needed_inertia, small_fluctuation, speed_variation
-from ..core.speeds import RPM
-from ..documents.records import HIDDEN
+from ..core.records import HIDDEN
+from ..core.speed_ripple import (
+    RippleLine,
+    StallError,
+    needed_inertia,
+    small_fluctuation,
+    speed_variation,
+)
 from ..errors import BalcliError
 from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 

@@ -9,19 +9,20 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.phases import RPM
 from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
-from ..core.speed_variation import surplus
-from ..core.speeds import RPM
-from ..enginefile.csv_columns import read_columns
+from ..core.speed_ripple import surplus
 from ..errors import BalcliError
-from ..forces.orders import check_orders
+from ..file.csv_columns import read_columns
+from ..forces.spectrum import check_orders
 from ..limits import (
     FARTHEST_DEG,
     HIGHEST_GAS_ORDER_UNASKED,
     HIGHEST_HARMONIC,
     MOST_HARMONICS_UNASKED,
 )
-from .answer import (
+from .flywheel import find_flywheel
+from .records import (
     TorqueAnalysis,
     TorqueOrder,
     Torques,
@@ -30,7 +31,6 @@ from .answer import (
     measure_energy,
     write_whole,
 )
-from .flywheel import find_flywheel
 
 SAME_MEAN = 1e-6  # of the largest torque: figures of files are rounded
 _NOISE = 1e-14  # of the largest torque: rounding errors of a harmonic

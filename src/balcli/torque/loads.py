@@ -10,7 +10,7 @@ import numpy as np
 from ..core.phasors import Array, Complex
 from ..core.vectors_over_cycle import Vectors, find_panels
 from ..engine.build import Engine
-from ..forces.in_bearings import (
+from ..forces.crankshaft import (
     NOTHING,
     BearingsUnknownError,
     compute_bearing_loads,

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from functools import partial
 
 from ..engine.build import Engine, build
-from ..engine.variants import FiguresOfVariants
-from ..enginefile.model import EngineFile
+from ..engine.load import FiguresOfVariants
 from ..errors import BalcliError
-from .analysis import analyze_torque
-from .course import find_constant_inertia, find_torque_curves
+from ..file.model import EngineFile
+from ..forces.gas_torque import find_constant_inertia, find_torque_curves
+from .answer import analyze_torque_of_engine as analyze_torque
 
 _UNITS = {"torque.mean": "N·m", "torque.max": "N·m", "torque.min": "N·m", "fluctuation": ""}
 NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or [flywheel]"

@@ -10,20 +10,17 @@ from ..core.vibration import Real
 from ..engine.build import Engine
 from ..engine.load import build_named
 from ..engine.parse import parse
-from ..enginefile.file_kinds import CHAIN, ENGINE, refuse_other_kind
-from ..enginefile.model import EngineFile
-from ..enginefile.shafting import Damper
-from ..enginefile.suspicious import doubt_losses
-from ..enginefile.toml_text import name_file, parse_toml, read_bytes
-from ..enginefile.units import ask_unit
 from ..errors import BalcliError
-from ..torque.course import silence
-from .assembly import NO_DAMPERS
-from .build_chain import build_chain
-from .build_engine import build_engine_system, excite_engine
-from .chain_file import ChainFile
-from .read_chain import describes_chain, read_chain_tables
+from ..file.doubts import doubt_losses
+from ..file.messages import CHAIN, ENGINE, refuse_other_kind
+from ..file.model import EngineFile
+from ..file.toml import name_file, parse_toml, read_bytes
+from ..file.torsion_tables import Damper
+from ..file.units import ask_unit
+from ..forces.gas_torque import silence
+from .build import NO_DAMPERS, build_chain, build_engine_system, excite_engine
 from .system import Excitation, TorsionalSystem
+from .tables import ChainFile, describes_chain, read_chain_tables
 
 _LIGHT = 1.0  # kg mm2: a steel disc of 10 mm across and 10 mm thick has 0.08
 _THIN = 1.0  # mm

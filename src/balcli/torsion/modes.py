@@ -1,20 +1,138 @@
 """Natural modes of a torsional system, where their nodes lie, and which orders meet them at which
 speed.
+
+Natural modes of torsional chains, and what they say about excitation and loss.
+
+Holzer's table: a torsional chain at one frequency, node by node, as the books draw it up.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from ..core.speeds import RPM
-from ..core.torsional_chain import Chain, Damping
-from ..core.torsional_modes import chain_loss, find_chain_modes, find_chain_poles, locate_nodes
-from ..core.vibration import Complex, Real, scale_shapes
-from ..documents.records import HIDDEN
+from ..core.phases import RPM
+from ..core.records import HIDDEN
+from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_shapes
+from .chain import Chain, Damping, find_still, follow_gears, grow_branches, incidence, rigid_motions
 from .system import Excitation, TorsionalSystem, whole_order
+
+_AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
+_SIGMA = np.exp(0.25j * np.pi)  # where no pole can be: off both axes, and it would grow
+_INFINITE = 1e-6  # share of the largest: eigenvalues below are a double 0, but for rounding
+
+
+def find_chain_modes(chain: Chain) -> Modes:
+    """Natural modes with shapes (modes, nodes), of unit modal mass; each frequency is good to about
+    1e-15 of itself, a rigid motion has exactly 0. Massless nodes add no mode.
+    """
+    follow, independent = follow_gears(chain)
+    mass = chain.inertia @ follow**2
+    elastic = np.isfinite(chain.stiffness) & (chain.stiffness > 0)
+    heavy = mass > 0
+    springs, stiffness, carried = _condense(
+        (incidence(chain) @ follow)[elastic], chain.stiffness[elastic], np.flatnonzero(~heavy)
+    )
+    rigid = rigid_motions(chain)[:, independent][:, heavy]
+    modes = find_modes(springs[:, heavy], stiffness, mass[heavy], rigid)
+    shapes = np.zeros((len(modes.omega), len(mass)))
+    shapes[:, heavy] = modes.shapes
+    for dof, by_others in reversed(carried):
+        shapes[:, dof] = shapes @ by_others
+    return Modes(modes.omega, shapes @ follow.T, modes.rigid)
+
+
+def _condense(
+    springs: Real, stiffness: Real, massless: Indices
+) -> tuple[Real, Real, list[tuple[int, Real]]]:
+    """Springs (springs, dof) and stiffness (springs,) without the massless degrees of freedom, and
+    how each of those follows the ones that are left after it: (dof, (dof,)).
+
+    A star of springs k_i that meet becomes a spring `k_i k_j/sum k` between any two of its ends
+    (Lagrange's identity): sums of positive terms alone, so that nothing cancels.
+    """
+    carried = []
+    for dof in massless.tolist():
+        meet = springs[:, dof] != 0
+        a, k, ends = springs[meet, dof], stiffness[meet], springs[meet].copy()
+        ends[:, dof] = 0
+        total = (k * a) @ a
+        carried.append((dof, -(k * a) @ ends / total))
+        i, j = np.triu_indices(len(a), 1)
+        between = a[j, None] * ends[i] - a[i, None] * ends[j]
+        springs = np.concatenate([springs[~meet], between])
+        stiffness = np.concatenate([stiffness[~meet], k[i] * k[j] / total])
+    return springs, stiffness, carried
+
+
+def chain_loss(
+    chain: Chain, damping: Damping, modes: Modes, attached: Complex | float = 0.0
+) -> Real:
+    """Loss factor (modes,) of every mode, energy lost in a cycle over 2 pi times the energy that
+    swings; rigid modes have 0.
+
+    Args:
+        attached: complex inertias (modes, nodes) of dampers at the modes' own frequencies, or one
+            that broadcasts.
+    """
+    elastic = np.isfinite(chain.stiffness)
+    twist = (modes.shapes @ incidence(chain)[elastic].T) ** 2
+    moved = modes.shapes**2
+    loss = chain.stiffness[elastic] * damping.loss[elastic]
+    lost = twist @ loss - modes.omega**2 * np.sum(
+        np.asarray(attached, complex).imag * moved, axis=1
+    )
+    lost += modes.omega * (twist @ damping.dashpots[elastic] + moved @ damping.nodes)
+    return np.where(modes.omega > 0, lost / np.where(modes.omega > 0, modes.omega, 1) ** 2, 0)
+
+
+def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
+    """Return where the nodes of a mode lie: shafts whose ends turn against each other, and nodes of
+    the chain at rest between others that turn against each other.
+
+    Args:
+        chain: Inertias and shafts.
+        shape: (nodes,) angle of each node.
+    """
+    moves = np.abs(shape) > _AT_REST * np.abs(shape).max()
+    ahead = np.where(moves, np.sign(shape), 0)
+    across = ahead[chain.start] * ahead[chain.end] * np.sign(chain.ratio)
+    pulled = np.zeros((2, len(shape)), bool)  # one way and the other
+    for here, there in ((chain.start, chain.end), (chain.end, chain.start)):
+        way = ahead[there] * np.sign(chain.ratio)
+        pulled[0, here[way > 0]] = pulled[1, here[way < 0]] = True
+    at_rest = pulled.all(axis=0) & ~moves & ~find_still(chain)
+    return np.flatnonzero((across < 0) & np.isfinite(chain.stiffness)), np.flatnonzero(at_rest)
+
+
+def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
+    """Poles (poles,) of the damped chain, rad/s: where its vibration `x e^{s t}` needs no load. One
+    at `s` is a resonance about the frequency `Im s`, `-2 Re s` wide between half powers. Only those
+    with `Im s > 0` mean anything where shafts have loss factors.
+
+    They are `s = sigma + 1/mu` of the eigenvalues mu of `(A - sigma B)^-1 B`, with the equations of
+    motion `A z = s B z` of angles and speeds z: massless nodes have mu = 0, and no pole.
+    """
+    follow, _ = follow_gears(chain)
+    bends = np.isfinite(chain.stiffness)
+    twist = (incidence(chain) @ follow)[bends]
+    stiffness = chain.stiffness[bends] * (1 + 1j * damping.loss[bends])
+    k = (twist.T * stiffness) @ twist
+    c = (twist.T * damping.dashpots[bends]) @ twist + (follow.T * damping.nodes) @ follow
+    m = (follow.T * chain.inertia) @ follow
+    scale = np.abs(k).max(initial=0.0)
+    if not scale:
+        return np.zeros(0, complex)
+    unit = np.sqrt(scale / np.median(np.abs(np.diag(m)[np.diag(m) != 0])))  # rad/s
+    k, c, m = k / scale, c * (unit / scale), m * (unit**2 / scale)
+    one, none = np.eye(len(m)), np.zeros_like(m)
+    shifted = np.block([[-_SIGMA * one, one], [-k, -c - _SIGMA * m]])
+    mu = np.linalg.eigvals(np.linalg.solve(shifted, np.block([[one, none], [none, m]])))
+    finite = np.abs(mu) > _INFINITE * np.abs(mu).max()
+    return np.asarray(unit * (_SIGMA + 1 / mu[finite]), complex)
+
 
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
 
@@ -142,3 +260,85 @@ def find_criticals(
             for k in np.flatnonzero(counted)
         ]
     return tuple(sorted(found, key=lambda each: -each.work))
+
+
+class Holzer(NamedTuple):
+    """Holzer's table, one row a node, in the nodes' order.
+
+    Attributes:
+        angle: of each node.
+        torque: of its inertia, `J w^2 angle`.
+        total: torque of all inertias up to this node, which its shaft onward carries.
+        stiffness: of the shaft onward in the node's own speed; of the last node 0.
+        twist: of that shaft, total over stiffness.
+        residual: what is left at the last node; 0 at a natural frequency, unless that node is
+            clamped, when its angle is 0 instead.
+    """
+
+    angle: Real
+    torque: Real
+    total: Real
+    stiffness: Real
+    twist: Real
+    residual: float
+
+
+def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = -1) -> Holzer:
+    """Return Holzer's table at w (rad/s), from the first node, whose angle is 1, to the last.
+
+    Its angles x and torques T of shafts solve the equations of the chain, `near x_child + far
+    x_parent = T/k` for each shaft and `w^2 J x = sum of T` for each node but the last: there the
+    sum is the residual. A branch beside the way from the first node to the last moves as the way
+    makes it. Dampers and loss are left out, as in the books.
+
+    Args:
+        chain: Inertias and shafts.
+        frequency: w, rad/s.
+        first: Node whose angle is 1.
+        last: Node at which the table ends.
+
+    Raises:
+        ValueError: the chain has a loop or two pieces; a node meshes with a clamped one; a node of
+            the way before the last is clamped; a branch is at resonance by itself.
+    """
+    count = len(chain.inertia)
+    last, stiff = last % count, chain.stiffness > 0
+    branches = grow_branches(chain, [last], stiff)
+    if not len(branches) == count - 1 == np.count_nonzero(stiff):
+        raise ValueError("Holzer's table needs a chain in one piece, without loops")
+    if np.any(find_still(chain) & ~chain.clamped):
+        raise ValueError(
+            "Holzer's table cannot have what meshes with a fixed node; fix it, too, and leave the "
+            "gear out"
+        )
+    parents, node = {branch.child: branch.parent for branch in branches}, first
+    while node in parents:
+        if chain.clamped[node]:
+            raise ValueError("Holzer's table can lead to a clamped node, but not over it")
+        node = parents[node]
+    inertial = frequency**2 * chain.inertia
+    unit = float(inertial.max()) or 1.0  # N m; torques are as large as angles in it
+    matrix, right = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
+    matrix[range(count), range(count)] = inertial / unit
+    for row, (child, parent, shaft, near, far) in enumerate(branches, count):
+        matrix[row, [child, parent]] = near, far
+        matrix[row, row] = -unit / chain.stiffness[shaft]
+        matrix[[child, parent], row] = -near, -far
+    for node in np.flatnonzero(chain.clamped).tolist():
+        matrix[node] = np.arange(2 * count) == node
+    matrix[last] = np.arange(2 * count) == first
+    right[last] = 1.0
+    matrix[-1, -1] = 1.0  # there is one shaft less than nodes
+    try:
+        solution = np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
+        raise ValueError("a branch is at resonance by itself") from None
+    angle, torque = solution[:count], inertial * solution[:count]
+    total, stiffness, twist = torque.copy(), np.zeros(count), np.zeros(count)
+    for carried, (child, parent, shaft, near, far) in zip(solution[count:], branches, strict=False):
+        total[child] = near * unit * carried
+        stiffness[child] = near**2 * chain.stiffness[shaft]
+        twist[child] = total[child] / stiffness[child]
+        if parent == last:
+            total[last] -= far * unit * carried
+    return Holzer(angle, torque, total, stiffness, twist, float(total[last]))

@@ -8,17 +8,17 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..core.torsional_modes import find_chain_modes
 from ..core.vibration import Real
 from ..engine.build import Engine, build
-from ..engine.variants import EngineVariants, Values, remember
-from ..enginefile.model import EngineFile
-from ..enginefile.read import change_figures
+from ..engine.load import EngineVariants, Values, remember
 from ..errors import BalcliError
-from ..forces.target_quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
-from .build_engine import build_engine_system, excite_engine
-from .largest import count_columns, find_largest
+from ..file.model import EngineFile
+from ..file.read import change_figures
+from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
+from .build import build_engine_system, excite_engine
+from .modes import find_chain_modes
 from .motion import stress_by_torque
+from .response import count_columns, find_largest
 from .system import Excitation, TorsionalSystem
 
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many

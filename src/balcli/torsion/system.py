@@ -11,11 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.torsional_chain import Chain, Damping, find_pieces
-from ..core.torsional_dampers import pendulum_inertia, pendulum_swing, viscous_inertia
 from ..core.vibration import Complex, Indices, Real
 from ..engine.build import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
+from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 
 
 def whole_order(order: float) -> float:

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from support.engines import GNOME, build_text, rotary_engine
 
-from balcli.core.strokes import find_travel
+from balcli.analysis.answer import analyze
+from balcli.balancing.answer import even_knuckles
+from balcli.core.cylinders import find_travel
 from balcli.engine import build as engine
 from balcli.engine import parse as enginefile
 from balcli.errors import BalcliError, InputError
 from balcli.forces import spectrum
-from balcli.render.page_scene import scene
-from balcli.render.units import SYSTEMS
-from balcli.results.analysis import analyze
-from balcli.results.knuckles import even_knuckles
+from balcli.report.page import scene
+from balcli.show.units import SYSTEMS
 
 
 @pytest.mark.parametrize("count", [3, 4, 5, 7, 9])

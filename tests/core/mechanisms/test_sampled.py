@@ -9,10 +9,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from balcli.core.mechanisms import sampled
-from balcli.core.mechanisms.articulated import hang
-from balcli.core.mechanisms.fourier import SERIES
-from balcli.core.mechanisms.rotary import Rotary
+from balcli.core.mechanisms import harmonics as sampled
+from balcli.core.mechanisms.closed_form import SERIES
+from balcli.core.mechanisms.linkage import Rotary, hang
 from balcli.core.mechanisms.slidercrank import SliderCrank
 
 MANY = 4096  # samples: of nothing here an order is left beyond them

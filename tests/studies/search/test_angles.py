@@ -14,16 +14,15 @@ from support.searches import search_least
 
 from balcli.engine.build import build
 from balcli.engine.parse import parse as load
-from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError
+from balcli.file.model import EngineFile
 from balcli.forces.quantity import evaluate_quantities
 from balcli.forces.symmetry import explain_symmetry
-from balcli.render.search import rows
-from balcli.render.units import SYSTEMS
-from balcli.studies.search.designs import write_design
+from balcli.show.units import SYSTEMS
+from balcli.studies.search.answer import search_arrangements
+from balcli.studies.search.command import rows
+from balcli.studies.search.designs import Objective, parse_objective, write_design
 from balcli.studies.search.evaluate import fires_evenly
-from balcli.studies.search.objective import Objective, parse_objective
-from balcli.studies.search.search import search_arrangements
 
 pytestmark = pytest.mark.slow
 

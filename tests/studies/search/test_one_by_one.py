@@ -13,11 +13,11 @@ from support.commands import ask_csv, ask_json, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
 
-from balcli.core.telling import tell_nobody
 from balcli.engine.parse import parse
+from balcli.process import tell_nobody
 from balcli.studies.search import evaluate
+from balcli.studies.search.designs import Merit, parse_objective
 from balcli.studies.search.local import Box, Effort, find_local_optima
-from balcli.studies.search.objective import Merit, parse_objective
 
 pytestmark = pytest.mark.slow
 

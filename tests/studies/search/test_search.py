@@ -12,16 +12,15 @@ from support.searches import search_least
 from balcli.engine.build import build
 from balcli.engine.layout import plan_cylinders
 from balcli.engine.parse import parse as load
-from balcli.enginefile.model import EngineFile
 from balcli.errors import BalcliError, InputError
+from balcli.file.model import EngineFile
 from balcli.forces.quantity import evaluate_quantities
-from balcli.render.search import sheet
-from balcli.render.units import SYSTEMS
+from balcli.show.units import SYSTEMS
 from balcli.studies.quantities import parse_quantities
-from balcli.studies.search.designs import write_design
+from balcli.studies.search.answer import search_arrangements
+from balcli.studies.search.command import sheet
+from balcli.studies.search.designs import parse_objective, write_design
 from balcli.studies.search.evaluate import fires_evenly
-from balcli.studies.search.objective import parse_objective
-from balcli.studies.search.search import search_arrangements
 from balcli.studies.search.throws import find_best_throws, tabulate_contributions
 
 NO_ORDER = ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")

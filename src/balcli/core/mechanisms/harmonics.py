@@ -2,20 +2,25 @@
 
 The closed form is good to about 1e-14 relative in every order, samples to about 1e-16 absolute.
 Mechanisms that are equal are computed once.
+
+Harmonics of many mechanisms by the FFT of one revolution of samples.
+
+Accelerations are sampled as such, not differentiated, so that no order's error grows.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..phasors import EPS, Array
+from ..phasors import EPS, Array, Complex, unit
 from . import closed_form
-from .fourier import SERIES, Harmonics, Rows, select_cylinders
+from .closed_form import SERIES, Harmonics, Rows, Series, select_cylinders
+from .motion import Motion, Move
 
 HARDEST = 1 << 16  # samples of a revolution that a mechanism takes at 1 - 1e-6 of its lock
 CLOSED_FORM = 4096  # highest order of closed forms; only mechanisms near their lock have more
@@ -146,8 +151,135 @@ def sample_harmonics(
         wanted: names of series (`fourier.SERIES`).
         highest: order for which the samples must be enough.
     """
-    from .sampled import sample_mechanisms
     from .slidercrank import SliderCrank
 
     counts = count_samples(lam, eps, highest)
     return sample_mechanisms(orders, wanted, SliderCrank, (lam, eps), counts, highest).series
+
+
+SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
+MOST_SAMPLES = 1 << 18
+_AT_ONCE = 1 << 16  # samples of all mechanisms together that stay in the processor's cache
+_LIMIT = SAMPLING / 16  # of the aliases of an order that is wanted
+
+_SAMPLED: dict[str, Callable[[Motion], Array]] = {
+    "piston": lambda m: -m.acceleration,
+    "rod": lambda m: m.spin_rate,
+    "kinetic": lambda m: m.velocity**2,
+    "rod_kinetic": lambda m: m.spin**2,
+    "along": lambda m: -m.acceleration_of_mass.real,
+    "across": lambda m: -m.acceleration_of_mass.imag,
+    "couple": lambda m: -m.swirl_rate,
+    "energy": lambda m: m.energy,
+    "swirl": lambda m: m.swirl,
+}
+_OF_ROD = frozenset({"piston", "rod", "kinetic", "rod_kinetic"})
+
+
+class Sampled(NamedTuple):
+    """Series of mechanisms by name, each of shape (orders, mechanisms), and the number of samples
+    of each mechanism, shape (mechanisms,).
+    """
+
+    series: Harmonics
+    counts: NDArray[np.intp]
+
+
+def sample_mechanisms(
+    orders: ArrayLike,
+    wanted: Collection[str],
+    move: Move,
+    figures: Sequence[NDArray[Any]],
+    counts: NDArray[np.intp],
+    highest: float,
+) -> Sampled:
+    """Return series of many mechanisms, each sampled as often as it needs.
+
+    Args:
+        orders: shape (orders,).
+        wanted: names of series (`fourier.SERIES`).
+        move: the mechanisms in motion, by e^{i psi} of shape (samples, 1) and figures of shape
+            (mechanisms,).
+        figures: what distinguishes them, each of shape (mechanisms,).
+        counts: samples of a revolution that each takes at first, powers of two, shape
+            (mechanisms,); doubled until the orders up to `highest` have no alias above rounding.
+        highest: order.
+    """
+    n = np.asarray(orders)
+    taken = counts.copy()
+    series: Harmonics = {}
+    waiting = [(count, np.flatnonzero(counts == count)) for count in set(counts.tolist())]
+    while waiting:
+        count, rows = waiting.pop()
+        most = max(_AT_ONCE // count, 1)
+        if len(rows) > most:
+            waiting.append((count, rows[most:]))
+            rows = rows[:most]
+        motion = move(unit_circle(count)[:, None], *(values[rows] for values in figures))
+        enough = np.ones(len(rows), bool)
+        for name in _OF_ROD.union(_SAMPLED if motion.points else ()).intersection(wanted):
+            samples = _SAMPLED[name](motion)
+            rounding = _amplify_rounding(samples, motion.condition if name in _OF_ROD else 1.0)
+            spectrum = np.fft.rfft(samples, axis=0, norm="forward")
+            if name not in series:
+                shape = len(n), len(counts)
+                series[name] = Series(np.zeros(shape, complex), np.zeros(shape[1]))
+            series[name].c[:, rows] = _pick_orders(spectrum, n)
+            np.asarray(series[name].noise)[rows] = SAMPLING * rounding
+            enough &= _is_enough(spectrum, rounding, highest) | (count >= MOST_SAMPLES)
+        taken[rows] = count
+        if not enough.all():
+            waiting.append((2 * count, rows[~enough]))
+    return Sampled(series, taken)
+
+
+def unit_circle(count: int) -> Complex:
+    """Return e^{i psi} at `count` evenly spaced psi, each component within 2 ulp of itself."""
+    return unit(np.arange(count) * (360 / count))
+
+
+def _pick_orders(spectrum: Complex, orders: NDArray[Any]) -> Complex:
+    """Return the coefficients of these orders, shape (orders, mechanisms), 0 for orders that are
+    not whole or beyond the samples.
+
+    Args:
+        spectrum: `rfft` of the samples with norm "forward", shape (samples/2 + 1, mechanisms).
+        orders: shape (orders,).
+    """
+    inside = (orders % 1 == 0) & (orders < len(spectrum) - 1)
+    numbers = np.where(inside, orders, 0).astype(int)
+    scale = np.where(numbers == 0, 1, 2) * inside
+    return np.asarray(spectrum[numbers] * scale[:, None])
+
+
+def _amplify_rounding(samples: Array, condition: Array | float) -> Array:
+    """Return the error of a coefficient by one rounding of every sample, in units of the rounding,
+    shape (mechanisms,).
+
+    It is the root mean square of the samples and, where they have larger errors than some ulp, the
+    mean of their sizes times `condition`.
+    """
+    spread: Array = np.sqrt(2 * np.mean(samples**2, axis=0))
+    if np.ndim(condition) == 0:
+        return spread
+    return spread + np.mean(np.abs(samples) * condition, axis=0)
+
+
+def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np.bool_]:
+    """Return whether the orders up to the highest have no alias above rounding.
+
+    Order n of N samples is mixed with order N - n, and orders from N/2 on are missing. The size of
+    that order follows from the decay in the upper half of the spectrum: the largest coefficient
+    falls by some factor from the third eighth of the N orders to the fourth, and by that factor
+    again in every further eighth, of which one half is left out as a margin.
+
+    Args:
+        spectrum: `rfft` of the samples with norm "forward", shape (N/2 + 1, mechanisms).
+        rounding: `_amplify_rounding` of the samples, shape (mechanisms,).
+    """
+    eighth = (len(spectrum) - 1) / 4
+    sizes = np.abs(spectrum[round(2 * eighth) :])
+    third, fourth = sizes[: round(eighth)].max(axis=0), sizes[round(eighth) :].max(axis=0)
+    decay = fourth / np.maximum(third, fourth + 1e-300)
+    alias = fourth * decay ** (max(8 - highest / eighth, 4) - 3.5)
+    return np.asarray(alias <= _LIMIT * np.maximum(rounding, 1.0))

@@ -5,6 +5,22 @@ mass moves on a closed curve `z(psi)` (complex, in crank radii, in the cylinder'
 knuckle pin of an articulated rod, the piston of a cylinder that itself turns, or shares of it on
 both. It adds two components of force, a moment of momentum and a kinetic energy, all of which are
 harmonics of the crank angle like the others (`fourier.Curve`), sampled over a revolution.
+
+Articulated rods: hinged to the big end of a master rod, as in radials and some V engines
+(docs/theory.md).
+
+In crank radii, with the master rod at the angle -beta_m in its own frame, the knuckle pin moves on
+`K = e^{i psi_m} + k e^{-i beta_m}`; turned into the articulated cylinder's frame, its rod hangs on
+K as a plain one hangs on the crank pin. A master rod is the case k = 0.
+
+Rotary engines: the crank stands still and the cylinders turn about it, their pistons with them.
+
+Seen from its cylinder, the crank turns backward: with psi now the cylinder's angle ahead of the
+crank pin, and offset and rod angle counted as always towards the side to which the crank pin moves,
+all that moves does so in the mirror: a point w of the mechanism is at `e^{i psi} conj(w)` from the
+direction of the pin, the piston w = s + i e among them, and a rod that turns at `b` turns at `1 -
+b`. So in `Cylinders` pin and axis change their parts: `axis_deg` are the directions of the
+pins, which stand still, and `pin_deg` those of the cylinders, which turn.
 """
 
 from __future__ import annotations
@@ -17,11 +33,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..phasors import Array, Complex
-from .fourier import Harmonics, Rows
-from .harmonics import Distinct, count_samples, find_distinct
-from .motion import Motion
-from .sampled import Sampled, sample_mechanisms
+from ..phasors import EPS, Array, Complex, Figure, compose, unit
+from .closed_form import Harmonics, Rows
+from .harmonics import Distinct, Sampled, count_samples, find_distinct, sample_mechanisms
+from .motion import Motion, PointMass
+from .slidercrank import SliderCrank, on_circle
 
 STEPS = 1440  # crank angles that do not miss a lock
 _FEWEST_SAMPLES = 32
@@ -113,3 +129,138 @@ class Linkage(ABC):
 def revolution(count: int) -> Array:
     """Crank angles of so many samples."""
     return np.arange(count, dtype=float) * (2 * np.pi / count)
+
+
+@dataclass(frozen=True)
+class Articulated(Linkage):
+    """Master and articulated rods; `mass` is what each articulated rod puts on its knuckle pin.
+
+    Attributes:
+        master: row of each cylinder's master (its own for a master), shape (cylinders,).
+        knuckle: knuckle pins from the crank pin, x along the master rod, in crank radii, shape
+        (cylinders, *trailing).
+        lead_deg: crank angle of the master less the cylinder's own, deg, shape (cylinders,
+        *trailing).
+    """
+
+    master: NDArray[np.intp]
+    knuckle: Complex
+    lead_deg: Array
+
+    def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
+        each = [np.broadcast_to(a, (len(self.master), *a.shape[1:])) for a in (lam, eps)]
+        return *each, self.knuckle, self.lead_deg, *(a[self.master] for a in each)
+
+    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+        return hang(psi, *figures)
+
+    def bound_lean(self, lam: Array, eps: Array) -> Array:
+        """What the sine of each rod's angle to the cylinder's axis does not exceed, shape
+        (cylinders, *trailing): knuckle pins are at most a crank and a knuckle radius away.
+        """
+        return np.asarray(lam * (1 + np.abs(self.knuckle)) + np.abs(eps))
+
+
+def hang(
+    psi: Array | Complex,
+    lam: Array,
+    eps: Array,
+    knuckle: Complex,
+    lead_deg: Array,
+    master_lam: Array,
+    master_eps: Array,
+) -> Motion:
+    """Return articulated rods in motion, which hang on their knuckle pins as plain ones on the
+    crank pin.
+
+    Args:
+        psi: crank angles of the cylinders (rad) or e^{i psi}.
+        lam, eps, knuckle, lead_deg: of the articulated rods, as in `Articulated`.
+        master_lam, master_eps: of the master rods.
+    """
+    pin = follow_knuckle(on_circle(psi), knuckle, lead_deg, master_lam, master_eps)
+    lean = lam * pin.z.imag - eps
+    condition = 1 / (1 - np.minimum(np.abs(lean), 1 - EPS))
+    return Motion(pin, lam, lean, np.sqrt((1 - lean) * (1 + lean)), (pin,), condition)
+
+
+def follow_knuckle(
+    crank: Complex, knuckle: Complex, lead_deg: Array, lam: Array, eps: Array
+) -> PointMass:
+    """Return the knuckle pins K in the cylinders' frames by the motion of their master rods;
+    `crank` is e^{i psi}, lam and eps are those of the masters.
+    """
+    lead = unit(lead_deg)
+    master = SliderCrank(crank * lead, lam, eps)  # e^{i psi_m}, turned back by the lead
+    arm = np.conj(lead) * knuckle * compose(master.cosine, -master.lean)
+    bend = compose(master.spin**2, -master.spin_rate)
+    return PointMass(crank + arm, 1j * (crank + master.spin * arm), -crank - bend * arm)
+
+
+@dataclass(frozen=True)
+class Rotary(Linkage):
+    """Turning cylinders; `mass` is the reciprocating mass of each, which moves along no fixed line,
+    and what an articulated rod puts on its knuckle pin.
+
+    Attributes:
+        hung: master and articulated rods as seen from the cylinders, that is in the mirror; None
+        where all are on the crank pin.
+        on_knuckle: share of the mass that is on the knuckle pin, shape (cylinders, *trailing).
+    """
+
+    hung: Articulated | None = None
+    on_knuckle: Array | None = None
+    turning: ClassVar[bool] = True
+
+    def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
+        if self.hung is None or self.on_knuckle is None:
+            return lam, eps
+        return *self.hung.figures(lam, eps), self.on_knuckle
+
+    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+        lam, eps, *hung = figures
+        if not hung:
+            return TurningMotion(psi, SliderCrank(psi, lam, eps), eps / lam)
+        *of_knuckle, share = hung
+        return TurningMotion(psi, hang(psi, lam, eps, *of_knuckle), eps / lam, share)
+
+
+class TurningMotion(Motion):
+    """Cylinders that turn.
+
+    Args:
+        psi: crank angles (rad) or e^{i psi}.
+        inside: the mechanisms as seen from their cylinders.
+        offset: of the pistons, in crank radii.
+        on_knuckle: share of the mass on the knuckle pin of `inside`, which then has one.
+    """
+
+    def __init__(
+        self, psi: Array | Complex, inside: Motion, offset: Array, on_knuckle: Figure | None = None
+    ) -> None:
+        vars(self).update(vars(inside))
+        self._inside, self._turned = inside, on_circle(psi)
+        velocity, acceleration = (
+            np.asarray(figure, complex) for figure in (inside.velocity, inside.acceleration)
+        )
+        place = compose(inside.place, np.asarray(offset))
+        piston = PointMass(place, velocity, acceleration)
+        if on_knuckle is None:
+            self.points = (self._see(piston, 1.0),)
+        else:
+            knuckle = self._see(inside.points[0], on_knuckle)
+            self.points = self._see(piston, 1 - on_knuckle), knuckle
+
+    def _see(self, point: PointMass, share: Figure) -> PointMass:
+        """Return a point of the mechanism as seen from the direction of the pin."""
+        w, w1, w2 = map(np.conj, point[:3])
+        first, second = w1 + 1j * w, w2 + 2j * w1 - w
+        return PointMass(self._turned * w, self._turned * first, self._turned * second, share)
+
+    @property
+    def spin(self) -> Array:
+        return 1 - self._inside.spin
+
+    @property
+    def spin_rate(self) -> Array:
+        return -self._inside.spin_rate

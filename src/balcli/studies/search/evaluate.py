@@ -10,21 +10,19 @@ from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array
-from ...core.telling import Tell
-from ...engine.arrays import ranked
 from ...engine.build import Engine
-from ...engine.firing import TOLERANCE_DEG
-from ...engine.layout import cycle_deg, plan_cylinders
+from ...engine.figures import ranked
+from ...engine.layout import TOLERANCE_DEG, cycle_deg, plan_cylinders
 from ...engine.parse import parse_dict
-from ...enginefile.model import EngineFile
-from ...enginefile.plain_tables import change_tables
 from ...errors import BalcliError, InputError
+from ...file.model import EngineFile
+from ...file.plain_tables import change_tables
 from ...limits import MOST_DESIGNS_ONE_BY_ONE
+from ...process import Tell
 from ..evaluator import Evaluator
 from ..parameters import tell_variant
 from ..quantities import AnyQuantity
-from .designs import Design, Found, list_changes
-from .objective import Merit, Objective
+from .designs import Design, Found, Merit, Objective, list_changes
 
 AT_ONCE = 256  # candidates that are built as one engine
 _EVEN_DEG = 1e-9  # firings that are less uneven are even

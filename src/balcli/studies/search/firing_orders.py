@@ -18,15 +18,13 @@ import numpy as np
 
 from ...core.phasors import Array
 from ...engine.build import assemble
-from ...engine.firing import TOLERANCE_DEG
-from ...engine.layout import Cell, cycle_deg, plan_cylinders
+from ...engine.layout import TOLERANCE_DEG, Cell, cycle_deg, plan_cylinders
 from ...engine.numbering import find_fitting_splay
-from ...enginefile.model import EngineFile
 from ...errors import BalcliError
+from ...file.model import EngineFile
 from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
-from .designs import Found
+from .designs import Found, Objective
 from .evaluate import drop_firing_order, rank_throws
-from .objective import Objective
 from .throws import count_from
 
 

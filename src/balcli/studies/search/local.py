@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phasors import Array
-from ...engine.arrays import ranked
-from .objective import Merit
+from ...engine.figures import ranked
+from .designs import Merit
 
 Judge = Callable[[Array], Merit]  # of points, shape (points, numbers)
 _GOLDEN = (math.sqrt(5) - 1) / 2

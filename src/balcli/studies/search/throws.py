@@ -20,19 +20,18 @@ from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array, Complex, Phasors
-from ...core.telling import Tell, tell_nobody
-from ...engine.arrays import ranked
 from ...engine.build import assemble, build
+from ...engine.figures import ranked
 from ...engine.layout import plan_cylinders
-from ...enginefile.model import EngineFile
 from ...errors import BalcliError
+from ...file.model import EngineFile
 from ...forces.quantity import Quantity
 from ...forces.spectrum import compute_spectra, with_only
 from ...limits import MOST_ARRANGEMENTS
+from ...process import Tell, tell_nobody
 from ..quantities import AnyQuantity, choose_of_engine
-from .designs import Design, Found
+from .designs import Design, Found, Objective
 from .evaluate import fires_evenly, name_throws, rank_throws
-from .objective import Objective
 
 Left: TypeAlias = tuple[int, ...]  # how often each angle is still to be given
 Allowed = Callable[[Array], NDArray[np.bool_]]

@@ -1,0 +1,310 @@
+"""Engine -> Analysis: forces and moments by order, peaks, sizing, as far as they are asked."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..core.peaks import Peak, find_peak
+from ..core.phasors import Array
+from ..engine.build import Engine, check_engine
+from ..errors import BalcliError, check_number, check_type, list_words
+from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
+from ..forces.spectrum import (
+    Spectra,
+    check_orders,
+    choose_orders,
+    compute_each_cylinder,
+    compute_spectra,
+    find_relevant_orders,
+    list_gas_orders,
+    merge_orders,
+)
+from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
+from ..show.result import Result
+
+if TYPE_CHECKING:
+    from ..core.cylinders import Travel
+    from ..forces.crankshaft import InnerLoads
+    from ..forces.guide import GuideMoments
+    from ..forces.symmetry import Symmetry
+    from ..forces.textbook import Textbook
+    from ..sizing.remedy import Remedy
+
+
+UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
+QUANTITIES = (*UNASKED, "sizing")
+EXTRAS = ("inner", "guide")  # computed only when they are named
+DEFAULT_ORDERS = (1.0, 2.0)
+
+
+class Sizing(NamedTuple):
+    """The devices that a scheme fits, and what is left with them."""
+
+    remedy: Remedy
+    after: Analysis
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Analysis(Result):
+    """What an engine does to its frame. Whatever was not asked for is None.
+
+    Attributes:
+        engine: as analysed.
+        spectra: phasors of the orders shown.
+        force: largest `value` over a revolution (N), of all orders, and its crank angle `theta`
+            (rad).
+        moment: likewise (N m).
+        sizing: devices of the scheme `auto`, and the analysis with them.
+        cylinders: phasors of each cylinder alone (no devices), by cylinder number.
+        why: whether the orders shown are balanced by symmetry.
+        inner: shear force and bending moment along the crankshaft; of an engine with gas, in its
+            bearings and in the block, too.
+        guide: H- and X-type guide-force moments.
+        travel: strokes and dead centres of articulated cylinders and of the masters, by rows of
+            `engine.numbers`; None where all cylinders are plain slider-cranks.
+    """
+
+    engine: Engine
+    spectra: Spectra
+    force: Peak | None = None
+    moment: Peak | None = None
+    sizing: Sizing | None = None
+    cylinders: tuple[tuple[int, Spectra], ...] = ()
+    why: Symmetry | None = None
+    inner: InnerLoads | None = None
+    guide: GuideMoments | None = None
+    travel: Travel | None = None
+
+    @property
+    def summary(self) -> str:
+        """What it is of, and which orders it shows."""
+        orders = ", ".join(f"{order:g}" for order in self.orders[:12])
+        return f"of {self.engine.summary}; orders {orders}{', ...' * (len(self.orders) > 12)}"
+
+    @property
+    def orders(self) -> Array:
+        """Those shown, shape (orders,)."""
+        return self.spectra.orders
+
+    @property
+    def peaks(self) -> list[tuple[Kind, Peak]]:
+        """Each kind whose peak was asked for, with its peak."""
+        found = [(kind, getattr(self, kind.name)) for kind in VECTORS]
+        return [(kind, peak) for kind, peak in found if peak is not None]
+
+    @property
+    def moments_known(self) -> bool:
+        """Whether the file says where the throws stand; else moments are of coincident ones."""
+        return self.engine.places_known
+
+    @property
+    def has_higher_orders(self) -> bool:
+        """Whether there may be orders above those that are shown unless they are asked for."""
+        return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
+
+    @property
+    def textbook(self) -> Textbook:
+        """Force and moment, as far as they were asked for and are known, as textbooks have them."""
+        from ..forces.textbook import find_textbook
+
+        asked = [kind.name for kind, _ in self.spectra.vectors()]
+        known = [name for name in asked if name != "moment" or self.moments_known]
+        return find_textbook(self.engine, self.orders, known)
+
+    @property
+    def of_one_cylinder(self) -> dict[str, float]:
+        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), its moment over the length
+        of the crank and its torque at the radius of the crank (N m), by kind: what is small beside
+        them is small. The length is that between the outermost throws; of throws in one plane,
+        between the outermost cylinders (stagger), or else the stroke.
+        """
+        engine = self.engine
+        masses = engine.weighed[engine.numbers.index(1)]
+        force = float(
+            (masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2
+        )
+        radius = float(engine.cylinders.radius)
+        length = float(np.ptp(engine.throws_m)) or float(np.ptp(engine.cylinders.z)) or 2 * radius
+        return {
+            "force": force,
+            "moment": force * length,
+            **{kind.name: force * radius for kind in SCALARS},
+        }
+
+
+def analyze(
+    engine: Engine,
+    orders: Iterable[float] | None = None,
+    only: str | Collection[str] | None = None,
+    by_cylinder: bool = False,
+    reasons: bool = False,
+    guide_height_m: float | None = None,
+    beside: Collection[Engine] = (),
+) -> Analysis:
+    """Free forces and moments of an engine, order by order.
+
+    Args:
+        engine: without trailing axes.
+        orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
+            quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
+        only: any of force, moment, couple, torque, roll, peak, sizing, inner, guide and gas, or a
+            text of them with commas between; default: all but sizing, inner and guide.
+        by_cylinder: also the phasors of every cylinder alone.
+        reasons: also why each order is balanced, or is not.
+        guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
+            moment; default: the rods' lengths.
+        beside: engines that are analysed by the same orders: half orders have to be this one's, or
+            one of theirs.
+
+    Raises:
+        BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
+            of too many cylinders; a height that is not above 0.
+        TypeError: what is no engine, no number, no words.
+
+    Example:
+        >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
+    """
+    wanted = _choose_quantities(check_engine("analyze", engine), only)
+    _check_height(guide_height_m)
+    check_type("by_cylinder", by_cylinder, bool, "give True or False")
+    check_type("reasons", reasons, bool, "give True or False")
+    check_type("beside", beside, Collection, "give engines, such as [engine]")
+    for one in beside:
+        check_engine("analyze", one)
+    asked = None if orders is None else check_orders(orders, [engine, *beside])
+    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
+    shown = wanted.intersection(EVERY_KIND)
+    computed = _choose_computed(engine, asked, whole=bool(peaked))
+    visible, whole = _compute_visible_and_whole(engine, computed, asked, shown, peaked)
+    visible = visible.select_orders(choose_orders(visible, engine) if asked is None else asked)
+    return Analysis(
+        engine,
+        visible,
+        find_peak(whole["force"]) if peaked else None,
+        find_peak(whole["moment"]) if peaked else None,
+        cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else (),
+        **_compute_chapters(engine, asked, wanted, guide_height_m),
+        why=_explain(engine, visible.orders, shown) if reasons else None,
+    )
+
+
+def _check_height(guide_height_m: float | None) -> None:
+    if guide_height_m is None:
+        return
+    height = check_number("guide_height_m", guide_height_m, "give a length in m, such as 0.6")
+    if not 0 < height < HIGHEST_GUIDE_M:
+        raise BalcliError(
+            f"guide_height_m {height:g}: the distance from the crankshaft to the middle of "
+            f"the guides must be positive, below {HIGHEST_GUIDE_M:g} m"
+        )
+
+
+def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
+    """What is computed of an engine unless something is named: all but sizing; with gas, all that
+    it does, too.
+    """
+    return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
+
+
+def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> set[str]:
+    """What is computed; `gas` stands for all that gas does."""
+    if only is None:
+        return set(list_usual_quantities(engine))
+    wanted = {*list_words("only", only)}
+    if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
+        named = ", ".join(stranger or '""' for stranger in strangers)
+        raise BalcliError(
+            f"there is no quantity {named}: choose from "
+            f"{', '.join((*QUANTITIES, GAS.name, *EXTRAS))}"
+        )
+    return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
+
+
+def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
+    """Orders to compute: those asked for; all there are where the whole curve is needed, or none
+    was asked for.
+    """
+    if asked is not None and not whole:
+        return asked
+    due = DEFAULT_ORDERS if asked is None else asked
+    of_gas = () if engine.gas is None else list_gas_orders(engine)
+    return merge_orders(find_relevant_orders(engine), of_gas, due)
+
+
+def _compute_visible_and_whole(
+    engine: Engine, computed: Array, asked: Array | None, shown: set[str], peaked: set[str]
+) -> tuple[Spectra, Spectra]:
+    """What may be shown, and what has the peaks. Near its lock an engine has tens of thousands of
+    orders, all of which its peaks need: its gas is computed for the few that may be shown.
+    """
+    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
+        everything = compute_spectra(engine, computed, shown | peaked)
+        return everything.only(shown), everything
+    few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+    visible = compute_spectra(engine, few, shown)
+    return visible, compute_spectra(engine, computed, peaked) if peaked else visible
+
+
+def _analyze_cylinders(
+    engine: Engine, orders: Array, kinds: Collection[str]
+) -> tuple[tuple[int, Spectra], ...]:
+    count = len(orders) * len(engine.numbers)
+    if count > MOST_RESULTS_BY_CYLINDER:
+        raise BalcliError(
+            f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are {count} "
+            f"results, and at most {MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
+        )
+    own = compute_each_cylinder(engine, orders, kinds)
+    return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
+
+
+# ------------------------------------------------------------------ chapters, loaded on request
+def _compute_chapters(
+    engine: Engine, asked: Array | None, wanted: Collection[str], guide_height_m: float | None
+) -> dict[str, Any]:
+    """Return sizing, inner loads, guide moments and travel, as far as they are wanted or exist."""
+    found: dict[str, Any] = {}
+    if "sizing" in wanted:
+        from ..sizing.remedy import fit_devices
+        from ..sizing.sizing import size_auto
+
+        remedy = size_auto(engine)
+        left = {*wanted, "force", "moment", "peak"} - {"sizing"}
+        found["sizing"] = Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
+    if "inner" in wanted:
+        found["inner"] = find_inner_loads(engine, asked)
+    if "guide" in wanted:
+        from ..forces.guide import compute_guide_moments
+
+        found["guide"] = compute_guide_moments(engine, asked, guide_height_m)
+    if engine.cylinders.linkage is not None:
+        from ..core.cylinders import find_travel
+
+        found["travel"] = find_travel(engine.cylinders)
+    return found
+
+
+def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
+    """Return why orders are balanced; nothing can be proved of order 0, nor of moments that are
+    not known.
+    """
+    from ..forces.symmetry import explain_symmetry
+
+    provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
+    return explain_symmetry(engine, orders[orders > 0], provable)
+
+
+def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
+    """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
+    from ..forces.crankshaft import compute_inner_loads
+
+    inner = compute_inner_loads(engine, asked)
+    if engine.gas is None:
+        return inner
+    from ..forces.crankshaft import add_gas_loads
+
+    return add_gas_loads(inner, engine, asked)

@@ -1,0 +1,126 @@
+"""What `balcli analyze` does between its options and its output: files analysed at one speed, over
+several, or for the sheet of marine builders.
+
+Analyses of several engines, one after the other.
+
+What is for people takes a dozen modules that JSON and CSV do without, and these some that a sheet
+does without: each imports its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..engine.build import Engine
+from ..forces.kinds import GAS, ROLL
+from ..shell.inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
+from ..shell.output import show
+from ..show.csv import Rows, name_cell
+from ..show.formats import Format, Renderer, Units
+from ..show.sheet import NamedResult, Sheet, View
+from ..show.units import System
+from .answer import Analysis, analyze, list_usual_quantities
+
+if TYPE_CHECKING:
+    from .options import Request
+
+
+def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
+    """What a person reads of it."""
+    from . import show as analysis
+
+    return analysis.sheet(one.result, system, one.view)
+
+
+def document(one: NamedResult[Analysis]) -> dict[str, Any]:
+    """`balcli.analysis/1`."""
+    from . import show as analysis_document
+
+    return analysis_document.document(one.result)
+
+
+def rows(one: NamedResult[Analysis], system: System) -> Rows:
+    """CSV: the rows of the analysis, each after the engine's name."""
+    from . import show as analysis_document
+
+    devices = "sizing" in one.view.parts
+    header, lines = analysis_document.rows(one.result, system, devices=devices)
+    return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+
+
+def answer(
+    paths: Sequence[str], asked: Request, form: Format, output: Path | None, units: Units
+) -> None:
+    """Analyze files and print the results, by the engines' names; messages name bad files.
+
+    Raises:
+        BalcliError: the output cannot be written.
+        Exit: with status 2, if a file is bad.
+    """
+    view = View(asked.whole, asked.parts, asked.orders is not None)
+    rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
+    for_people = form in (Format.TABLE, Format.MARKDOWN)
+    find, renderer = _choose_result(asked, for_people)
+
+    def find_one(path: str) -> tuple[str, str, Any]:
+        engine = read_engine(path, rpm, asked.words).engine
+        return engine.name, path, find(silence_cylinders(engine, asked.misfires, path))
+
+    found, errors = try_each(paths, find_one)
+    if found and not (errors and output):  # a file gets all of them or is left as it was
+        engines, good, results = zip(*found, strict=True)
+        named = zip(name_engines(engines, good), results, strict=True)
+        show([NamedResult(*one, view) for one in named], renderer, form, output, units)
+    exit_on_errors(errors)
+
+
+def _choose_result(
+    asked: Request, for_people: bool
+) -> tuple[Callable[[Engine], Any], Renderer[NamedResult[Any]]]:
+    """Return what is found of an engine, and how it is shown."""
+    if asked.marine:
+        from . import speeds as marine
+        from .speeds import find_marine_sheet
+
+        def find_sheet(engine: Engine) -> Any:
+            height, speeds = asked.height_m, asked.speeds_rpm
+            return find_marine_sheet(engine, speeds, asked.orders, height, every_order=asked.whole)
+
+        return find_sheet, marine.MARINE
+    if asked.over_speed:
+        from . import speeds
+        from .speeds import analyze_speeds
+
+        def find_series(engine: Engine) -> Any:
+            ask = _ask(asked, engine, for_people)
+            return analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
+
+        return find_series, speeds.RENDERER
+    return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
+
+
+def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Analysis]:
+    """Return `analyze` for an engine like this one, at any speed and by any orders."""
+    if asked.quantities is None:
+        wanted = list(list_usual_quantities(engine))
+        if not asked.over_speed:  # it is the same at all speeds
+            wanted.append("sizing")
+        if asked.whole and for_people:
+            wanted.append("guide")
+    else:
+        wanted = list(asked.quantities)
+        if "verdict" in asked.parts and engine.gas is not None and for_people:
+            wanted += [ROLL.name, GAS.name]  # which order rocks the engine
+    return partial(
+        analyze,
+        only=wanted,
+        by_cylinder=asked.by_cylinder,
+        reasons=asked.why,
+        guide_height_m=asked.height_m,
+    )

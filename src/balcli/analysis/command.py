@@ -1,0 +1,212 @@
+"""`balcli analyze`
+
+`balcli compare`
+
+`balcli curves`: numbers over the crank angle.
+
+`balcli sum`
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Sequence
+from typing import Annotated, assert_never
+
+import typer
+
+from ..errors import BalcliError
+from ..shell.file_names import SERIES, SeriesFormat, format_of, format_option, text_format
+from ..shell.options import (
+    PARTS,
+    EnginePath,
+    EnginePaths,
+    FormatOption,
+    GuideHeight,
+    Misfire,
+    Only,
+    OnlyParts,
+    Orders,
+    Output,
+    Speed,
+    UnitsOption,
+    Whole,
+    parse_guide_height,
+    parse_only,
+    parse_orders,
+    parse_parts,
+    parse_speed,
+)
+from ..shell.output import emit, refuse_overwriting, show
+from ..shell.values import optional, read_angle, read_lengths
+from ..show.csv import csv_text, json_text
+from ..show.formats import Units
+from . import options as analysis_options
+
+
+def analyze(
+    paths: EnginePaths,
+    form: analysis_options.AnalysisFormatOption = None,
+    speed: analysis_options.SpeedsOption = None,
+    orders: Orders = None,
+    only: OnlyParts = None,
+    whole: Whole = False,
+    by: analysis_options.By = "",
+    why: analysis_options.Why = False,
+    guide_height: GuideHeight = None,
+    misfire: Misfire = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Free forces and moments of an engine, order by order, and what balances them.
+
+    \b
+    Examples:
+      balcli analyze v8.toml --why
+      balcli analyze v8.toml --only xy,roll --orders 1-8
+      balcli analyze s50.toml --format marine --speed 60:124:8
+    """
+    refuse_overwriting(reads=paths, writes={"--output": output})
+    chosen, marine = analysis_options.choose_analysis_format(output, form)
+    speeds_rpm = analysis_options.parse_analysed_speeds(speed)
+    shown = parse_orders(orders)
+    by_cylinder = analysis_options.is_by_cylinder(by)
+    height_m = parse_guide_height(guide_height, units)
+    words, misfires = parse_parts(only), tuple(misfire or ())
+    asked = analysis_options.Request(
+        speeds_rpm, shown, *words, whole, by_cylinder, why, height_m, misfires, marine
+    ).check()
+    from .ask import answer
+
+    answer(paths, asked, chosen, output, units)
+
+
+def compare(
+    paths: EnginePaths,
+    form: FormatOption = None,
+    speed: Speed = None,
+    orders: Orders = None,
+    only: Only = None,
+    whole: Whole = False,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Engines side by side: free forces and moments by order, peaks, and their ratios to the first
+    engine's.
+
+    \b
+    Example:
+      balcli compare i4.toml v8.toml --only force,moment
+    """
+    refuse_overwriting(reads=paths, writes={"--output": output})
+    form = text_format(output, form)
+    from ..shell.inputs import name_engines, read_engine
+    from .comparison import RENDERER, compare_engines
+
+    rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_only(only)
+    _refuse_parts(chosen or (), paths)
+    engines = [read_engine(path, rpm, chosen).engine for path in paths]
+    names = name_engines([engine.name for engine in engines], paths)
+    found = compare_engines(engines, names, asked, chosen, whole)
+    show([found], RENDERER, form, output, units)
+
+
+def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
+    """Parts of `analyze` that say something of one engine, and cannot stand side by side.
+
+    Raises:
+        BalcliError: with the command that shows them.
+    """
+    if of_one := [word for word in words if word in PARTS]:
+        command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])
+        raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")
+
+
+Cylinder = Annotated[int | None, optional("N", "Motion of this piston, with [gas] its pressure.")]
+Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
+Form = Annotated[
+    SeriesFormat | None,
+    format_option(SeriesFormat, "How to write the curves; default: by the ending of -o, else csv."),
+]
+
+
+def curves(
+    path: EnginePath,
+    cylinder: Cylinder = None,
+    step: Step = "1",
+    speed: Speed = None,
+    form: Form = None,
+    output: Output = None,
+) -> None:
+    """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
+
+    With [gas] over the whole cycle, its torque too.
+
+    \b
+    Examples:
+      balcli curves i4.toml --step 5 -o curves.csv
+      balcli curves i4.toml --cylinder 1
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output})
+    form = format_of(output, form, SERIES, SeriesFormat.CSV)
+    from ..forces.curves import divide_revolution
+    from ..shell.inputs import read_engine
+    from . import curves as renderer
+    from .curves import compute_curves
+
+    engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
+    angles = divide_revolution(read_angle("--step", step), engine.cycle_revolutions)
+    found = compute_curves(engine, cylinder, angles)
+    match form:
+        case SeriesFormat.CSV:
+            text = csv_text([renderer.rows(found)])
+        case SeriesFormat.JSON:
+            text = json_text(renderer.document(found))
+        case _:
+            assert_never(form)
+    emit(text, output)
+
+
+Phase = Annotated[
+    str, typer.Option(metavar="DEG", help="Crank angle by which the second engine leads.")
+]
+At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Place of the second engine's origin, mm.")]
+Turn = Annotated[str, typer.Option(metavar="DEG", help="How far it is turned about z.")]
+Reverse = Annotated[bool, typer.Option("--reverse", help="Its crank turns the other way.")]
+LoadOption = Annotated[
+    str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")
+]
+
+
+def sum(  # noqa: A001 (the command's name)
+    first: EnginePath,
+    second: EnginePath,
+    phase: Phase = "0",
+    at: At = "0,0,0",
+    turn: Turn = "0",
+    reverse: Reverse = False,
+    load: LoadOption = "first",
+    speed: Speed = None,
+    orders: Orders = None,
+    form: FormatOption = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Two engines on one frame, geared one to one: H, U and opposed-piston engines.
+
+    \b
+    Example:
+      balcli sum i4.toml i4.toml --phase 90 --at 300,0,0
+    """
+    refuse_overwriting(reads=[first, second], writes={"--output": output})
+    form = text_format(output, form)
+    from ..shell.inputs import named_by_file, read_engine
+    from .two_engines import RENDERER, Arrangement, combine_engines
+
+    rpm, asked = parse_speed(speed), parse_orders(orders)
+    x, y, z = read_lengths("--at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
+    lead, turned = read_angle("--phase", phase), read_angle("--turn", turn)
+    arrangement = Arrangement(lead, (x, y, z), turned, reverse, load)
+    engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
+    result = combine_engines(engines[0], engines[1], arrangement, asked)
+    show([result], RENDERER, form, output, units)

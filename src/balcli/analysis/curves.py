@@ -1,0 +1,338 @@
+"""Curves over the crank angle as a result.
+
+Curves over the crank angle of an engine with gas, and of one of its cylinders.
+
+Curves over the crank angle of an engine, or of one of its cylinders, with gas if it has some.
+
+`balcli.curves`
+
+Curves over the crank angle, in full precision.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..core.phasors import EPS, Array, Complex, unit
+from ..engine.build import Engine, check_engine, find_row
+from ..errors import check_number
+from ..forces.curves import (
+    EngineMotion,
+    _torque_of_cylinders,
+    as_rows,
+    compute_cylinder_torque,
+    compute_device_forces,
+    compute_piecemeal,
+    divide_revolution,
+)
+from ..forces.kinds import COUPLE, FORCE, GAS, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
+from ..forces.rod_forces import compute_rod_forces
+from ..forces.spectrum import take_gas
+from ..shell.arguments import check_count, tell_arguments
+from ..show.csv import Columns, Rows
+from ..show.figures import assumptions
+from ..show.formats import Columnar
+from ..show.result import Result
+
+_MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
+
+_EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Curves(Result):
+    """Figures over the crank angle.
+
+    Attributes:
+        name: of the engine.
+        speed_rpm: its crank speed.
+        crank_deg: shape (angles,).
+        values: by name with unit (`force_x_N`), each of the shape of `crank_deg`.
+        moments_known: whether the engine file says where the throws stand; else moments are of
+            throws in one plane.
+    """
+
+    name: str
+    speed_rpm: float
+    crank_deg: Array
+    values: Mapping[str, Array]
+    moments_known: bool = True
+
+    @property
+    def summary(self) -> str:
+        """Of what, and at how many angles."""
+        return f"of {self.name or 'an engine'}: {len(self.crank_deg)} crank angles"
+
+    def known(self) -> dict[str, Array]:
+        """The values without moments that are not known."""
+        unknown = () if self.moments_known else _MOMENTS
+        return {name: values for name, values in self.values.items() if name not in unknown}
+
+
+def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
+    """Free force (N), moment, couple, inertia torque and roll (N m) of a whole engine, devices
+    included.
+
+    Args:
+        engine: without trailing axes.
+        crank_deg: shape (angles,).
+    """
+    curves = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
+    return replace(curves, moments_known=engine.places_known)
+
+
+def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
+    """Piston travel from top dead centre (m), velocity and acceleration away from it (m/s, m/s2)
+    and rod angle (deg) of one cylinder.
+
+    Args:
+        engine: without trailing axes.
+        number: of the cylinder, as the engine file counts them.
+        crank_deg: shape (angles,).
+
+    Raises:
+        BalcliError: the engine has no such cylinder.
+    """
+    row = find_row(engine, number, "--cylinder")
+    return _sum_parts(
+        engine, crank_deg, lambda angles: _compute_cylinder_parts(engine, row, angles)
+    )
+
+
+def _sum_parts(
+    engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
+) -> Curves:
+    """Curves by their parts. What lies within the rounding error of its parts is 0.
+
+    Args:
+        compute: parts at some angles, by name, each of shape (parts, angles).
+    """
+    noise = {
+        name: 8 * len(parts) * EPS * float(np.abs(parts).sum(axis=0).max())
+        for name, parts in compute(_EVERYWHERE).items()
+    }
+    sums = compute_piecemeal(
+        engine,
+        crank_deg,
+        lambda angles: {name: parts.sum(axis=0) for name, parts in compute(angles).items()},
+    )
+    values = {
+        name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in sums.items()
+    }
+    return Curves(engine.name, float(engine.speed_rpm), crank_deg, values)
+
+
+def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
+    """What each cylinder and device does, shape (cylinders and devices, angles)."""
+    motion = EngineMotion(engine, crank_deg)
+    of_devices = compute_device_forces(engine, crank_deg)
+    force = np.concatenate([_force_of_cylinders(motion), of_devices])
+    x, y, z = engine.reference_m
+    levels = np.array([*np.ravel(engine.cylinders.z), *(d.z for d in engine.devices)], float)
+    moment = 1j * (levels - float(z))[:, None] * force
+    on_crank = np.zeros(engine.cylinders.count)
+    places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
+    arms = (np.conj(places)[:, None] * force).imag
+    couple = np.concatenate([_couple_of_cylinders(motion), arms])
+    torque = _torque_of_cylinders(motion)
+    return {
+        FORCE.key_along("x"): force.real,
+        FORCE.key_along("y"): force.imag,
+        MOMENT.key_along("x"): moment.real,
+        MOMENT.key_along("y"): moment.imag,
+        COUPLE.key: couple,
+        TORQUE.key: torque,
+        ROLL.key: np.concatenate([couple, -torque]),
+    }
+
+
+def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
+    """Parts of the motion of the cylinder in this row, shape (parts, angles)."""
+    motion = EngineMotion(engine, crank_deg)
+    m, r = motion.moved, motion.radius
+    v, a = -m.velocity[row], -m.acceleration[row]
+    angles = np.broadcast_to(np.arctan2(m.lean, m.cosine), motion.psi.shape)
+    return {
+        "travel_m": r * motion.travel()[row : row + 1],
+        "velocity_m_per_s": (r * motion.omega * v)[None],
+        "acceleration_m_per_s2": r * np.array([motion.omega**2 * a, motion.xi * v]),
+        "rod_angle_deg": np.degrees(angles[row : row + 1]),
+    }
+
+
+def _force_of_cylinders(motion: EngineMotion) -> Complex:
+    """N, shape (cylinders, angles)."""
+    c, r, w2, xi = motion.cylinders, motion.radius, motion.omega**2, motion.xi
+    m = motion.moved
+    on_axis = -as_rows(c.reciprocating) * r * (w2 * m.acceleration + xi * m.velocity)
+    on_curve = motion.mass * r * (w2 * m.acceleration_of_mass + xi * m.velocity_of_mass)
+    piston = (on_axis - on_curve) * motion.axis
+    pins = as_rows(c.rotating) * r * (w2 - 1j * xi) * unit(motion.pin_deg)
+    return piston + pins
+
+
+def _couple_of_cylinders(motion: EngineMotion) -> Array:
+    """Free couple of each cylinder about the crank's axis, N m, shape (cylinders, angles): h =
+    -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
+    """
+    c, r, m = motion.cylinders, motion.radius, motion.moved
+    pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
+    on_curve, couple = motion.mass * r**2, as_rows(c.couple)
+    h = as_rows(c.rotating) * r**2 - pull * m.velocity - couple * m.spin + on_curve * m.swirl
+    slope = on_curve * m.swirl_rate - pull * m.acceleration - couple * m.spin_rate
+    return np.asarray(-(motion.omega**2 * slope + motion.xi * h))
+
+
+_ROUNDING = 1e-14
+
+
+def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
+    """Return the curves of a whole engine, with gas torque, total torque and total roll (N m).
+
+    Args:
+        curves: of the engine, from `forces.curves.compute_engine_curves`.
+    """
+    gas = compute_piecemeal(
+        engine, curves.crank_deg, lambda angles: {GAS.key: _find_gas_torque(engine, angles)}
+    )[GAS.key]
+    gas = _settle(gas)
+    inertia, roll = curves.values[TORQUE.key], curves.values[ROLL.key]
+    added = {GAS.key: gas, TORQUE_TOTAL.key: inertia + gas, ROLL_TOTAL.key: roll - gas}
+    return replace(curves, values={**curves.values, **added})
+
+
+def _find_gas_torque(engine: Engine, crank_deg: Array) -> Array:
+    """Return the torque of all cylinders' gas, N m, shape (angles,)."""
+    at = np.radians(crank_deg)
+    each = (c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders)
+    return sum(each, np.zeros(at.shape))
+
+
+def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
+    """Return the motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust,
+    force along the rod, force on its crank or knuckle pin along and across the cylinder (N), and
+    the cylinder's torque of gas and inertia (N m); as far as they are known.
+
+    Args:
+        curves: of that cylinder, from `forces.curves.compute_cylinder_curves`.
+    """
+    row = engine.numbers.index(number)
+    of_gas = compute_piecemeal(
+        engine, curves.crank_deg, lambda angles: _find_cylinder_gas(engine, row, angles)
+    )
+    settled = {name: _settle(values) for name, values in {**curves.values, **of_gas}.items()}
+    return replace(curves, values=settled)
+
+
+def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
+    """Return what `add_cylinder_gas` adds for the cylinder in a row, each of shape (angles,).
+
+    Forces across count to the side to which the crank pin moves after top dead centre, which seen
+    from a cylinder that turns lies behind it.
+    """
+    found: dict[str, Array] = {}
+    gas = take_gas(engine)
+    cylinder = gas.cylinders[row]
+    at = np.radians(crank_deg) - cylinder.fires
+    if cylinder.torque.pressure is not None:
+        forces, side = compute_rod_forces(engine, crank_deg), -1 if engine.rotary else 1
+        found["pressure_Pa"] = forces.pressure[row]
+        if gas.compression_ratio is not None:
+            found["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)
+        found |= {
+            "gas_force_N": forces.gas[row],
+            "side_thrust_N": side * forces.thrust[row],
+            "rod_force_N": forces.rod[row],
+            "pin_x_N": forces.pin[row].real,
+            "pin_y_N": side * forces.pin[row].imag,
+        }
+    inertia = compute_cylinder_torque(engine, row, crank_deg)
+    found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.curve.at(at)
+    return found
+
+
+def _settle(values: Array) -> Array:
+    """Return values in which rounding errors next to the largest value are 0."""
+    return np.where(np.abs(values) <= _ROUNDING * np.abs(values).max(initial=0), 0.0, values)
+
+
+def compute_curves(engine: Engine, cylinder: int | None, crank_deg: Array) -> Curves:
+    """Curves of the engine (cylinder None), or of the cylinder with this number.
+
+    Args:
+        engine: without trailing axes.
+        cylinder: as the engine file counts them.
+        crank_deg: shape (angles,).
+
+    Raises:
+        BalcliError: the engine has no such cylinder.
+    """
+    if cylinder is None:
+        found = compute_engine_curves(engine, crank_deg)
+    else:
+        found = compute_cylinder_curves(engine, cylinder, crank_deg)
+    if engine.gas is None:
+        return found
+
+    if cylinder is None:
+        return add_gas_torque(engine, found)
+    return add_cylinder_gas(engine, cylinder, found)
+
+
+@tell_arguments(step="step_deg")
+def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None) -> Curves:
+    """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
+
+    Args:
+        engine: as `load` makes it.
+        step_deg: of the crank angle, which begins at 0; with gas it runs over the whole cycle.
+        cylinder: number of the one whose piston's travel, speed, acceleration and rod angle are
+            wanted, with its pressure if there is gas; default: the whole engine.
+
+    Returns:
+        `crank_deg` and, by name with unit (`force_x_N`), `values` of the same shape (angles,).
+        Those of a cylinder count along it, outward, and across it, to the side to which the crank
+        pin moves after top dead centre; travel towards the crank (docs/json.md).
+
+    Raises:
+        BalcliError: a step that is too small or too large; no such cylinder.
+        TypeError: what is no engine.
+
+    Example:
+        >>> curves(load("i4.toml"), 10).to_pandas()
+    """
+    engine = check_engine("curves", engine)
+    step = check_number("step_deg", step_deg, "give a step in degrees")
+    number = None if cylinder is None else check_count("cylinder", cylinder)
+    return compute_curves(engine, number, divide_revolution(step, engine.cycle_revolutions))
+
+
+def document(curves: Curves) -> dict[str, Any]:
+    """`balcli.curves/1`: one list a quantity, all of the length of `crank_deg`."""
+    return {
+        "format": "balcli.curves/1",
+        "engine": curves.name,
+        "speed_rpm": curves.speed_rpm,
+        "crank_deg": curves.crank_deg.tolist(),
+        "curves": {name: y.tolist() for name, y in curves.values.items()},
+        **assumptions(curves),
+    }
+
+
+def columns(curves: Curves) -> Columns:
+    """Crank angles, and each quantity that is known; units stand in the names."""
+    return Columns({"crank_deg": curves.crank_deg, **curves.known()})
+
+
+def rows(curves: Curves) -> Rows:
+    """CSV: a line a crank angle, a column a quantity that is known."""
+    known = curves.known()
+    columns = [curves.crank_deg.tolist(), *(y.tolist() for y in known.values())]
+    return Rows(("crank_deg", *known), zip(*columns, strict=True))
+
+
+RENDERER = Columnar(document=document, columns=columns)

@@ -1,0 +1,202 @@
+"""Counterweights, balancer shafts and sliders of a remedy, and what a workshop asks of them."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ..file.model import Counterweight, Shaft, Slider
+from ..limits import MOST_HOLES
+from ..show.sheet import UNKNOWN, Grid, degrees, given, number
+from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
+from ..sizing.remedy import Remedy
+
+if TYPE_CHECKING:
+    from ..show.units import ShownUnit, System
+    from ..sizing.workshop import Practical, Tools
+
+
+ANGLES = (
+    "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
+    "counterweights from cylinder 1's crank pin, of shafts from x."
+)
+# Figures of a device by the fields of the engine file, with their units; in the order of CSV.
+_KEYS = {
+    "ratio": "ratio",
+    "order": "order",
+    "unbalance": "unbalance_kg_m",
+    "angle": "angle_deg",
+    "direction": "direction_deg",
+    "position": "position_mm",
+    "at": "at_mm",
+}
+
+
+# ------------------------------------------------------------------ for people
+def device_grid(remedy: Remedy, system: System) -> Grid:
+    """Return one row a device."""
+    devices, length = remedy.devices, system.length
+    unit = system.unbalance.fit(max(map(find_unbalance, devices), default=0.0))
+
+    def cells(device: DeviceTable, anywhere: bool) -> tuple[str, ...]:
+        turns, angle, place = "1", degrees(device.angle), "crank axis"
+        if isinstance(device, Counterweight):
+            angle += " from pin 1"
+        else:
+            place = "free" if anywhere else ", ".join(_length(v, length) for v in device.at)
+            turns = f"{device.ratio:+d}" if isinstance(device, Shaft) else str(device.order)
+        if isinstance(device, Slider):
+            angle += f" along {degrees(device.direction)}"
+        unbalance, z = number(unit.of(find_unbalance(device))), _length(device.position, length)
+        return name_kind(device), turns, unbalance, angle, place, z
+
+    heads = ("speed ratio", unit.name, "angle, deg", f"x, y, {length.name}", f"z, {length.name}")
+    rows = tuple(cells(*each) for each in zip(devices, remedy.free, strict=True))
+    note = " ".join([ANGLES, *_explain_places(devices, remedy.free)])
+    return Grid("", ("device", *heads), rows, note, words=(0, 3, 4))
+
+
+def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
+    """Yield what to know of shafts: how they stand, and where, if nobody has given a place."""
+    if any(isinstance(device, Shaft) for device in devices):
+        yield (
+            "Shafts stand so at crank angle 0; angles of those that turn against the crank count "
+            "in its sense, too."
+        )
+    if any(isinstance(device, Slider) for device in devices):
+        yield "Of sliders: the phase at crank angle 0, along a path that counts from x."
+    if any(free):
+        yield "free: the shaft may stand anywhere, for it makes a moment alone."
+    shafts = zip(devices, free, strict=True)
+    if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
+        yield (
+            "At 0, 0, the crank's centre line, a shaft adds no roll about it; elsewhere, where a "
+            "real one stands, it does."
+        )
+
+
+def _length(millimetres: float, unit: ShownUnit, digits: int | None = None) -> str:
+    return number(unit.of(millimetres / 1e3), digits)
+
+
+def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: System) -> Grid:
+    """Return the workshop's figures, one row a device; there must be one."""
+    length, mass, force = system.length, system.mass, system.force
+    radius = f"{_length(practical[0].radius_mm, length, 4)} {length.name}"
+    note = f"Force: centrifugal; mass at a radius of {radius}; disc: a semicircular one of steel."
+    if remedy.sliders:
+        note = f"Force: the largest of a stroke; mass at an amplitude of {radius}."
+
+    def cells(device: DeviceTable, p: Practical) -> Iterator[str]:
+        yield from (given(p.speed_rpm), number(force.of(p.force_N)), number(mass.of(p.mass_kg), 4))
+        for size in (p.disc_radius_mm, p.disc_thickness_mm):  # what slides is no disc
+            yield UNKNOWN if isinstance(device, Slider) else _length(size, length, 3)
+
+    heads = (
+        "device",
+        "rpm",
+        f"force, {force.name}",
+        f"mass, {mass.name}",
+        f"disc r, {length.name}",
+        f"thick, {length.name}",
+    )
+    rows = tuple(
+        (f"{k} {name_kind(device)}", *cells(device, figures))
+        for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1)
+    )
+    return Grid("Sizes of the weights", heads, rows, note)
+
+
+def holes_grid(
+    remedy: Remedy, practical: tuple[Practical, ...], tools: Tools, system: System
+) -> Grid:
+    """Return where to drill, how many holes and how deep; or where to put slugs. There must be a
+    drill.
+    """
+    unit = system.length
+    drill = f"{number(unit.of(tools.drill or 0.0), 4)} {unit.name}"
+    rim = tell_rim(tools, f"{_length(practical[0].radius_mm, unit, 4)} {unit.name}")
+
+    def cells(p: Practical) -> tuple[str, ...]:
+        depth, count = p.drill_depth_mm or 0.0, f"{p.holes}"
+        if math.isnan(depth):
+            depth, count = math.nan, f"more than {MOST_HOLES}"
+        return degrees(p.hole_angle_deg or 0.0), count, _length(depth, unit, 4)
+
+    rows = tuple(
+        (f"{k} {name_kind(device)}", *cells(figures))
+        for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1)
+        if figures.holes is not None
+    )
+    if tools.slug is None:
+        title = f"Holes to drill, {drill}"
+        what = "Holes remove steel opposite to the weight to add"
+    else:
+        title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
+        what = "Slugs stand where weight is to be added and count less the steel removed for them"
+    note = f"{what}; radial, {rim} inwards, side by side along the axis."
+    if any((p.holes or 0) > 1 for p in practical):
+        shallow = tools.max_depth is not None and 1e3 * tools.max_depth < practical[0].radius_mm
+        limit = "--max-depth" if shallow else "the radius"
+        note += f" One hole would be deeper than {limit}."
+    note = " ".join([note, *explain_holes(practical, tools, unit)])
+    heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
+    return Grid(title, heads, rows, note)
+
+
+def tell_rim(tools: Tools, radius: str) -> str:
+    """Return from where holes go inwards, and whether anybody has given it."""
+    why = "--radius" if tools.radius else "the crank radius, assumed: --radius says where it is"
+    return f"from a rim at {radius} ({why})"
+
+
+def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit) -> Iterator[str]:
+    """Yield how long the largest row of holes is."""
+    most = max((p.holes for p in practical if p.holes and p.holes <= MOST_HOLES), default=0)
+    if most > 1 and tools.drill is not None:
+        length = f"{number(unit.of(most * tools.drill), 3)} {unit.name}"
+        yield f"{most} holes side by side take {length} along the axis at the least."
+
+
+# ------------------------------------------------------------------ for programs
+def device_entries(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
+    """Return new devices in JSON, as an engine file would describe them."""
+    entries: dict[str, list[dict[str, Any]]] = {f"{kind.__name__.lower()}s": [] for kind in FIELDS}
+    for device, free in zip(remedy.devices, remedy.free, strict=True):
+        entry = {_KEYS[field]: _find_value(device, field) for field in FIELDS[type(device)]}
+        if isinstance(device, Shaft):
+            entry["free"] = free
+        entries[f"{name_kind(device)}s"].append(entry)
+    return entries
+
+
+def _find_value(device: DeviceTable, field: str) -> Any:
+    return find_unbalance(device) if field == "unbalance" else getattr(device, field)
+
+
+def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:
+    """Yield each device with its name among those of its kind: `shaft 2`."""
+    numbers: Counter[str] = Counter()
+    for device in devices:
+        kind = name_kind(device)
+        numbers[kind] += 1
+        yield f"{kind} {numbers[kind]}", device
+
+
+def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:
+    """Yield name, value and unit of every figure of a device, as an engine file has it."""
+    for field, key in _KEYS.items():
+        if field not in FIELDS[type(device)]:
+            continue
+        value = _find_value(device, field)
+        if field == "at":
+            for axis, coordinate in zip("xy", value, strict=True):
+                yield f"at_{axis}", system.length.of(coordinate / 1e3), system.length.name
+        elif key.endswith("_mm"):
+            yield field, system.length.of(value / 1e3), system.length.name
+        elif key.endswith("_kg_m"):
+            yield field, system.unbalance.of(value), system.unbalance.name
+        else:
+            yield field, value, "deg" if key.endswith("_deg") else ""

@@ -1,0 +1,147 @@
+"""The options of `balcli analyze`, and what they ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, NamedTuple
+
+import typer
+
+from ..errors import BalcliError, warn
+from ..limits import MOST_ANALYSED_SPEEDS
+from ..shell.file_names import format_option, text_format
+from ..shell.options import PARTS, parse_speed
+from ..shell.values import optional, parse_speeds
+from ..show.formats import Format
+
+
+class AnalysisFormat(StrEnum):
+    """How an analysis is written: as all results, or as the sheet of marine builders."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+    MARKDOWN = "markdown"
+    MARINE = "marine"
+
+
+AnalysisFormatOption = Annotated[
+    list[AnalysisFormat] | None,
+    format_option(
+        AnalysisFormat,
+        "How to write the result; default: by the ending of -o, else table. marine: external "
+        "forces and moments, guide moments and torque by order; with -f csv beside it, so written.",
+    ),
+]
+SpeedsOption = Annotated[
+    str | None,
+    optional(
+        "RPM|RPM:RPM:STEP|RPM,...",
+        "Crank speed instead of the file's, rpm, or several, such as 60:124:8.",
+        "--speed",
+        "--rpm",
+    ),
+]
+By = Annotated[str, optional("cylinder", "cylinder: also each cylinder's share.", "--by")]
+Why = Annotated[bool, typer.Option("--why", help="Print what is balanced by symmetry or chance.")]
+
+
+class Request(NamedTuple):
+    """What is asked of every engine.
+
+    Attributes:
+        speeds_rpm: Crank speeds; empty: the file's.
+        orders: Orders to show; None: those that there are.
+        quantities: Quantities to compute; None: what there is of every engine.
+        parts: Words of `--only`; empty: none was given.
+        whole: Whether every table and every order is shown.
+        by_cylinder: Whether each cylinder's share is asked for.
+        why: Whether reasons are asked for.
+        height_m: Distance from the crankshaft to the middle of the guides; None: the rods' lengths.
+        misfires: Numbers of the cylinders without gas.
+        marine: Whether it is the sheet of marine builders.
+    """
+
+    speeds_rpm: tuple[float, ...]
+    orders: list[float] | None
+    quantities: list[str] | None
+    parts: frozenset[str]
+    whole: bool
+    by_cylinder: bool
+    why: bool
+    height_m: float | None
+    misfires: tuple[int, ...]
+    marine: bool
+
+    @property
+    def over_speed(self) -> bool:
+        """Whether there are several speeds."""
+        return len(self.speeds_rpm) > 1
+
+    @property
+    def words(self) -> frozenset[str] | None:
+        """Words that were named, for warnings; None: nothing in particular."""
+        return None if self.quantities is None else self.parts
+
+    def check(self) -> Request:
+        """Return the request; options that would have no effect are refused or warned about.
+
+        Raises:
+            BalcliError: two options that do not go together.
+        """
+        given = {"--by": self.by_cylinder}
+        if self.marine:
+            given |= {"--only": bool(self.parts), "--why": self.why}
+        named = [option for option, is_given in given.items() if is_given]
+        if self.marine and named:
+            raise BalcliError(
+                f"--format marine: {named[0]} adds nothing to this sheet; leave one of them out"
+            )
+        if self.over_speed and named:
+            raise BalcliError(
+                f"--speed: {named[0]} is of one speed; give one, such as --speed 3000"
+            )
+        if self.over_speed and (texts := sorted(self.parts.intersection(PARTS))):
+            raise BalcliError(
+                f"--only {texts[0]}: is of one speed; over several there are force, moment, "
+                "couple, torque, roll, gas, peak, sizing, inner and guide"
+            )
+        if self.height_m is not None and not (self.marine or self.whole or "guide" in self.parts):
+            warn(
+                "--guide-height changes guide-force moments alone: ask for them with --only guide, "
+                "--all or --format marine"
+            )
+        return self
+
+
+def choose_analysis_format(
+    output: Path | None, asked: Sequence[AnalysisFormat] | None
+) -> tuple[Format, bool]:
+    """Return how to write, and whether it is the marine sheet; errors as `file_names.format_of`."""
+    given = asked or ()
+    plain = [Format(one) for one in given if one is not AnalysisFormat.MARINE]
+    if len(plain) > 1:
+        warn(f"--format is given {len(plain)} times: the last one counts")
+    return text_format(output, plain[-1] if plain else None), AnalysisFormat.MARINE in given
+
+
+def parse_analysed_speeds(text: str | None) -> tuple[float, ...]:
+    """Return one speed, or a range or list of them, rpm."""
+    if text is not None and (":" in text or "," in text):
+        several = parse_speeds(text, "--speed", MOST_ANALYSED_SPEEDS)
+        return () if several is None else tuple(several.tolist())
+    one = parse_speed(text)
+    return () if one is None else (one,)
+
+
+def is_by_cylinder(by: str) -> bool:
+    """Return whether --by asks for each cylinder's share.
+
+    Raises:
+        BadParameter: it asks for something else.
+    """
+    if by not in ("", "cylinder"):
+        raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
+    return bool(by)

@@ -1,0 +1,315 @@
+"""Forces and moments order by order, as tables; and their largest values over a revolution.
+
+What gas and inertia together do about the crank's axis, in brief.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..engine.figures import find_first_largest
+from ..forces.kinds import FORCE, GAS_KINDS, KINDS, MOMENT, ROLL, Kind
+from ..show.figures import peak_deg, phase_deg, size_or_mean
+from ..show.sheet import (
+    NEGLIGIBLE,
+    NOTHING,
+    UNKNOWN,
+    Facts,
+    Grid,
+    capitalized,
+    degrees,
+    number,
+    order_name,
+    order_number,
+    size_cell,
+    size_text,
+    small_text,
+)
+
+if TYPE_CHECKING:
+    from ..core.peaks import Peak
+    from ..core.phasors import Phasors
+    from ..forces.spectrum import Spectra
+    from ..forces.textbook import Textbook
+    from ..show.figures import OrdersAndPeaks
+    from ..show.units import ShownUnit, System
+
+
+Cells = tuple[str, ...]
+WHOLE_TURN = 360 - 1e-6  # deg
+_UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
+_AS_BUILT = (
+    "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
+    "without devices, at steady speed."
+)
+
+
+def order_tables(
+    spectra: Spectra,
+    system: System,
+    pivot: str,
+    roll: str = "",
+    *,
+    with_gas: bool = False,
+    every: bool = False,
+) -> Iterator[Grid]:
+    """A table of each vector, and one of what acts about z.
+
+    Args:
+        pivot: about what couple and roll are.
+        roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
+        with_gas: whether the engine has gas, beside which that of inertia alone is told as such.
+        every: also orders above 2 in which all is balanced.
+    """
+    for kind, phasors in spectra.vectors():
+        yield _vector_table(kind, phasors, system.unit(kind), every)
+    inertia = f"{pivot} of inertia alone" if with_gas else pivot
+    for kinds, what, note in ((KINDS, inertia, roll), (GAS_KINDS, f"{pivot} with gas", "")):
+        if (part := spectra.only(kinds)).scalars():
+            yield _scalar_table(part, system.moment, note, what, every)
+
+
+def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
+    """Yield vectors along x and y, as builders list them, if there are any; `every` as of
+    `order_tables`.
+    """
+    vectors = [
+        (kind, phasors, fit_largest(system.unit(kind), phasors))
+        for kind, phasors in spectra.vectors()
+    ]
+    if not vectors:
+        return
+
+    def cells(k: int) -> Iterator[str]:
+        for _, phasors, unit in vectors:
+            for c in (phasors.x[k], phasors.y[k]):
+                yield size_cell(abs(c), unit)
+                yield degrees(phase_deg(complex(c))) if c else ""
+
+    axes = [kind.symbol + axis for kind, _, _ in vectors for axis in "xy"]
+    units = ", ".join(unit.name for _, _, unit in vectors)
+    yield _table(
+        f"Along x (vertical) and y (horizontal), {units}",
+        [head for axis in axes for head in (axis, "deg")],
+        [phasors for _, phasors, _ in vectors],
+        cells,
+        every,
+        "Value = amplitude · cos(order · θ − angle). My is the moment of the "
+        "forces along x (marine: M1V, M2V), Mx of those along y (M1H).",
+    )
+
+
+def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> Iterator[Grid]:
+    """Force and moment as multiples of the units of textbooks, where there are such units; `every`
+    as of `order_tables`.
+    """
+    units = book.units
+    if not units.force:
+        return
+    if book.built.force is not None:
+        cylinder = "one cylinder" if units.equal else f"cylinder {units.cylinder}"
+        note = (
+            f"F1 = m r ω² = {size_text(units.force, system.force, 5)} "
+            f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order. {_AS_BUILT}"
+        )
+        yield _textbook_table(FORCE, book, note, every)
+    if book.built.moment is not None and not math.isnan(units.arm):
+        arm = f"{number(system.length.of(units.arm), 4)} {system.length.name}"
+        note = f"a = {arm}, the smallest distance of neighbouring throws."
+        note = note if book.built.force else f"{note} {_AS_BUILT}"
+        yield _textbook_table(MOMENT, book, note, every)
+
+
+def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
+    """Return the part of one cylinder, as lecturers have it: vectors as size and angle."""
+    vectors = [(kind, phasors, system.unit(kind)) for kind, phasors in share.vectors()]
+
+    def cells(k: int) -> Iterator[str]:
+        for _, phasors, unit in vectors:
+            for v in (phasors.forward[k], phasors.backward[k]):
+                angle = degrees(math.degrees(cmath.phase(v)))
+                yield f"{number(unit.of(abs(v)), 4)} ∠ {angle}" if v else NOTHING
+
+    heads = [
+        f"{kind.name} {way}, {unit.name}"
+        for kind, _, unit in vectors
+        for way in ("with", "against")
+    ]
+    rows = tuple((order_name(order), *cells(k)) for k, order in enumerate(share.orders))
+    return Grid(f"Cylinder {cylinder} alone", ("order", *heads), rows)
+
+
+def peak_facts(
+    result: OrdersAndPeaks, system: System, title: str, single: Mapping[str, float] = _UNKNOWN_SIZES
+) -> Facts:
+    """The largest values over a revolution that were asked for.
+
+    Args:
+        single: what one cylinder makes of each kind, beside which a peak may be negligible.
+    """
+    pairs = []
+    for kind, peak in result.peaks:
+        known = kind is not MOMENT or result.moments_known
+        least = NEGLIGIBLE * single.get(kind.name, 0.0)
+        pairs.append((kind.name, _peak(peak, system.unit(kind), least) if known else UNKNOWN))
+    return Facts(tuple(pairs), title)
+
+
+def _table(
+    title: str,
+    heads: Iterable[str],
+    phasors: Sequence[Phasors],
+    cells: Callable[[int], Iterable[str]],
+    every: bool,
+    note: str = "",
+) -> Grid:
+    """Return a table with a row for each order up to 2, for those in which one of these quantities
+    is not balanced, or for every one.
+    """
+    rows = tuple(
+        (order_name(order), *cells(k))
+        for k, order in enumerate(phasors[0].orders)
+        if every or order <= 2 or not all(p.balanced[k] for p in phasors)
+    )
+    return Grid(title, ("order", *heads), rows, note)
+
+
+def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) -> Grid:
+    unit = fit_largest(unit, phasors)
+
+    def cells(k: int) -> Cells:
+        if phasors.balanced[k]:
+            return NOTHING, "", "", "", ""
+        if np.isnan(phasors.forward[k]):
+            return (UNKNOWN,) * 5
+        values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
+        largest, smallest, ahead, against = (number(unit.of(float(v[k]))) for v in values)
+        if not phasors.orders[k]:  # a mean does not turn
+            return largest, *[UNKNOWN] * 4
+        return largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
+
+    heads = ("largest", "smallest", "axis, deg", "with crank", "against")
+    title = f"{capitalized(kind.label)} by order, {unit.name}"
+    return _table(title, heads, [phasors], cells, every)
+
+
+def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every: bool) -> Grid:
+    kinds, phasors = zip(*spectra.scalars(), strict=True)
+    unit = fit_largest(unit, *phasors)
+
+    def cells(k: int) -> Iterator[str]:
+        order = spectra.orders[k]
+        for c in (p.x[k] for p in phasors):
+            yield number(unit.of(size_or_mean(c, order))) if c else NOTHING
+            yield show_peak_deg(c, order) if c else ""
+
+    labels = [ROLL.name if roll and kind == ROLL else kind.label for kind in kinds]
+    heads = [head for label in labels for head in (label, "peak, deg")]
+    return _table(f"About {what}, {unit.name}", heads, phasors, cells, every, roll)
+
+
+def show_peak_deg(c: complex, order: float) -> str:
+    """Where an amplitude is reached first, or a dash of a mean."""
+    at = peak_deg(c, order)
+    return UNKNOWN if at is None else degrees(at)
+
+
+def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
+    """The unit for the largest of all that is known."""
+    return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
+
+
+def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
+    """Return multiples of each order's own unit; a dash where the order is no multiple of it."""
+    alone, built = book.reciprocating[kind.name], book.built[kind.name]
+
+    def cells(k: int) -> Iterator[str]:
+        size = book.units.size(kind, order_number(built.orders[k]))
+        for value in (
+            alone.major[k],
+            abs(alone.forward[k]),
+            abs(alone.backward[k]),
+            built.major[k],
+        ):
+            multiple = "–" if math.isnan(size) else number(float(value) / size, 4)
+            yield multiple if value else NOTHING
+
+    heads = (f"largest, {book.units.name(kind)}", "with crank", "against", "as built")
+    title = f"{capitalized(kind.label)} in textbook units"
+    return _table(title, heads, [alone, built], cells, every, note)
+
+
+def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:
+    if not peak.value or peak.value < least:
+        return small_text(peak.value, unit)
+    size = size_text(peak.value, unit, 5)
+    if not peak.every:
+        return f"{size} at every crank angle"
+    at, every = degrees(float(np.degrees(peak.theta))), float(np.degrees(peak.every))
+    again = f" and every {every:.6g} deg" if every < WHOLE_TURN else ""
+    return f"{size} at crank angle {at} deg{again}"
+
+
+_SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds
+
+
+def gas_grid(
+    spectra: Spectra, system: System, pivot: str, *, every_order: bool, hints: bool
+) -> Iterator[Grid]:
+    """Inertia torque, gas torque, both together and the roll of the frame, by order, if all of them
+    are known; negligible orders are left out unless every one was asked for.
+
+    Args:
+        pivot: about what the roll is.
+        hints: whether the command that shows more is named.
+    """
+    found = [phasors for kind, phasors in spectra.items() if kind.name in _SHOWN]
+    if len(found) < len(_SHOWN):
+        return
+    inertia, gas, total, roll = found
+    unit = fit_largest(system.moment, *found)
+    least = NEGLIGIBLE * float(max(gas.major.max(initial=0), inertia.major.max(initial=0)))
+
+    def row(k: int) -> Iterator[str]:
+        order = float(spectra.orders[k])
+        yield order_name(order)
+        for phasors in (inertia, gas, total, roll):
+            yield size_cell(size_or_mean(complex(phasors.x[k]), order), unit)
+        at = peak_deg(complex(roll.x[k]), order)
+        yield "" if at is None else degrees(at)
+
+    shown = [
+        k
+        for k, order in enumerate(spectra.orders)
+        if order in (1, 2) or every_order or max(p.major[k] for p in found) > least
+    ]
+    yield Grid(
+        f"About {pivot} with gas, {unit.name}",
+        ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
+        tuple(tuple(row(k)) for k in shown),
+        "Torque = inertia + gas." + (" Mean torque, flywheel and more: balcli torque." * hints),
+    )
+
+
+def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
+    """Which order rocks the engine most about a `pivot`, in a sentence; empty: not known."""
+    roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.roll
+    if roll is None or gas is None or inertia is None:
+        return ""
+    size = np.where(roll.orders > 0, roll.major, 0)
+    if not size.any():
+        return f"No order rocks the engine about {pivot}."
+    k = int(find_first_largest(size))
+    parts = {"gas": float(gas.major[k]), "inertia": float(inertia.major[k])}
+    there = {name: value for name, value in parts.items() if value}
+    told = ", ".join(f"{name} {size_text(value, system.moment)}" for name, value in there.items())
+    if len(there) == 1:
+        told = f"{next(iter(there))} alone"
+    most = size_text(float(size[k]), system.moment)
+    return f"Order {order_name(roll.orders[k])} rocks the engine most: roll of {most} ({told})."

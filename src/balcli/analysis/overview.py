@@ -1,0 +1,344 @@
+"""An analysis in brief: the orders that matter, roll, peaks, and the devices in one line.
+
+Plain words on each order: which part turns with the crank and can be met by a counterweight,
+which part needs shafts.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..core.phasors import Phasors
+from ..file.messages import ordinal
+from ..file.model import Counterweight, Shaft
+from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
+from ..forces.spectrum import Spectra
+from ..show.engine_facts import tell_pivot
+from ..show.sheet import (
+    NEGLIGIBLE,
+    NOTHING,
+    UNKNOWN,
+    Facts,
+    Grid,
+    Text,
+    capitalized,
+    degrees,
+    number,
+    order_name,
+    size_text,
+    small_text,
+)
+from ..show.units import ShownUnit, System
+from ..sizing.planes import DeviceTable, find_unbalance
+from .order_tables import fit_largest, peak_facts
+
+if TYPE_CHECKING:
+    from .answer import Analysis, Sizing
+
+
+def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[float]:
+    """Orders to 2, and those of which one force or moment is not small beside one cylinder's.
+
+    Args:
+        single: what one cylinder makes of each kind; of a kind that is not in it, none is small.
+    """
+    return [
+        float(order)
+        for k, order in enumerate(spectra.orders)
+        if order in (0, 1, 2)
+        or any(p.major[k] > NEGLIGIBLE * single.get(kind.name, 0.0) for kind, p in spectra.items())
+    ]
+
+
+def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> Grid:
+    """Return force and moment side by side, with the parts of each that turn with the crank and
+    against it; the other orders in one line, with a hint how to see them.
+    """
+    chosen = spectra.select_orders(shown)
+    heads = ["order"]
+    columns: list[Sequence[str]] = [[order_name(order) for order in chosen.orders]]
+    for kind, phasors in chosen.vectors():
+        unit = fit_largest(system.unit(kind), phasors)
+        heads += [f"{kind.name}, {unit.name}", "with crank", "against"]
+        columns += zip(*(_vector_cells(phasors, k, unit) for k in range(len(shown))), strict=True)
+    return Grid(
+        "Largest by order, and its parts that turn with the crank and against it",
+        tuple(heads),
+        tuple(zip(*columns, strict=True)),
+        tell_others([spectra], shown, system, hints=hints),
+    )
+
+
+def name_column(kind: Kind) -> str:
+    """A kind at the head of a column, or in a sentence."""
+    return "roll with gas" if kind is ROLL_TOTAL else kind.name
+
+
+def tell_others(
+    states: Sequence[Spectra], shown: list[float], system: System, *, hints: bool
+) -> str:
+    """One line on the orders that are not shown, or nothing.
+
+    Args:
+        states: of one engine, as of now or before and after, with the same orders.
+    """
+    others = [
+        float(order)
+        for k, order in enumerate(states[0].orders)
+        if order not in shown and any(p.major[k] > 0 for one in states for _, p in one.items())
+    ]
+    if not others:
+        return ""
+    rest = [one.select_orders(others) for one in states]
+    sizes = []
+    for kind, _ in rest[0].items():
+        largest = max(float(np.nan_to_num(one[kind.name].major).max()) for one in rest)
+        if largest:  # nan, and so 0 here, where it is not known
+            sizes.append(f"{name_column(kind)} {size_text(largest, system.unit(kind))}")
+    names = ", ".join(map(order_name, others[:6]))
+    more = ", …" if len(others) > 6 else ""
+    plural = "s" * (len(others) > 1)
+    told = f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)})."
+    return f"{told} All: --all." if hints else told
+
+
+def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Facts:
+    """What acts about the crank's axis, and the largest values over a revolution, a line each.
+
+    Args:
+        every_order: whether orders were asked for, which need not be those that roll has.
+    """
+    peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
+    roll = result.spectra.roll
+    name = ROLL.label if result.engine.gas is None else f"{ROLL.label}, inertia alone"
+    pairs = []
+    if roll is not None:
+        pairs = [(name, _tell_roll(result, roll, system, every_order=every_order))]
+    title = "Largest over a revolution" if peaks else f"About {tell_pivot(result.engine)}"
+    return Facts((*pairs, *peaks), title)
+
+
+def sizing_in_brief(sizing: Sizing, system: System) -> Text:
+    """Which devices leave nothing of orders 1 and 2, in one sentence."""
+    known = sizing.after.moments_known
+    if not sizing.remedy.devices:
+        what = "Orders 1 and 2 need" if known else "The forces of orders 1 and 2 need"
+        unknown = "" if known else "; moments are not known"
+        return Text("Sizing", (f"{what} no counterweight and no shaft{unknown}.",))
+    texts: dict[str, str] = {}
+    for kind, group in groupby(sizing.remedy.devices, _tell_place):
+        devices = list(group)
+        planes = sorted({device.position for device in devices})
+        at = ", ".join(number(system.length.of(z / 1e3)) for z in planes)
+        sizes = tell_sizes(map(find_unbalance, devices), system.unbalance)
+        texts[f"{kind} {sizes}"] = f"at z = {at} {system.length.name}"
+    places = [*texts.values()]
+    fitted = "; ".join(map(" ".join, texts.items()))
+    if len(places) > 1 and len(set(places)) == 1:
+        fitted = "; ".join((*texts, f"all {places[0]}"))
+    left = "no free force or moment" if known else "no free force (moments are not known)"
+    steady = " at steady speed" if sizing.after.engine.ripple else ""
+    result = f"They leave {left} of orders 1 and 2{steady}. Details: balcli balance."
+    return Text("Sizing", (f"{capitalized(fitted)}.", result))
+
+
+def tell_sizes(unbalances: Iterable[float], unit: ShownUnit) -> str:
+    """Return unbalances as `2 x 35057 g mm`, in the order in which they stand."""
+    counted = Counter(size_text(unbalance, unit) for unbalance in unbalances)
+    return " + ".join(f"{count} × {text}" for text, count in counted.items())
+
+
+def _tell_place(device: DeviceTable) -> str:
+    match device:
+        case Counterweight():
+            return "counterweights:"
+        case Shaft():
+            return f"shaft at {device.ratio:+d}:"
+        case _:
+            return "sliders:"
+
+
+def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
+    """Every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as of `roll_and_peaks`."""
+    least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
+    rows = [k for k, size in enumerate(roll.major) if size > least]
+    largest = float(roll.major.max(initial=0))
+    if not rows:
+        nothing = small_text(largest, system.moment)
+        return f"{nothing} in the orders shown" if every_order else nothing
+    unit = system.moment.fit(largest)
+    sizes = (
+        f"{order_name(roll.orders[k])}: {number(unit.of(float(roll.major[k])), 4)}" for k in rows
+    )
+    return f"order {', '.join(sizes)} {unit.name}"
+
+
+def _vector_cells(phasors: Phasors, k: int, unit: ShownUnit) -> tuple[str, str, str]:
+    if phasors.balanced[k]:
+        return NOTHING, "", ""
+    if np.isnan(phasors.forward[k]):
+        return UNKNOWN, UNKNOWN, UNKNOWN
+    largest, ahead, against = (
+        number(unit.of(float(v)), 4)
+        for v in (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
+    )
+    return (largest, ahead, against) if phasors.orders[k] else (largest, UNKNOWN, UNKNOWN)
+
+
+_NAMES = dict(
+    enumerate(["First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth"], 1)
+)
+_MOST_HIGH_ORDERS = 8  # near the lock dozens matter: these one by one, the others together
+_AXES = {"0.0": "x", "90.0": "y"}
+_SWAYS = {"x": "yawing", "y": "pitching"}
+_Row = tuple[int, float]  # index of an order, and the order
+_UNKNOWN: Mapping[str, float] = MappingProxyType({})
+_UNEVEN = (
+    "At this uneven speed orders have parts of one another: what cancels an order at steady speed, "
+    "for which balance sizes devices, cancels its parts in all others, too."
+)
+
+
+class _Vector(NamedTuple):
+    """Force or moment, and what one cylinder makes of it (0: not known)."""
+
+    what: str
+    phasors: Phasors
+    unit: ShownUnit
+    single: float
+
+    def size(self, k: int) -> str:
+        unit, value = self.unit_at(k), float(self.phasors.major[k])
+        return f"{number(unit.of(value), 4)} {unit.name}"
+
+    def unit_at(self, k: int) -> ShownUnit:
+        return self.unit.fit(float(self.phasors.major[k]))
+
+    def matters(self, k: int) -> bool:
+        return bool(self.phasors.major[k] > NEGLIGIBLE * self.single)
+
+
+def verdict(
+    spectra: Spectra, system: System, single: Mapping[str, float] = _UNKNOWN, *, steady: bool = True
+) -> tuple[str, ...]:
+    """A sentence for every order that matters; empty if neither forces nor moments were asked for.
+
+    Args:
+        single: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an
+            order may be negligible.
+        steady: whether the speed is. If not, orders are told without what cancels them: most of an
+            order may be what the unevenness makes of another, and goes with that one.
+    """
+    vectors = [
+        _Vector(kind.name, phasors, system.unit(kind), single.get(kind.name, 0.0))
+        for kind, phasors in spectra.vectors()
+    ]
+    if not vectors:
+        return ()
+    rows = [(k, order) for k, order in enumerate(spectra.orders) if order > 0]
+    higher = [(k, order) for k, order in rows if order not in (1, 2)]
+    told = [_tell_low_order(k, int(order), vectors, steady) for k, order in rows if order in (1, 2)]
+    if any(vector.matters(k) for k, _ in rows for vector in vectors):
+        told += _tell_high_orders(higher, vectors, steady)
+        told += [] if steady else [_UNEVEN]
+    elif largest := _tell_largest(higher, vectors):
+        told.append(f"Higher orders: negligible, at most {largest}.")
+    if higher and not told:
+        told.append(f"The orders shown: free of {' and '.join(v.what for v in vectors)}.")
+    return tuple(told)
+
+
+def _order_name(order: float) -> str:
+    if order % 1:
+        return f"Order {order_name(order)}"
+    return f"{_NAMES[int(order)] if order < len(_NAMES) else ordinal(int(order))} order"
+
+
+def _tell_low_order(k: int, order: int, vectors: list[_Vector], steady: bool) -> str:
+    """Return for order 1 or 2 what is there, which way it turns, and at steady speed what cancels
+    it.
+    """
+    there, free = [], []
+    for vector in vectors:
+        if vector.phasors.balanced[k]:
+            free.append(vector.what)
+            continue
+        told, cure = _tell_vector(k, order, vector)
+        there.append(f"{told}: {cure}." if cure and steady else f"{told}.")
+    if not there:
+        return f"{_order_name(order)}: free of {' and '.join(free)}."
+    rest = [*there[1:], *(f"no {what}." for what in free)]
+    return f"{_order_name(order)}: {' '.join([there[0], *map(capitalized, rest)])}"
+
+
+def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) -> Iterator[str]:
+    """Yield sentences on the higher orders that are small neither next to one cylinder nor next to
+    other orders: the lowest one by one, the others together.
+    """
+    least = [NEGLIGIBLE * vector.phasors.major.max() for vector in vectors]
+    worth: list[tuple[int, float, list[str]]] = []
+    for k, order in higher:
+        sizes = [
+            f"{vector.what} up to {vector.size(k)}"
+            for vector, small in zip(vectors, least, strict=True)
+            if vector.matters(k) and vector.phasors.major[k] > small
+        ]
+        worth += [(k, order, sizes)] if sizes else []
+    alone = len(worth) if len(worth) == _MOST_HIGH_ORDERS + 1 else _MOST_HIGH_ORDERS
+    for _, order, sizes in worth[:alone]:
+        cure = f"; rarely balanced, it would take shafts at {order:g} times crank speed" * steady
+        yield f"{_order_name(order)}: {', '.join(sizes)}{cure}."
+    if others := [(k, order) for k, order, _ in worth[alone:]]:
+        first, last = others[0][1], others[-1][1]
+        largest = _tell_largest(others, vectors)
+        yield f"{len(others)} more, of orders {first:g} to {last:g}: at most {largest}."
+
+
+def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
+    """The largest force and moment of some orders; empty if all are balanced."""
+    told = []
+    for vector in vectors if rows else ():
+        k, order = max(rows, key=lambda row: vector.phasors.major[row[0]])
+        if vector.phasors.major[k]:
+            told.append(f"a {vector.what} of {vector.size(k)} in order {order:g}")
+    return " and ".join(told)
+
+
+def _tell_vector(k: int, order: int, vector: _Vector) -> tuple[str, str]:
+    """One vector of order 1 or 2: its size and how it turns; and what cancels it, nothing where it
+    is negligible.
+    """
+    what, phasors, unit, size = vector.what, vector.phasors, vector.unit_at(k), vector.size(k)
+    if not vector.matters(k):
+        return f"{what} of up to {size}, negligible", ""
+    forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
+    shafts = "nothing on the crankshaft cancels it; it needs {} times crank speed"
+    if backward == 0:
+        cure = shafts.format(f"a balancer shaft at +{order}")
+        by_weights = "counterweights on the crankshaft cancel it"
+        return f"{what} of {size}, turning with the crank", by_weights if order == 1 else cure
+    if forward == 0:
+        cure = shafts.format(f"a balancer shaft at -{order}")
+        return f"{what} of {size}, turning against the crank", cure
+    cure = shafts.format(f"two balancer shafts, at +{order} and -{order}")
+    if order == 1:
+        cure = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
+    ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
+    parts = f"{ahead} turns with the crank, {against} against it"
+    direction = _tell_direction(what, float(phasors.axis_deg[k]))
+    return f"{what} of up to {size} {direction} ({parts})", cure
+
+
+def _tell_direction(what: str, axis_deg: float) -> str:
+    """A force acts along an axis, a moment about it."""
+    angle = degrees(axis_deg, 180)
+    axis = _AXES.get(angle) or f"an axis at {angle} deg"
+    if what != "moment":
+        return f"along {axis}"
+    return f"{_SWAYS[axis]} (about {axis})" if axis in _SWAYS else f"about {axis}"

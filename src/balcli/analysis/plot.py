@@ -1,0 +1,168 @@
+"""Bars by order, curves over crank angle and balance factor, values along the crankshaft."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.phasors import Array, Phasors
+from ..forces.crankshaft import AlongCrank
+from ..show.plot_style import BLUE, GREEN, RED, SOFT, put_legend_above
+from ..show.sheet import VISIBLE, number, order_name, size_text
+from ..show.units import ShownUnit, System
+from ..sizing.bobweights import FactorPeaks
+from .order_tables import fit_largest
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+_LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
+_DASHED: Any = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2))}
+
+
+def draw_vector_bars(
+    ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
+) -> None:
+    """Draw the largest value of each order as a bar: the part that turns with the crank, and on top
+    the part that turns against it; dashed the largest value `before`, of the same orders.
+    """
+    shown = visible_rows(curve, before)
+    s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
+    ahead = np.abs(curve.forward[shown]) / s.size
+    against = np.abs(curve.backward[shown]) / s.size
+    places = np.arange(len(shown))
+    if before is not None:
+        look: Any = {"facecolor": "none", "edgecolor": SOFT, "linestyle": (0, (3, 2))}
+        ax.bar(places, before.major[shown] / s.size, 0.72, label="before", **look)
+    ax.bar(places, ahead, 0.56, color=BLUE, label="with the crank")
+    upper = ax.bar(places, against, 0.56, bottom=ahead, color=RED, hatch="////", label="against it")
+    labels = [number(float(top), 3) for top in ahead + against]
+    ax.bar_label(upper, labels, padding=2, fontsize=7)
+    _finish_bars(ax, curve.orders[shown], f"{what}, {s.name}")
+
+
+def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -> None:
+    """Draw the amplitudes of several moments about the crank, side by side."""
+    shown = sorted({k for curve in curves.values() for k in visible_rows(curve)})
+    s = fit_largest(unit, *curves.values())
+    for (label, curve), look, shift in zip(curves.items(), _LOOKS, (-0.27, 0, 0.27), strict=False):
+        sizes = curve.major[shown] / s.size
+        places = np.arange(len(shown)) + shift
+        ax.bar(places, sizes, 0.25, color=look[0], hatch=look[2], label=label)
+    _finish_bars(ax, next(iter(curves.values())).orders[shown], f"moment, {s.name}")
+
+
+def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
+    """Return the rows of orders 1 and 2 and of those large enough to be seen; at most ten."""
+    major = curve.major if before is None else np.maximum(curve.major, before.major)
+    always = (curve.orders == 1) | (curve.orders == 2)
+    due = np.flatnonzero(always | (major > VISIBLE * major.max(initial=0)))
+    return sorted(due[np.argsort(-major[due], kind="stable")[:10]].tolist())
+
+
+def _finish_bars(ax: Axes, orders: Array, label: str) -> None:
+    ax.set_xticks(np.arange(len(orders)), [order_name(n) for n in orders])
+    ax.set(xlabel="order", ylabel=label, xlim=(-0.6, len(orders) - 0.4))
+    ax.grid(False, axis="x")
+    ax.locator_params(axis="y", nbins=4)
+    ax.set_ylim(0, 1.35 * ax.dataLim.y1 or 1)
+    put_legend_above(ax)
+
+
+def draw_curves(
+    ax: Axes,
+    crank: Array,
+    lines: Mapping[str, Array],
+    what: str,
+    unit: ShownUnit,
+    before: Array | None = None,
+) -> None:
+    """Draw values over the crank angle, dashed the last one `before`.
+
+    Args:
+        crank: rad, shape (angles,).
+        lines: values by label, each of shape (angles,).
+    """
+    values = [*lines.values(), *([] if before is None else [before])]
+    s = unit.fit(float(np.abs(values).max()))
+    crank = np.degrees(crank)
+    if before is not None:
+        ax.plot(crank, before / s.size, label=f"{list(lines)[-1].split()[0]} before", **_DASHED)
+    for (label, line), look in zip(lines.items(), _LOOKS, strict=False):
+        ax.plot(crank, line / s.size, color=look[0], linestyle=look[1], label=label)
+    ax.axhline(0, color=SOFT, linewidth=0.7)
+    set_crank_axis(ax, crank)
+    ax.set_ylabel(f"{what}, {s.name}")
+    ax.locator_params(axis="y", nbins=5)
+    put_legend_above(ax)
+
+
+def set_crank_axis(ax: Axes, crank_deg: Array, label: str = "crank angle, deg") -> None:
+    """Make x the crank angle, with ticks every 90 degrees."""
+    first, last = (round(float(angle)) for angle in crank_deg[[0, -1]])
+    ax.set(xlim=(first, last), xticks=np.arange(first, last + 1, 90), xlabel=label)
+
+
+def draw_factors(
+    ax: Axes, rows: Sequence[FactorPeaks], force: ShownUnit, moment: ShownUnit | None
+) -> None:
+    """Draw the largest force and its components over the balance factor, and the largest moment on
+    an axis of its own.
+
+    Args:
+        moment: None if moments are not known.
+    """
+    share, moments = [row.factor for row in rows], np.array([row.peak_moment_Nm for row in rows])
+    s = force.fit(max(row.peak_force_N for row in rows))
+    forces = np.array([(row.peak_force_N, row.along_N, row.across_N) for row in rows]).T / s.size
+    labels = ("force", "along the first bank", "across it")
+    for values, label, look in zip(forces, labels, _LOOKS, strict=True):
+        ax.plot(share, values, color=look[0], linestyle=look[1], label=label)
+    best = min(rows, key=lambda row: row.cost)
+    least = size_text(best.peak_force_N, force)
+    if best.by_moment and moment is not None:
+        least = f"moment {size_text(best.peak_moment_Nm, moment)}"
+    ax.plot(best.factor, best.peak_force_N / s.size, "o", color=BLUE)
+    ax.set(
+        xlabel="balance factor: share of the reciprocating mass in the counterweights",
+        ylabel=f"largest over a revolution, {s.name}",
+        xlim=(share[0], share[-1]),
+        ylim=(0, None),
+        title=f"Largest free force over the balance factor; best at {best.factor:.4g} ({least})",
+    )
+    if moment is not None and moments.max() > 0:
+        t, right = moment.fit(float(moments.max())), ax.twinx()
+        right.plot(share, moments / t.size, **_DASHED)
+        right.set(ylabel=f"moment (dashed grey), {t.name}", ylim=(0, None))
+        right.grid(False)
+    put_legend_above(ax)
+
+
+def draw_along(
+    ax: Axes, curves: Sequence[AlongCrank], what: str, system: System, steps: str, over: str
+) -> None:
+    """Draw the largest values at places along the crankshaft.
+
+    Args:
+        curves: now, and before if there are two to compare.
+        what: "force" or "moment".
+        steps: matplotlib's drawstyle of the line between the places; empty: columns.
+        over: what the values are the largest of, such as "the cycle".
+    """
+    unit = system.force if what == "force" else system.moment
+    values = [np.array([peak.value for peak in curve.peaks]) for curve in curves]
+    s = unit.fit(float(max(map(np.max, values))))
+    now: Any = {"color": BLUE, "linewidth": 2.2, "zorder": 3}
+    labels = ("after", "before") if len(curves) > 1 else (f"largest over {over}",)
+    for curve, sizes, look, label in zip(curves, values, (now, _DASHED), labels, strict=False):
+        z = curve.z_m / system.length.size
+        ax.plot(z, sizes / s.size, "o", color=look["color"], markersize=4)
+        if steps:
+            ax.plot(z, sizes / s.size, drawstyle=steps, label=label, **look)
+        else:
+            ax.vlines(z, 0, sizes / s.size, label=label, **look)
+    ax.set(ylabel=f"{what}, {s.name}", ylim=(0, None))
+    put_legend_above(ax)

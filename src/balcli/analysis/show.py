@@ -1,0 +1,292 @@
+"""What a person reads of the analysis of one engine.
+
+What a program reads of the analysis of one engine: JSON, and the same figures as CSV.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..core.records import to_document
+from ..engine.layout import MOMENTS_UNKNOWN
+from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
+from ..show.csv import Columns, Rows
+from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
+from ..show.figures import (
+    FigureRow,
+    assumptions,
+    describe_engine,
+    describe_state,
+    figure_rows,
+    order_entries,
+    peak_entries,
+)
+from ..show.formats import Columnar
+from ..show.sheet import IN_BRIEF, NAMELESS, Facts, Grid, Sheet, Text, View, sentence
+from ..show.units import System
+from . import (
+    sections as crankshaft,
+)
+from . import (
+    sections as guide_moments,
+)
+from . import (
+    sections as strokes,
+)
+from . import (
+    sections as symmetry,
+)
+from .answer import Analysis, Sizing
+from .devices_show import device_entries, device_grid, device_rows, number_devices
+from .order_tables import (
+    cylinder_table,
+    direction_tables,
+    gas_grid,
+    order_tables,
+    peak_facts,
+    tell_rocking,
+    textbook_tables,
+)
+from .overview import (
+    find_orders_that_matter,
+    roll_and_peaks,
+    sizing_in_brief,
+    tell_others,
+    vectors_grid,
+    verdict,
+)
+
+Part: TypeAlias = Grid | Facts | Text
+TEXTS = frozenset({"verdict", "sizing", "textbook"})  # parts that need no crank speed beside them
+TABLES = frozenset({"xy", "textbook", "sizing", "peak", "inner", "guide"})  # without a verdict
+
+
+def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
+    """What the engine is, the verdict, what it does order by order, peaks, sizing."""
+    return Sheet(result.engine.name or NAMELESS, tuple(_parts(result, system, view)))
+
+
+def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
+    if not view.parts or view.whole:
+        higher = result.has_higher_orders
+        yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
+    elif view.parts - TEXTS:
+        yield speed_facts(result.engine)
+    if not view.parts <= TABLES or not view.parts:
+        yield from _judge(result, system)
+    if view.parts or view.whole:
+        yield from _chosen_order_parts(result, system, view)
+    else:
+        yield from _order_parts_in_brief(result, system, view)
+    for n, share in result.cylinders:
+        yield cylinder_table(n, share.with_moment_if(result.moments_known), system)
+    yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
+    if result.sizing is not None:
+        if view.whole or view.parts:
+            yield from _sizing_parts(result.sizing, system)
+        else:
+            yield sizing_in_brief(result.sizing, system)
+
+
+def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
+    """What there is only of some engines, or where it was asked for."""
+    if result.travel is not None and whole:
+        yield from strokes.lay_out_strokes(result.travel, result.engine.numbers, system)
+    if result.inner is not None:
+        yield from crankshaft.sheet_parts(result.inner, system)
+    if result.guide is not None:
+        yield from guide_moments.lay_out_guide(result.guide, system)
+    if result.why is not None:
+        yield from symmetry.lay_out_symmetry(result.why)
+
+
+def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
+    """Yield all tables, or those that `--only` names, of orders that matter unless all or some were
+    asked for.
+    """
+    spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
+    parts = view.parts or {*EVERY_KIND, "xy", "textbook"}
+    others = ""
+    if not (view.whole or every):
+        shown = find_orders_that_matter(spectra, result.of_one_cylinder)
+        others = tell_others([spectra], shown, system, hints=view.hints)
+        spectra = spectra.select_orders(shown)
+    tables: list[Grid] = []
+    named = spectra.only({*parts, *(GAS_KINDS if GAS.name in parts else ())})
+    if parts.intersection(EVERY_KIND):
+        pivot, with_gas = tell_pivot(result.engine), result.engine.gas is not None
+        tables += order_tables(named, system, pivot, with_gas=with_gas, every=every)
+    if "xy" in parts:
+        tables += direction_tables(spectra, system, every=every)
+    if "textbook" in parts and spectra.vectors():
+        shown_book = replace(result, spectra=spectra).textbook
+        tables += textbook_tables(shown_book, system, every=every)
+    yield from tables
+    if tables and others:
+        yield Text("", (others,))
+    if result.peaks:
+        yield peak_facts(result, system, "Largest over a revolution, all orders")
+
+
+def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
+    """One table of force and moment, roll and peaks in a line each."""
+    spectra = result.spectra.with_moment_if(result.moments_known)
+    vectors = spectra.only([kind.name for kind in VECTORS])
+    shown = list(map(float, vectors.orders))
+    if not view.every_order:
+        shown = find_orders_that_matter(vectors, result.of_one_cylinder)
+    if vectors.vectors():
+        yield vectors_grid(vectors, shown, system, hints=view.hints)
+    facts = roll_and_peaks(result, system, every_order=view.every_order)
+    if facts.pairs:
+        yield facts
+    yield from gas_grid(
+        result.spectra,
+        system,
+        tell_pivot(result.engine),
+        every_order=view.every_order,
+        hints=view.hints,
+    )
+
+
+def _judge(result: Analysis, system: System) -> Iterator[Text]:
+    """Yield the verdict; of forces alone where moments are not known, which it then says."""
+    if not result.spectra.vectors():
+        return
+    spectra, known = result.spectra, result.moments_known
+    spectra = spectra if known else replace(spectra, moment=None)
+    steady = not result.engine.ripple
+    told = verdict(spectra, system, result.of_one_cylinder, steady=steady)
+    rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
+    unknown = "" if known else sentence(MOMENTS_UNKNOWN)
+    if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 alone says nothing
+        yield Text("Verdict", told)
+
+
+def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
+    remedy, after = sizing.remedy, sizing.after
+    if not remedy.devices:
+        yield sizing_in_brief(sizing, system)
+        return
+    steady = ", at steady speed" if after.engine.ripple else ""
+    yield Text(
+        f"Sizing: what leaves no free force or moment of orders 1 and 2{steady}"
+        if after.moments_known
+        else f"Sizing: what leaves no free force of orders 1 and 2{steady} (moments are not known)",
+        tuple(dict.fromkeys(remedy.reasons)),
+    )
+    yield device_grid(remedy, system)
+    yield peak_facts(after, system, "Largest with these devices")
+
+
+FORMAT = "balcli.analysis/1"
+
+
+def document(result: Analysis) -> dict[str, Any]:
+    """`balcli.analysis/1`."""
+    engine = result.engine
+    found: dict[str, Any] = {
+        "format": FORMAT,
+        "engine": describe_engine(engine),
+        **describe_state(engine),
+        "orders": order_entries(result.spectra),
+        **assumptions(result, engine.inferred),
+    }
+    if largest := peak_entries(result):
+        found["peak"] = largest
+    if result.sizing is not None:
+        found["sizing"] = {
+            "scheme": result.sizing.remedy.scheme,
+            **device_entries(result.sizing.remedy),
+            "after": brief_document(result.sizing.after),
+        }
+    if result.cylinders:
+        found["cylinders"] = [
+            {"cylinder": number, "orders": order_entries(spectra)}
+            for number, spectra in result.cylinders
+        ]
+    if result.inner is not None:
+        from . import sections as crankshaft
+
+        found["inner"] = crankshaft.document(result.inner)
+    if result.guide is not None:
+        from . import sections as guide_moments
+
+        found["guide"] = guide_moments.describe_guide(result.guide)
+    if result.travel is not None:
+        from . import sections as strokes
+
+        found["travel"] = strokes.describe_strokes(result.travel, result.engine.numbers)
+    if result.why is not None:
+        found["why"] = to_document(result.why)
+    return found
+
+
+def columns(result: Analysis) -> Columns:
+    """An order a row: sizes and directions of each kind, named as the quantities of sweeps without
+    their order.
+    """
+    spectra = result.spectra.with_moment_if(result.moments_known)
+    orders = result.orders.tolist()
+    values: dict[str, Any] = {"order": orders}
+    units: dict[str, str] = {}
+    for kind, phasors in spectra.items():
+        parts = {"amplitude": phasors.major, "cos": phasors.x.real, "sin": -phasors.x.imag}
+        if kind.vector:
+            parts = {
+                "major": phasors.major,
+                "minor": np.abs(phasors.minor),
+                "axis": phasors.axis_deg,
+                "forward": np.abs(phasors.forward),
+                "backward": np.abs(phasors.backward),
+            }
+        for part, figures in parts.items():
+            values[f"{kind.name}.{part}"] = figures + 0.0
+            units[f"{kind.name}.{part}"] = "deg" if part == "axis" else kind.si_unit
+    return Columns(values, units)
+
+
+def brief_document(result: Analysis) -> dict[str, Any]:
+    """Peaks and orders alone, where the engine is known."""
+    return {"peak": peak_entries(result), "orders": order_entries(result.spectra)}
+
+
+def rows(result: Analysis, system: System, *, devices: bool = True) -> Rows:
+    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve.
+
+    Args:
+        devices: whether those of the sizing are wanted.
+    """
+    header = ("cylinder", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _all_rows(result, system, devices=devices))
+
+
+def _all_rows(result: Analysis, system: System, *, devices: bool) -> Iterator[FigureRow]:
+    yield from figure_rows(result, system)
+    if devices and result.sizing is not None:
+        for part, device in number_devices(result.sizing.remedy.devices):
+            for figure, value, unit in device_rows(device, system):
+                yield FigureRow(0, part, None, figure, value, unit)
+    if result.travel is not None:
+        from . import sections as strokes
+
+        yield from strokes.list_strokes(result.travel, result.engine.numbers, system)
+    if result.inner is not None:
+        from . import sections as crankshaft
+
+        yield from crankshaft.rows(result.inner, system)
+    if result.guide is not None:
+        from . import sections as guide_moments
+
+        yield from guide_moments.list_guide(result.guide, system)
+    if result.why is not None:
+        from . import sections as symmetry
+
+        yield from symmetry.list_symmetry(result.why)
+
+
+RENDERER = Columnar(document=document, columns=columns)

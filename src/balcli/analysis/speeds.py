@@ -1,0 +1,437 @@
+"""One engine at several speeds.
+
+What builders of large engines state of an engine: external forces and moments by order, vertical
+and horizontal, guide-force moments and torque, at one speed or several.
+
+Vertical is along x, horizontal along y. A vertical force makes the moment about the y axis that is
+called vertical, too: M1V is My of order 1, M1H its Mx.
+
+One engine at several speeds: for people a table a kind, a speed a row; for programs the analyses
+themselves.
+
+The sheet of builders of large engines: external forces and moments, guide-force moments and
+torque by order, at one speed an order a row, at several a speed a row.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.phasors import Array
+from ..core.records import remove_unit
+from ..engine.build import Engine
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
+from ..show.csv import Rows, name_cell
+from ..show.engine_facts import engine_facts
+from ..show.figures import clean, clean_each
+from ..show.formats import Renderer
+from ..show.sheet import (
+    NAMELESS,
+    NEGLIGIBLE,
+    Facts,
+    Grid,
+    NamedResult,
+    Sheet,
+    Text,
+    capitalized,
+    given,
+    order_name,
+    order_number,
+    size_cell,
+    size_text,
+)
+from . import sections as symmetry
+from . import show as analysis_document
+from .answer import Analysis, analyze
+from .comparison import (
+    TITLES,
+    Line,
+    analyze_alike,
+    find_lines_that_matter,
+    fit_unit,
+    list_lines,
+    show_sizes,
+)
+from .sections import define_guide_moments
+
+if TYPE_CHECKING:
+    from ..forces.kinds import Kind
+    from ..show.units import ShownUnit, System
+
+
+@dataclass(frozen=True, eq=False)
+class SpeedSeries:
+    """Analyses of one engine by the same orders, a speed each, as the speeds were asked for.
+
+    Attributes:
+        every_order: whether orders were asked for, so that none of them is left out.
+    """
+
+    analyses: tuple[Analysis, ...]
+    every_order: bool = False
+
+    @property
+    def speeds_rpm(self) -> list[float]:
+        """Of each analysis."""
+        return [float(one.engine.speed_rpm) for one in self.analyses]
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """Every figure, with a value a speed."""
+        return list_lines(self.analyses, every_order=self.every_order)
+
+
+def analyze_speeds(
+    engine: Engine,
+    speeds_rpm: Sequence[float],
+    orders: Iterable[float] | None,
+    analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
+) -> SpeedSeries:
+    """An engine at each of these speeds.
+
+    Args:
+        engine: without trailing axes.
+        orders: default: all that are shown at one of the speeds.
+        analyze_one: of an engine, with the orders asked for or None.
+
+    Raises:
+        BalcliError: whatever `analyze_one` raises.
+    """
+    engines = [replace(engine, speed_rpm=speed) for speed in speeds_rpm]
+    asked = None if orders is None else list(orders)
+    return SpeedSeries(analyze_alike(engines, asked, analyze_one), asked is not None)
+
+
+FIGURES = (
+    "force_v_N",
+    "force_h_N",
+    "moment_v_Nm",
+    "moment_h_Nm",
+    "guide_h_Nm",
+    "guide_x_Nm",
+    "torque_Nm",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class MarineSheet:
+    """Amplitudes by speed and order.
+
+    Attributes:
+        engine: Engine at the first of the speeds.
+        speeds_rpm: Speeds, shape (speeds,).
+        orders: Orders, ascending, shape (orders,).
+        figures: Amplitudes by their names in `FIGURES`, shape (speeds, orders); nan: not known.
+            force_v, force_h: external forces along x and y; moment_v, moment_h: external moments of
+            the forces along x and along y; guide_h, guide_x: H- and X-type guide-force moments;
+            torque: on the crank, of inertia, and of the gas where the engine has some.
+        height_m: Distance from the crankshaft to the middle of each cylinder's guide, by its
+            number, shape (cylinders,).
+        force_of_one: Force of one cylinder at each speed, N, next to which an external force may be
+            negligible, shape (speeds,).
+        moment_of_one: Moment of one cylinder, N m, shape (speeds,).
+        every_order: Whether people are shown orders that are negligible, too.
+    """
+
+    engine: Engine
+    speeds_rpm: Array
+    orders: Array
+    figures: dict[str, Array]
+    height_m: Array
+    force_of_one: Array
+    moment_of_one: Array
+    every_order: bool = False
+
+
+def find_marine_sheet(
+    engine: Engine,
+    speeds_rpm: Sequence[float] = (),
+    orders: Iterable[float] | None = None,
+    guide_height_m: float | None = None,
+    every_order: bool = False,
+) -> MarineSheet:
+    """Compute external forces and moments, guide-force moments and torque of an engine by order.
+
+    Args:
+        engine: Engine without trailing axes.
+        speeds_rpm: Speeds; default: the engine's own.
+        orders: Orders; default: all that `analyze` shows of one of them at one of the speeds.
+        guide_height_m: Distance from the crankshaft to the middle of the guides; default: each
+            rod's length.
+        every_order: Whether people are shown orders that are negligible, too; they are if orders
+            are given.
+
+    Raises:
+        BalcliError: orders that are none or too high.
+    """
+    torque = TORQUE if engine.gas is None else TORQUE_TOTAL
+    ask = partial(
+        analyze, only=("force", "moment", "guide", torque.name), guide_height_m=guide_height_m
+    )
+    speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
+    found = analyze_alike([replace(engine, speed_rpm=speed) for speed in speeds], orders, ask)
+    each = [_list_amplitudes(one, torque.name) for one in found]
+    guide = found[0].guide
+    return MarineSheet(
+        replace(engine, speed_rpm=speeds[0]),
+        np.array(speeds),
+        found[0].orders,
+        {name: np.stack(sizes) for name, *sizes in zip(FIGURES, *each, strict=True)},
+        np.array([]) if guide is None else guide.height_m,
+        np.array([one.of_one_cylinder["force"] for one in found]),
+        np.array([one.of_one_cylinder["moment"] for one in found]),
+        every_order or orders is not None,
+    )
+
+
+def _list_amplitudes(one: Analysis, torque: str) -> tuple[Array, ...]:
+    """Return amplitudes at one speed in the order of `FIGURES`, each of shape (orders,)."""
+    spectra = one.spectra.with_moment_if(one.moments_known)
+    force, moment = spectra["force"], spectra["moment"]
+    guides = (None, None) if one.guide is None else (one.guide.h, one.guide.x)
+    unknown = np.full(one.orders.shape, np.nan)
+    return (
+        *(np.abs(component) for component in (force.x, force.y, moment.y, moment.x)),
+        *(unknown if guide is None else guide.major for guide in guides),
+        np.abs(spectra[torque].x),
+    )
+
+
+def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
+    """What the engine is, and what it does at each speed."""
+    engine = one.result.analyses[0].engine
+    return Sheet(engine.name or NAMELESS, tuple(_parts(one, system)))
+
+
+def document(one: NamedResult[SpeedSeries]) -> dict[str, Any]:
+    """`balcli.speeds/1`: the analysis at each speed, as `balcli.analysis/1`."""
+    return {
+        "format": "balcli.speeds/1",
+        "engine": {"name": one.result.analyses[0].engine.name},
+        "analyses": [analysis_document.document(each) for each in one.result.analyses],
+    }
+
+
+def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
+    """CSV: the rows of each analysis after the engine's name and the speed."""
+    devices = "sizing" in one.view.parts
+    every = [analysis_document.rows(each, system, devices=devices) for each in one.result.analyses]
+    lines = (
+        (name_cell(one.name), speed, *line)
+        for speed, rows_of_one in zip(one.result.speeds_rpm, every, strict=True)
+        for line in rows_of_one.lines
+    )
+    return Rows(("engine", "speed_rpm", *every[0].header), lines)
+
+
+def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Grid | Text]:
+    series, view, speeds = one.result, one.view, one.result.speeds_rpm
+    first = series.analyses[0]
+    if not view.parts or view.whole:
+        higher = first.has_higher_orders
+        yield engine_facts(first.engine, system, higher=higher, whole=view.whole, speeds_rpm=speeds)
+    kinds = dict.fromkeys(line.kind for line in series.lines)
+    if not (view.parts or view.whole):  # in brief
+        roll = ROLL if first.engine.gas is None else ROLL_TOTAL
+        kinds = dict.fromkeys(kind for kind in kinds if kind in (FORCE, MOMENT, roll))
+    for kind in kinds:
+        own = [line for line in series.lines if line.kind == kind]
+        yield _kind_part(kind, own, speeds, system, whole=view.whole or view.every_order)
+    if first.why is not None:
+        yield from symmetry.lay_out_symmetry(first.why)
+
+
+def _kind_part(
+    kind: Kind, lines: list[Line], speeds_rpm: list[float], system: System, *, whole: bool
+) -> Grid | Text:
+    """One kind by speed, a column an order, and the peak; one sentence where nothing matters."""
+    title = TITLES.get(kind, kind.label)
+    shown = lines if whole else find_lines_that_matter(lines)
+    if not shown:
+        largest = max(v for line in lines for v in line.values)
+        most = f" (at most {size_text(largest, system.unit(kind), 2)})" if largest else ""
+        return Text("", (f"{'Negligible' if largest else 'Balanced'}: {title}{most}.",))
+    unit = fit_unit(kind, shown, system)
+    heads = ("peak" if line.order is None else f"order {order_name(line.order)}" for line in shown)
+    columns = [show_sizes(line, unit, every=whole) for line in shown]
+    table = tuple(
+        (given(speed), *cells) for speed, *cells in zip(speeds_rpm, *columns, strict=True)
+    )
+    title = f"{capitalized(title)}, {unit.name}: largest by order"
+    return Grid(title, ("rpm", *heads), table, words=())
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+
+
+_NAMES = (
+    "FnV, FnH, MnV, MnH: n is the order, so that M1V and M2V stand in column MnV. Amplitudes; a "
+    "vertical force makes a vertical moment."
+)
+
+
+# Names of the figures as engineers write them, `n` for the order.
+_SYMBOLS = dict(zip(FIGURES, ("FnV", "FnH", "MnV", "MnH", "Hn", "Xn", "Tn"), strict=True))
+_EXTERNAL, _INNER = FIGURES[:4], FIGURES[4:]
+
+
+def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
+    """Return what the engine is, what acts on its frame and on its crank, and what the names
+    mean.
+    """
+    result = one.result
+    head = engine_facts(
+        result.engine, system, higher=False, whole=False, speeds_rpm=result.speeds_rpm.tolist()
+    )
+    alone = "of inertia alone, without gas"
+    of_what = alone if result.engine.gas is None else "of inertia and gas"
+    if len(result.speeds_rpm) == 1:
+        title = f"Guide-force moments Hn, Xn and torque on the crank Tn, {of_what}"
+        groups = {"External forces and moments": _EXTERNAL, title: _INNER}
+        draw = _grid_by_order
+    else:
+        groups = {
+            "External forces": _EXTERNAL[:2],
+            "External moments": _EXTERNAL[2:],
+            f"H-type guide-force moments {of_what}": _INNER[:1],
+            f"X-type guide-force moments {of_what}": _INNER[1:2],
+            f"Torque on the crank {of_what}": _INNER[2:],
+        }
+        draw = _grid_by_speed
+    grids = (draw(title, names, result, system) for title, names in groups.items())
+    notes = (_tell_axes(result), define_guide_moments(result.height_m, system))
+    return Sheet(result.engine.name or NAMELESS, (head, *grids, Text("", notes)))
+
+
+def describe_marine(one: NamedResult[MarineSheet]) -> dict[str, Any]:
+    """Return `balcli.marine/1`: SI."""
+    result = one.result
+
+    def entry(i: int, k: int) -> dict[str, Any]:
+        figures = {name: clean(values[i, k]) for name, values in result.figures.items()}
+        return {"order": order_number(result.orders[k]), **figures}
+
+    return {
+        "format": "balcli.marine/1",
+        "engine": {"name": result.engine.name, "cylinders": result.engine.cylinders.count},
+        "includes": "inertia, without gas" if result.engine.gas is None else "inertia and gas",
+        "axes": {"v": "x", "h": "y"},
+        "height_m": clean_each(result.height_m),
+        "speeds": [
+            {"speed_rpm": speed, "orders": [entry(i, k) for k in range(len(result.orders))]}
+            for i, speed in enumerate(result.speeds_rpm.tolist())
+        ],
+    }
+
+
+def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
+    """Return CSV: an order of a speed a line, a column a figure."""
+    result = one.result
+    units = {name: _unit(name, system) for name in FIGURES}
+    heads = (f"{remove_unit(name)}_{unit.name.replace('·', '')}" for name, unit in units.items())
+    lines = (
+        (
+            name_cell(one.name),
+            speed,
+            order_number(order),
+            *(clean(unit.of(result.figures[name][i, k])) for name, unit in units.items()),
+        )
+        for i, speed in enumerate(result.speeds_rpm)
+        for k, order in enumerate(result.orders)
+    )
+    return Rows(("engine", "speed_rpm", "order", *heads), lines)
+
+
+def _unit(name: str, system: System) -> ShownUnit:
+    return system.force if name.endswith("_N") else system.moment
+
+
+def _find_least(name: str, result: MarineSheet) -> Array:
+    """Return above which size a figure matters, shape (speeds, 1)."""
+    if name.startswith("force"):
+        largest = result.force_of_one
+    elif name.startswith("moment"):
+        largest = result.moment_of_one
+    else:
+        alike = [values for key, values in result.figures.items() if key[:5] == name[:5]]
+        largest = np.nan_to_num(np.hstack(alike)).max(axis=1)
+    return NEGLIGIBLE * largest[:, None]
+
+
+def _find_orders_that_matter(name: str, result: MarineSheet) -> Array:
+    """Return which orders do at one of the speeds, shape (orders,); all that are not 0 if every
+    one is asked for.
+    """
+    least = 0.0 if result.every_order else _find_least(name, result)
+    return np.asarray(np.any(np.nan_to_num(result.figures[name]) > least, axis=0))
+
+
+# ------------------------------------------------------------------ tables
+def _grid_by_order(
+    title: str, names: tuple[str, ...], result: MarineSheet, system: System
+) -> Grid | Text:
+    """Return a table at one speed: an order a row."""
+    matter = np.any([_find_orders_that_matter(name, result) for name in names], axis=0)
+    shown = np.flatnonzero(matter | (result.orders <= 2) & (result.orders % 1 == 0))
+    units = {name: _fit(names, name, result, system) for name in names}
+    rows = tuple(
+        (
+            order_name(result.orders[k]),
+            *(_cell(name, 0, k, unit, result) for name, unit in units.items()),
+        )
+        for k in map(int, shown)
+    )
+    heads = (f"{_SYMBOLS[name]}, {unit.name}" for name, unit in units.items())
+    return Grid(title, ("order", *heads), rows, _NAMES if names == _EXTERNAL else "")
+
+
+def _grid_by_speed(
+    title: str, names: tuple[str, ...], result: MarineSheet, system: System
+) -> Grid | Text:
+    """Return a table of several speeds: a speed a row, a column an order; one sentence where none
+    matters.
+    """
+    matter = {name: _find_orders_that_matter(name, result) for name in names}
+    orders = range(len(result.orders))
+    chosen = [(name, k) for k in orders for name in names if matter[name][k]]
+    if not chosen:
+        unknown = all(np.isnan(result.figures[name]).all() for name in names)
+        return Text("", (f"{title}: {'not known' if unknown else 'balanced'}.",))
+    unit = _fit(tuple(name for name, _ in chosen), names[0], result, system)
+    heads = (_SYMBOLS[name].replace("n", order_name(result.orders[k])) for name, k in chosen)
+    lines = tuple(
+        (given(speed), *(_cell(name, i, k, unit, result) for name, k in chosen))
+        for i, speed in enumerate(result.speeds_rpm.tolist())
+    )
+    return Grid(f"{title}, {unit.name}", ("rpm", *heads), lines, words=())
+
+
+def _fit(names: tuple[str, ...], like: str, result: MarineSheet, system: System) -> ShownUnit:
+    """Return one unit for all forces or all moments of a table."""
+    unit = _unit(like, system)
+    alike = [result.figures[name] for name in names if _unit(name, system) == unit]
+    return unit.fit(max(float(np.nan_to_num(values).max()) for values in alike))
+
+
+def _cell(name: str, i: int, k: int, unit: ShownUnit, result: MarineSheet) -> str:
+    value, least = float(result.figures[name][i, k]), float(_find_least(name, result)[i, 0])
+    return size_cell(value, unit, negligible=not result.every_order and value < least)
+
+
+def _tell_axes(result: MarineSheet) -> str:
+    """Where vertical is, by the banks of the file."""
+    axes = [round(float(axis), 6) + 0.0 for axis in np.ravel(result.engine.cylinders.axis_deg)]
+    if axes == [0.0]:
+        return "V is along the cylinders (x), H across them (y)."
+    mirrored = sorted(axes) == sorted(0.0 - axis for axis in axes)
+    stand = ", ".join(f"{axis:g}" for axis in axes)
+    what = "midway between the banks" if mirrored and len(axes) == 2 else f"banks at {stand} deg"
+    return f"V is along x, from which bank angles count ({what}), H along y."
+
+
+MARINE = Renderer(sheet=lay_out_marine, document=describe_marine, rows=list_marine)

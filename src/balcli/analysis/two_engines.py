@@ -1,0 +1,396 @@
+"""Two engines on one frame, geared one to one (H, U, opposed-piston): phasors added.
+
+`balcli.combine`
+
+Two engines on one frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+import numpy as np
+
+from ..core.peaks import Peak, find_peak
+from ..core.phasors import Array, Complex, Figure, Phasors, unit
+from ..core.speed_ripple import RippleLine
+from ..engine.build import Engine, check_engine
+from ..errors import BalcliError, check_number, check_type
+from ..forces.kinds import EVERY_KIND, GAS, KINDS, VECTORS, Kind
+from ..forces.spectrum import (
+    Spectra,
+    add_parts,
+    check_orders,
+    choose_orders,
+    compute_spectra,
+    find_relevant_orders,
+    list_gas_orders,
+    merge_orders,
+)
+from ..limits import FARTHEST_DEG, FARTHEST_M, HIGHEST_ORDER_UNASKED
+from ..shell.arguments import read_position, tell_arguments
+from ..show.csv import Rows
+from ..show.engine_facts import tell_pivot, tell_speed
+from ..show.figures import (
+    assumptions,
+    clean,
+    describe_engine,
+    describe_state,
+    figure_rows,
+    order_entries,
+    peak_entries,
+)
+from ..show.formats import Renderer
+from ..show.result import Result
+from ..show.sheet import Facts, Grid, Sheet, number
+from .answer import DEFAULT_ORDERS
+from .order_tables import order_tables, peak_facts
+
+if TYPE_CHECKING:
+    from ..show.units import ShownUnit, System
+
+
+Load = Literal["first", "second", "both"]
+LOADS: tuple[str, ...] = get_args(Load)
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """How the second engine stands to the first, and what they drive.
+
+    Attributes:
+        phase_deg: crank angle by which it leads, in its own sense of rotation.
+        at_m: place of its origin (its crank axis at its z = 0) in the first engine's axes.
+        turn_deg: how far it is turned about z, with all its banks.
+        reverse: whether its crank turns against the first: it is then built as its own mirror image
+            (y changed in sign), so that its file still counts everything in its own sense of
+            rotation.
+        load: which crank has the flywheel and the load, and so bears the whole inertia torque;
+            "both": each bears its own, and the gears carry none of it. Where the cranks turn alike
+            it makes no difference.
+    """
+
+    phase_deg: float = 0.0
+    at_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    turn_deg: float = 0.0
+    reverse: bool = False
+    load: str = "first"
+
+    def __post_init__(self) -> None:
+        """Raise BalcliError for something infinite or too far, an unknown load, or a load that
+        makes no difference.
+        """
+        for option, value in (("phase", self.phase_deg), ("turn", self.turn_deg)):
+            if not abs(value) <= FARTHEST_DEG:
+                raise BalcliError(
+                    f"--{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
+                )
+        if not all(abs(value) <= FARTHEST_M for value in self.at_m):
+            raise BalcliError(
+                f"--at: the place of the second engine may be up to {FARTHEST_M:g} m off"
+            )
+        if self.load not in LOADS:
+            raise BalcliError(f'--load "{self.load[:60]}": choose from {", ".join(LOADS)}')
+        if self.load != "first" and not self.reverse:
+            raise BalcliError(
+                f"--load {self.load}: cranks that turn alike roll the frame alike, whichever "
+                "drives the load; it matters with --reverse"
+            )
+
+
+@dataclass(frozen=True, repr=False)
+class Combined(Result):
+    """What two engines do to their common frame, about the first one's point of reference.
+
+    Geared one to one the kinetic energies add, so that the inertia torque, as the first crank feels
+    it, is T1 + T2, each in its own crank's sense, whichever way they turn. What the load takes does
+    not act on the frame: the roll is C - (T1 + T2) with the load on the first crank,
+    C + (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own.
+    The gas torques add like these, in orders of both cycles; an engine without gas has none.
+
+    Attributes:
+        engines: as they were given.
+        arrangement: where the second one stands, how it leads, and who drives the load.
+        spectra: phasors of the orders shown, of both together.
+        force: largest `value` over a revolution (N), of all orders, and its crank angle `theta`
+            (rad).
+        moment: likewise (N m).
+        cylinders: none; each engine's own analysis has them.
+        every_order: whether orders were asked for, so that none of them is left out.
+    """
+
+    engines: tuple[Engine, Engine]
+    arrangement: Arrangement
+    spectra: Spectra
+    force: Peak
+    moment: Peak
+    cylinders: tuple[tuple[int, Spectra], ...] = ()
+    every_order: bool = False
+
+    @property
+    def summary(self) -> str:
+        """Of which engines."""
+        return f"of {' and '.join(engine.name or 'an engine' for engine in self.engines)}"
+
+    @property
+    def has_gas(self) -> tuple[bool, bool]:
+        """Of which engine the file says what the gas does."""
+        first, second = self.engines
+        return first.gas is not None, second.gas is not None
+
+    @property
+    def moments_known(self) -> bool:
+        """Whether both engine files say where their throws stand."""
+        return all(engine.places_known for engine in self.engines)
+
+    @property
+    def peaks(self) -> list[tuple[Kind, Peak]]:
+        """Force and moment, with their peaks."""
+        return list(zip(VECTORS, (self.force, self.moment), strict=True))
+
+
+def combine_engines(
+    first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
+) -> Combined:
+    """Both engines together, at the first one's speed and unevenness of speed; with gas where one
+    of them has some, or both.
+
+    Args:
+        first, second: without trailing axes.
+        orders: which to show; default as in `analyze`.
+
+    Raises:
+        BalcliError: orders that are negative or too high.
+    """
+    given = (first, second)
+    asked = None if orders is None else check_orders(orders, given)
+    second = gear_to(second, first, arrangement.phase_deg)
+    computed = merge_orders(
+        find_relevant_orders(first),
+        find_relevant_orders(second),
+        DEFAULT_ORDERS if asked is None else asked,
+        *(list_gas_orders(engine) for engine in (first, second) if engine.gas is not None),
+    )
+    few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+    visible = whole = _compute_sum(first, second, arrangement, few)
+    if len(few) < len(computed):  # near the lock tens of thousands: all have a part in the peaks
+        one, other = (replace(engine, gas=None) for engine in (first, second))
+        whole = _compute_sum(one, other, arrangement, computed)
+    shown = choose_orders(visible, first, second) if asked is None else asked
+    return Combined(
+        given,
+        arrangement,
+        visible.select_orders(shown),
+        find_peak(whole["force"]),
+        find_peak(whole["moment"]),
+        every_order=asked is not None,
+    )
+
+
+def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders: Array) -> Spectra:
+    """Return all that both do, with gas where one of them has some."""
+    about_origin = replace(second, reference_m=(0.0, 0.0, 0.0))
+    one, own = (
+        compute_spectra(engine, orders, KINDS if engine.gas is None else (*KINDS, GAS.name))
+        for engine in (first, about_origin)
+    )
+    return _add_spectra(one, place_spectra(own, arrangement, first.reference_m), arrangement)
+
+
+def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
+    """An engine at another's speed, which it leads by an angle; the unevenness is that of the
+    other's crank angle.
+    """
+    ripple = tuple(
+        RippleLine(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
+        for line in leader.ripple
+    )
+    return replace(engine, speed_rpm=leader.speed_rpm, ripple=ripple)
+
+
+def place_spectra(
+    own: Spectra, arrangement: Arrangement, reference_m: tuple[Figure, Figure, Figure]
+) -> Spectra:
+    """Phasors of an engine where it stands, by the crank angle of the engine that it is geared to.
+
+    Args:
+        own: all kinds of inertia, and the gas torque if it has gas, about its own origin, by its
+            own crank angle; torques come out about z, too.
+        reference_m: point of reference of the result, in the other engine's axes.
+    """
+    n = own.orders
+    places = zip(arrangement.at_m, reference_m, strict=True)
+    x, y, z = (place - float(point) for place, point in places)
+    lead = unit(n * arrangement.phase_deg)
+    parts = {
+        kind.name: Phasors.of(n, lead * p.forward, np.conj(lead) * p.backward, p.noise)
+        for kind, p in own.items()
+    }
+    if arrangement.reverse:
+        parts = {name: _mirror(phasors, EVERY_KIND[name]) for name, phasors in parts.items()}
+    turn = unit(arrangement.turn_deg)
+    force = turn * parts["force"]
+    parts["force"] = force
+    parts["moment"] = turn * parts["moment"] + 1j * z * force
+    parts["couple"] = parts["couple"] + force.about(x + 1j * y)
+    return Spectra(n, **{kind.name: add_parts(kind, parts) for kind, _ in own.items()})
+
+
+def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
+    """In the mirror that changes the sign of y a vector becomes its conjugate, and what turns
+    changes its sign besides.
+    """
+    sign = 1.0 if kind.dimension == "force" else -1.0
+    mean = phasors.orders == 0
+    ahead, against = phasors.forward.conj(), phasors.backward.conj()
+    forward: Complex = np.where(mean, ahead, against)
+    backward: Complex = np.where(mean, 0, ahead)
+    return Phasors.of(phasors.orders, sign * forward, sign * backward, phasors.noise)
+
+
+def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
+    """Both engines geared together; torque and roll as in `Combined`."""
+    parts = {name: one[name] + other[name] for name in ("force", "moment", "couple")}
+    parts["torque"], taken = _gear(one["torque"], other["torque"], arrangement)
+    parts["roll"] = parts["couple"] - taken
+    if one.gas is not None or other.gas is not None:
+        none = 0.0 * one["torque"]
+        parts["gas"], taken_of_gas = _gear(one.gas or none, other.gas or none, arrangement)
+        parts["torque_total"] = parts["torque"] + parts["gas"]
+        parts["roll_total"] = parts["roll"] - taken_of_gas
+    return Spectra(one.orders, **{name: found.drop_noise() for name, found in parts.items()})
+
+
+def _gear(one: Phasors, other: Phasors, arrangement: Arrangement) -> tuple[Phasors, Phasors]:
+    """What the first crank feels of torques about z on both, and what the load takes, about z."""
+    sense = -1.0 if arrangement.reverse else 1.0  # of the second crank
+    felt = one + sense * other
+    taken = {"first": felt, "second": sense * felt, "both": one + other}
+    return felt, taken[arrangement.load]
+
+
+@tell_arguments(phase="phase_deg", at="at_m", turn="turn_deg")
+def combine(
+    first: Engine,
+    second: Engine,
+    *,
+    phase_deg: float = 0.0,
+    at_m: Iterable[float] = (0.0, 0.0, 0.0),
+    turn_deg: float = 0.0,
+    reverse: bool = False,
+    load: Load = "first",
+    orders: Iterable[float] | None = None,
+) -> Combined:
+    """Two engines on one frame, geared one to one: H, U and opposed-piston engines.
+
+    Args:
+        first: as `load` makes it; both run at its speed.
+        second: likewise.
+        phase_deg: crank angle by which the second engine leads, in its own sense of rotation; with
+            gas in four strokes over two revolutions.
+        at_m: x, y, z of its origin in the first one's axes, m.
+        turn_deg: how far it is turned about z.
+        reverse: whether its crank turns against the first one's.
+        load: "first", "second" or "both": with `reverse`, the crank that has flywheel and load.
+        orders: which to show; default: 1, 2 and all that are not negligible.
+
+    Returns:
+        `spectra` of both together about the first one's point of reference (N, N m), as of
+        `analyze`, and the peaks `force` and `moment`.
+
+    Raises:
+        BalcliError: something infinite or too far, an unknown load, or one that makes no
+            difference.
+        TypeError: what is no engine, no number, no place.
+
+    Example:
+        >>> combine(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).force.value
+    """
+    checked = check_engine("combine", first), check_engine("combine", second)
+    phase = check_number("phase_deg", phase_deg, "give an angle in degrees")
+    turn = check_number("turn_deg", turn_deg, "give an angle in degrees")
+    check_type("reverse", reverse, bool, "give True or False")
+    check_type("load", load, str, "give first, second or both")
+    place = read_position("at_m", at_m)
+    return combine_engines(*checked, Arrangement(phase, place, turn, reverse, load), orders)
+
+
+_GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
+_ROLL = {
+    "first": f"{_GEARED} It drives the load, and the roll is C − T.",
+    "second": f"{_GEARED} The second one drives the load, against its sense: the roll is C + T.",
+    "both": f"{_GEARED} Each has its own flywheel and load: the roll is C − T1 + T2.",
+}
+_GAS = {  # whose gas counts, by whether the first and the second have some
+    (True, True): "of both; their torques add as those of inertia do",
+    (True, False): "of the first alone; the file of the second has no [gas]",
+    (False, True): "of the second alone; the file of the first has no [gas]",
+}
+
+
+def document(result: Combined) -> dict[str, Any]:
+    """Return `balcli.sum/1`: orders and peak as in `balcli.analysis/1`."""
+    how = asdict(result.arrangement)
+    place = {"at_mm": [clean(v * 1e3) for v in how.pop("at_m")]}
+    engines = [describe_engine(engine) for engine in result.engines]
+    if any(result.has_gas):
+        engines = [e | {"gas": gas} for e, gas in zip(engines, result.has_gas, strict=True)]
+    return {
+        "format": "balcli.sum/1",
+        "engines": engines,
+        "arrangement": {"phase_deg": how.pop("phase_deg"), **place, **how},
+        **describe_state(result.engines[0]),
+        "orders": order_entries(result.spectra),
+        **assumptions(result),
+        "peak": peak_entries(result),
+    }
+
+
+def rows(result: Combined, system: System) -> Rows:
+    """Return CSV: a figure a line, of both engines together."""
+    header = ("quantity", "order", "figure", "value", "unit")
+    return Rows(header, [row[1:] for row in figure_rows(result, system)])
+
+
+def sheet(result: Combined, system: System) -> Sheet:
+    """Return the engines, how they stand, and what they do together."""
+    spectra = result.spectra.with_moment_if(result.moments_known)
+    how, pivot = result.arrangement, tell_pivot(result.engines[0])
+    roll = _ROLL[how.load] if how.reverse else ""
+    parts: tuple[Facts | Grid, ...] = (
+        Facts(tuple(_list_facts(result, system))),
+        *order_tables(spectra, system, pivot, roll, every=result.every_order),
+        peak_facts(result, system, "Largest over a revolution, all orders"),
+    )
+    return Sheet(" and ".join(engine.name for engine in result.engines), parts)
+
+
+def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
+    """Yield the engines, and how they stand and turn next to each other."""
+    (first, second), how = result.engines, result.arrangement
+    for which, engine in (("first", first), ("second", second)):
+        count = engine.cylinders.count
+        yield which, f"{engine.name}, {count} cylinder{'s' * (count > 1)}"
+    place = _tell_place(how.at_m, system.length)
+    yield "place", f"the second at {place}, turned by {how.turn_deg:g} deg"
+    against = ", and turns against the first" if how.reverse else ""
+    yield "crank", f"the second leads by {how.phase_deg:g} deg{against}"
+    slower = second.speed_rpm != first.speed_rpm and not second.speed_assumed
+    other = slower or second.ripple not in ((), first.ripple)
+    ignored = "; what the second's file says of its speed does not count" * other
+    yield "speed", f"both at {tell_speed(first)}{ignored}"
+    if any(result.has_gas):
+        yield "gas", _GAS[result.has_gas]
+    if result.moments_known:
+        yield "reference", f"moments about {_tell_place(first.reference_m, system.length)}"
+    else:
+        yield "reference", "moments are not known: crank.spacing is missing"
+
+
+def _tell_place(point: Iterable[Any], unit: ShownUnit) -> str:
+    return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -1,0 +1,405 @@
+"""Engine -> Balance: what a scheme fits, and the analyses without and with it.
+
+`balcli.balance`
+
+Knuckle angles that make strokes, or dead centres, of articulated rods even.
+
+A remedy written into the text of an engine file, which stays as it was, comments and all.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from types import NoneType
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..analysis.answer import Analysis, analyze
+from ..core.cylinders import Travel, find_travel
+from ..core.mechanisms.linkage import Articulated
+from ..core.phasors import Array, unit
+from ..core.unbalance import find_permitted_unbalance
+from ..engine.build import Engine, build, check_engine
+from ..engine.layout import plan_cylinders
+from ..engine.parse import parse
+from ..errors import BalcliError, InputError, check_type
+from ..file.edit import format_value, rewrite, set_keys
+from ..file.model import EngineFile
+from ..forces.spectrum import merge_orders
+from ..shell.arguments import tell_arguments
+from ..show.result import Result
+from ..sizing.options import KNUCKLES, SchemeOptions
+from ..sizing.planes import FIELDS, DeviceTable, name_kind
+from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.sizing import size
+from ..sizing.workshop import Practical, Tools, find_practical
+
+_UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
+
+
+@dataclass(frozen=True, kw_only=True)
+class PermittedUnbalance:
+    """What a grade of ISO 21940-11 permits.
+
+    Attributes:
+        grade: Permitted speed of the centre of mass, mm/s.
+        mass_kg: Mass of the crankshaft.
+        each_g_mm: Permitted unbalance at each counterweight, or in each plane of the remedy's
+            `needs`; all share alike.
+    """
+
+    grade: float
+    mass_kg: float
+    each_g_mm: float
+
+
+@dataclass(frozen=True, repr=False)
+class Balance(Result):
+    """A remedy, and what the engine does without and with it.
+
+    Attributes:
+        remedy: New devices, and why these.
+        before: Analysis of the engine without them.
+        after: Analysis with them, of the same orders.
+        practical: The workshop's figures of each device, in the order of `remedy.devices`.
+        tools: Tools of the workshop.
+        speed_note: How remedy and analyses differ in speed; empty if they do not.
+        permitted: What a grade permits, if one was asked for.
+        every_order: Whether orders were asked for, so that none of them is left out.
+    """
+
+    remedy: Remedy
+    before: Analysis
+    after: Analysis
+    practical: tuple[Practical, ...] = ()
+    tools: Tools = field(default_factory=Tools)
+    speed_note: str = ""
+    permitted: PermittedUnbalance | None = None
+    every_order: bool = False
+
+    @property
+    def summary(self) -> str:
+        """The scheme, what it fits, and to what."""
+        count = len(self.remedy.devices) + len(self.remedy.beyond)
+        devices = f"{count} device{'s' * (count != 1)}"
+        return f"{self.remedy.scheme}: {devices} for {self.before.engine.summary}"
+
+
+def balance_engine(
+    engine: Engine,
+    scheme: str = "auto",
+    options: SchemeOptions | None = None,
+    orders: Iterable[float] | None = None,
+    tools: Tools | None = None,
+) -> Balance:
+    """What a scheme fits and what it leaves.
+
+    Devices are sized for a steady speed; under uneven speed both analyses include it.
+
+    Args:
+        engine: without trailing axes.
+        scheme: its name, such as "counterweights" or "factor"; the message for one that is not
+            there has them all, and `balcli balance --schemes` says what each does.
+        options: of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
+        orders: which to show; default: 1 and 2 and all that are not negligible before or after.
+        tools: of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
+
+    Raises:
+        BalcliError: an unknown scheme, or options that cannot be met, with the reason.
+        TypeError: what is no engine; options or tools that are none.
+
+    Example:
+        >>> balance(load("i3.toml"), "counterweights").after.moment.value
+    """
+    check_engine("balance", engine)
+    check_type("balance", scheme, str, 'give the name of a scheme, such as "counterweights"')
+    check_type("balance", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")
+    check_type("balance", tools, (Tools, NoneType), "give Tools(radius=0.05)")
+    remedy = size(engine, scheme, options)
+    tools = tools or Tools()
+    practical = find_practical(engine, remedy, tools)
+    before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
+    note = _UNEVEN if engine.ripple else ""
+    every = orders is not None
+    return Balance(remedy, before, after, practical, tools, note, every_order=every)
+
+
+def analyze_both(
+    engine: Engine, changed: Engine, orders: Iterable[float] | None
+) -> tuple[Analysis, Analysis]:
+    """Analyze an engine without and with a remedy by the same orders: those asked for, or 1 and 2
+    and all that are not negligible in one of them.
+    """
+    before, after = analyze(engine, orders), analyze(changed, orders)
+    if np.array_equal(before.orders, after.orders):
+        return before, after
+    both = merge_orders(before.orders, after.orders)
+    return analyze(engine, both), analyze(changed, both)
+
+
+def permit_unbalance(
+    remedy: Remedy, grade: float | None, mass: float | None, speed_rpm: float
+) -> PermittedUnbalance | None:
+    """Return what a grade permits next to each counterweight; None without a grade.
+
+    Args:
+        remedy: Remedy with counterweights.
+        grade: Grade of ISO 21940-11, mm/s.
+        mass: Mass of the crankshaft as it is balanced, bobweights included, kg.
+        speed_rpm: Speed of the engine.
+
+    Raises:
+        BalcliError: one without the other, figures that are not positive, or no counterweights.
+    """
+    if grade is None and mass is None:
+        return None
+    if grade is None or mass is None:
+        raise BalcliError(
+            "--grade and --mass belong together: a grade such as 16 permits an unbalance by the "
+            "mass of the crankshaft, in kg"
+        )
+    if not (0 < grade < math.inf and 0 < mass < math.inf):
+        raise BalcliError(f"--grade {grade:g} --mass {mass:g}: both must be positive numbers")
+    count = len(remedy.needs or remedy.counterweights)
+    if not count:
+        raise BalcliError(
+            f"--grade: scheme {remedy.scheme} fits no counterweights to the crankshaft, so "
+            "there is nothing to share the permitted unbalance; choose one that does, such as "
+            "--scheme counterweights"
+        )
+    whole = find_permitted_unbalance(grade, mass, speed_rpm)
+    return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=whole / count)
+
+
+# Options of the command line are fields of the two arguments here.
+balance = tell_arguments(**{name: name for name in (*SchemeOptions._fields, *Tools._fields)})(
+    balance_engine
+)
+balance.__name__ = balance.__qualname__ = "balance"
+balance.__module__ = __name__  # where pickle finds it
+
+
+Goal = Literal["dead-centres", "strokes"]
+GOALS: tuple[Goal, ...] = ("dead-centres", "strokes")
+_STEP_DEG = 1e-3  # for the slope
+_STAYS_DEG = 1e-9  # what a pin is turned by less is rounding
+_FARTHEST_DEG = 30.0  # a knuckle pin that would have to move farther is no answer
+_CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # degrees; metres
+
+
+@dataclass(frozen=True)
+class Knuckles:
+    """Knuckle angles that make an engine even.
+
+    Attributes:
+        model: the engine file with the new `articulation.knuckle_angles`.
+        angles_deg: the angle of each bank's knuckle pin.
+        before, after: strokes and dead centres of all cylinders.
+        reasons: what was done, and for which banks nothing can be.
+    """
+
+    goal: Goal
+    model: EngineFile
+    angles_deg: tuple[float, ...]
+    before: Travel
+    after: Travel
+    reasons: tuple[str, ...]
+
+
+def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
+    """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are
+    even.
+
+    "dead-centres": every articulated piston is at the top when the crank pin stands as the master
+    piston's did; "strokes": every stroke is the master piston's. Both at once would need a radius
+    for each pin too. A bank of several rows is set by the first of them. Banks that no angle within
+    30 degrees makes even keep theirs.
+
+    Raises:
+        BalcliError: the engine has no articulated rods.
+        InputError: it cannot be built.
+    """
+    engine = build(model)
+    c, linkage = engine.cylinders, engine.cylinders.linkage
+    if model.articulation is not None and model.layout.rotary:
+        raise BalcliError(
+            "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
+            "turns only"
+        )
+    if model.articulation is None or not isinstance(linkage, Articulated):
+        raise BalcliError(
+            "knuckles: this engine has no articulated rods; an engine file says so with "
+            "[articulation]"
+        )
+    masters, close = linkage.master, _CLOSE[goal]
+    hung = masters != np.arange(c.count)
+
+    def measure(found: Travel) -> Array:
+        """Return how far each cylinder is from its master, degrees or metres."""
+        values = found.top_deg if goal == "dead-centres" else found.stroke
+        return np.where(hung, values - values[masters], 0.0)
+
+    def find_error(turn_deg: Array) -> Array:
+        turned = replace(linkage, knuckle=linkage.knuckle * unit(turn_deg))
+        return measure(find_travel(replace(c, linkage=turned)))
+
+    turn_deg = _solve(find_error, c.count)
+    done = np.abs(find_error(turn_deg)) <= close
+    rows = _find_first_rows(model, engine.numbers)
+    old_deg = np.degrees(np.angle(linkage.knuckle[rows]))
+    new_deg = (old_deg + np.where(done, turn_deg, 0.0)[rows]) % 360
+    angles_deg = tuple(map(float, np.where(hung[rows], new_deg, 0.0)))
+    better = model.with_table("articulation", knuckle_angles=angles_deg)
+    after = find_travel(build(better).cylinders)
+    reasons = _explain(goal, hung[rows], done[rows], turn_deg[rows])
+    uneven = np.abs(measure(after)) > 10 * close
+    uneven[rows] = False  # of these the reasons list the banks
+    if others := sorted(engine.numbers[row] for row in np.flatnonzero(uneven)):
+        told = f"cylinder{'s' * (len(others) > 1)} {', '.join(map(str, others))}"
+        alike = "the knuckle pins of a bank turn alike, as its first throw asks"
+        reasons = (*reasons, f"not so {told}: {alike}")
+    return Knuckles(goal, better, angles_deg, find_travel(c), after, reasons)
+
+
+def balance_knuckles(
+    model: EngineFile,
+    goal: Goal = "dead-centres",
+    orders: Iterable[float] | None = None,
+    speed_rpm: float | None = None,
+) -> Balance:
+    """Even knuckles as a remedy, and the engine before and after, at the speed of the file or
+    another.
+
+    Raises as `even_knuckles` does.
+    """
+    found = even_knuckles(model, goal)
+    remedy = Remedy(
+        KNUCKLES,
+        reasons=found.reasons,
+        details={
+            "even": goal,
+            "knuckle_angles_deg": list(found.angles_deg),
+            "stroke_mm": _find_range(1e3 * found.after.stroke),
+            "top_deg": _find_range(found.after.top_deg),
+        },
+        knuckle_angles_deg=found.angles_deg,
+    )
+    old, new = build(model), build(found.model)
+    if speed_rpm is not None:
+        old, new = replace(old, speed_rpm=speed_rpm), replace(new, speed_rpm=speed_rpm)
+    before, after = analyze_both(old, new, orders)
+    return Balance(remedy, before, after, every_order=orders is not None)
+
+
+def _find_range(values: Array) -> dict[str, float]:
+    return {"least": float(values.min()), "largest": float(values.max())}
+
+
+def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
+    """Return the turn of each cylinder's knuckle pin, degrees, at which its error vanishes if it
+    can: Newton's method, for all at once.
+    """
+    turn_deg = np.zeros(count)
+    for _ in range(20):
+        rise = find_error(turn_deg + _STEP_DEG) - find_error(turn_deg - _STEP_DEG)
+        slope = rise / (2 * _STEP_DEG)
+        move = -find_error(turn_deg) / np.where(slope, slope, 1.0)
+        turn_deg = np.clip(turn_deg + np.clip(move, -5, 5), -_FARTHEST_DEG, _FARTHEST_DEG)
+        if np.max(np.abs(move)) < 1e-12:
+            break
+    return turn_deg
+
+
+def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
+    """Row of the first cylinder of each bank."""
+    cells = plan_cylinders(model.crank, model.layout).cells
+    first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}
+    return [numbers.index(first[bank]) for bank in sorted(first)]
+
+
+def _explain(
+    goal: Goal, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
+) -> tuple[str, ...]:
+    """What was done, and for which banks nothing can be; all arrays by banks."""
+    result = "strokes equal to the master's"
+    if goal == "dead-centres":
+        result = "top dead centres as even as the master's"
+    largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
+    turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
+    reasons = [f"knuckle pins {turned}: {result}"]
+    if left := [str(bank + 1) for bank in np.flatnonzero(hung & ~done)]:
+        reasons.append(
+            f"no angle makes bank {', '.join(left)} even: the knuckle pin stays where it is"
+        )
+    return tuple(reasons)
+
+
+def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
+    """The text of an engine file with the devices of a remedy after it, or with its knuckle angles
+    in place of older ones.
+
+    Args:
+        text: of the file, UTF-8. file: its name in messages.
+
+    Raises BalcliError if no engine file can describe the remedy.
+    """
+    old = text.decode("utf-8-sig")
+    if angles := remedy.knuckle_angles_deg:
+        new = set_keys(old, "articulation", {"knuckle_angles": list(angles)}, "even, by balcli")
+        parse(new, file)
+        return new
+    if remedy.beyond:
+        raise BalcliError(
+            f"scheme {remedy.scheme}: no engine file can describe its devices (shafts of variable "
+            "speed, couplings), so that they cannot be written; balance shows what they leave"
+        )
+    new = _insert_devices(old, remedy)
+    if build(parse(new, file)).devices != fit_devices(build(parse(text, file)), remedy).devices:
+        raise BalcliError(
+            f"{file}: the devices do not read back as they were sized; please report this file"
+        )
+    return new
+
+
+def _insert_devices(text: str, remedy: Remedy) -> str:
+    """Return the text with the tables at the end; where the file has its devices as an inline list,
+    which cannot be added to, it is written anew, without its comments.
+    """
+    end_of_line = "" if text.endswith("\n") or not text else "\n"
+    tables = end_of_line + "".join(_write_tables(remedy))
+    new = text + (tables.replace("\n", "\r\n") if "\r\n" in text else tables)
+    try:
+        parse(new)
+    except InputError:
+        data = tomllib.loads(text)
+        for device in remedy.devices:
+            data.setdefault(name_kind(device), []).append(_list_entries(device))
+        return rewrite(data, "it has devices in one list, to which TOML lets nothing be added")
+    return new
+
+
+def _write_tables(remedy: Remedy) -> Iterator[str]:
+    """Yield the tables, each reason as a comment above the first of its devices."""
+    if remedy.devices:
+        yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
+    told = ""
+    for device, reason, anywhere in zip(remedy.devices, remedy.reasons, remedy.free, strict=True):
+        if reason != told:
+            yield f"# {reason}\n"
+        told = reason
+        yield f"[[{name_kind(device)}]]\n"
+        for key, value in _list_entries(device).items():
+            note = "  # free: it may stand anywhere" * (anywhere and key == "at")
+            yield f"{key} = {format_value(value)}{note}\n"
+        yield "\n"
+
+
+def _list_entries(device: DeviceTable) -> dict[str, Any]:
+    """Return keys and values of a device as TOML has them."""
+    values = {key: getattr(device, key) for key in FIELDS[type(device)]}
+    return {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}

@@ -1,0 +1,255 @@
+"""`balcli balance`
+
+Options of `balance` alone, and what it does with them: the workshop's, grades, the card.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..core.unbalance import SLUGS
+from ..errors import BalcliError, note
+from ..file.edit import set_keys
+from ..file.toml import name_file
+from ..shell import scheme_options
+from ..shell.file_names import format_of, format_option, require_ending, text_format
+from ..shell.options import (
+    EnginePath,
+    Orders,
+    Output,
+    Speed,
+    UnitsOption,
+    parse_orders,
+    parse_speed,
+)
+from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show, write_file
+from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme_options
+from ..shell.values import optional, read_length, read_mass, read_number
+from ..show.formats import Format, Units
+from ..sizing.options import KNUCKLES, MEANINGS, NAMES, SCHEMES, SchemeOptions
+
+if TYPE_CHECKING:
+    from ..engine.build import Engine
+    from ..file.model import EngineFile
+    from ..sizing.workshop import Tools
+    from .answer import Balance
+
+
+class BalanceFormat(StrEnum):
+    """How a balance is written: as all results, or as a bobweight card."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+    MARKDOWN = "markdown"
+    CARD = "card"
+
+
+FormatOption = Annotated[
+    BalanceFormat | None,
+    format_option(
+        BalanceFormat,
+        "How to write the result; default: by the ending of -o, else table. card: a page for the "
+        "wall of a shop, per pin, in g and oz.",
+    ),
+]
+Scheme = Annotated[
+    str | None,
+    typer.Option(
+        "--scheme",
+        "--with",
+        metavar="NAME",
+        autocompletion=complete_schemes,
+        show_default="auto; factor where --factor or --measured is given",
+        help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}; --schemes explains them.",
+    ),
+]
+
+
+def _list_schemes(wanted: bool) -> None:
+    """Print what each scheme does and which options it takes, and end."""
+    if not wanted:
+        return
+    width = max(map(len, MEANINGS))
+    lines = []
+    for name, meaning in MEANINGS.items():
+        options = " ".join(f"--{option}" for option in SCHEMES.get(name, ("even",)))
+        lines.append(f"{name:{width}}  {meaning}")
+        lines += [f"{'':{width}}    {options}"] if options else []
+    emit("\n".join(lines))
+    raise typer.Exit
+
+
+Schemes = Annotated[
+    bool, typer.Option("--schemes", callback=_list_schemes, is_eager=True, help="List all schemes.")
+]
+Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: crank radius.")]
+Thickness = Annotated[str | None, optional("MM", "Thickness of half discs of steel; default 20.")]
+Disc = Annotated[str | None, optional("MM", "Radius of those discs, instead of their thickness.")]
+Drill = Annotated[str | None, optional("MM", "Drill: list radial holes, from --radius inwards.")]
+MaxDepth = Annotated[str | None, optional("MM", "Deepest hole, for --drill; default: to the axis.")]
+Slug = Annotated[
+    str | None, optional("METAL", "With --drill: slugs of tungsten, lead, or of a density, g/cm3.")
+]
+Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
+Grade = Annotated[
+    str | None, optional("G", "Balance grade of ISO 21940-11, such as G16: what may be left.")
+]
+Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
+Write = Annotated[
+    Path | None, optional("OUT.toml", "Write the engine with these devices, and with --speed.")
+]
+
+
+def choose_balance_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFormat:
+    """How to write the balance; errors as `file_names.format_of`."""
+    if asked is BalanceFormat.CARD:
+        return format_of(output, asked, {".txt": asked}, asked)
+    plain = None if asked is None else Format(asked)
+    return BalanceFormat(text_format(output, plain))
+
+
+def show_balance(result: Balance, form: BalanceFormat, output: Path | None, units: Units) -> None:
+    """Print or write the balance, or its bobweight card, in this format."""
+    for reason in dict.fromkeys(result.remedy.reasons):
+        note(f"scheme {result.remedy.scheme}: {reason}")
+    if form is BalanceFormat.CARD:
+        from .bobweight_page import write_page
+
+        emit(write_page(result), output)
+    else:
+        from .show import RENDERER
+
+        show([result], RENDERER, Format(form), output, units)
+
+
+def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
+    """Return what a workshop has.
+
+    Args:
+        units: Units of the command.
+        slug: A metal, or its density in g/cm3.
+        lengths: Texts of the options with lengths, by their names in `Tools`.
+
+    Raises:
+        BalcliError: a text that is no length, or no metal.
+    """
+    from ..sizing.workshop import Tools
+
+    found = {
+        name: read_length(f"--{name.replace('_', '-')}", text, units)
+        for name, text in lengths.items()
+        if text is not None
+    }
+    if slug is not None:
+        wanted = f"{', '.join(SLUGS)}, or a density in g/cm3 such as 18.5"
+        known = SLUGS.get(slug.strip().lower())
+        found["slug"] = known or 1e3 * read_number("--slug", slug, wanted)
+    return Tools(**found)
+
+
+def parse_grade(text: str | None) -> float | None:
+    """Return the grade of `--grade` (`16` or `G16`), mm/s."""
+    if text is None:
+        return None
+    wanted = "a grade of ISO 21940-11 such as G16 or 6.3"
+    return read_number("--grade", text.strip().removeprefix("G"), wanted)
+
+
+def answer_knuckles(
+    scheme: str,
+    options: SchemeOptions,
+    even: str | None,
+    model: EngineFile,
+    engine: Engine,
+    orders: list[float] | None,
+) -> Balance:
+    """Return the balance of the scheme that changes knuckle angles, at the engine's speed.
+
+    Raises:
+        BalcliError: options that are not its own, and --even with another scheme.
+    """
+    from . import answer as knuckles
+
+    if scheme != KNUCKLES:
+        raise BalcliError(
+            f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
+        )
+    if options != SchemeOptions():
+        raise BalcliError("scheme knuckles: has no option but --even")
+    goal = next((goal for goal in knuckles.GOALS if goal == (even or knuckles.GOALS[0])), None)
+    if goal is None:
+        raise BalcliError(f'--even "{even or "":.60}": choose from {", ".join(knuckles.GOALS)}')
+    return knuckles.balance_knuckles(model, goal, orders, float(engine.speed_rpm))
+
+
+def balance(
+    path: EnginePath,
+    scheme: Scheme = None,
+    _schemes: Schemes = False,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
+    radius: Radius = None,
+    thickness: Thickness = None,
+    disc: Disc = None,
+    drill: Drill = None,
+    max_depth: MaxDepth = None,
+    slug: Slug = None,
+    even: Even = None,
+    grade: Grade = None,
+    mass: Mass = None,
+    write: Write = None,
+    speed: Speed = None,
+    orders: Orders = None,
+    form: FormatOption = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Size counterweights, balancer shafts or sliders, and show what is left with them.
+
+    \b
+    Examples:
+      balcli balance i4.toml --scheme two-shaft --at=-60,80
+      balcli balance v8.toml --factor 51% --planes=-8.5in,9in --format card
+      balcli balance v8.toml --factor 50%:54%:1% --planes ends
+      balcli balance v8.toml --factor 51% --planes ends --drill 19 --max-depth 32
+      balcli balance twin.toml --measured "812 g"
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
+    form = choose_balance_format(output, form)
+    require_ending(write, ".toml", "--write")
+    from ..shell.inputs import read_engine
+    from .answer import balance_engine, insert_remedy, permit_unbalance
+
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    usual = "factor" if form is BalanceFormat.CARD else "auto"
+    scheme = choose_scheme(scheme, options, usual)
+    lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
+    tools = parse_tools(units, slug, **lengths, max_depth=max_depth)
+    grade_mm_s = parse_grade(grade)
+    mass_kg = None if mass is None else read_mass("--mass", mass, units)
+    asked, rpm = parse_orders(orders), parse_speed(speed)
+    text, model, engine = read_engine(path, rpm)
+    if scheme == KNUCKLES or even is not None:
+        result = answer_knuckles(scheme, options, even, model, engine, asked)
+    else:
+        result = balance_engine(engine, scheme, options, asked, tools)
+    permitted = permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
+    result = replace(result, permitted=permitted)
+    if write is not None:
+        refuse_leaving_files(text, path, write)
+        new = insert_remedy(text, result.remedy, name_file(path))
+        if rpm is not None:
+            new = set_keys(new, "operation", {"speed": rpm}, "as balanced by balcli")
+        write_file(new, write)
+    show_balance(result, form, output, units)

@@ -1,0 +1,235 @@
+"""What a scheme reports besides its devices: figures, bobweight card, factors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import chain
+from math import isnan, nan
+from typing import Any, NamedTuple
+
+from ..core.records import find_unit, remove_unit
+from ..show.sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text
+from ..show.units import System
+from ..sizing.bobweights import Bobweight, FactorPeaks, PlaneNeed
+from ..sizing.factor import name_one_cylinder
+from ..sizing.planes import measure_direction
+from .answer import Balance
+from .bobweight_page import group_equal_pins, multiply, name_pins, percent
+
+# Labels of the roll without and with new devices: of inertia, and with gas where there is some.
+_ROLLS = (
+    ("roll_before_Nm", "roll_left_Nm"),
+    ("roll_with_gas_before_Nm", "roll_with_gas_left_Nm"),
+)
+# How well a system was solved, and the like: in JSON and CSV only.
+_FOR_PROGRAMS = {"condition_number", "relative_error_bound", "axial_distance_mm", "improvement"}
+
+
+class _Figure(NamedTuple):
+    """A figure of the details with its key; group: the dict in which it stands, or empty."""
+
+    group: str
+    key: str
+    value: Any
+
+
+def details_document(result: Balance) -> dict[str, Any]:
+    """Return `details` of `balcli.balance/1`: records and figures that `to_document` writes."""
+    remedy = result.remedy
+    lists = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
+    texts = {"note": remedy.note, "speed": result.speed_note}
+    return {**remedy.details, **{key: v for key, v in chain(lists.items(), texts.items()) if v}}
+
+
+def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
+    """Yield all that the scheme reports besides its devices and its note."""
+    remedy = result.remedy
+    if details := _choose_figures(result):
+        remarks = _list_remarks(result)
+        pairs = (
+            (_name(each), f"{_show(each, system)}{remarks.get(each.key, '')}") for each in details
+        )
+        yield Facts(tuple(pairs), "Details")
+    if remedy.needs:
+        yield _needs_grid(remedy.needs, system)
+    if remedy.card:
+        yield _card_grid(remedy.card)
+    if remedy.sweep:
+        known = result.before.moments_known
+        rows = (row if known else replace(row, peak_moment_Nm=nan) for row in remedy.sweep)
+        yield _sweep_grid(tuple(rows), system)
+    if optima := remedy.details.get("optima"):
+        yield _optima_grid(optima)
+
+
+def _list_figures(result: Balance) -> Iterator[_Figure]:
+    """Yield the figures of the details one by one; tables among them are left out."""
+    for key, value in result.remedy.details.items():
+        if isinstance(value, dict):
+            yield from (_Figure(key, name, figure) for name, figure in value.items())
+        elif key != "optima":
+            yield _Figure("", key, value)
+    if result.speed_note:
+        yield _Figure("", "speed", result.speed_note)
+
+
+def _choose_figures(result: Balance) -> list[_Figure]:
+    """Return the figures that people are shown; nan: not known."""
+    order, about_crank = result.remedy.order, {*chain(*_ROLLS)}
+    chosen = []
+    for each in _list_figures(result):
+        if each.key in _FOR_PROGRAMS:
+            continue
+        moment = find_unit(each.key) == "N·m" and each.key not in about_crank
+        if moment and not result.before.moments_known:
+            each = each._replace(value=nan)
+        if result.before.engine.gas is not None and each.key in _ROLLS[0]:
+            each = each._replace(key=each.key.replace("roll", "roll_of_inertia"))
+        if {"left", "before"}.intersection(each.key.split("_")) and order and not each.group:
+            each = each._replace(group=f"order {order}")  # others may leave more
+        chosen.append(each)
+    return chosen
+
+
+def _list_remarks(result: Balance) -> dict[str, str]:
+    """Return words after a figure, by its key."""
+    if result.remedy.scheme != "factor":
+        return {}
+    one = name_one_cylinder(result.before.engine)
+    return {
+        "measured_g": " balance each bare pin, at the crank radius, without rods",
+        "factor": " of all reciprocating mass on the pin",
+        "factor_of_one_cylinder": f" of {one}: the same weight",
+    }
+
+
+def _name(figure: _Figure) -> str:
+    label = f"{remove_unit(figure.group)} {remove_unit(figure.key).removesuffix('_g')}"
+    return label.replace("_", " ").lstrip()
+
+
+def _show(figure: _Figure, system: System) -> str:
+    """Return a figure with its unit; a dash where it is not known."""
+    value, unit = figure.value, find_unit(figure.key) or find_unit(figure.group)
+    if isinstance(value, str):
+        return value
+    if isinstance(value, list):
+        return f"{', '.join(map(degrees, value))} deg"
+    if isnan(value):
+        return UNKNOWN
+    if figure.key.endswith("_g"):
+        return f"{number(value)} g"
+    if unit == "deg":
+        return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
+    if not unit:
+        return percent(value) if figure.key.startswith("factor") else number(value)
+    shown = {
+        "N": system.force,
+        "N·m": system.moment,
+        "kg·m": system.unbalance,
+        "mm": system.length,
+    }[unit]
+    return f"{number(shown.of(value / 1e3 if unit == 'mm' else value))} {shown.name}"
+
+
+def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
+    """Yield a sentence for every order whose roll, with gas where there is some, is larger with
+    new devices than without them.
+    """
+    remedy, (x, y, _) = result.remedy, result.before.engine.reference_m
+    pivot = "the point of reference" if x or y else "the crankshaft"
+    groups = {"": remedy.details} | {k: v for k, v in remedy.details.items() if type(v) is dict}
+    for group, figures in groups.items():
+        grown = [
+            _find_growth(figures[before], figures[left])
+            for before, left in _ROLLS
+            if before in figures
+        ]
+        if not grown or grown[-1] <= 0:
+            continue
+        order = group.replace("_", " ") or f"order {remedy.order}"
+        why = f"where they stand, the devices' forces have levers about {pivot}."
+        if grown[0] < 0:
+            why = (
+                "what they take of the roll of inertia stood against that of the gas at this speed."
+            )
+        gas, size = " with gas" * (len(grown) > 1), size_text(grown[-1], system.moment)
+        yield f"The roll of {order}{gas} grows by {size}: {why}"
+
+
+def _find_growth(before: float, left: float) -> float:
+    """Return by how much the second figure is above the first; 0 where that is negligible."""
+    return left - before if abs(left - before) > NEGLIGIBLE * max(before, left) else 0.0
+
+
+# ------------------------------------------------------------------ tables
+def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
+    """Return what the file has in each plane, and what is missing."""
+    rows = [(need.position_mm, (need.wanted, need.present, need.missing)) for need in needs]
+    unit = system.unbalance.fit(max(abs(vector) for _, vectors in rows for vector in vectors))
+    at = "at, deg"
+    heads = (f"z, {system.length.name}", "wanted", at, "in the file", at, "missing", at)
+
+    def cells(position_mm: float, vectors: Sequence[complex]) -> Iterator[str]:
+        yield number(system.length.of(position_mm / 1e3))
+        for vector in vectors:
+            yield number(unit.of(abs(vector)))
+            yield degrees(measure_direction(vector)) if vector else "–"
+
+    title = f"What each plane has, and lacks, {unit.name}"
+    return Grid(title, heads, tuple(tuple(cells(*row)) for row in rows))
+
+
+def _card_grid(card: tuple[Bobweight, ...]) -> Grid:
+    """Return quantity x each = sum, in grams as a balancing shop's scales show, in either system;
+    equal pins stand in one column.
+    """
+    columns = group_equal_pins(card)
+    weighed = (line for pins in columns for line in pins[0].lines if line.sum_g)
+    labels = list(dict.fromkeys(line.part for line in weighed))
+    rows = [(part, *(_line_cell(pins[0], part) for pins in columns)) for part in labels]
+    sums = {
+        "rotating": "rotating_g",
+        "reciprocating": "reciprocating_g",
+        f"bobweight ({percent(card[0].factor)})": "bobweight_g",
+    }
+    for name, key in sums.items():
+        rows.append((name, *(number(getattr(pins[0], key), 5) for pins in columns)))
+    heads = ("", *map(name_pins, columns))
+    return Grid("Bobweight card, g for each pin", heads, tuple(rows))
+
+
+def _line_cell(bobweight: Bobweight, part: str) -> str:
+    line = next((line for line in bobweight.lines if line.part == part), None)
+    return "–" if line is None else f"{multiply(line)} = {number(line.sum_g, 5)}"
+
+
+def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
+    force, moment = system.force, system.moment
+    unbalance = system.unbalance.fit(max(abs(row.counterweight_kg_m) for row in sweep))
+    weight = ("bobweight, g", f"weight, {unbalance.name}")
+    heads = ("factor", *weight, f"force, {force.name}", "along", "across", f"moment, {moment.name}")
+    rows = tuple(
+        (
+            percent(row.factor),
+            number(row.bobweight_g),
+            number(unbalance.of(row.counterweight_kg_m)),
+            *(number(force.of(v)) for v in (row.peak_force_N, row.along_N, row.across_N)),
+            number(moment.of(row.peak_moment_Nm)),
+        )
+        for row in sweep
+    )
+    note = (
+        "Bobweight of the first pin; weight: the largest counterweight to add. What is left: the "
+        "largest force, along and across the first bank; all orders."
+    )
+    return Grid("Largest values by factor", heads, rows, note=note)
+
+
+def _optima_grid(optima: Sequence[dict[str, Any]]) -> Grid:
+    heads = ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J")
+    cells = ["{design}", "{criterion}", "{engine_force}", "{k:.5f}"]
+    cells += ["{mu:.6f}", "{largest:.6f}", "{mean:.6f}"]
+    rows = tuple(tuple(cell.format(**optimum) for cell in cells) for optimum in optima)
+    return Grid("Optima of both designs", heads, rows)

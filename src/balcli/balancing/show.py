@@ -1,0 +1,275 @@
+"""A balance: devices, their practical figures, and what shakes before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+
+from ..analysis.devices_show import (
+    device_entries,
+    device_grid,
+    device_rows,
+    holes_grid,
+    number_devices,
+    practical_grid,
+)
+from ..analysis.order_tables import fit_largest
+from ..analysis.overview import find_orders_that_matter, name_column, tell_others
+from ..analysis.show import brief_document
+from ..core.peaks import Peak
+from ..core.records import list_figures, remove_unit, to_document, write_each
+from ..engine.layout import MOMENTS_UNKNOWN
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
+from ..show.csv import Columns, Rows
+from ..show.figures import assumptions, figure_rows
+from ..show.formats import Renderer
+from ..show.sheet import (
+    NAMELESS,
+    NEGLIGIBLE,
+    NOTHING,
+    UNKNOWN,
+    Facts,
+    Grid,
+    Sheet,
+    Text,
+    degrees,
+    number,
+    order_name,
+    sentence,
+    size_cell,
+    tell_assumed_speed,
+)
+from ..show.units import SI, ShownUnit, System
+from ..sizing.planes import find_unbalance, name_kind
+from .answer import Balance
+from .scheme_show import details_document, details_parts, tell_growing_rolls
+
+_TURNING_WEIGHTS = (
+    "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis, which is "
+    "over pin 1 at crank angle 0; the pin stands still."
+)
+
+
+def sheet(result: Balance, system: System) -> Sheet:
+    """Why and what, the workshop's figures, and both analyses side by side."""
+    remedy, engine = result.remedy, result.before.engine
+    known, steady = result.before.moments_known, " at steady speed" * bool(engine.ripple)
+    order = "" if remedy.order is None else f", order {remedy.order}"
+    parts: list[Grid | Facts | Text] = []
+    if remedy.reasons and not remedy.devices and not remedy.beyond:
+        parts.append(Text("What is changed, and why", remedy.reasons))
+    elif remedy.reasons:
+        parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
+        parts += [device_grid(remedy, system), practical_grid(remedy, result.practical, system)]
+        if any(figures.holes for figures in result.practical):
+            parts.append(holes_grid(remedy, result.practical, result.tools, system))
+    else:
+        why = () if remedy.note or not known else (f"Orders 1 and 2 are balanced{steady}.",)
+        parts.append(Text("Nothing is fitted", why))
+    notes = (
+        remedy.note and sentence(remedy.note),
+        _tell_negligible(result),
+        _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
+        *tell_growing_rolls(result, system),
+        tell_assumed_speed(engine.model) if engine.speed_assumed else "",
+    )
+    if any(notes):
+        parts.append(Text("Note", tuple(filter(None, notes))))
+    if not known:
+        parts.append(Text("Forces alone", (sentence(MOMENTS_UNKNOWN),)))
+    parts += [*_permitted(result, system), *details_parts(result, system)]
+    parts += [_orders(result, system), _peaks(result, system)]
+    return Sheet(f"{engine.name or NAMELESS}: {remedy.scheme}{order}", tuple(parts))
+
+
+def _tell_negligible(result: Balance) -> str:
+    """Return a sentence where devices balance an order that is small next to one cylinder anyhow; a
+    balance factor is of the masses at the pins, whatever they leave together.
+    """
+    remedy, before = result.remedy, result.before
+    if remedy.order is None or remedy.scheme == "factor" or not (remedy.devices or remedy.beyond):
+        return ""
+    small = not result.every_order  # an order that was not asked for is not shown if it is small
+    if remedy.order in (orders := before.orders.tolist()):
+        k, one = orders.index(remedy.order), before.of_one_cylinder
+        vectors = before.spectra.vectors()
+        small = all(p.major[k] < NEGLIGIBLE * one[kind.name] for kind, p in vectors)
+    return f"Order {remedy.order} is negligible beside one cylinder, hardly worth a device." * small
+
+
+def _permitted(result: Balance, system: System) -> Iterator[Grid]:
+    """Yield what a grade permits, if one was asked for: of planes that have counterweights already,
+    and what they lack of it; of new ones, and how exactly each must be made.
+    """
+    if result.permitted is None:
+        return
+    remedy, length, mass = result.remedy, system.length, system.mass
+    each = result.permitted.each_g_mm / 1e6
+    if remedy.needs:
+        head, what, last = f"plane at z, {length.name}", "missing", "of permitted"
+        found = [
+            (number(length.of(need.position_mm / 1e3)), abs(need.missing)) for need in remedy.needs
+        ]
+    else:
+        head, what, last = "counterweight", "unbalance", "tolerance"
+        weights = map(find_unbalance, remedy.counterweights)
+        found = [(str(k), unbalance) for k, unbalance in enumerate(weights, 1)]
+    unit = system.unbalance.fit(max(size for _, size in found))
+
+    def judge(size: float) -> str:
+        if remedy.needs:
+            return f"{size / each:.1%}, {'over' if size > each else 'within'}"
+        return f"±{each / size:.2%}" if size else "–"
+
+    yield Grid(
+        f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
+        (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
+        tuple(
+            (name, number(unit.of(size)), number(unit.of(each), 4), judge(size))
+            for name, size in found
+        ),
+        f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "
+        f"{result.before.engine.speed_rpm:g} rpm; all share alike.",
+    )
+
+
+# ------------------------------------------------------------------ before and after
+def _orders(result: Balance, system: System) -> Grid:
+    """Return the orders that matter before or after; all that were asked for."""
+    has_gas = result.before.engine.gas is not None
+    kinds = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
+    states = [
+        one.spectra.with_moment_if(one.moments_known).only([kind.name for kind in kinds])
+        for one in (result.before, result.after)
+    ]
+    orders, one = result.before.orders.tolist(), dict(result.before.of_one_cylinder)
+    if has_gas:  # of which one cylinder alone has no measure
+        one[ROLL_TOTAL.name] = max(float(state[ROLL_TOTAL.name].major.max()) for state in states)
+    shown = {order for state in states for order in find_orders_that_matter(state, one)}
+    shown = {*orders} if result.every_order else shown
+    units = {
+        kind: fit_largest(system.unit(kind), *(state[kind.name] for state in states))
+        for kind in kinds
+    }
+
+    def cells(k: int) -> Iterator[str]:
+        for kind, unit in units.items():
+            for state in states:
+                size = float(state[kind.name].major[k])
+                small = not result.every_order and size < NEGLIGIBLE * one[kind.name]
+                yield size_cell(size, unit, negligible=small)
+
+    heads = [(f"{name_column(kind)}, {unit.name}", "after") for kind, unit in units.items()]
+    return Grid(
+        "Largest value by order, before and after",
+        ("order", *(head for pair in heads for head in pair)),
+        tuple((order_name(order), *cells(k)) for k, order in enumerate(orders) if order in shown),
+        tell_others(states, [order for order in orders if order in shown], system, hints=False),
+    )
+
+
+def _peaks(result: Balance, system: System) -> Grid:
+    rows = []
+    for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
+        unit = system.unit(kind).fit(max(before.value, after.value))
+        told = kind is not MOMENT or result.before.moments_known
+        cells = (*_peak(before, unit), *_peak(after, unit)) if told else (UNKNOWN,) * 4
+        rows.append((f"{kind.name}, {unit.name}", *cells))
+    uneven = "Sized for steady mean speed; both columns are those of the uneven speed."
+    return Grid(
+        "Largest over a revolution, all orders",
+        ("", "before", "at, deg", "after", "at, deg"),
+        tuple(rows),
+        note=uneven if result.before.engine.ripple else "",
+    )
+
+
+def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
+    if not peak.value:
+        return NOTHING, ""
+    at = degrees(float(np.degrees(peak.theta))) if peak.every else "any"
+    return number(unit.of(peak.value)), at
+
+
+# ------------------------------------------------------------------ JSON and CSV
+def document(result: Balance) -> dict[str, Any]:
+    """Return `balcli.balance/1`."""
+    remedy, permitted = result.remedy, result.permitted
+    document: dict[str, Any] = {
+        "format": "balcli.balance/1",
+        "scheme": remedy.scheme,
+        "order": remedy.order,
+        **device_entries(remedy),
+        "reasons": remedy.reasons,
+        "practical": result.practical,
+        "details": details_document(result),
+        **assumptions(result.before),
+        "before": brief_document(result.before),
+        "after": brief_document(result.after),
+    }
+    if permitted is not None:
+        document["permitted"] = permitted
+    found: dict[str, Any] = write_each(document)
+    return found
+
+
+def columns(result: Balance) -> Columns:
+    """Return a new device a row: as an engine file describes it, and the workshop's figures. What
+    is left with them is `after`, an analysis with columns of its own.
+    """
+    units: dict[str, str] = {"device": ""}
+    lines: list[dict[str, Any]] = []
+    for device, practical in zip(result.remedy.devices, result.practical, strict=True):
+        line: dict[str, Any] = {"device": name_kind(device)}
+        figures = list_figures(to_document(practical), ("unbalance_kg_m",))
+        others = ((remove_unit(name), value, unit) for name, value, unit in figures)
+        for name, value, unit in (*device_rows(device, SI), *others):
+            line[name], units[name] = value, unit
+        lines.append(line)
+    values = {name: [line.get(name) for line in lines] for name in units}
+    return Columns(values, {name: unit for name, unit in units.items() if unit})
+
+
+def rows(result: Balance, system: System) -> Rows:
+    """Return CSV, a figure a line: those of the devices, the scheme's other figures (SI, as in
+    JSON: their names have the unit), and those of the engine without and with the devices.
+    """
+    header = ("part", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _all_rows(result, system))
+
+
+def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
+    devices = number_devices(result.remedy.devices)
+    for (part, device), practical in zip(devices, result.practical, strict=True):
+        for figure in device_rows(device, system):
+            yield part, "", "", *figure
+        yield from _rows_of(part, practical)
+    yield from _rows_of("details", details_document(result))
+    if result.permitted is not None:
+        yield from _rows_of("permitted", result.permitted)
+    for state, analysis in (("before", result.before), ("after", result.after)):
+        for row in figure_rows(analysis, system):
+            yield state, row.quantity, row.order, row.figure, row.value, row.unit
+
+
+def _rows_of(part: str, record: Any) -> Iterator[tuple[Any, ...]]:
+    for name, value in _with_paths(write_each(record)):
+        yield part, "", "", name, value, ""
+
+
+def _with_paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield members of tables and lists by their paths: `card.1.bobweight_g`."""
+    if isinstance(value, dict):
+        members: Iterable[tuple[Any, Any]] = value.items()
+    elif isinstance(value, list):
+        members = enumerate(value, 1)
+    else:
+        yield path, value
+        return
+    for key, part in members:
+        yield from _with_paths(part, f"{path}.{key}".lstrip("."))
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows, columns=columns)

@@ -1,0 +1,135 @@
+"""Which tables there are, and what each may be asked.
+
+`balcli.tables`
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import NoneType
+
+from ..errors import BalcliError, check_type
+from ..file.fields import nearest
+from ..limits import HIGHEST_POWER
+from ..shell.arguments import check_count, tell_arguments
+from . import (
+    layouts,
+    liang,
+    liu,
+    torque_examples,
+    tsinghua,
+    wang,
+)
+from . import (
+    series as kvasnikov,
+)
+from . import (
+    series as series_coefficients,
+)
+from .recomputed import Print, Ranges, Table, load_print, parse_crank_ratios, parse_range
+
+TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
+    "tsinghua-1-1": tsinghua.tabulate_engines,
+    "tsinghua-1-2": tsinghua.tabulate_travel,
+    "tsinghua-1-3": tsinghua.tabulate_speed,
+    "tsinghua-1-4": tsinghua.tabulate_extremes,
+    "tsinghua-1-5": tsinghua.tabulate_mean_speeds,
+    "tsinghua-1-6": tsinghua.tabulate_acceleration,
+    "liu-1": liu.tabulate_paths,
+    "liu-2": liu.tabulate_vectors,
+    "liu-3": liu.tabulate_sliders,
+    "wang-1": wang.tabulate_optimum,
+    "kvasnikov-1": kvasnikov.tabulate_piston,
+    "kvasnikov-2": kvasnikov.tabulate_rod,
+    "liang-examples": liang.tabulate_liang_examples,
+    "torque-examples": torque_examples.tabulate_torque_examples,
+    "series": series_coefficients.tabulate_series,
+    "layouts": layouts.tabulate_layouts,
+}
+NAMES = tuple(TABLES)
+TAKES = {  # the tables of other ranges than the printed ones, by option
+    "lambda": (*(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)), "kvasnikov-1", "kvasnikov-2"),
+    "angle": ("tsinghua-1-2", "tsinghua-1-3", "tsinghua-1-6"),
+    "power": ("series",),
+}
+
+
+def select_tables(
+    name: str | None, lam: str | None = None, angle: str | None = None, power: int | None = None
+) -> list[Table]:
+    """Return the table of this name, or all of them.
+
+    Args:
+        name: Name; None: all tables.
+        lam: Range of crank ratios as text, `0.20:0.40:0.01`.
+        angle: Range of crank angles as text, deg.
+        power: Highest power of the crank ratio.
+
+    Raises:
+        BalcliError: There is no such table or range, the table does not take an option, or a range
+            has no name of a table.
+    """
+    lams = parse_crank_ratios(lam) if lam is not None else None
+    angles = parse_range(angle, "--angle") if angle is not None else None
+    ranges = Ranges(lams, angles, power)
+    given = [option for option, value in zip(TAKES, ranges, strict=True) if value is not None]
+    if name is None and given:
+        some = [each for each in NAMES if all(each in TAKES[option] for option in given)]
+        known = ", ".join(some) or "these do not go together"
+        raise BalcliError(f"--{given[0]}: name the table that it is for ({known})")
+    names = NAMES if name is None else [_find_name(name)]
+    for option in given:
+        if names[0] not in TAKES[option]:
+            takes = [f"--{each}" for each, takers in TAKES.items() if names[0] in takers]
+            others = " and ".join(takes) or "no other range"
+            raise BalcliError(f"--{option}: table {names[0]} takes {others}")
+    return [TABLES[each](load_print(each), ranges) for each in names]
+
+
+def recompute(
+    name: str, lam: str | None = None, angle: str | None = None, power: int | None = None
+) -> Table:
+    """Return one table; arguments and errors as of `select_tables`."""
+    return select_tables(name, lam, angle, power)[0]
+
+
+def _find_name(name: str) -> str:
+    if name in TABLES:
+        return name
+    if several := [each for each in NAMES if each.startswith(f"{name.lower()}-")]:
+        raise BalcliError(f"{name!r} is the source of {', '.join(several)}: name one")
+    near = nearest(name, NAMES)
+    hint = f"; the nearest name is {near!r}" if near else ""
+    raise BalcliError(f"no table {name!r}{hint}. Tables: {', '.join(NAMES)}")
+
+
+@tell_arguments(**{"lambda": "ratios", "angle": "angles"})
+def tables(
+    name: str, *, ratios: str | None = None, angles: str | None = None, power: int | None = None
+) -> Table:
+    """A printed coefficient table, recomputed, beside its print.
+
+    Args:
+        name: of the table, such as "tsinghua-1-2" or "series"; the message for one that is not
+            there has them all, and so has `balcli tables`.
+        ratios: other crank ratios (crank radius over rod length) than the printed ones, where the
+            table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
+        angles: other crank angles, deg, likewise.
+        power: highest power of the crank ratio in "series", 0 to 200.
+
+    Returns:
+        The table: `exact` cells as `columns` name them, the `printed` texts, and `errata`, every
+        printed figure that is not the exact one rounded.
+
+    Raises:
+        BalcliError: there is no such table, with the nearest name; a range that it does not take.
+        TypeError: the name or a range is no text, the power no whole number.
+
+    Example:
+        >>> tables("tsinghua-1-2").errata
+    """
+    check_type("tables", name, str, f"give the name of a table, such as {NAMES[1]!r}")
+    check_type("ratios", ratios, (str, NoneType), 'give a text, such as "0.20:0.40:0.01"')
+    check_type("angles", angles, (str, NoneType), 'give a text, such as "0:180:5"')
+    highest = None if power is None else check_count("power", power, 0, HIGHEST_POWER)
+    return recompute(name, ratios, angles, highest)

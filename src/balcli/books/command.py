@@ -1,0 +1,115 @@
+"""`balcli tables`: the printed coefficient tables, recomputed.
+
+`balcli layouts`: free forces and moments of common engines at a glance.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ..limits import HIGHEST_POWER
+from ..shell.file_names import text_format
+from ..shell.options import FormatOption, Output
+from ..shell.output import show
+from ..shell.values import as_bare_angles, optional
+from .show import ERRATA, LAYOUTS, TABLE, TABLE_LIST
+
+
+def complete_tables(incomplete: str) -> list[str]:
+    """Return the printed tables that begin with this text."""
+    from . import answer as registry
+
+    return [name for name in registry.NAMES if name.startswith(incomplete)]
+
+
+Name = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="NAME",
+        help="Which table; without it, all are listed.",
+        show_default=False,
+        autocompletion=complete_tables,
+    ),
+]
+Errata = Annotated[
+    bool,
+    typer.Option("--errata", help="List every printed figure that is not the exact one rounded."),
+]
+Lam = Annotated[
+    str | None,
+    optional(
+        "0.20:0.40:0.01",
+        "Other crank ratios than the printed ones; or a list 0.25,1/3.",
+        "--lambda",
+    ),
+]
+Angle = Annotated[str | None, optional("0:180:5", "Other crank angles (degrees).", "--angle")]
+Power = Annotated[
+    int | None,
+    typer.Option(
+        min=0,
+        max=HIGHEST_POWER,
+        show_default=False,
+        help="Highest power of lambda in `series`; default 12.",
+    ),
+]
+Digits = Annotated[
+    int | None,
+    typer.Option(
+        min=0, max=17, show_default=False, help="Decimals; default: as printed (JSON and CSV: all)."
+    ),
+]
+
+
+def tables(
+    name: Name = None,
+    errata: Errata = False,
+    lam: Lam = None,
+    angle: Angle = None,
+    power: Power = None,
+    digits: Digits = None,
+    form: FormatOption = None,
+    output: Output = None,
+) -> None:
+    """The printed coefficient tables of five books and papers, recomputed, and every misprint in
+    them.
+
+    \b
+    Examples:
+      balcli tables tsinghua-1-2
+      balcli tables --errata --format json
+    """
+    form = text_format(output, form)
+    from dataclasses import replace
+
+    from .answer import select_tables
+    from .layouts import add_firing
+
+    if angle:
+        angle = as_bare_angles("--angle", angle)
+    chosen = select_tables(name, lam, angle, power)
+    if errata:
+        show([chosen], ERRATA, form, output)
+    elif name and chosen[0].name == "layouts" and digits is None:
+        show([add_firing(chosen[0])], LAYOUTS, form, output)
+    elif name:
+        show([replace(chosen[0], digits=digits)], TABLE, form, output)
+    else:
+        show([chosen], TABLE_LIST, form, output)
+
+
+def layouts(form: FormatOption = None, output: Output = None) -> None:
+    """Free forces and moments of common engines at a glance, as multiples of one cylinder's.
+
+    \b
+    Examples:
+      balcli layouts
+      balcli layouts --format markdown
+    """
+    form = text_format(output, form)
+    from .answer import recompute
+    from .layouts import add_firing
+
+    show([add_firing(recompute("layouts"))], LAYOUTS, form, output)

@@ -1,0 +1,107 @@
+"""Liu Xianzhi, two-shaft and slider balance of the flat-plane V8, received 1979: Tables 1 to 3.
+
+The second-order force of the engine is two vectors: K cos(gamma/2) turns with the crank, K cos(3
+gamma/2) against it; gamma is the bank angle. The shafts that cancel them without a roll moment lie
+at radii b''' and b'' in the same proportion; sliders cancel the components Z_x and Z_y.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import cos, radians
+from typing import TypeAlias
+
+import numpy as np
+
+from ..core.phasors import Array, unit
+from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_numbers, head_rows
+
+Cosine: TypeAlias = Callable[[Array], Array]  # of degrees
+ROUGH = "author's approximation: cos 45° taken as 0.706"
+
+
+def _cos(degrees: Array) -> Array:
+    return unit(degrees).real
+
+
+def _rough(degrees: Array) -> Array:
+    """The cosine with 0.706 for cos 45 degrees and 0.258 for cos 75 degrees, as Tables 1 and 3 were
+    computed.
+    """
+    exact = _cos(degrees)
+    for angle, taken in ((45, 0.706), (75, 0.258)):
+        near = np.abs(np.abs(exact) - cos(radians(angle))) < 1e-12
+        exact = np.where(near, np.sign(exact) * taken, exact)
+    return exact
+
+
+def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
+    """Table 1: radii of the two shafts over gamma, their ratio, and the same for their rates."""
+    gamma = as_numbers(printed.headings())
+    stub = printed.column(printed.columns[0])
+    explanations = [
+        Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough))),
+        Explanation("quotient of the rounded lines above", _quotients(printed)),
+    ]
+    rows = head_rows(stub, _paths(gamma, _cos))
+    return printed.compare(printed.columns, rows, explanations=explanations)
+
+
+def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
+    """Table 2: the two rotating vectors."""
+    gamma = as_numbers(printed.headings())
+    vectors = [_cos(gamma / 2), _cos(3 * gamma / 2)]
+    rows = head_rows(printed.column(printed.columns[0]), vectors)
+    return printed.compare(printed.columns, rows)
+
+
+def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
+    """Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
+    gammas = [float(text) if text else None for text in printed.column("gamma_deg")]
+    explanations = [Explanation(ROUGH, _sliders(printed, gammas, _rough))]
+    rows = _sliders(printed, gammas, _cos)
+    return printed.compare(printed.columns, rows, explanations=explanations, stub=2)
+
+
+def _paths(gamma: Array, cosine: Cosine) -> Array:
+    """b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of these; ratios with the
+    zeros divided out.
+
+    -cos 3x/cos x = 3 - 4 cos^2 x and -3 sin 3x/sin x = 3 - 12 cos^2 x.
+    """
+    near, far = cosine(gamma / 2), cosine(3 * gamma / 2)
+    rates = 1.5 * cosine(3 * gamma / 2 - 90), -0.5 * cosine(gamma / 2 - 90)
+    return np.array(
+        [-far, near, 3 - 4 * _cos(gamma / 2) ** 2, *rates, 3 - 12 * _cos(gamma / 2) ** 2]
+    )
+
+
+def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> tuple[Row, ...]:
+    alpha = as_numbers(printed.headings())
+    double, sine = cosine(2 * alpha), cosine(2 * alpha - 90)
+    margin = {"2alpha_deg": 2 * alpha, "cos 2alpha": double, "sin 2alpha": sine}
+
+    def line(label: str, gamma: float | None) -> Array:
+        if gamma is None:
+            return margin[label]
+        near, far = cosine(np.array(gamma / 2)), cosine(np.array(3 * gamma / 2))
+        return (far - near) * sine if label == "Zx" else (far + near) * double
+
+    return tuple(
+        (label, g, *as_cells(line(label, g)))
+        for label, g in zip(printed.column("row"), gammas, strict=True)
+    )
+
+
+def _quotients(printed: Print) -> tuple[Row, ...]:
+    """Return lines 3 and 6 of Table 1 from the lines before them as printed."""
+    a, b, _, c, d, _ = (as_numbers(word or "" for word in words) for words in printed.rows)
+    nothing: Row = (None,) * len(a)
+    return (nothing, nothing, _divide(a, b), nothing, nothing, _divide(c, d))
+
+
+def _divide(above: Array, below: Array) -> Row:
+    """Return the quotients of cells; None where there is nothing to divide, or to divide by."""
+    known = np.isfinite(above) & np.isfinite(below) & (below != 0)
+    quotients = above / np.where(known, below, 1.0)
+    return tuple(float(q) if k else None for q, k in zip(quotients, known, strict=True))

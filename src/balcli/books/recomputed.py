@@ -1,0 +1,348 @@
+"""A recomputed table next to its print, and the rule that says which printed figures are wrong.
+
+The printed figures: package data, one CSV file a table, headed by its source.
+
+What a reader may ask of a table: other columns and rows than the printed ones.
+
+Ranges are written as on the command line: `0.20:0.40:0.01`, `0.24,0.28,1/3`.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
+from fractions import Fraction
+from importlib.resources import files
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from ..core.phasors import Array
+from ..errors import BalcliError
+from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
+from ..show.result import Result
+
+Cell: TypeAlias = float | str | None
+Row: TypeAlias = tuple[Cell, ...]
+Words: TypeAlias = tuple[str | None, ...]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Figures as the author may have computed them, in the places of the exact ones; None where the
+    explanation has no figure.
+    """
+
+    kind: str
+    rows: tuple[Row, ...]
+
+
+@dataclass(frozen=True)
+class Erratum:
+    """A printed figure that is not the exact one rounded to as many digits."""
+
+    row: int
+    column: str
+    printed: str
+    exact: Cell
+    kind: str
+
+
+@dataclass(frozen=True, repr=False)
+class Table(Result):
+    """Rows as recomputed and as printed, of one shape; `errata` follow from the two.
+
+    Attributes:
+        name: Name of the table.
+        title: Title of the table.
+        source: Book or paper that prints it.
+        columns: Names of the columns.
+        exact: Cells of every row.
+        printed: Printed texts of every row.
+        explanations: Explanations of errata.
+        stub: How many leading columns name a row.
+        digits: Decimals of the figures that are shown; None: as printed.
+    """
+
+    name: str
+    title: str
+    source: str
+    columns: tuple[str, ...]
+    exact: tuple[Row, ...]
+    printed: tuple[Words, ...]
+    explanations: tuple[Explanation, ...] = ()
+    stub: int = 1
+    digits: int | None = None
+
+    @property
+    def summary(self) -> str:
+        """Name and title of the table."""
+        return f"{self.name}: {self.title}"
+
+    @property
+    def errata(self) -> tuple[Erratum, ...]:
+        """Printed cells that are not the exact ones rounded."""
+        return tuple(self._errata())
+
+    def label(self, row: int) -> str:
+        """Return the name of a row: the cells of its stub."""
+        cells = self.exact[row][: self.stub]
+        shown = [c if isinstance(c, str) else f"{c:.15g}" for c in cells if c is not None]
+        return ", ".join(filter(None, shown))
+
+    def _errata(self) -> Iterator[Erratum]:
+        for i, (row, words) in enumerate(zip(self.exact, self.printed, strict=True)):
+            for j, (value, text) in enumerate(zip(row, words, strict=True)):
+                if text is not None and deviates(value, text):
+                    supposed = [(each.kind, each.rows[i][j]) for each in self.explanations]
+                    kind = _find_kind(value, text, supposed)
+                    yield Erratum(i, self.columns[j], text, value, kind)
+
+
+def parse_decimal(text: str) -> Decimal | None:
+    """Return the printed decimal with its digits (`.4312`, `+1.0`, `-0.5`); None for others."""
+    try:
+        value = Decimal(text.strip().replace("−", "-"))
+    except InvalidOperation:
+        return None
+    return value if value.is_finite() else None
+
+
+def parse_number(cell: Cell) -> Fraction | None:
+    """Return `0.24`, `1/4.5`, `.0048` or `15/128` exactly; None for any other text."""
+    above, _, below = str(cell).replace(" ", "").partition("/")
+    try:
+        return Fraction(above) / Fraction(below or 1)
+    except (ValueError, ZeroDivisionError):
+        return None
+
+
+def round_like(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> Decimal:
+    """Return the value with the decimals of a printed figure, halves rounded away from zero."""
+    return Decimal(repr(float(value))).quantize(Decimal(1).scaleb(_exponent(like)), rounding)
+
+
+def deviates(value: Cell, text: str) -> bool:
+    """Return whether a printed figure is not the exact value rounded; words never deviate."""
+    printed, fraction = parse_decimal(text), parse_number(text)
+    if isinstance(value, (int, float)):
+        if printed is not None:
+            return round_like(value, printed) != printed
+        return fraction is not None and abs(value - fraction) > 1e-12 * abs(fraction)
+    exact = parse_number(value)
+    return exact is not None and fraction is not None and exact != fraction
+
+
+def explain_figure(value: Cell, text: str) -> str | None:
+    """Return how a value leads to the printed figure: "", ", truncated", ", digits transposed";
+    None: it does not.
+    """
+    printed = parse_decimal(text)
+    if printed is None or not isinstance(value, (int, float)):
+        return None
+    rounded = round_like(value, printed)
+    if rounded == printed:
+        return ""
+    if round_like(value, printed, ROUND_DOWN) == printed:
+        return ", truncated"
+    x, y = str(rounded), str(printed)
+    swaps = (f"{x[:i]}{x[i + 1]}{x[i]}{x[i + 2 :]}" for i in range(len(x) - 1))
+    return ", digits transposed" if y in swaps else None
+
+
+def _find_kind(value: Cell, text: str, supposed: Sequence[tuple[str, Cell]]) -> str:
+    """Return the kind of an erratum: the first explanation that leads to it, or what its digits
+    show.
+    """
+    printed = parse_decimal(text)
+    if printed is None or not isinstance(value, (int, float)):
+        return "misprint"
+    for kind, other in supposed:
+        differs = isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value)
+        if differs and (found := explain_figure(other, text)) is not None:
+            return kind + found
+    error = abs(round_like(value, printed) - printed).scaleb(-_exponent(printed))
+    kind = "misprint" if error > 1 else "last digit"
+    return kind + (explain_figure(value, text) or "")
+
+
+def _exponent(printed: Decimal) -> int:
+    exponent = printed.as_tuple().exponent
+    return exponent if isinstance(exponent, int) else 0
+
+
+@dataclass(frozen=True)
+class Print:
+    """A table as printed; cells that are not printed are None."""
+
+    name: str
+    source: str
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[Words, ...]
+
+    def column(self, heading: str) -> tuple[str, ...]:
+        """Return the texts of a column; empty where nothing is printed."""
+        return tuple(row[self.columns.index(heading)] or "" for row in self.rows)
+
+    def headings(self) -> tuple[str, ...]:
+        """Return the headings that are numbers: 0.24, 1/4.5."""
+        return tuple(c for c in self.columns if parse_number(c) is not None)
+
+    def align_cells(self, stub: Sequence[str], columns: Sequence[str]) -> list[Words]:
+        """Return the printed cells of these rows (found by the first column) and columns; numbers
+        are the same however they are written. Cells that are not printed are None.
+        """
+        rows = {identify(row[0] or ""): row for row in self.rows}
+        numbers = {identify(c): j for j, c in enumerate(self.columns)}
+        places = [numbers.get(identify(c)) for c in columns]
+        nothing = (None,) * len(self.columns)
+        found = [rows.get(identify(name), nothing) for name in stub]
+        return [tuple(None if j is None else row[j] for j in places) for row in found]
+
+    def compare(
+        self,
+        columns: Sequence[str],
+        rows: Sequence[Row],
+        printed: Sequence[Words] | None = None,
+        explanations: Sequence[Explanation] = (),
+        stub: int = 1,
+    ) -> Table:
+        """Return the recomputed rows next to the print.
+
+        Args:
+            columns: Names of the columns.
+            rows: Recomputed rows.
+            printed: Printed texts of the rows; None: row by row, further columns have no print.
+            explanations: Explanations of errata.
+            stub: How many leading columns name a row.
+        """
+        if printed is None:
+            printed = [words + (None,) * (len(columns) - len(words)) for words in self.rows]
+        shape = tuple(columns), tuple(rows), tuple(printed)
+        return Table(self.name, self.title, self.source, *shape, tuple(explanations), stub)
+
+    def compare_answers(
+        self, answers: Sequence[float], others: Sequence[tuple[str, int, float]]
+    ) -> Table:
+        """Return the exact answers of worked examples, which stand at the ends of the rows.
+
+        Args:
+            answers: Exact answers.
+            others: What authors took instead: the kind of erratum, the number of the answer (from
+                0), their value.
+        """
+        rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
+        blank: Row = (None,) * len(self.columns)
+        explanations = [
+            Explanation(
+                kind, tuple((*blank[1:], value if k == n else None) for k in range(len(rows)))
+            )
+            for kind, n, value in others
+        ]
+        return self.compare(self.columns, rows, explanations=explanations, stub=4)
+
+
+def load_print(name: str) -> Print:
+    """Return the print of a table: `# source:` and `# title:` lines, headings, rows."""
+    text = files(__package__).joinpath("data", f"{name}.csv").read_text(encoding="utf-8")
+    lines = text.splitlines()
+    notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
+    head, *body = csv.reader(line for line in lines if not line.startswith("# "))
+    rows = tuple(tuple(cell or None for cell in row) for row in body)
+    return Print(name, notes["source"], notes["title"], tuple(head), rows)
+
+
+def identify(text: str) -> object:
+    """Return what identifies a row or column: its number (0.3 is 0.30), or its text."""
+    number = parse_number(text)
+    return text if number is None else number
+
+
+def as_numbers(texts: Iterable[str]) -> Array:
+    """Return the numbers that texts are; nan for a text that is none."""
+    return np.array([np.nan if (n := parse_number(text)) is None else float(n) for text in texts])
+
+
+def as_cells(values: Iterable[float]) -> list[Cell]:
+    """Return numbers of any kind as plain floats; minus zero as zero."""
+    return [float(v) + 0.0 for v in values]
+
+
+def head_rows(stub: Iterable[Cell], body: Iterable[Iterable[float]]) -> tuple[Row, ...]:
+    """Return rows of numbers, each headed by its cell of the stub."""
+    return tuple((head, *as_cells(line)) for head, line in zip(stub, body, strict=True))
+
+
+_PLAIN = re.compile(r"\s*[-+.\d/]{1,30}(e-?\d{1,2})?\s*", re.IGNORECASE)
+
+
+class Ranges(NamedTuple):
+    """Other columns and rows; None: as printed.
+
+    Attributes:
+        lam: columns: crank radius over rod length, as headings.
+        angle: rows: crank angles in degrees, as headings.
+        power: the highest power of lambda.
+    """
+
+    lam: tuple[str, ...] | None = None
+    angle: tuple[str, ...] | None = None
+    power: int | None = None
+
+
+def parse_range(text: str, option: str) -> tuple[str, ...]:
+    """Return the numbers of a range as they would be printed; START:STOP:STEP includes both ends.
+
+    Raises:
+        BalcliError: The text is neither a range nor a list of numbers, or too long.
+    """
+    try:
+        found = [heading for item in text.split(",") for heading in _expand(*item.split(":"))]
+    except (ValueError, TypeError, ArithmeticError):
+        hint = "give START:STOP:STEP (0.20:0.40:0.01) or a list (0.24,0.28,1/3)"
+        raise BalcliError(f"{option} {text!r} is no range: {hint}") from None
+    return tuple(dict.fromkeys(found))
+
+
+def parse_crank_ratios(text: str) -> tuple[str, ...]:
+    """Return a range of lambda = crank radius / rod length.
+
+    Raises:
+        BalcliError: as of `parse_range`, or a mechanism of the range cannot turn.
+    """
+    found = parse_range(text, "--lambda")
+    bad = next((heading for heading in found if not 0 < _read(heading) < 1), None)
+    if bad is not None:
+        raise BalcliError(
+            f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1; give "
+            "crank radius over rod length, such as 0.25 or 1/3.5"
+        )
+    return found
+
+
+def _read(text: str) -> Fraction:
+    """Return a number that can be an angle or a ratio."""
+    value = parse_number(text) if _PLAIN.fullmatch(text) else None
+    if value is None or abs(value) > LARGEST_TABLE_VALUE:
+        raise ValueError(text)
+    return value
+
+
+def _expand(start: str, stop: str | None = None, step: str = "1") -> list[str]:
+    first, stride = _read(start), _read(step)
+    if stop is None:
+        return [start.strip()]
+    count = (_read(stop) - first) / stride
+    if not 0 <= count < MOST_TABLE_VALUES:
+        raise ValueError(count)
+    return [_heading(first + k * stride) for k in range(int(count) + 1)]
+
+
+def _heading(value: Fraction) -> str:
+    """Return 0.24 for 6/25; a fraction that ends in no decimal stays one."""
+    decimal = Decimal(value.numerator) / value.denominator
+    return f"{decimal.normalize():f}" if Fraction(decimal) == value else str(value)

@@ -1,0 +1,117 @@
+"""Exact coefficients in powers of lambda, beside those that the five sources print.
+
+Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920: Tables I and II.
+
+A_n of the piston's and D_k of the rod's acceleration. The errata are recomputed from one and two
+terms of the series.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+import numpy as np
+
+from ..core.mechanisms import closed_form
+from ..core.mechanisms import power_series as series
+from ..core.phasors import Array
+from .recomputed import Explanation, Print, Ranges, Row, Table, Words, as_numbers, head_rows
+
+Generator: TypeAlias = Callable[[int, int], series.Series]
+
+POWER = 12
+COLUMNS = ("function", "order", "power", "coefficient", "source", "equation")
+
+GENERATED: dict[str, Generator] = {  # listed up to the power asked for
+    "displacement x/r from TDC": series.displacement,
+    "velocity v/(r w)": series.velocity,
+    "acceleration A_n (r w^2)": series.piston,
+    "cos beta (displacement/l)": series.cos_beta,
+    "rod angle": series.beta,
+    "rod angular acceleration D_k": series.rod,
+}
+PRINTED: dict[str, Generator] = {  # other forms, where a source has them
+    "displacement (from shaft)/r": series.from_shaft,
+    "acceleration (l w^2)": lambda n, power: {
+        p: n * n * c for p, c in series.cos_beta(n, power).items()
+    },
+    "rod angular acceleration D_k / p": lambda k, power: {
+        p - 1: c for p, c in series.rod(k, power + 1).items()
+    },
+    "cos beta, power of sin^p": lambda _, power: series.cos_beta_in_sine(power),
+    "rod angle, power of sin^p": lambda _, power: series.beta_in_sine(power),
+}
+
+
+def tabulate_series(printed: Print, ranges: Ranges) -> Table:
+    """One row a coefficient, repeated for every source that prints it; what no source prints stands
+    without one.
+    """
+    power = POWER if ranges.power is None else ranges.power
+    shown = [words for words in printed.rows if int(words[2] or 0) <= power]
+    pairs = sorted([*_beside(shown), *_unprinted(shown, power)], key=lambda pair: _place(pair[0]))
+    rows, words = zip(*pairs, strict=True)
+    return printed.compare(COLUMNS, rows, words, stub=3)
+
+
+def _beside(shown: list[Words]) -> Iterator[tuple[Row, Words]]:
+    for words in shown:
+        function, order, power, _, source, equation = words
+        generate = {**GENERATED, **PRINTED}[function or ""]
+        n, p = int(order or 0), int(power or 0)
+        exact = generate(n, p).get(p, 0)
+        yield (function, None if order is None else n, p, str(exact), source, equation), words
+
+
+def _unprinted(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
+    known = {(words[0], words[1], words[2]) for words in shown}
+    for function, generate in GENERATED.items():
+        for n in range(power + 2):
+            for p, c in generate(n, power).items():
+                if (function, str(n), str(p)) not in known:
+                    yield (function, n, p, str(c), None, None), (None,) * len(COLUMNS)
+
+
+def _place(row: Row) -> tuple[int, float, float]:
+    functions = [*GENERATED, *PRINTED]
+    function, order, power = row[:3]
+    return functions.index(str(function)), float(order or 0), float(power or 0)
+
+
+Exact: TypeAlias = Callable[[list[int], Array], Array]
+Terms: TypeAlias = Callable[[int, int], series.Series]
+
+
+def tabulate_piston(printed: Print, ranges: Ranges) -> Table:
+    """Table I: A_n."""
+    return _tabulate(printed, ranges, closed_form.piston, series.piston)
+
+
+def tabulate_rod(printed: Print, ranges: Ranges) -> Table:
+    """Table II: D_k."""
+    return _tabulate(printed, ranges, closed_form.rod, series.rod)
+
+
+def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Table:
+    headings = ranges.lam or printed.headings()
+    lam, stub = as_numbers(headings), printed.column("coefficient")
+    orders = [int(label.partition("_")[2]) for label in stub]
+    columns = (printed.columns[0], *headings)
+
+    def first(count: int) -> tuple[Row, ...]:
+        return head_rows(stub, [_sum(terms(n, n + 2 * count), lam, count) for n in orders])
+
+    return printed.compare(
+        columns,
+        head_rows(stub, exact(orders, lam)),
+        printed.align_cells(stub, columns),
+        [
+            Explanation("author's approximation: first term of the series alone", first(1)),
+            Explanation("author's approximation: two terms of the series", first(2)),
+        ],
+    )
+
+
+def _sum(terms: series.Series, lam: Array, count: int) -> Array:
+    return np.asarray(sum(float(terms[p]) * lam**p for p in sorted(terms)[:count]))

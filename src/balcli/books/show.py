@@ -1,0 +1,216 @@
+"""One printed table, recomputed: laid out as the print is, each figure rounded to the printed
+digits or to as many as are asked for; where the print deviates it follows: `.4313 ≠ .4312`.
+JSON and CSV hold full precision.
+
+Printed figures that are not the exact ones rounded, of several tables.
+
+Which printed tables there are, and how many errata each has.
+
+The table of common layouts: for people orders 1 and 2, an engine a line; JSON and CSV as of any
+recomputed table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from ..show.csv import Rows
+from ..show.formats import Renderer
+from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, number
+from ..show.units import System
+from .recomputed import Cell, Erratum, Table, deviates, parse_decimal, parse_number, round_like
+
+if TYPE_CHECKING:
+    from .layouts import Layouts
+    from .recomputed import Row
+
+
+def sheet(table: Table, _system: System) -> Sheet:
+    """Return source, the table as printed, and how many figures deviate."""
+    columns = range(len(table.columns))
+    rows = tuple(tuple(_shown(table, i, j) for j in columns) for i in range(len(table.exact)))
+    wrong = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
+    words = tuple(
+        j
+        for j in columns
+        if j == 0 or all(isinstance(row[j], str) and not _is_figure(row[j]) for row in table.exact)
+    )
+    grid = Grid("", table.columns, rows, note=count_deviations(table), marked=wrong, words=words)
+    return Sheet(f"{table.name}: {table.title}", (Facts((("source", table.source),)), grid))
+
+
+def document(table: Table) -> dict[str, Any]:
+    """Return `balcli.table/1`: the exact figures, the printed texts, and the errata."""
+    return {
+        "format": "balcli.table/1",
+        "name": table.name,
+        "title": table.title,
+        "source": table.source,
+        "columns": table.columns,
+        "rows": table.exact,
+        "printed": table.printed,
+        "errata": [asdict(e) for e in table.errata],
+    }
+
+
+def rows(table: Table, _system: System) -> Rows:
+    """Return the exact figures as CSV, with as many decimals as the table asks for."""
+
+    def cell(value: Cell) -> Cell:
+        rounded = table.digits is not None and isinstance(value, float)
+        return f"{value:.{table.digits}f}" if rounded else value
+
+    return Rows(table.columns, [[cell(value) for value in row] for row in table.exact])
+
+
+def count_deviations(table: Table) -> str:
+    """Return a sentence on how many of the printed figures are not the exact ones rounded."""
+    printed = sum(_is_figure(text) for row in table.printed for text in row[table.stub :])
+    wrong = len(table.errata)
+    if not printed:
+        return "no printed source"
+    if not wrong:
+        return f"all {printed} printed figures agree"
+    return f"{wrong} of {printed} printed figures deviate (exact ≠ printed)"
+
+
+# ------------------------------------------------------------------ cells
+def _is_figure(cell: Cell) -> bool:
+    return parse_decimal(str(cell)) is not None or parse_number(cell) is not None
+
+
+def _shown(table: Table, i: int, j: int) -> str:
+    """Return a cell as the print would have it, followed by the print where that deviates."""
+    value, text = table.exact[i][j], table.printed[i][j]
+    like = text or next((row[j] for row in table.printed if row[j]), None)
+    if not isinstance(value, (int, float)):
+        shown = value or ""
+    elif table.digits is not None and j >= table.stub and not _is_whole(like, value):
+        shown = f"{value:.{table.digits}f}"
+    else:
+        shown = _round_as_printed(value, text or "")
+    return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
+
+
+def _is_whole(text: str | None, value: float) -> bool:
+    """Return whether a whole number is printed as one, such as an angle."""
+    return text is not None and text.lstrip("+-").isdigit() and float(value).is_integer()
+
+
+def _round_as_printed(value: float, text: str) -> str:
+    """Return a value as the printed text has it: its decimals, its sign, and whether a 0 stands
+    before the point.
+    """
+    like = parse_decimal(text)
+    if like is None:
+        return f"{value:.6g}"
+    shown = f"{round_like(value, like):f}"
+    if text.lstrip("+-").startswith(".") and abs(value) < 1:
+        shown = shown.replace("0.", ".", 1)
+    return f"+{shown}" if text.startswith("+") else shown
+
+
+TABLE = Renderer(sheet=sheet, document=document, rows=rows)
+
+
+COLUMNS = ("table", "row", "column", "printed", "exact", "kind")
+
+
+def lay_out_errata(tables: Sequence[Table], _system: System) -> Sheet:
+    """All errata, a row each, and their number."""
+    lines = tuple(_lines(tables))
+    note = f"{len(lines)} printed figures are not the exact ones rounded"
+    return Sheet("Errata", (Grid("", COLUMNS, lines, note=note, words=(0, 1, 2, 5)),))
+
+
+def describe_errata(tables: Sequence[Table]) -> list[dict[str, Any]]:
+    """One list, each erratum with its table's name."""
+    return [{"name": t.name, **asdict(e)} for t in tables for e in t.errata]
+
+
+def list_errata(tables: Sequence[Table], _system: System) -> Rows:
+    """CSV: an erratum a line."""
+    return Rows(COLUMNS, _lines(tables))
+
+
+def _lines(tables: Sequence[Table]) -> Iterator[tuple[str, ...]]:
+    for t in tables:
+        for e in t.errata:
+            yield t.name, t.label(e.row), e.column, e.printed, _exact(e), e.kind
+
+
+def _exact(erratum: Erratum) -> str:
+    return f"{erratum.exact:.8g}" if isinstance(erratum.exact, float) else str(erratum.exact)
+
+
+ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_errata)
+
+
+_LIST_COLUMNS = ("name", "title", "source", "errata")
+
+
+def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
+    """A table a row, and what to ask next; where they were printed, by their names' first word."""
+    lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
+    errata = sum(len(t.errata) for t in tables)
+    note = f"{errata} errata; balcli tables NAME shows a table, --errata lists them"
+    titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
+    sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
+    printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))
+    return Sheet("Printed tables, recomputed", (titles, printed))
+
+
+def describe_list(tables: Sequence[Table]) -> list[dict[str, Any]]:
+    """One list, an entry a table."""
+    return [dict(zip(_LIST_COLUMNS, line, strict=True)) for line in _list_lines(tables)]
+
+
+def list_tables(tables: Sequence[Table], _system: System) -> Rows:
+    """CSV: a table a line."""
+    return Rows(_LIST_COLUMNS, _list_lines(tables))
+
+
+def _list_lines(tables: Sequence[Table]) -> list[tuple[str, str, str, int]]:
+    return [(t.name, t.title, t.source, len(t.errata)) for t in tables]
+
+
+TABLE_LIST = Renderer(sheet=lay_out_list, document=describe_list, rows=list_tables)
+
+
+_SHOWN = ("F1", "F2", "M1", "M2")
+_NOTE = (
+    "Largest values: F1 in m r ω² of one cylinder's reciprocating mass, F2 in A2 m r ω² (A2 ≈ λ), "
+    "M1 and M2 in these times the distance of neighbouring throws. Orders 4 and 6, smallest "
+    "values: --format csv. As files: balcli engines."
+)
+
+
+def lay_out_layouts(result: Layouts, _system: System) -> Sheet:
+    """Force and moment of orders 1 and 2, and how evenly each engine fires."""
+    columns = result.table.columns
+    places = [columns.index(f"{name}_major") for name in _SHOWN]
+
+    def cells(row: Row) -> tuple[str, ...]:
+        name, title, *_ = map(str, row)
+        multiples = (number(float(row[k] or 0.0), 4) for k in places)
+        gaps = "/".join(f"{gap:g}" for gap in result.gaps_deg[name])  # 90/150: it fires unevenly
+        return title.partition(" (")[0], *multiples, gaps or UNKNOWN
+
+    rows = tuple(map(cells, result.table.exact))
+    grid = Grid("", ("engine", *_SHOWN, "fires every"), rows, note=_NOTE)
+    return Sheet("Free forces and moments of common engines", (grid,))
+
+
+def describe_layouts(result: Layouts) -> dict[str, Any]:
+    """`balcli.table/1`."""
+    return document(result.table)
+
+
+def list_layouts(result: Layouts, system: System) -> Rows:
+    """CSV: the exact figures of all orders."""
+    return rows(result.table, system)
+
+
+LAYOUTS = Renderer(sheet=lay_out_layouts, document=describe_layouts, rows=list_layouts)

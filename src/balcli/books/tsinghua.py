@@ -1,0 +1,138 @@
+"""Lu Jiqing, Meng Sizong, Automobile Engine Design, 1990: Tables 1-1 to 1-6."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import pi
+from typing import TypeAlias
+
+import numpy as np
+
+from ..core.mechanisms import slidercrank as sc
+from ..core.phasors import Array
+from ..errors import BalcliError
+from ..limits import MOST_TABLE_VALUES
+from .recomputed import (
+    Cell,
+    Explanation,
+    Print,
+    Ranges,
+    Row,
+    Table,
+    Words,
+    as_cells,
+    as_numbers,
+    head_rows,
+    parse_number,
+)
+
+ByAngle: TypeAlias = Callable[[Array, Array], Array]  # degrees, lambda
+
+
+def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
+    """Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r from the dimensions given."""
+
+    def row(words: Words, **computed: float) -> Row:
+        pairs = zip(printed.columns, words, strict=True)
+        return tuple(computed.get(head, _given(text)) for head, text in pairs)
+
+    heads = ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
+    lines = np.array([as_numbers(printed.column(head)) for head in heads]).T.tolist()
+    rows, supposed = [], []
+    for words, (r, length, e, stroke, rpm) in zip(printed.rows, lines, strict=True):
+        rows.append(row(words, Cm_m_per_s=stroke * rpm / 30e3, xi=e / r, **{"lambda": r / length}))
+        supposed.append(row(words, **{"lambda": r / 280}))
+    shorter = Explanation("misprint, as with l = 280 mm", tuple(supposed))
+    return printed.compare(printed.columns, rows, explanations=[shorter], stub=2)
+
+
+def tabulate_travel(printed: Print, ranges: Ranges) -> Table:
+    """Table 1-2: x/r."""
+    return _tabulate_by_angle(printed, ranges, lambda a, lam: sc.displacement(np.radians(a), lam))
+
+
+def tabulate_speed(printed: Print, ranges: Ranges) -> Table:
+    """Table 1-3: v/(r omega); the sign columns say its sign at the crank angles of the left and
+    right margins.
+    """
+    return _tabulate_by_angle(
+        printed, ranges, lambda a, lam: np.where(a % 180 == 0, 0.0, sc.velocity(np.radians(a), lam))
+    )
+
+
+def tabulate_acceleration(printed: Print, ranges: Ranges) -> Table:
+    """Table 1-6: j/(r omega^2)."""
+    return _tabulate_by_angle(printed, ranges, lambda a, lam: sc.acceleration(np.radians(a), lam))
+
+
+def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
+    """Table 1-4: where and how large the greatest velocity is, by the two-term formula as printed,
+    then exactly.
+    """
+    headings = ranges.lam or printed.headings()
+    lam = as_numbers(headings)
+    columns = (printed.columns[0], *headings, *(f"exact {h}" for h in headings))
+    approximate, exact = (
+        _extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest)
+    )
+    stub = printed.column(printed.columns[0])
+    return printed.compare(
+        columns,
+        head_rows(stub, np.hstack([approximate, exact])),
+        printed.align_cells(stub, columns),
+        [Explanation("sum of the rounded lines above", _sums(printed, columns))],
+    )
+
+
+def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
+    """Table 1-5: ranges in use, which nothing computes."""
+    return printed.compare(printed.columns, [tuple(map(_given, words)) for words in printed.rows])
+
+
+def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Table:
+    """One row a crank angle, one column a lambda, margins as the print has them.
+
+    Raises:
+        BalcliError: they are too many.
+    """
+    headings = ranges.lam or printed.headings()
+    stub = ranges.angle or printed.column("alpha_deg")
+    if (count := len(stub) * len(headings)) > MOST_TABLE_VALUES:
+        raise BalcliError(
+            f"{len(stub)} angles of {len(headings)} crank ratios are {count} figures, and at most "
+            f"{MOST_TABLE_VALUES} are tabulated: take larger steps of --angle or --lambda"
+        )
+    angles = as_numbers(stub)
+    body = function(angles[:, None], as_numbers(headings)[None, :])
+    signs = "sign_left" in printed.columns
+    inner = ("sign_left", *headings, "sign_right") if signs else headings
+    columns = ("alpha_deg", *inner, "alpha_right_deg")
+    rows: list[Row] = []
+    for angle, line in zip(angles.tolist(), map(as_cells, body), strict=True):
+        left, right = "+-" if angle % 360 <= 180 else "-+"
+        rows.append((angle, *((left, *line, right) if signs else line), 360 - angle))
+    return printed.compare(columns, rows, printed.align_cells(stub, columns))
+
+
+def _extreme(lam: Array, psi: Array, value: Array) -> Array:
+    """The seven lines of Table 1-4, angles in degrees; the mean piston speed is (2/pi) r omega."""
+    alpha = np.degrees(psi)
+    beta = np.degrees(np.arctan2(*sc.rod_angle(psi, lam)))
+    both = alpha + beta
+    return np.array([alpha, 360 - alpha, beta, both, 360 - both, value, value * pi / 2])
+
+
+def _sums(printed: Print, columns: tuple[str, ...]) -> tuple[Row, ...]:
+    """Return lines 4 and 5 of Table 1-4 from lines 1 to 3 as printed."""
+    cells = printed.align_cells(printed.column(printed.columns[0])[:3], columns)
+    first, second, beta = (as_numbers(word or "" for word in words) for words in cells)
+    sums = [first + beta, second - beta]
+    nothing: Row = (None,) * len(columns)
+    lines = [tuple(None if np.isnan(x) else float(x) for x in line) for line in sums]
+    return (nothing, nothing, nothing, *lines, nothing, nothing)
+
+
+def _given(text: str | None) -> Cell:
+    """Return a figure that is an input as a number; words as they are."""
+    value = parse_number(text)
+    return text if value is None else float(value)

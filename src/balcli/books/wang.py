@@ -1,0 +1,85 @@
+"""Wang Yongding, Methods of balancing single-cylinder engines: Table 1.
+
+A counterweight k m_j r, alpha ahead of the point opposite the crank, leaves, of orders 1 and 2, P =
+J (cos th + lam cos 2 th - k e^{i(th + alpha)}). The print searched k in steps of 0.1, alpha of 5
+and theta of 1 degree, the last over half a revolution only. The best alpha is 0: the greatest |P|
+is convex in k e^{i alpha}, and a change of sign of alpha only mirrors the curve.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.phasors import Array
+from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_numbers
+
+SEARCHED = tuple(
+    f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg")
+)
+FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
+
+
+def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
+    """The true optimum, the printed search, and what the printed choice really leaves over the
+    whole revolution.
+    """
+    columns = (*printed.columns, *SEARCHED, *FOLLOWED)
+    lams, k0, alpha0 = (
+        as_numbers(printed.column(head)).tolist() for head in ("lambda", "k0", "alpha0_deg")
+    )
+    searches = [_half_cycle(lam) for lam in lams]
+    rows: list[Row] = []
+    for lam, search, k, alpha in zip(lams, searches, k0, alpha0, strict=True):
+        size, theta = max(_stationary(lam, k * np.exp(1j * np.radians(alpha))))
+        rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
+    rest = (None,) * (len(columns) - 6)
+    search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
+    explained = [Explanation("half-cycle search", search_rows)]
+    return printed.compare(columns, rows, explanations=explained)
+
+
+def _true(lam: float) -> Row:
+    """Smallest peak, k, alpha, and where one of its three equal maxima lies: at theta = 0, along
+    the cylinder.
+
+    There P = 1 + lam - k, falling with k; the two others, symmetric to the cylinder, rise. The best
+    k makes them equal.
+    """
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        k = (low + high) / 2
+        sideways = max(size for size, theta in _stationary(lam, k) if abs(theta) > 1)
+        low, high = (k, high) if sideways < 1 + lam - k else (low, k)
+    return (1 + lam - k, k, 0.0, 0.0, 0.0)
+
+
+def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
+    """(|P|/J, theta in degrees) where |P| is stationary: the roots z = e^{i theta} of the
+    derivative of P conj(P).
+    """
+    p = np.array([lam / 2, 0.5, 0, 0.5 - weight, lam / 2])  # of z^-2 ... z^2
+    square = np.convolve(p, np.conj(p[::-1]))  # of z^-4 ... z^4
+    z = np.roots((np.arange(-4, 5) * square)[::-1])
+    z = z[np.abs(np.abs(z) - 1) < 1e-6]
+    z /= np.abs(z)
+    sizes = np.abs(sum(c * z**n for c, n in zip(p, range(-2, 3), strict=True)))
+    return list(zip(sizes.tolist(), np.degrees(np.angle(z)).tolist(), strict=True))
+
+
+def _half_cycle(lam: float) -> Row:
+    """The printed search: P, k, alpha, direction phi of the force (undirected) and theta."""
+    k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
+    force = _force(lam, k[:, None, None], alpha[:, None], theta)
+    peaks = np.abs(force).max(axis=-1)
+    i, j = np.unravel_index(peaks.argmin(), peaks.shape)
+    at = np.abs(force[i, j]).argmax()
+    worst = force[i, j, at]
+    phi = np.degrees(np.arctan(worst.imag / worst.real))
+    return tuple(as_cells(map(float, (peaks[i, j], k[i], alpha[j], phi, theta[at]))))
+
+
+def _force(lam: float, k: Array, alpha: Array, theta: Array) -> NDArray[np.complex128]:
+    """P/J for angles in degrees."""
+    th = np.radians(theta)
+    return np.asarray(np.cos(th) + lam * np.cos(2 * th) - k * np.exp(1j * (th + np.radians(alpha))))

@@ -1,0 +1,347 @@
+"""`balcli new`
+
+`balcli engines`
+
+`balcli schema`
+
+`balcli check`
+
+`balcli bench`
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from enum import StrEnum
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+import typer
+
+from .errors import BalcliError, Exit, legible
+from .file import examples
+from .file.examples import template
+from .file.fields import counted, suggest_nearest
+from .shell.file_names import TEXTS, format_of, parse_output, require_ending
+from .shell.options import FormatOption, Output
+from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
+from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
+from .show.csv import json_text
+from .show.formats import DOCUMENTS, Format
+
+if TYPE_CHECKING:
+    from .regression import CheckedEngine, Difference
+
+
+def new(
+    kind: Annotated[
+        str,
+        typer.Argument(
+            metavar="KIND",
+            help="single, inline, vee, boxer, radial or w; mounts: an engine on its mounts; field: "
+            "runs of a rotor on a machine; torsion: a chain of inertias and shafts.",
+            show_default=False,
+        ),
+    ],
+    path: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="FILE",
+            callback=parse_output,
+            help="Where to write it; default: standard output.",
+            show_default=False,
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
+) -> None:
+    """Write a commented, valid engine file (or file of runs, for `field`, or chain file, for
+    `torsion`) to start from.
+
+    \b
+    Example:
+      balcli new vee v6.toml
+    """
+    text = template(kind)
+    require_ending(path, ".toml", "FILE")
+    refuse_existing(path, force)
+    emit(text, path)
+
+
+def complete_examples(incomplete: str) -> list[str]:
+    """Return the example engines that begin with this text."""
+    from .file import examples
+
+    return [name for name in examples.names() if name.startswith(incomplete)]
+
+
+def engines(
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="NAME",
+            help="An example; without it all are listed.",
+            autocompletion=complete_examples,
+        ),
+    ] = None,
+    path: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="FILE", callback=parse_output, help="Copy it here; default: standard output."
+        ),
+    ] = None,
+    find: Annotated[
+        str,
+        typer.Option(
+            metavar="WORDS",
+            help="List those whose name, title, source, lesson or tables (gas, torsion) have the "
+            "words.",
+        ),
+    ] = "",
+    group: Annotated[
+        str | None,
+        typer.Option(
+            "--class",
+            metavar="CLASS",
+            help="List one class: layout, aero, car, historic, marine or motorcycle.",
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
+) -> None:
+    """List the example engines that come with balcli, print one, or copy it.
+
+    \b
+    Examples:
+      balcli engines --find v8
+      balcli engines i4 my_engine.toml
+    """
+    if name is None:
+        emit(_list(examples.find(find, group)))
+        return
+    if find or group:
+        raise BalcliError("--find and --class list engines; NAME prints one: give one of the two")
+    text = examples.text(name)
+    require_ending(path, ".toml", "FILE")
+    refuse_existing(path, force)
+    emit(text, path)
+
+
+def _list(found: list[examples.Example]) -> str:
+    """Each class under its name: an engine a line, with what it teaches."""
+    width = max(map(len, examples.names()))
+    parts = []
+    for group, members in groupby(found, key=lambda example: example.group):
+        lines = [f"{example.name:{width}}  {example.lesson}" for example in members]
+        parts.append("\n".join([group, "─" * len(group), *lines]))
+    return "\n\n".join(parts)
+
+
+class File(StrEnum):
+    """Files that have a schema."""
+
+    ENGINE = "engine"
+    FIELD = "field"
+    TORSION = "torsion"
+
+
+def schema(
+    kind: Annotated[
+        File | None,
+        typer.Argument(
+            show_default="engine",
+            help="engine: the engine file; field: runs of a rotor on a machine; torsion: a chain "
+            "of inertias and shafts.",
+        ),
+    ] = None,
+    of: Annotated[
+        str | None,
+        typer.Option(
+            "--of",
+            metavar="RESULT",
+            show_default=False,
+            help=f"Of a result as JSON instead: {', '.join(DOCUMENTS)}.",
+        ),
+    ] = None,
+    output: Output = None,
+) -> None:
+    """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors; or of
+    what a command prints as JSON.
+
+    \b
+    Examples:
+      balcli schema -o balcli.schema.json
+      balcli schema --of analysis
+    """
+    require_ending(output, ".json")
+    described = _describe_file(kind or File.ENGINE) if of is None else _describe_result(of, kind)
+    emit(json.dumps(described, indent=2, ensure_ascii=False), output)
+
+
+def _describe_file(kind: File) -> dict[str, Any]:
+    from .field.tables import Run, RunsFile
+    from .file.schema import describe_engine_file, describe_file  # pydantic
+    from .file.torsion_tables import Damper
+    from .torsion.tables import LISTS, ChainFile
+
+    match kind:
+        case File.ENGINE:
+            return describe_engine_file()
+        case File.FIELD:
+            return describe_file(RunsFile, [Run], "runs-file", "balcli file of runs")
+        case File.TORSION:
+            return describe_file(ChainFile, [Damper, *LISTS], "chain-file", "balcli chain file")
+
+
+def _describe_result(name: str, kind: File | None) -> dict[str, Any]:
+    if kind is not None:
+        raise BalcliError(f"--of {name}: is of a result; leave {kind} out, which is a file")
+    if name not in DOCUMENTS:
+        hint = suggest_nearest(name, DOCUMENTS, f"there are {', '.join(DOCUMENTS)}")
+        raise BalcliError(f"--of {name[:60]}: there is no such result; {hint}")
+    from .show.schema import describe_document  # pydantic
+
+    return describe_document(name)
+
+
+class CheckFormat(StrEnum):
+    """How `check` prints its result."""
+
+    TABLE = "table"
+    JSON = "json"
+    JUNIT = "junit"
+
+
+def check(
+    paths: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="PATH...", help="Engine files, or folders of them.", show_default=False
+        ),
+    ],
+    update: Annotated[
+        bool,
+        typer.Option(
+            "--update", help="Record the present results in expected/ next to the engines."
+        ),
+    ] = False,
+    tolerance: Annotated[
+        float,
+        typer.Option(
+            help="Allowed move of a figure, as a share of the largest figure of its group.",
+            min=0,
+            max=1,
+        ),
+    ] = 1e-9,
+    form: Annotated[
+        CheckFormat,
+        typer.Option("--format", "-f", help="junit: an XML report for continuous integration."),
+    ] = CheckFormat.TABLE,
+) -> None:
+    """Recompute engines and compare them with their recorded results; exit status 1 if anything
+    moved.
+
+    A record holds the result of `analyze` (orders, peaks, displacement, dead centers) and, if the
+    file has these chapters, torque, mounts and torsion. A record whose engine file is missing is a
+    difference as well. Files of runs and chain files in a folder are passed over.
+
+    \b
+    Examples:
+      balcli check v8.toml --update
+      balcli check v8.toml
+      balcli check v8.toml --tolerance 1e-6 --format junit
+    """
+    from .core.records import to_document
+    from .regression import (
+        Check,
+        CheckedEngine,
+        check_target,
+        find_abandoned,
+        find_differences,
+        find_record,
+        record_result,
+    )
+    from .shell.inputs import (
+        exit_on_errors,
+        find_engine_files,
+        find_expected,
+        read_engine,
+        try_each,
+    )
+
+    def compare_or_record(path: Path) -> CheckedEngine:
+        engine = read_engine(str(path)).engine
+        differences: list[Difference] = []
+        if update:
+            write_file(record_result(engine), make_folder_of(check_target(path)))
+        else:
+            differences = find_differences(engine, find_record(path), tolerance)
+        return CheckedEngine(engine=str(path), differences=tuple(differences))
+
+    files, expected = find_engine_files(paths), find_expected(paths)
+    with reporting_until_stopped("engines", len(files)) as progress:
+        each, found = each_until_stopped(files, progress), {*files} - {*paths}
+        results, errors = try_each(each, compare_or_record, found)
+    checked = [*results, *find_abandoned(expected)]
+    moved = sum(len(each.differences) for each in checked)
+    match form:
+        case CheckFormat.TABLE:
+            done = " recorded" if update else f", {counted(moved, 'difference')}"
+            lines = [line for each in checked for line in _list_lines(each)]
+            emit(legible("\n".join([*lines, counted(len(results), "engine") + done])))
+        case CheckFormat.JSON:
+            emit(json_text(to_document(Check(engines=tuple(checked)))))
+        case CheckFormat.JUNIT:
+            emit(_write_junit(checked))
+    exit_on_errors(errors)
+    exit_if_cut_short(progress)
+    if not checked:
+        raise BalcliError(f"{paths[0]}: has no engine files (*.toml)")
+    if moved:
+        raise typer.Exit(Exit.DIFFERENCE)
+
+
+def _list_lines(checked: CheckedEngine) -> Iterator[str]:
+    """Yield a line for each cause, with the figures that moved below it."""
+    for cause in dict.fromkeys(each.cause for each in checked.differences):
+        moved = [each for each in checked.differences if each.cause == cause]
+        if cause is None:
+            yield from (f"{checked.engine}: {each}" for each in moved)
+            continue
+        largest = max((each.share for each in moved if each.share is not None), default=None)
+        share = "" if largest is None else f", by up to {largest:.1e} of the largest"
+        yield f"{checked.engine}: {cause}: {counted(len(moved), 'figure')} moved{share}"
+        yield from (f"  {each}" for each in moved)
+
+
+def _write_junit(checked: Sequence[CheckedEngine]) -> str:
+    """Return an XML report in the form of JUnit: a test case for each engine."""
+    failures = str(sum(bool(each.differences) for each in checked))
+    suite = Element("testsuite", name="balcli check", tests=str(len(checked)), failures=failures)
+    for each in checked:
+        case = SubElement(suite, "testcase", classname="balcli", name=legible(each.engine))
+        if each.differences:
+            message = counted(len(each.differences), "difference")
+            failure = SubElement(case, "failure", message=message)
+            failure.text = legible("\n".join(_list_lines(each)))
+    indent(suite)
+    return tostring(suite, encoding="utf-8", xml_declaration=True).decode()
+
+
+def bench(form: FormatOption = None, output: Output = None) -> None:
+    """Run time against error of every way to the same figures, on this machine; with -o X.svg also
+    as a picture.
+
+    \b
+    Example:
+      balcli bench -o bench.svg
+    """
+    from .bench import RENDERER, draw_bench, measure
+
+    chosen = format_of(output, form, {**TEXTS, ".svg": "svg"}, "table")
+    found = measure()
+    if output is not None and chosen == "svg":
+        write_file(draw_bench(found), output)
+        chosen, output = "table", None
+    show([found], RENDERER, Format(chosen), output)

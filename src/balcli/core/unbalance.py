@@ -1,0 +1,90 @@
+"""How deep a radial hole must be to remove a given unbalance, or to add it with a slug of heavier
+metal: the shop's arithmetic for counterweights and for rotors on a machine.
+
+Permitted residual unbalance by ISO 21940-11.
+
+Loads along a shaft: carried to given planes by the lever, which leaves their sum and moment as
+they are; and their arms about sections.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .phases import RPM
+from .phasors import Array
+
+STEEL = 7850.0  # kg/m3, plain carbon steel
+# kg/m3, of slugs: heavy alloy of 90 % tungsten (ASTM B777, class 1), which shops also know as
+# Mallory metal; and lead
+SLUGS = {"tungsten": 17000.0, "mallory": 17000.0, "lead": 11340.0}
+
+
+def find_drill_depth(unbalance: float, rim: float, drill: float, density: float = STEEL) -> float:
+    """Depth of a radial hole from the rim (radius, m) inwards whose removed steel had this
+    unbalance; nan if none is deep enough.
+
+    `m r = density pi d^2/4 (rim h - h^2/2)`, the hole ending at the axis at the latest.
+
+    Args:
+        unbalance: kg m. drill: diameter, m.
+        density: of what is taken out, or of a slug less the steel in whose place it is put, kg/m3.
+    """
+    unbalance_per_square = density * math.pi / 4 * drill**2  # kg m of a depth of 1 m at 1 m
+    share = unbalance / unbalance_per_square / rim**2  # = h/rim - (h/rim)^2 / 2, at most 1/2
+    return rim * 2 * share / (1 + math.sqrt(1 - 2 * share)) if share <= 0.5 else math.nan
+
+
+def find_drilled_unbalance(depth: float, rim: float, drill: float, density: float = STEEL) -> float:
+    """Unbalance (kg m) that a radial hole of this depth from the rim inwards removes: the inverse
+    of `find_drill_depth`. All lengths in m, the depth at most the rim's radius.
+    """
+    return density * math.pi / 4 * drill**2 * depth * (rim - depth / 2)
+
+
+def find_permitted_unbalance(grade: float, mass_kg: float, speed_rpm: float) -> float:
+    """Return the permitted residual unbalance of the whole rotor, g mm: `U = mass G / Omega`.
+
+    Args:
+        grade: Balance quality grade G: permitted speed of the center of mass, mm/s.
+        mass_kg: Mass of the rotor, kg.
+        speed_rpm: Service speed, rpm.
+    """
+    return 1e3 * mass_kg * grade / (speed_rpm * RPM)
+
+
+def share_by_lever(places: Array, planes: Array) -> Array:
+    """Share of each load that each plane takes, shape (planes, loads): the two planes on either
+    side of it share it, loads beyond the outermost plane hang on the last two (with shares below 0
+    and above 1); a single plane takes all of each.
+
+    Args:
+        places: of the loads, m, shape (loads,).
+        planes: m, shape (planes,), ascending, none twice.
+    """
+    if len(planes) == 1:
+        return np.ones((1, len(places)))
+    left = np.clip(np.searchsorted(planes, places, side="right") - 1, 0, len(planes) - 2)
+    right_share = (places - planes[left]) / (planes[left + 1] - planes[left])
+    shares = np.zeros((len(planes), len(places)))
+    loads = np.arange(len(places))
+    shares[left, loads] += 1 - right_share
+    shares[left + 1, loads] += right_share
+    return shares
+
+
+def find_ahead(z: Array, sections: Array) -> Array:
+    """1 for places on the free-end side of each section, else 0, shape (sections, places)."""
+    return (z <= sections[:, None]).astype(float)
+
+
+def find_arms(z: Array, sections: Array) -> Array:
+    """Arms of those on the free-end side about each section, m, shape (sections, places)."""
+    return find_ahead(z, sections) * (z - sections[:, None])
+
+
+def bound_arms(z: Array, sections: Array) -> Array:
+    """Sizes of what `find_arms` subtracts from one another, which bound the rounding of arms."""
+    return find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))

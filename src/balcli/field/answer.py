@@ -1,0 +1,567 @@
+"""Correction weights of a rotor, the readings that they leave, and whether its grade is reached.
+
+The corrections x make the readings `|V + alpha x|` small: the sum of their squares, or the largest
+of them (`minimise`), where V are the readings from which balancing goes on and alpha the influence
+coefficients. Places and largest weights are constraints of that problem where they bind.
+
+Valid but suspicious runs and weights: each doubt with its value and a remedy.
+
+`balcli.balance_rotor`
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
+
+import numpy as np
+
+from ..core.least_squares import find_dependent_columns, solve
+from ..core.phasors import Complex
+from ..core.records import HIDDEN, INLINE, Axes, Polar, angle_deg
+from ..core.smallest_largest import minimise as make_small
+from ..core.unbalance import find_permitted_unbalance
+from ..errors import BalcliError, InputError, Problem, check_type
+from ..file.fields import counted, join_words, nearest, shorten
+from ..file.plain_tables import take_tables
+from ..file.units import ask_unit
+from ..shell.arguments import tell_arguments
+from ..show.result import Result
+from .influence import (
+    Influence,
+    Series,
+    collect_series,
+    count_needed,
+    find_influence,
+    fit_coefficients,
+)
+from .places import Piece, PlaneLimits
+from .tables import RunsFile, Sense, check_runs
+
+_NEARLY_DEPENDENT = 0.2  # own effect of a plane below which errors of reading grow much
+_SMALL_CHANGE = 0.1  # of the largest reading: a smaller change determines a plane badly
+_SMALLEST_RADIUS = 1.0  # mm; the smallest rotors that are balanced have more
+_UNEQUAL_TRIALS = 100.0  # ratio of trial weights: those of one rotor are more alike
+_FAR_BEYOND = 5.0  # times the largest trial weight: far from where coefficients were measured
+_FEWEST_PHASES = 4  # two runs of two sensors; fewer may be as near to 0 by chance
+_EQUAL_PHASES_DEG = 0.5  # phases differ by less where all that shakes is in phase
+_ROUNDING = 1e-13  # share of the largest reading below which a prediction is rounding
+# A reading that is farther from its prediction than this share of the largest reading as found, or
+# of the largest change that weights made, has a reason.
+_SURPRISING = 0.5
+
+
+def find_doubts(result: FieldBalance) -> Iterator[str]:
+    """Yield everything suspicious about a result and its runs."""
+    alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
+    if len(alike) > 1:
+        yield (
+            f"what planes {join_words([each.plane for each in alike])} do, other planes do nearly "
+            f"as well: only {min(each.own_effect for each in alike):.1%} of what one does is its "
+            f"own (condition {result.condition:.3g}), so errors of reading grow as much; if their "
+            f"weights are large, try --without {alike[0].plane}"
+        )
+    if result.left_out and result.permitted is not None:
+        yield (
+            f"the permitted unbalance is judged without {' and '.join(result.left_out)}: what is "
+            f"there is not known, and readings of up to {result.largest:.4g} {result.unit or ''}"
+        ).rstrip() + " stay"
+    trials = _find_largest_trials(result.file)
+    if result.file.influence is None:
+        for correction in result.corrections:
+            yield from _doubt_trials(result, correction, trials[correction.plane])
+    yield from _doubt_runs(result)
+    yield from _doubt_units(result.file, trials)
+    yield from _doubt_phases(result.file)
+
+
+def _find_largest_trials(file: RunsFile) -> dict[str, float]:
+    """Return the largest weight that was on in each plane, of those that had any."""
+    found: dict[str, float] = {}
+    for run in file.run:
+        for plane, weight in run.weights.items():
+            found[plane] = max(abs(weight), found.get(plane, 0.0))
+    return found
+
+
+def _doubt_trials(result: FieldBalance, correction: Correction, trial: float) -> Iterator[str]:
+    """Yield doubts about trial weights that changed little, and a correction far beyond them."""
+    plane, influence = correction.plane, result.runs
+    speeds = list(dict.fromkeys(influence.speeds_rpm))
+    for speed in speeds:
+        runs = [run for run in result.file.run if run.speed == speed]
+        heaviest = max(abs(run.weights.get(plane, 0)) for run in runs)
+        rows = [k for k, each in enumerate(influence.speeds_rpm) if each == speed]
+        effects = influence.coefficients[rows, result.file.planes.index(plane)]
+        change = heaviest * float(np.abs(effects).max())
+        largest = float(np.abs(influence.found[rows]).max())
+        if change < _SMALL_CHANGE * largest:
+            at = f" at {speed:g} rpm" if len(speeds) > 1 else ""
+            yield (
+                f"the trial weight in {plane}{at} changes no reading by more than {change:.3g}, "
+                f"{100 * change / largest:.2g}% of the largest; use a heavier one"
+            )
+    weight = abs(correction.weight)
+    if weight > _FAR_BEYOND * trial:
+        yield (
+            f"the correction of {weight:.3g} {result.weight_unit} in {plane} is "
+            f"{weight / trial:.3g} times the largest weight tried there; put it on, read again, "
+            "and add that run to the file"
+        )
+
+
+def _doubt_runs(result: FieldBalance) -> Iterator[str]:
+    """Yield a doubt for each speed about the reading that follows least from the other runs."""
+    file = result.file
+    used = [k for k, plane in enumerate(file.planes) if plane not in result.left_out]
+    for series in collect_series(file):
+        predicted, largest = _predict(series, used)
+        errors = np.abs(series.readings - predicted)
+        row, sensor = np.unravel_index(int(errors.argmax()), errors.shape)
+        if errors[row, sensor] <= _SURPRISING * largest:
+            continue
+        read, expected = (
+            f"{abs(value):.4g} @ {angle_deg(value):.1f}"
+            for value in (series.readings[row, sensor], predicted[row, sensor])
+        )
+        turned, _ = _predict(series._replace(weights=np.conj(series.weights)), used)
+        remedy = (
+            "are its weights where the file says, and is the machine as it was? Else leave the run "
+            "out"
+        )
+        if np.abs(series.readings - turned).max() <= _SURPRISING * largest:
+            other = "with" if file.senses[1] == "against" else "against"
+            remedy = (
+                "had angles of weights been counted the other way round, weights = "
+                f'"{other}", it would be near'
+            )
+        yield (
+            f"'{file.name_run(series.numbers[row])}' reads {read} at "
+            f"{result.readings[sensor].sensor}, far from {expected}, which the other runs predict; "
+            f"{remedy}"
+        )
+
+
+def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
+    """Return every reading as the first runs that determine the coefficients predict it, shape
+    (runs, sensors), and the largest reading as found, or change of one by weights.
+    """
+    count = count_needed(series, used)
+    first = series._replace(readings=series.readings[:count], weights=series.weights[:count])
+    alpha, found = fit_coefficients(first)
+    changes = series.weights @ alpha.T
+    predicted, largest = found + changes, float(max(np.abs(found).max(), np.abs(changes).max()))
+    return np.where(np.abs(predicted) <= _ROUNDING * largest, 0, predicted), largest
+
+
+def _doubt_units(file: RunsFile, trials: dict[str, float]) -> Iterator[str]:
+    """Yield doubts about meters for millimeters, and kilograms for grams in one of the planes."""
+    if file.radius is not None and (radius := max(file.radius)) < _SMALLEST_RADIUS:
+        yield f"radius is {radius:g} mm; {ask_unit('mm', f'{radius:g} m')}"
+    by_weight = sorted((weight, plane) for plane, weight in trials.items())
+    if by_weight and by_weight[-1][0] > _UNEQUAL_TRIALS * by_weight[0][0]:
+        unit = file.weight_unit
+        ends = (by_weight[0], by_weight[-1])
+        light, heavy = (f"{weight:.3g} {unit} in {plane}" for weight, plane in ends)
+        yield f"the weights tried are {light} and {heavy}; are both in {unit}?"
+
+
+def _doubt_phases(file: RunsFile) -> Iterator[str]:
+    """Yield a doubt if phases seem to be in radians: all within 2 pi degrees, and yet different."""
+    phases = [math.degrees(cmath.phase(each)) for run in file.run for each in run.readings if each]
+    most = max(map(abs, phases), default=0.0)
+    several = len(phases) >= _FEWEST_PHASES and max(phases) - min(phases) > _EQUAL_PHASES_DEG
+    if several and most <= 2 * math.pi:
+        yield (
+            f"all phases of readings are within {most:.3g} deg of 0; are they in radians? One of "
+            f"{most:.3g} rad is {math.degrees(most):.1f} deg"
+        )
+
+
+Minimise = Literal["squares", "max"]
+Weight: TypeAlias = Annotated[complex, Polar("weight", "angle_deg")]
+_READING = Polar("amplitude", "phase_deg")
+
+_NOISE = 1e-14  # share of the terms that cancel, below which a reading is rounding
+_NEGLIGIBLE = 1e-9  # share of the weight that would do as much as all unbalance
+_AT_EDGE = 1e3  # times that: so near its limit a weight counts as at it
+_G_MM = 1e-6  # kg m
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sensor:
+    """What one reading is: a sensor at a speed.
+
+    Attributes:
+        sensor: Name of the sensor, or its number.
+        speed_rpm: Speed; null if the file gives none.
+    """
+
+    sensor: str
+    speed_rpm: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Correction:
+    """Correction weight of one plane. Angles count as the file counts those of weights.
+
+    Attributes:
+        plane: Name of the plane.
+        weight: Correction weight, counted from the rotor as found, all trial weights off.
+        add: Weight to add to what was on in the last run with a correction in; left out if there is
+            no such run.
+        unbalance_g_mm: Unbalance of the correction weight; left out if no radius is known.
+        own_effect: Share of the plane's effect that no combination of other planes has; 1 if the
+            plane is independent of them.
+        at_limit: Whether places or a largest weight keep the plane from the best weight.
+        wanted: Best correction weight without limits; left out if the plane is not at its limit.
+        pieces: Weights or holes that together make the weight to add.
+    """
+
+    plane: str
+    weight: Annotated[Weight, INLINE]
+    add: Weight | None = None
+    unbalance_g_mm: float | None = None
+    own_effect: float
+    at_limit: bool
+    wanted: Weight | None = None
+    pieces: tuple[Piece, ...]
+
+    @property
+    def step(self) -> complex:
+        """Weight to add now, whether or not a correction is in already."""
+        return self.weight if self.add is None else self.add
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanePermitted:
+    """Permitted residual unbalance of one plane (ISO 21940-11).
+
+    Attributes:
+        plane: Name of the plane.
+        permitted_g_mm: Permitted residual unbalance.
+        present_g_mm: Unbalance there now, by the last readings.
+        reached: Whether the unbalance there now is permitted.
+        after_g_mm: Residual unbalance after the corrections.
+    """
+
+    plane: str
+    permitted_g_mm: float
+    present_g_mm: float
+    reached: bool
+    after_g_mm: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Permitted:
+    """Permitted residual unbalance of the rotor (ISO 21940-11).
+
+    Attributes:
+        specific_mm: Permitted eccentricity.
+        unbalance_g_mm: Permitted residual unbalance of the whole rotor.
+        planes: Permitted and present unbalance by plane.
+        reached: Whether all planes reach their grade now.
+    """
+
+    specific_mm: float
+    unbalance_g_mm: float
+    planes: tuple[PlanePermitted, ...]
+    reached: bool
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class FieldBalance(Result):
+    """Weights that balance a rotor on the machine, and the readings that they leave.
+
+    Weights and readings are complex and in the units of the file.
+
+    Attributes:
+        format: Name and version of the document.
+        name: Name of the rotor; null if the file gives none.
+        unit: Unit of the readings; null if the file gives none.
+        weight_unit: Unit of the weights.
+        phases: Sense in which phases of readings count: with or against rotation.
+        weights: Sense in which angles of weights count: with or against rotation.
+        minimise: What was minimized: the sum of squares, or the largest, of the readings.
+        readings: Sensor and speed of every reading.
+        influence: Influence coefficients: change of a reading by one unit of weight in a plane.
+        corrections: Correction weights of the planes that are not left out.
+        before: Readings of the last run with a correction in, otherwise those as found.
+        residual: Predicted readings after the corrections.
+        largest: Largest weighted reading after the corrections.
+        rms: Root mean square of the weighted readings after the corrections.
+        condition: Condition number of the influence coefficients; null if it is infinite.
+        bound: Proven bound: no weights leave a smaller largest reading; left out for squares.
+        trimmed: Name of the last run with a correction in; left out if there is none.
+        permitted: Permitted residual unbalance; left out if the file has no grade.
+        file: The file of runs.
+        runs: Readings, coefficients and weights by state.
+    """
+
+    format: Literal["balcli.field/1"] = "balcli.field/1"
+    name: str | None
+    unit: str | None
+    weight_unit: str
+    phases: Sense
+    weights: Sense
+    minimise: Minimise
+    readings: tuple[Sensor, ...]
+    influence: Annotated[Complex, _READING, Axes(2)]
+    corrections: tuple[Correction, ...]
+    before: Annotated[Complex, _READING]
+    residual: Annotated[Complex, _READING]
+    largest: float
+    rms: float
+    condition: float
+    bound: float | None = None
+    trimmed: str | None = None
+    permitted: Permitted | None = None
+    file: Annotated[RunsFile, HIDDEN]
+    runs: Annotated[Influence, HIDDEN]
+
+    @property
+    def summary(self) -> str:
+        """Planes that get a weight."""
+        return f"in {', '.join(each.plane for each in self.corrections)}"
+
+    @property
+    def limited(self) -> bool:
+        """Whether places or largest weights keep any plane from the best weight."""
+        return any(each.at_limit for each in self.corrections)
+
+    @property
+    def left_out(self) -> list[str]:
+        """Planes that are left out."""
+        used = {each.plane for each in self.corrections}
+        return [plane for plane in self.file.planes if plane not in used]
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is valid but suspicious of runs and weights, each with its value and a remedy."""
+        return tuple(find_doubts(self))
+
+
+def find_corrections(
+    file: RunsFile, minimise: Minimise = "squares", without: Collection[str] = (), name: str = ""
+) -> FieldBalance:
+    """Return the correction weights of a rotor.
+
+    Args:
+        file: Runs.
+        minimise: "squares", the least sum of squared readings, or "max", the smallest largest one.
+        without: Names of planes that get no weight.
+        name: Name of the file, for messages.
+
+    Raises:
+        InputError: The runs do not separate the effects of the planes.
+        BalcliError: `without` names no plane, or all of them.
+    """
+    used = _choose_planes(file, without)
+    runs = find_influence(file, used, name)
+    matrix, now = runs.coefficients[:, used], runs.start
+    _refuse_dependent(matrix, [file.planes[k] for k in used], name)
+    phases, senses = file.senses
+    limits = [PlaneLimits.of_plane(file, k) for k in used]
+    regions = [
+        each.make_region(complex(runs.weights_on[k]), 1 if phases == senses else -1)
+        for k, each in zip(used, limits, strict=True)
+    ]
+    speeds = len(now) // len(file.run[0].readings)
+    factors = np.tile(file.reading_weights or np.ones(len(now) // speeds), speeds)
+    negligible = _NEGLIGIBLE * np.abs(now).max() / np.abs(matrix).max(axis=0)
+    best = small = make_small(matrix, -now, factors, largest=minimise == "max")
+    step, at_limit = best.x, [False] * len(used)
+    fits = [abs(r.project(x)[0] - x) for r, x in zip(regions, best.x, strict=True)] <= negligible
+    if not fits.all():
+        small = make_small(matrix, -now, factors, regions, largest=minimise == "max")
+        step = np.where(np.abs(small.x) <= negligible, 0, small.x)
+        depths = [r.find_depth(x) for r, x in zip(regions, step, strict=True)]
+        at_limit = (np.abs(depths) <= _AT_EDGE * negligible).tolist()
+    noise = _NOISE * (np.abs(now) + np.abs(matrix) @ np.abs(step))
+    residual = np.where(np.abs(small.residual) <= noise, 0, -small.residual)
+    left = factors * np.abs(residual)
+    # sine of the angle between each column and the space of the others
+    inverse = np.linalg.pinv(matrix / np.linalg.norm(matrix, axis=0), rcond=0.0)
+    own_effects = 1 / np.linalg.norm(inverse, axis=1)
+    corrections = []
+    for j, k in enumerate(used):
+        on, add = runs.weights_on[k], complex(file.turn(step[j]))
+        weight = complex(file.turn(on + step[j]))
+        corrections.append(
+            Correction(
+                plane=file.planes[k],
+                weight=weight,
+                add=add if runs.trimmed else None,
+                unbalance_g_mm=_find_unbalance(file, k, weight),
+                own_effect=float(own_effects[j]),
+                at_limit=at_limit[j],
+                wanted=complex(file.turn(on + best.x[j])) if at_limit[j] else None,
+                pieces=limits[j].plan(add, float(negligible[j])),
+            )
+        )
+    sensors = file.sensors or [f"sensor {k}" for k in range(1, len(now) // speeds + 1)]
+    return FieldBalance(
+        name=file.name,
+        unit=file.unit,
+        weight_unit=file.weight_unit,
+        phases=phases,
+        weights=senses,
+        minimise=minimise,
+        readings=tuple(
+            Sensor(sensor=sensor, speed_rpm=speed)
+            for sensor, speed in zip([*sensors] * speeds, runs.speeds_rpm, strict=True)
+        ),
+        influence=runs.coefficients,
+        corrections=tuple(corrections),
+        before=runs.latest,
+        residual=residual,
+        largest=float(left.max()),
+        rms=float(np.sqrt(np.mean(left**2))),
+        condition=solve(matrix, now).condition,
+        bound=small.bound,
+        trimmed=runs.trimmed or None,
+        permitted=_find_permitted(file, used, best.x, step),
+        file=file,
+        runs=runs,
+    )
+
+
+def _choose_planes(file: RunsFile, without: Collection[str]) -> list[int]:
+    """Return the numbers of the planes that get a weight, from 0.
+
+    Raises:
+        BalcliError: `without` names no plane, or all of them.
+    """
+    for name in without:
+        if name not in file.planes:
+            near = nearest(name, file.planes)
+            hint = f" Did you mean {near}?" if near else ""
+            planes = ", ".join(file.planes)
+            raise BalcliError(f"--without {shorten(name)}: is no plane; there are {planes}.{hint}")
+    used = [k for k, plane in enumerate(file.planes) if plane not in without]
+    if not used:
+        raise BalcliError("--without: leaves no plane to put a weight in")
+    return used
+
+
+def _refuse_dependent(matrix: Complex, planes: list[str], name: str) -> None:
+    """Raise InputError if the readings do not separate the effects of the planes.
+
+    Args:
+        matrix: Influence coefficients, shape (readings, planes).
+        planes: Names of the planes.
+        name: Name of the file for messages.
+    """
+    readings, more = len(matrix), len(planes) - len(matrix)
+    dead = [plane for plane, column in zip(planes, matrix.T, strict=True) if not column.any()]
+    if more > 0:
+        message = (
+            f"{counted(len(planes), 'plane')} cannot be told apart by "
+            f"{counted(readings, 'reading')}; add sensors or speeds, or leave "
+            f"{counted(more, 'plane')} out with --without"
+        )
+    elif dead:
+        message = (
+            f"a weight in {dead[0]} changes no reading, so none can be found for it; use a heavier "
+            f"trial weight, or --without {dead[0]}"
+        )
+    elif dependent := [planes[k] for k in find_dependent_columns(matrix)]:
+        *front, last = dependent
+        message = (
+            f"{', '.join(front)} and {last} depend on one another: what one does, the others do as "
+            f"well, at every sensor and speed; leave one out, such as --without {last}"
+        )
+    else:
+        return
+    raise InputError([Problem("planes", message)], name)
+
+
+def _find_unbalance(file: RunsFile, k: int, weight: complex) -> float | None:
+    """Return the unbalance of a weight in the k-th plane, g mm; None if no radius is known."""
+    per_weight = file.find_unbalance_per_weight(k)
+    return None if per_weight is None else float(abs(weight)) * per_weight / _G_MM
+
+
+def _find_permitted(
+    file: RunsFile, used: list[int], best: Complex, step: Complex
+) -> Permitted | None:
+    """Return permitted and present unbalance; None without a grade.
+
+    Args:
+        file: Runs.
+        used: Numbers of the planes that get a weight, from 0.
+        best: Weights that would cancel the readings: the unbalance that is there now, shape
+            (planes,).
+        step: Weights to add, shape (planes,).
+    """
+    if file.grade is None or file.mass is None or file.speed is None:
+        return None
+    whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
+    shares = np.array(file.shares or np.ones(len(file.planes)))
+    planes = []
+    for k, there, added in zip(used, best, step, strict=True):
+        permitted = whole * float(shares[k] / shares.sum())
+        present = _find_unbalance(file, k, there) or 0.0
+        planes.append(
+            PlanePermitted(
+                plane=file.planes[k],
+                permitted_g_mm=permitted,
+                present_g_mm=present,
+                reached=present <= permitted,
+                after_g_mm=_find_unbalance(file, k, there - added) or 0.0,
+            )
+        )
+    return Permitted(
+        specific_mm=whole / (1e3 * file.mass),
+        unbalance_g_mm=whole,
+        planes=tuple(planes),
+        reached=all(each.reached for each in planes),
+    )
+
+
+_UNNAMED = "file of runs"  # in messages, a text or dict
+
+
+@tell_arguments()
+def balance_rotor(
+    runs: str | Path | Mapping[str, Any],
+    minimise: Literal["squares", "max"] = "squares",
+    *,
+    without: str | Collection[str] = (),
+) -> FieldBalance:
+    """Balance a rotor on the machine or in its bearings.
+
+    Args:
+        runs: Path of a file of runs, its text (TOML), or a dict of its tables: `planes`, and under
+            `run` one dict for each run with its `readings` and `weights`, such as "5 @ 30"
+            (amplitude and angle in degrees).
+        minimise: "squares", the least sum of squared readings, or "max", the smallest largest one.
+        without: Names of planes that get no weight.
+
+    Returns:
+        `corrections`, each with its `weight` (complex, in the file's unit) and `pieces`;
+        `residual`, the predicted readings, shape (readings,).
+
+    Raises:
+        BalcliError: The file cannot be read; `without` names no plane, or all of them.
+        InputError: The runs have mistakes, or do not separate the effects of the planes.
+        TypeError: An argument has a wrong type.
+
+    Example:
+        >>> balance_rotor("fan.toml", "max").to_pandas()
+    """
+    check_type("minimise", minimise, str, 'give "squares" or "max"')
+    if minimise not in ("squares", "max"):
+        raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
+    without = [without] if isinstance(without, str) else without
+    hint = 'give names of planes, such as ["front"]'
+    check_type("without", without, Collection, hint)
+    for plane in without:
+        check_type("without", plane, str, hint)
+    wanted = "give the path, text or dict of a file of runs"
+    tables, name = take_tables("balance_rotor", runs, wanted)
+    return find_corrections(check_runs(tables, name), minimise, without, name or _UNNAMED)

@@ -1,0 +1,79 @@
+"""`balcli field`"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from ..errors import BalcliError, Exit
+from ..file.toml import name_file
+from ..shell.file_names import picture_form, text_format
+from ..shell.options import FormatOption, Output, UnitsOption
+from ..shell.output import refuse_overwriting, show, write_figure
+from ..shell.values import optional
+from ..show.formats import Units
+
+
+def field(
+    path: Annotated[
+        str,
+        typer.Argument(
+            metavar="RUNS",
+            help="Readings of all runs (TOML); - reads standard input.",
+            show_default=False,
+        ),
+    ],
+    minimise: Annotated[
+        Literal["squares", "max"],
+        typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
+    ] = "squares",
+    without: Annotated[
+        list[str] | None, optional("PLANE", "Leave this plane out; may be given again.")
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        optional("FILE", "Draw readings and weights in polar form; .svg, .png or .pdf."),
+    ] = None,
+    check: Annotated[
+        bool,
+        typer.Option(
+            "--check", help="Exit status 1 unless every plane is within the file's grade."
+        ),
+    ] = False,
+    form: FormatOption = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Balance a rotor on the machine or in its bearings: from readings with trial weights to
+    correction weights, places or drill holes, and what is left.
+
+    `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
+    with a trial weight in each plane. Weights and readings have the units of the file.
+
+    \b
+    Examples:
+      balcli field runs.toml
+      balcli field runs.toml --plot weights.svg
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
+    form = text_format(output, form)
+    drawn = picture_form(plot, "--plot") if plot is not None else None
+    from ..shell.inputs import warn_each
+    from .answer import find_corrections
+    from .show import RENDERER
+    from .tables import read_runs
+
+    file, name = read_runs(path), name_file(path)
+    if check and file.grade is None:
+        raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
+    result = find_corrections(file, minimise, without or (), name)
+    warn_each(result.doubts, name)
+    if plot is not None and drawn is not None:
+        from .plot import make_field  # brings matplotlib
+
+        write_figure(make_field(result), drawn, plot)
+    show([result], RENDERER, form, output, units)
+    if check and result.permitted is not None and not result.permitted.reached:
+        raise typer.Exit(Exit.DIFFERENCE)

@@ -1,0 +1,202 @@
+"""Influence coefficients from runs with trial weights.
+
+At each speed the readings V depend on the weights U by `V = V0 + alpha U` (Goodman, J. Eng. Ind.
+86, 1964, 273). The coefficients alpha and the readings as found V0 are fitted to all runs by least
+squares; where there are just enough runs, this is `alpha = (V - V0) / U`.
+
+A run that comes after the coefficients are determined has a *correction* in: balancing goes on from
+the last of them. All complex numbers here turn in the sense in which phases of readings count.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.least_squares import solve
+from ..core.phasors import Complex
+from ..errors import InputError, Problem
+from ..file.fields import join_words
+from .tables import RunsFile
+
+_ROUNDING = 1e-13  # share of the largest reading below which a change is rounding
+
+
+class Series(NamedTuple):
+    """The runs at one speed.
+
+    Attributes:
+        speed_rpm: Speed; None if the file gives none.
+        numbers: Number of each run in the file, from 0.
+        readings: Readings, shape (runs, sensors).
+        weights: All weights that are on, shape (runs, planes).
+        given: Influence coefficients of the file, shape (sensors, planes); None: to be found.
+    """
+
+    speed_rpm: float | None
+    numbers: list[int]
+    readings: Complex
+    weights: Complex
+    given: Complex | None
+
+
+class Influence(NamedTuple):
+    """Readings of all speeds, one speed after the other, and what weights do to them.
+
+    Attributes:
+        speeds_rpm: Speed of every reading, rpm; None if the file gives none.
+        coefficients: Change of each reading by one unit of weight, shape (readings, planes); 0 for
+            planes that are left out.
+        found: Readings of the rotor without weights, shape (readings,).
+        latest: Readings of the last run with a correction in, shape (readings,); `found` at speeds
+            without such a run.
+        start: Readings from which balancing goes on, shape (readings,): those with the weights
+            `weights_on`, computed from `latest` where other weights were on.
+        trimmed: Name of the last run with a correction in, at any speed; empty if there is none.
+        weights_on: Weights that were on in that run, shape (planes,); otherwise 0.
+    """
+
+    speeds_rpm: tuple[float | None, ...]
+    coefficients: Complex
+    found: Complex
+    latest: Complex
+    start: Complex
+    trimmed: str
+    weights_on: Complex
+
+    @property
+    def state(self) -> str:
+        """Name of the state in which `latest` was read."""
+        if not self.trimmed:
+            return "as found"
+        return "last read" if len(set(self.speeds_rpm)) > 1 else self.trimmed
+
+
+def collect_series(file: RunsFile) -> list[Series]:
+    """Return the runs as one series for each speed, in the order of the file."""
+    found: list[Series] = []
+    for speed in dict.fromkeys(run.speed for run in file.run):
+        numbers = [k for k, run in enumerate(file.run) if run.speed == speed]
+        kept, states = np.zeros(len(file.planes), dtype=complex), []
+        for run in (file.run[k] for k in numbers):
+            states.append(kept + [run.weights.get(plane, 0j) for plane in file.planes])
+            kept = states[-1] if run.keep_trial else kept
+        readings = np.array([file.run[k].readings for k in numbers], dtype=complex)
+        given = None
+        if file.influence is not None:
+            sensors = readings.shape[1]
+            rows = file.influence[len(found) * sensors : (len(found) + 1) * sensors]
+            given = np.array(rows, dtype=complex)
+        found.append(Series(speed, numbers, readings, file.turn(np.array(states)), given))
+    return found
+
+
+def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Influence:
+    """Return influence coefficients: those of the file, or fitted to all runs.
+
+    Args:
+        file: Runs.
+        used: Numbers of the planes that get a weight, from 0.
+        name: Name of the file for messages.
+
+    Raises:
+        InputError: The runs do not determine the coefficients of all planes.
+    """
+    planes, blocks = len(file.planes), []
+    trim, goes_on = -1, np.zeros(planes, dtype=complex)  # last run with a correction in
+    for series in collect_series(file):
+        count = count_needed(series, used)
+        if count is None:
+            raise InputError([_explain_undetermined(file, series, used)], name)
+        alpha, found = fit_coefficients(series)
+        latest, on = found, np.zeros(planes, dtype=complex)
+        if len(series.numbers) > count:
+            latest, on = series.readings[-1], series.weights[-1]
+            if series.numbers[-1] > trim:
+                trim, goes_on = series.numbers[-1], on
+        speeds = np.full(len(found), series.speed_rpm, dtype=object)
+        blocks.append((speeds, alpha, found, latest, latest - alpha @ on))
+    speeds, alpha, found, latest, bare = map(np.concatenate, zip(*blocks, strict=True))
+    return Influence(
+        speeds_rpm=tuple(speeds),
+        coefficients=alpha * np.isin(np.arange(planes), [*used]),
+        found=found,
+        latest=latest,
+        start=bare + alpha @ goes_on,
+        trimmed="" if trim < 0 else file.name_run(trim),
+        weights_on=goes_on,
+    )
+
+
+def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
+    """Return influence coefficients and readings as found at one speed.
+
+    Returns:
+        Coefficients, shape (sensors, planes), 0 for planes without weights; and readings as found,
+        shape (sensors,): the mean of the runs without weights, or the fitted ones if there is no
+        such run.
+    """
+    if series.given is not None:
+        alpha = series.given
+        found = series.readings[0] - alpha @ series.weights[0]
+    else:
+        design = _design(series)
+        fitted = np.array([solve(design, column).x for column in series.readings.T])
+        found, changes = fitted[:, 0], fitted[:, 1:]
+        unmoved = np.abs(changes) <= _ROUNDING * np.abs(series.readings).max(axis=0)[:, None]
+        alpha = changes * ~unmoved / (np.abs(series.weights).max() or 1.0)
+    bare = ~series.weights.any(axis=1)
+    return alpha, np.asarray(series.readings[bare].mean(axis=0)) if bare.any() else found
+
+
+def count_needed(series: Series, used: Collection[int]) -> int | None:
+    """Return how many runs, from the first, determine V0 and all coefficients; None: not even all.
+
+    Args:
+        series: Runs.
+        used: Numbers of the planes that get a weight, from 0.
+    """
+    if series.given is not None:
+        return 1
+    design, unknowns = _design(series), _count_unknowns(series, used)
+    counts = range(1, len(design) + 1)
+    return next((n for n in counts if np.linalg.matrix_rank(design[:n]) == unknowns), None)
+
+
+def _design(series: Series) -> Complex:
+    """Return the matrix of the fit, shape (runs, 1 + planes): 1, and weights over the largest."""
+    size = np.abs(series.weights).max() or 1.0
+    return np.concatenate([np.ones((len(series.weights), 1)), series.weights / size], axis=1)
+
+
+def _count_unknowns(series: Series, used: Collection[int]) -> int:
+    """Return 1 for V0, and one for each plane that is used or had a weight on."""
+    return 1 + len({*used, *np.flatnonzero(series.weights.any(axis=0)).tolist()})
+
+
+def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int]) -> Problem:
+    """Return why not even all runs at a speed determine the coefficients."""
+    at = "" if series.speed_rpm is None else f" at {series.speed_rpm:g} rpm"
+    if bool(series.weights.any(axis=1).all()):
+        return Problem(
+            f"run.{series.numbers[0] + 1}",
+            f"has weights, and so has every other run{at}; give the readings of the rotor as "
+            "found, in a run without weights",
+        )
+    tried = np.asarray(series.weights.any(axis=0))
+    if bare := [file.planes[k] for k in used if not tried[k]]:
+        return Problem(
+            "run",
+            f"there is no trial weight in {join_words(bare)}{at}; add a run with one, such as "
+            f'weights = {{ {bare[0]} = "10 @ 0" }}, give influence, or leave the plane out with '
+            f"--without {bare[0]}",
+        )
+    names = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
+    return Problem(
+        "run",
+        f"the trial weights in {join_words(names)} are never apart{at}, so their effects cannot be "
+        f"separated; of {len(series.numbers)} runs here, {_count_unknowns(series, used)} that "
+        "differ are needed: one as found, and one for each plane",
+    )

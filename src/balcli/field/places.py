@@ -1,0 +1,195 @@
+"""What can be done in a plane: weights at places or at any angle, or holes in the rim.
+
+Weights at given angles, each from 0 to a largest one, make together any weight in a convex polygon
+(`find_region`). `split_weight` finds the lightest set of weights that makes a given one.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.phasors import Array, Complex
+from ..core.records import angle_deg
+from ..core.smallest_largest import Region
+from ..core.unbalance import find_drill_depth, find_drilled_unbalance
+from .tables import RunsFile
+
+_ROUNDING = 1e-9  # share of a weight that is rounding
+
+
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """Weight at a place, or a drilled hole: a part of a correction.
+
+    Attributes:
+        weight: Weight to put on, or weight at the rim to which the hole is equivalent.
+        angle_deg: Angle, in the sense in which the file counts angles of weights.
+        place: Number of the place in the file's list, from 1; left out at any angle.
+        depth_mm: Depth of the hole; left out for weights.
+    """
+
+    weight: float
+    angle_deg: float
+    place: int | None = None
+    depth_mm: float | None = None
+
+
+class _Hole(NamedTuple):
+    """Radial hole into a rim: radius of the rim and diameter of the hole, m; and the unbalance of
+    one unit of weight at the rim, kg m.
+    """
+
+    rim: float
+    diameter: float
+    per_weight: float
+
+
+class PlaneLimits(NamedTuple):
+    """Where one plane takes weights, and how heavy they may be. Angles are those of the file.
+
+    Attributes:
+        places_deg: Angles of the places, deg; empty: any angle.
+        most: Largest weight in the plane, at one place, or of one hole; infinite: no limit.
+        hole: Shape of holes, which remove weight opposite to it; None: weights are put on.
+    """
+
+    places_deg: tuple[float, ...]
+    most: float
+    hole: _Hole | None
+
+    @classmethod
+    def of_plane(cls, file: RunsFile, k: int) -> PlaneLimits:
+        """Return the limits of the k-th plane, from 0."""
+        places = file.places[k] if file.places else ()
+        most = file.most[k] if file.most else math.inf
+        per_weight = file.find_unbalance_per_weight(k)
+        if file.drill is None or file.radius is None or per_weight is None:
+            return cls(places, most, None)
+        hole = _Hole(file.radius[k] / 1e3, file.drill[k] / 1e3, per_weight)
+        deepest = file.deepest[k] / 1e3 if file.deepest else hole.rim
+        removed = find_drilled_unbalance(deepest, hole.rim, hole.diameter)
+        return cls(places, min(most, removed / per_weight), hole)
+
+    def make_region(self, weight_on: complex, sense: int) -> Region:
+        """Return the region of weights that can be added, in the sense of the readings.
+
+        Args:
+            weight_on: Weight that is on in the plane already, in the sense of the readings.
+            sense: -1 if phases of readings count against angles of weights, otherwise 1.
+        """
+        if self.places_deg:
+            angles_deg = sense * np.array(self.places_deg) + (180 if self.hole else 0)
+            return find_region(angles_deg, self.most)
+        return Region(0j if self.hole or math.isinf(self.most) else -weight_on, self.most)
+
+    def plan(self, weight: complex, negligible: float) -> tuple[Piece, ...]:
+        """Return the weights or holes that together make a weight in the region.
+
+        Args:
+            weight: Weight to add.
+            negligible: Weight that need not be put on.
+        """
+        if abs(weight) <= negligible:
+            return ()
+        amount = -weight if self.hole else weight
+        pieces: tuple[Piece, ...] | None = (Piece(weight=abs(amount), angle_deg=angle_deg(amount)),)
+        if self.places_deg:
+            pieces = split_weight(amount, np.array(self.places_deg), self.most, negligible)
+        if pieces is None:
+            raise AssertionError(f"{amount} is not in the region of {self.places_deg}")
+        return tuple(map(self._drill, pieces)) if self.hole else pieces
+
+    def _drill(self, piece: Piece) -> Piece:
+        """Return a weight as a hole."""
+        rim, diameter, per_weight = self.hole or (0.0, 0.0, 0.0)
+        unbalance = min(piece.weight, self.most) * per_weight
+        return replace(piece, depth_mm=1e3 * find_drill_depth(unbalance, rim, diameter))
+
+
+def split_weight(
+    wanted: complex, angles_deg: Array, most: float, noise: float = 0.0
+) -> tuple[Piece, ...] | None:
+    """Return the lightest weights at given angles that together make a given weight.
+
+    This is the optimum of a linear program: all places of an arc of less than half a turn are full,
+    its two neighbors take what remains, all others are empty. Proof: price the two components of
+    the weight so that the two neighbors are worth what they weigh; then the places between them are
+    worth more and all others less.
+
+    Args:
+        wanted: Weight to make.
+        angles_deg: Angles of the places, deg, shape (places,).
+        most: Largest weight at one place; infinite: no limit.
+        noise: Weight that is negligible, if it is more than rounding errors of `wanted`.
+
+    Returns:
+        The places that get a weight; None if no weights there make the wanted one.
+    """
+    size = abs(wanted)
+    if size <= noise:
+        return ()
+    angles, numbers, unit = _sort_places(angles_deg)
+    target, limit, nothing = wanted / size, most / size, max(_ROUNDING, noise / size)
+    count = len(angles)
+    sums = np.concatenate([[0], np.cumsum(np.tile(unit, 2))])
+    first = np.arange(count)
+    for between in range(max(count - 1, 1) if np.isfinite(limit) else 1):
+        last = first + between + 1
+        full = (limit if between else 0.0) * (sums[last] - sums[first + 1])
+        shares = _resolve(target - full, unit, unit[last % count], nothing)
+        right = np.flatnonzero(((shares >= -nothing) & (shares <= limit + nothing)).all(axis=0))
+        if len(right):
+            i = int(right[0])
+            amounts = enumerate([shares[0, i], *[limit] * between, shares[1, i]], i)
+            parts = [(k % count, float(share)) for k, share in amounts if share > nothing]
+            return tuple(
+                Piece(weight=share * size, angle_deg=float(angles[k]), place=int(numbers[k]))
+                for k, share in parts
+            )
+    return None
+
+
+def find_region(angles_deg: Array, most: float) -> Region:
+    """Return the region of weights that weights at given angles can make together: a polygon whose
+    edges are parallel to the places, or without a limit a wedge.
+
+    Args:
+        angles_deg: Angles of the places, deg, shape (places,).
+        most: Largest weight at one place; infinite: no limit.
+    """
+    angles, _, unit = _sort_places(angles_deg)
+    if np.isfinite(most):
+        order = np.argsort(np.append(angles, angles + 180) % 360, kind="stable")
+        ways = np.append(unit, -unit)[order]
+        lowest = (unit.imag < -_ROUNDING) | ((np.abs(unit.imag) <= _ROUNDING) & (unit.real < 0))
+        starts = most * (unit[lowest].sum() + np.append(0, np.cumsum(ways)[:-1]))
+        return Region(starts=starts, ways=ways, lengths=np.full(len(ways), most))
+    gaps = np.append(angles[1:], angles[0] + 360) - angles
+    before = np.flatnonzero(gaps >= 180 - _ROUNDING)
+    after = (before + 1) % len(angles)
+    ways, far = np.append(unit[after], -unit[before]), np.full(len(before), np.inf)
+    return Region(starts=np.zeros_like(ways), ways=ways, lengths=np.append(far, -far))
+
+
+def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
+    """Return the distinct angles in [0, 360), their numbers from 1, and their unit vectors."""
+    rounded = np.round(np.asarray(angles_deg) % 360, 9) % 360
+    angles, first = np.unique(rounded, return_index=True)
+    return angles, first + 1, np.exp(1j * np.radians(angles))
+
+
+def _resolve(wanted: Complex, one: Complex, other: Complex, nothing: float) -> Array:
+    """Return the weights along `one` and `other` that add up to `wanted`, shape (2, places).
+
+    If `other` is half a turn or more on from `one`, `one` has to do alone; what cannot be is -1.
+    """
+    across, miss = (np.conj(one) * other).imag, (np.conj(one) * wanted).imag
+    parts = np.array([-(np.conj(other) * wanted).imag, miss])
+    alone = np.where(np.abs(miss) < nothing, (np.conj(one) * wanted).real, -1.0)
+    two = across > _ROUNDING
+    return np.where(two, parts / np.where(two, across, 1.0), [alone, np.zeros_like(alone)])

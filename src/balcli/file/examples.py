@@ -1,0 +1,162 @@
+"""The engines that are shipped as examples.
+
+Textbook layouts, one of each kind, stand in the folder itself; engines that were built, or are of
+the size of such, in folders by class. The first line of a file is a comment that says what the
+engine teaches.
+
+Starting files: commented ones that work as they stand, of every common kind of engine, of runs
+of a rotor and of a chain of shafts.
+"""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+from pathlib import Path
+from typing import NamedTuple
+
+from ..errors import BalcliError
+from .fields import nearest
+
+# In the installed package; in a checkout the repository's own folder, so that there is only one
+# copy.
+_PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
+_USUAL_TABLES = {"crank", "rod", "piston", "layout", "operation", "cylinder"}
+LAYOUT = "layout"  # class of the files in the folder itself
+
+
+class Example(NamedTuple):
+    """A shipped engine.
+
+    Attributes:
+        name: the short one, of its file.
+        group: its class, which is its folder.
+        lesson: what it teaches, in a sentence.
+        text: the whole file.
+    """
+
+    name: str
+    group: str
+    lesson: str
+    text: str
+
+    def mentions(self, words: str) -> bool:
+        """Return whether each of the words, in any case, occurs in name, class, lesson, title,
+        source, or is a table of the file, such as gas.
+        """
+        head, _, _ = self.text.partition("\n[")
+        tables = {*re.findall(r"^\[+([a-z]+)", self.text, re.MULTILINE)} - _USUAL_TABLES
+        told = f"{self.name} {self.group} {head} {' '.join(tables)}".lower()
+        return all(word in told for word in words.lower().split())
+
+
+def find(words: str = "", group: str | None = None) -> list[Example]:
+    """Return the examples that mention all the words; layouts first, then by class and name.
+
+    Args:
+        words: with spaces between.
+        group: class of the examples; None: all.
+
+    Raises:
+        BalcliError: no such class; nothing found.
+    """
+    if group is not None and group not in groups():
+        raise BalcliError(f'there is no class "{group[:60]}" of engines: {", ".join(groups())}')
+    known = [_read(path) for path in _paths() if group in (None, _group(path))]
+    found = [example for example in known if example.mentions(words)]
+    if not found:
+        raise BalcliError(f'no example mentions "{words[:60]}": balcli engines lists them all')
+    return found
+
+
+def names() -> list[str]:
+    """Return the short names, layouts first, then by class."""
+    return [path.stem for path in _paths()]
+
+
+def is_example(name: str) -> bool:
+    """Return whether there is an example of this short name; an installation may have none."""
+    return any(path.stem == name for place in _PLACES for path in place.rglob("*.toml"))
+
+
+def groups() -> list[str]:
+    """Return the classes, layouts first."""
+    return list(dict.fromkeys(_group(path) for path in _paths()))
+
+
+def text(name: str) -> str:
+    """Return the engine file of an example.
+
+    Raises:
+        BalcliError: there is none of this name; with the nearest ones.
+    """
+    known = {path.stem: path for path in _paths()}
+    if name not in known:
+        near = get_close_matches(name.lower()[:100], known, 3)
+        hint = f" Did you mean {' or '.join(near)}?" if near else ""
+        if name.lower() in groups():
+            hint = f" It is a class: balcli engines --class {name.lower()}."
+        raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
+    return known[name].read_text(encoding="utf-8")
+
+
+def folder() -> Path:
+    """Return the folder of the examples.
+
+    Raises:
+        BalcliError: the installation has none.
+    """
+    for place in _PLACES:
+        if place.is_dir():
+            return place
+    raise BalcliError(
+        f"the example engines are missing from this installation ({_PLACES[0]}): install balcli "
+        "again"
+    )
+
+
+def _paths() -> list[Path]:
+    place = folder()
+    return sorted(place.glob("*.toml")) + sorted(place.glob("*/*.toml"))
+
+
+def _group(path: Path) -> str:
+    return LAYOUT if path.parent == folder() else path.parent.name
+
+
+def _read(path: Path) -> Example:
+    content = path.read_text(encoding="utf-8")
+    return Example(path.stem, _group(path), content.partition("\n")[0].lstrip("# "), content)
+
+
+ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
+KINDS = (*ENGINE_KINDS, "field", "torsion")
+SCHEMA = """\
+#:schema balcli.schema.json
+# Editors that know TOML check and complete what you type, with that file here: `balcli schema -o balcli.schema.json`
+
+"""
+_FOLDER = Path(__file__).with_name("starting_files")
+
+
+def template(kind: str) -> str:
+    """Return the starting file of a kind as TOML text.
+
+    Raises:
+        BalcliError: there is no such kind; with the nearest one and all of them.
+    """
+    if kind not in KINDS:
+        near = nearest(kind, KINDS)
+        hint = f" Did you mean {near}?" if near else ""
+        if kind in names():
+            hint = f" A finished one is among the examples: balcli engines {kind}."
+        raise BalcliError(
+            f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(KINDS)}.{hint}'
+        )
+    if kind in ENGINE_KINDS:
+        return SCHEMA + _read_template(kind) + _read_template("optional")
+    return _read_template(kind)
+
+
+def _read_template(name: str) -> str:
+    return (_FOLDER / f"{name}.toml").read_text(encoding="utf-8")

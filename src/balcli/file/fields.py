@@ -1,0 +1,296 @@
+"""Figures of an engine file as pydantic types: how one is read, refused, and its JSON schema.
+
+Keys of a table of which only some may be given together.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Collection, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..limits import LONGEST_FILE_NAME, LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
+from .units import PLAIN, Dimension, convert, wanted
+
+if TYPE_CHECKING:
+    from pydantic_core import CoreSchema
+
+
+STRING_PATTERN = r"^\s*[+-]?(?:pi|π|(?:[0-9.]|pi|π).*[A-Za-z°µμ²³¹π\"”″0-9])\s*$"
+RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
+
+
+def printable(text: str) -> str:
+    """Return the first 60 characters; what moves the cursor or colours a terminal becomes a "?"."""
+    cut = text[:LONGEST_SHOWN] + ("..." if len(text) > LONGEST_SHOWN else "")
+    return "".join(letter if letter.isprintable() else "?" for letter in cut)
+
+
+def shorten(value: object) -> str:
+    """Return a value as a reader may recognize it, cut to about 60 characters."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) and value.bit_length() > 200:
+        return f"an integer of about {int(value.bit_length() * math.log10(2)) + 1} digits"
+    if isinstance(value, str):
+        return f'"{printable(value)}"'
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, (list, tuple)):
+        items = ", ".join(shorten(v) for v in value[:8])
+        text = f"[{items}{', ...' if len(value) > 8 else ''}]"
+        return text if len(text) <= LONGEST_SHOWN else f"a list of {len(value)}"
+    return f"{value:.15g}" if isinstance(value, float) else str(value)[:LONGEST_SHOWN]
+
+
+def counted(count: int, what: str) -> str:
+    """Return a number with its noun: "1 place", "2 places"."""
+    return f"{count} {what}{'s' * (count != 1)}"
+
+
+def count_lambda_digits(ratio: float, usual: int = 4) -> int:
+    """Return how many digits of crank radius / rod length are shown: more next to 1, where the
+    crank locks.
+    """
+    return usual if ratio < 0.999 else max(usual, 7)
+
+
+def parse_firing_order(value: object) -> object:
+    """Return a firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is."""
+    if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-, ]\s*\d{1,5})+\s*", value):
+        return [int(number) for number in re.findall(r"\d+", value)]
+    return value
+
+
+def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+    """Return the known word that was probably meant; empty if none is near.
+
+    Args:
+        word: as somebody wrote it.
+        known: words that there are.
+        cutoff: least similarity, 1 for equal words.
+    """
+    from difflib import get_close_matches
+
+    near = get_close_matches(word.lower(), list(known), 1, cutoff) if len(word) < 100 else []
+    return near[0] if near else ""
+
+
+def suggest_nearest(word: str, known: Iterable[str], otherwise: str) -> str:
+    """Return "did you mean ...?" for the known word that was probably meant, else `otherwise`."""
+    near = nearest(word, known)
+    return f"did you mean {near}?" if near else otherwise
+
+
+class _Field:
+    """A type of field: `read` gives the value or raises ValueError, `json` describes it."""
+
+    def read(self, value: object) -> object:
+        raise NotImplementedError
+
+    def json(self) -> dict[str, Any]:
+        raise NotImplementedError
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: Any) -> dict[str, Any]:
+        return self.json()
+
+
+class Number(_Field):
+    """A figure of some dimension: a bare number in the file's unit, or a string with its own."""
+
+    def __init__(
+        self,
+        dimension: Dimension,
+        *,
+        above: float | None = None,
+        least: float | None = None,
+        below: float | None = None,
+        most: float = math.inf,
+    ) -> None:
+        self.dimension, self.above, self.below, self.most = dimension, above, below, most
+        self.least = -most if least is None and above is None else least
+
+    def read(self, value: object) -> float:
+        shown = shorten(value)
+        if isinstance(value, str):
+            try:
+                number = convert(value, self.dimension)
+            except ValueError as error:
+                raise ValueError(f"{shown} {error}") from None
+        elif isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise ValueError(f"{shown} is not a number; {wanted(self.dimension)}")
+        else:
+            number = math.inf if abs(value) > sys.float_info.max else float(value)
+        if not math.isfinite(number):
+            raise ValueError(f"{shown} is no finite number; {wanted(self.dimension)}")
+        if fault := self._fault(number):
+            raise ValueError(f"{shown} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
+        return number
+
+    def _fault(self, number: float) -> tuple[str, str] | None:
+        """Return how a number is out of bounds, and its bounds; None if it is within."""
+        if self.above is not None and number <= self.above:
+            return f"not above {self.above:g}", f"above {self.above:g}"
+        if self.above == 0 and number < SMALLEST_POSITIVE:
+            return "too small", f"at least {SMALLEST_POSITIVE:g}"
+        if self.least is not None and number < self.least:
+            return f"less than {self.least:g}", f"{self.least:g} or more"
+        if self.below is not None and number >= self.below:
+            return f"not below {self.below:g}", f"below {self.below:g}"
+        if number > self.most:
+            return f"more than {self.most:g}", f"up to {self.most:g}"
+        return None
+
+    def json(self) -> dict[str, Any]:
+        bounds = {
+            "exclusiveMinimum": self.above,
+            "minimum": self.least,
+            "exclusiveMaximum": self.below,
+            "maximum": self.most,
+        }
+        limits = {key: bound for key, bound in bounds.items() if bound not in (None, math.inf)}
+        if self.dimension is PLAIN:
+            return {"type": "number", **limits}
+        unit = {"unit": self.dimension.unit, "pattern": STRING_PATTERN}
+        return {"type": ["number", "string"], **unit, **limits}
+
+
+class Whole(_Field):
+    """A whole number, of which 4.0 counts as 4; or a multiple of 1/2."""
+
+    def __init__(self, *, least: float, most: int, zero: bool = True, halves: bool = False) -> None:
+        self.least, self.most, self.zero, self.halves = least, most, zero, halves
+
+    def read(self, value: object) -> float:
+        wanted = (
+            f"a whole number{' or a half' * self.halves} from {self.least:g} to {self.most}"
+            f"{'' if self.zero else ', not 0,'} is wanted"
+        )
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if not is_number or (2 * value if self.halves else value) % 1:  # type: ignore[operator]
+            kind = "multiple of 1/2" if self.halves else "whole number"
+            raise ValueError(f"{shorten(value)} is not a {kind}; {wanted}")
+        number: float = value  # type: ignore[assignment]
+        if not self.least <= number <= self.most or (number == 0 and not self.zero):
+            raise ValueError(f"{shorten(value)} is out of range; {wanted}")
+        return int(number) if number % 1 == 0 else number
+
+    def json(self) -> dict[str, Any]:
+        kind = {"type": "number", "multipleOf": 0.5} if self.halves else {"type": "integer"}
+        limits = {"minimum": self.least, "maximum": self.most}
+        return kind | limits | ({} if self.zero else {"not": {"const": 0}})
+
+
+class Flag(_Field):
+    """true or false."""
+
+    def read(self, value: object) -> bool:
+        if not isinstance(value, bool):
+            raise ValueError(
+                f"{shorten(value)} is neither true nor false; write one of these, without quotes"
+            )
+        return value
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "boolean"}
+
+
+class OneOf(_Field):
+    """One of a few words or numbers; `meaning`: of these, for who writes another."""
+
+    def __init__(self, *options: str | int, meaning: str = "") -> None:
+        self.options, self.meaning = options, meaning
+
+    def read(self, value: object) -> str | int:
+        for option in self.options:
+            if type(value) is not bool and value == option:
+                return option
+        near = nearest(value, [str(o) for o in self.options]) if isinstance(value, str) else ""
+        hint = f"; did you mean {near}?" if near else f"; {self.meaning}" if self.meaning else ""
+        raise ValueError(f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}{hint}")
+
+    def json(self) -> dict[str, Any]:
+        return {"enum": list(self.options)}
+
+
+class Label(_Field):
+    """A short name."""
+
+    most, kind = LONGEST_NAME, "name"
+    wanted = f"use up to {LONGEST_NAME} letters, digits and signs, in quotes"
+
+    def read(self, value: object) -> str:
+        is_text = isinstance(value, str) and value.strip() and value.isprintable()
+        if not is_text or len(str(value)) > self.most:
+            raise ValueError(f"{shorten(value)} is no {self.kind}; {self.wanted}")
+        return str(value)
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "string", "minLength": 1, "maxLength": self.most}
+
+
+class FileName(Label):
+    """The name of a file, of at most some hundred characters."""
+
+    most, kind = LONGEST_FILE_NAME, "name of a file"
+    wanted = 'give the name of a file, such as "p_2000rpm.csv"'
+
+
+class Choice(NamedTuple):
+    """Groups of keys that exclude each other.
+
+    Attributes:
+        groups: of these one may be given.
+        required: one must be given.
+        complete: a group that is begun must be finished: every one, or the one that is named.
+    """
+
+    groups: tuple[tuple[str, ...], ...]
+    required: bool = False
+    complete: bool | tuple[str, ...] = False
+
+    def mistakes(self, given: Collection[str]) -> Iterator[str]:
+        """Yield what is wrong with the given keys, in words that follow the name of the table."""
+        begun = [[key for key in group if key in given] for group in self.groups]
+        keys, missing = [key for some in begun for key in some], self.find_missing(given)
+        if sum(map(bool, begun)) > 1:
+            yield f"has {join_words(keys)}; {self._wanted()}"
+        elif missing and not keys:
+            yield f"has neither {' nor '.join(map(join_words, self.groups))}; {self._wanted()}"
+        elif missing:
+            yield f"has {join_words(keys)} without {join_words(missing)}; {self._wanted()}"
+
+    def find_missing(self, given: Collection[str]) -> tuple[str, ...]:
+        """Return missing keys of which one is needed, or all."""
+        begun = [group for group in self.groups if any(key in given for key in group)]
+        if not begun and self.required:
+            return tuple(key for group in self.groups for key in group)
+        if len(begun) == 1 and self.complete in (True, begun[0]):
+            return tuple(key for key in begun[0] if key not in given)
+        return ()
+
+    def rivals(self, key: str) -> tuple[str, ...]:
+        """Return the keys that exclude this one; none for a key of no group."""
+        if not any(key in group for group in self.groups):
+            return ()
+        return tuple(other for group in self.groups if key not in group for other in group)
+
+    def for_overrides(self, prefix: str) -> Choice:
+        """Return this choice among keys with a prefix, none of which must be given."""
+        return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
+
+    def _wanted(self) -> str:
+        return f"give either {' or '.join(map(join_words, self.groups))}"
+
+
+def join_words(words: Collection[str]) -> str:
+    """Return words as a sentence lists them: `a, b and c`."""
+    *front, last = words
+    return f"{', '.join(front)} and {last}" if front else last

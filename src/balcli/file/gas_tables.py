@@ -1,0 +1,223 @@
+"""Tables of an engine file about gas pressure, crank torque and flywheel: [gas], [flywheel] and
+[bearing].
+
+They are imported for files that have them (`messages.CHAPTERS`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from .fields import Choice, FileName, Number, OneOf, join_words
+from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size, TableRule
+from .units import ANGLE, PLAIN, PRESSURE
+
+Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
+IntakePressure = Annotated[float, Number(PRESSURE, above=0, most=1e6)]
+MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
+Ratio = Annotated[float, Number(PLAIN, above=1, most=1000)]
+Index = Annotated[float, Number(PLAIN, least=1, most=5)]
+ExpansionIndex = Annotated[float, Number(PLAIN, above=1, most=5)]
+CutOff = Annotated[float, Number(PLAIN, least=1, most=1000)]
+Efficiency = Annotated[float, Number(PLAIN, above=0, most=1)]
+ExhaustAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
+IntakeAngle = Annotated[float, Number(ANGLE, least=360, below=720)]
+Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
+Exponent = Annotated[float, Number(PLAIN, least=0, most=100)]
+
+_GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
+DIAGRAM_KEYS = ("zero", "phase", "pressure")
+_WIEBE_KEYS = ("burn_start", "burn_duration", "burn_shape")
+_CYCLE_KEYS = (
+    *("compression_index", "expansion_index", "intake", "exhaust"),
+    *("exhaust_opens", "intake_closes", "bmep", "max_pressure", "cut_off", "heat"),
+    *_WIEBE_KEYS,
+)
+
+
+class Gas(FileTable):
+    """Pressure on the pistons over a cycle: measured, computed, or as harmonics of its torque."""
+
+    choices = (Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),)
+
+    indicator: Annotated[str, FileName()] | None = Field(
+        None,
+        description="a measured diagram: CSV beside the engine file, headed angle_deg,pressure_bar "
+        "(or _MPa, _kPa, _Pa, _psi; over the atmosphere _barg, _psig)",
+        examples=["p_2000rpm.csv"],
+    )
+    zero: Annotated[Literal["firing", "gas-exchange"], OneOf("firing", "gas-exchange")] = Field(
+        "firing", description="the dead centre at angle 0 of the diagram", examples=["gas-exchange"]
+    )
+    phase: Angle = Field(0.0, description="added to the angles of the diagram", examples=[-0.5])
+    pressure: Annotated[Literal["absolute", "gauge"], OneOf("absolute", "gauge")] = Field(
+        "absolute", description="gauge: above the atmosphere of 1.01325 bar", examples=["gauge"]
+    )
+    cycle: (
+        Annotated[
+            Literal["otto", "diesel", "dual", "wiebe"], OneOf("otto", "diesel", "dual", "wiebe")
+        ]
+        | None
+    ) = Field(None, description="a computed cycle, by how it burns", examples=["wiebe"])
+    compression_ratio: Ratio | None = Field(
+        None,
+        description="largest over smallest volume of the cylinder; beside a diagram it gives the "
+        "volume",
+        examples=[10.5],
+    )
+    compression_index: Index = Field(1.32, description="n of p V^n = const", examples=[1.35])
+    expansion_index: ExpansionIndex = Field(
+        1.28, description="n of p V^n = const, and while it burns", examples=[1.27]
+    )
+    intake: IntakePressure = Field(1.0, description="absolute, while it is filled", examples=[1.8])
+    exhaust: Pressure = Field(
+        1.05, description="absolute, while it empties; four-stroke", examples=[1.3]
+    )
+    imep: MeanPressure | None = Field(
+        None,
+        description="indicated mean effective pressure that the cycle is to have; beside a "
+        "diagram: what it should have",
+        examples=[10],
+    )
+    bmep: MeanPressure | None = Field(
+        None, description="instead of imep, with mechanical_efficiency", examples=[8.5]
+    )
+    mechanical_efficiency: Efficiency | None = Field(
+        None, description="brake over indicated mean effective pressure", examples=[0.85]
+    )
+    max_pressure: Pressure | None = Field(
+        None,
+        description="absolute; that the cycle is to have, or (dual) at which it burns on",
+        examples=[70],
+    )
+    cut_off: CutOff | None = Field(
+        None, description="volume after over before burning at constant pressure", examples=[2]
+    )
+    heat: Heat | None = Field(
+        None, description="supplied in each cycle of a cylinder", examples=[1400]
+    )
+    burn_start: Angle = Field(-15.0, description="wiebe: cycle angle", examples=[-10])
+    burn_duration: Duration = Field(50.0, description="wiebe: crank angle", examples=[60])
+    burn_shape: Exponent = Field(2.0, description="wiebe: exponent m", examples=[1.5])
+    exhaust_opens: ExhaustAngle | None = Field(
+        None, description="cycle angle; left out: lower dead centre", examples=[140]
+    )
+    intake_closes: IntakeAngle | None = Field(
+        None, description="cycle angle, four-stroke; left out: lower dead centre", examples=[580]
+    )
+    harmonics: Annotated[str, FileName()] | None = Field(
+        None,
+        description="builders' table: CSV of order,cos,sin of the mean tangential pressure "
+        "T/(A r), bar, from the firing dead centre",
+        examples=["tangential.csv"],
+    )
+    crankcase: Pressure = Field(1.0, description="absolute, under the pistons", examples=[1.1])
+
+    @property
+    def goals(self) -> tuple[str, ...]:
+        """Keys of which exactly one tells how much is burnt; the highest pressure of a dual cycle
+        stands beside it.
+        """
+        return tuple(key for key in _GOALS if key != "max_pressure" or self.cycle != "dual")
+
+    def rivals(self, key: str) -> tuple[str, ...]:
+        goals = self.goals if key in self.goals else ()
+        return (*super().rivals(key), *(goal for goal in goals if goal != key))
+
+    def list_idle_keys(self, strokes: int, measured: bool, computed: bool) -> set[str]:
+        """Those of figures that change nothing of the gas in an engine of so many strokes;
+        `measured`, `computed`: whether a cylinder has a diagram, or a cycle.
+        """
+        idle: set[str] = set()
+        if not computed:
+            idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
+        elif self.cycle != "wiebe":
+            idle.update(_WIEBE_KEYS)
+        if strokes == 2:
+            idle.update(("exhaust", "intake_closes"))
+        if not measured:
+            idle.add("phase")
+            if self.harmonics:
+                idle.add("crankcase")
+        return idle
+
+    def _check_misplaced(self) -> Iterator[str]:
+        """Keys of a computed cycle without one."""
+        others = [key for key in _CYCLE_KEYS if key in self.model_fields_set]
+        if others and self.cycle is None and (self.indicator or self.harmonics):
+            what = "indicator" if self.indicator else "harmonics"
+            yield f"has {join_words(others)} beside {what}; these belong to a computed cycle"
+
+    def _check_wiebe(self) -> Iterator[str]:
+        wiebe = [key for key in _WIEBE_KEYS if key in self.model_fields_set]
+        if wiebe and self.cycle not in (None, "wiebe"):
+            yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
+
+    def _check_goals(self) -> Iterator[str]:
+        """Exactly one figure tells how much is burnt."""
+        if self.cycle is None:
+            return
+        given = [key for key in self.goals if key in self.model_fields_set]
+        *front, last = self.goals
+        choice = f"give one of {', '.join(front)} and {last}"
+        if len(given) > 1:
+            yield f"has {join_words(given)}; {choice}"
+        elif not given:
+            yield f"does not say how much is burnt; {choice}"
+
+    def _check_max_pressure(self) -> Iterator[str]:
+        if self.cycle == "dual" and self.max_pressure is None:
+            yield "needs max_pressure for a dual cycle, at which it burns on"
+
+    def _check_bmep(self) -> Iterator[str]:
+        computed = self.cycle is not None
+        if computed and self.bmep is not None and self.mechanical_efficiency is None:
+            yield "has bmep without mechanical_efficiency; give both, or imep"
+
+    def _check_compression_ratio(self) -> Iterator[str]:
+        if self.cycle is not None and self.compression_ratio is None:
+            yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
+
+    rules = (
+        TableRule(_check_misplaced, {"cycle", "indicator", "harmonics"}),
+        TableRule(_check_wiebe, {"cycle"}),
+        TableRule(_check_max_pressure, {"cycle", "max_pressure"}),
+        TableRule(_check_goals, {"cycle"}, {*_GOALS}),
+        TableRule(_check_bmep, {"cycle", "bmep", "mechanical_efficiency"}),
+        TableRule(_check_compression_ratio, {"cycle", "compression_ratio"}),
+    )
+
+
+class Flywheel(FileTable):
+    """A flywheel, or all that turns with the crankshaft beyond it. [torsion] has its own."""
+
+    choices = (
+        Choice((("inertia",), ("mass", "radius_of_gyration")), required=True, complete=True),
+    )
+
+    inertia: GivenInertia | None = Field(
+        None, description="polar moment of inertia", examples=[250000]
+    )
+    mass: Mass | None = Field(
+        None, description="with radius_of_gyration, instead of inertia", examples=[12]
+    )
+    radius_of_gyration: Size | None = Field(
+        None, description="with mass, instead of inertia", examples=[140]
+    )
+
+
+class Bearing(FileTable):
+    """Bearings of the crankshaft, for loads per area."""
+
+    choices = (
+        Choice((("pin_diameter", "pin_width"),), complete=True),
+        Choice((("main_diameter", "main_width"),), complete=True),
+    )
+
+    pin_diameter: Size | None = Field(None, description="of the crank pins", examples=[48])
+    pin_width: Size | None = Field(None, description="of each rod's bearing", examples=[20])
+    main_diameter: Size | None = Field(None, description="of the main journals", examples=[60])
+    main_width: Size | None = Field(None, description="of each main bearing", examples=[22])

@@ -1,0 +1,270 @@
+"""Mistakes of an engine file in plain words: pydantic's findings translated.
+
+The three kinds of files, told apart by the keys at their head.
+
+Keys that no engine file has: what was probably meant, or what says it instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Container, Iterable, Mapping, Sequence
+from importlib import import_module
+from typing import TYPE_CHECKING, NamedTuple, get_args
+
+from ..errors import InputError, Problem
+from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
+from . import model
+from .fields import counted, nearest, printable, shorten
+from .table import FileTable
+
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
+    from pydantic_core import ErrorDetails
+
+
+TEXTS = ("name", "source")
+TABLES: dict[str, type[FileTable]] = {
+    "crank": model.Crank,
+    "rod": model.Rod,
+    "piston": model.Piston,
+    "layout": model.Layout,
+    "bobweight": model.Bobweight,
+    "operation": model.Operation,
+    "frame": model.Frame,
+}
+# Tables that few engines have, or of chapters beyond balance: the module of each, imported for
+# files that have the table. Its class is called like the key.
+CHAPTERS = {
+    "articulation": "file.model",
+    "gas": "file.gas_tables",
+    "flywheel": "file.gas_tables",
+    "bearing": "file.gas_tables",
+    "torsion": "file.torsion_tables",
+    "body": "file.mount_tables",
+}
+CHAPTER_LISTS = {"mount": "file.mount_tables", "point": "file.mount_tables"}  # each several times
+DEVICES: dict[str, type[FileTable]] = {
+    "counterweight": model.Counterweight,
+    "shaft": model.Shaft,
+    "slider": model.Slider,
+}
+KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
+
+
+def import_table(key: str) -> type[FileTable]:
+    """Return the table of a key; the module of a chapter is imported."""
+    if key in TABLES or key in DEVICES:
+        return (TABLES | DEVICES)[key]
+    module = import_module(f"balcli.{(CHAPTERS | CHAPTER_LISTS)[key]}")
+    return getattr(module, key.capitalize())
+
+
+def import_tables() -> dict[str, type[FileTable]]:
+    """Return all tables that stand once in a file, with those of chapters."""
+    return TABLES | {key: import_table(key) for key in CHAPTERS}
+
+
+def import_lists() -> dict[str, type[FileTable]]:
+    """Return all tables that may stand several times in a file, with those of chapters."""
+    return DEVICES | {key: import_table(key) for key in CHAPTER_LISTS}
+
+
+def join_path(start: str, parts: Iterable[int | str]) -> str:
+    """Return a dotted path: `a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people
+    count from 1. The path of the file itself is empty.
+    """
+    names = (str(part + 1) if isinstance(part, int) else printable(part) for part in parts)
+    return ".".join(filter(None, [start, *names]))
+
+
+def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
+    """Return one finding of pydantic in words; a member of a list is named as `the 2nd value`.
+
+    Args:
+        path: of the table.
+        finding: with the place of the key in it.
+        table: what may stand there.
+    """
+    kind, loc, value = finding["type"], finding["loc"], finding["input"]
+    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
+    examples = list(field.examples or ()) if field else []
+    place, shown = join_path(path, loc), shorten(value)
+    if kind == "missing":
+        example = shorten(examples[0]) if examples else "{ length = 200 }"
+        return Problem.of_missing(place, f"give it, such as {loc[-1]} = {example}")
+    if kind == "value_error":
+        message = str(finding["ctx"]["error"])
+    elif kind in ("too_short", "too_long"):
+        message = _describe_length(value, finding["ctx"], field)
+    elif kind == "tuple_type" and field and find_table(field.annotation):
+        found = "is one of several" if isinstance(value, Mapping) else f"{shown} is no table"
+        message = f"{found}; write [[{place}]] in double brackets"
+    elif kind == "tuple_type":
+        example = shorten(next((each for each in examples if isinstance(each, list)), [0, 180]))
+        message = f"{shown} is not a list; write it in square brackets, such as {example}"
+    elif kind.startswith("model_"):
+        message = f"{shown} is not a table; write it in braces with its keys"
+    else:
+        message = f"{shown} does not fit here"
+    if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
+        return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
+    return Problem(place, message)
+
+
+def find_inner_table(table: type[FileTable], loc: Sequence[str | int]) -> type[FileTable]:
+    """Return the table in which the last part of a place stands: `table`, or one within it."""
+    for part in loc[:-1]:
+        field = table.keys().get(str(part))
+        table = table if field is None else find_table(field.annotation) or table
+    return table
+
+
+def find_table(annotation: object) -> type[FileTable] | None:
+    """Return the table of which a field's type is made, alone or in a list; None: it is none."""
+    if isinstance(annotation, type) and issubclass(annotation, FileTable):
+        return annotation
+    return next(filter(None, map(find_table, get_args(annotation))), None)
+
+
+def _describe_length(
+    value: list[object], context: Mapping[str, object], field: FieldInfo | None
+) -> str:
+    if not value:
+        hint = "" if field is not None and field.is_required() else ", or leave the key out"
+        return f"is an empty list; give at least one value{hint}"
+    if (most := context.get("max_length")) in (MOST_LIST_VALUES, MOST_RIPPLES):
+        return f"has {len(value)} values; at most {most} are taken"
+    wanted = context.get("min_length") or context.get("max_length")
+    what = field.description if field else None
+    these = f": {what.partition(';')[0]}" if what else ""
+    return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted{these}"
+
+
+def ordinal(number: int) -> str:
+    """1st, 2nd, 3rd, 4th ..."""
+    if number % 100 in (11, 12, 13):
+        return f"{number}th"
+    suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    return f"{number}{suffix}"
+
+
+SHARED = {"name", "source", "shaft"}  # keys of an engine file that others have, or might have
+
+
+class OtherKindError(InputError):
+    """A file of one kind where another is wanted."""
+
+
+class FileKind(NamedTuple):
+    """A kind of file.
+
+    Attributes:
+        name: of the kind, in words.
+        reader: the command that reads it, in words.
+        keys: that only this kind has.
+    """
+
+    name: str
+    reader: str
+    keys: frozenset[str]
+
+
+ENGINE = FileKind("an engine file", "balcli analyze and others read", frozenset(KNOWN) - SHARED)
+RUNS = FileKind("a file of runs", "balcli field reads", frozenset({"planes", "run"}))
+CHAIN = FileKind("a chain file", "balcli torsion reads", frozenset({"node", "excitation"}))
+
+
+def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> None:
+    """Raise an error if the keys at the head of a file are those of one other kind, and none of a
+    kind that is wanted: a list of all its mistakes would not help.
+
+    Raises:
+        OtherKindError: with what it is, and who reads it.
+    """
+    found = [kind for kind in (ENGINE, RUNS, CHAIN) if any(key in head for key in kind.keys)]
+    if len(found) == 1 and found[0] not in wanted:
+        names = " or ".join(kind.name for kind in wanted)
+        message = f"is {found[0].name}, which {found[0].reader}; give {names}"
+        raise OtherKindError([Problem("", message)], file)
+
+
+# What people call a key, and keys that mean it; the first that a table has
+SYNONYMS = {
+    "conrod": ("rod",),
+    "connecting_rod": ("rod",),
+    "rpm": ("speed",),
+    "pin_offset": ("splay", "offset"),
+    "pin_angles": ("throws",),
+    "crank_angles": ("throws",),
+    "angles": ("throws", "banks"),
+    "phase": ("throws", "angle"),
+    "bore_spacing": ("spacing",),
+    "bank": ("bank_angle",),
+    "vee_angle": ("bank_angle",),
+    "angle": ("bank_angle", "throws"),
+    "diameter": ("bore",),
+    "weight": ("mass", "piston_mass"),
+    "piston": ("piston_mass",),
+    "order": ("firing_order",),
+    "lambda": ("ratio",),
+    "j": ("inertia", "throw_inertia"),
+    "k": ("stiffness", "throw_stiffness"),
+    "file": ("indicator",),
+}
+_COUNT = (
+    "the number of cylinders follows from throws and banks; give every throw its angle, such as "
+    "crank.throws = [0, 180, 180, 0]"
+)
+# What is no key of an engine file by any name, and what to write instead
+INSTEAD = {
+    **dict.fromkeys(("cylinders", "count", "number_of_cylinders"), _COUNT),
+    **dict.fromkeys(("radius", "crank_radius"), "give crank.stroke, twice the crank radius"),
+}
+_NEAR = 0.65  # of a key and one of its table that is meant: "damper" is no "name"
+_NEAR_ELSEWHERE = 0.75
+
+
+def name_heading(path: str) -> str:
+    """Return the name of a table in its heading: `operation.speed_ripple` of its second line,
+    `operation.speed_ripple.2`.
+    """
+    return ".".join(part for part in path.split(".") if not part.isdecimal())
+
+
+def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[str, str]:
+    """Return what to write instead of an unknown key, in words, and the key that was probably
+    meant, or "".
+
+    Args:
+        key: as it is written.
+        own: keys of its table.
+        is_engine: whether the table is of an engine file, which has hints and other tables.
+    """
+    word = key.lower().replace("-", "_")
+    if is_engine and word in INSTEAD:
+        return INSTEAD[word], ""
+    synonyms = SYNONYMS.get(word, ())
+    if meant := next((each for each in synonyms if each in own), ""):
+        return f"did you mean {meant}?", meant
+    if is_engine and (place := suggest_place(key)):
+        return place, ""
+    if near := nearest(key, own, _NEAR):
+        return f"did you mean {near}?", near
+    listed = f"it has {', '.join(own)}" if own else ""
+    if not is_engine:
+        return listed, ""
+    keys = {each for table in import_tables().values() for each in table.model_fields}
+    elsewhere = (*synonyms, nearest(key, sorted(keys), _NEAR_ELSEWHERE))
+    return next(filter(None, map(suggest_place, elsewhere)), listed), ""
+
+
+def suggest_place(key: str) -> str:
+    """Return the tables of an engine file that have this key, in words: `bore belongs to [piston]`;
+    empty if none has.
+    """
+    if key in TEXTS:
+        return f"{key} stands at the head of the file, above all tables"
+    having = [name for name, table in import_tables().items() if key in table.model_fields]
+    # The parts of an engine first: a chapter may use the same word for something of its own
+    names = [f"[{name}]" for name in having if name in TABLES] or [f"[{name}]" for name in having]
+    return f"{key} belongs to {' or '.join(names)}" if names else ""

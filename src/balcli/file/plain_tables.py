@@ -1,0 +1,193 @@
+"""An engine file as dicts, lists, numbers and texts: from what Python gives, and from a model.
+
+List the defaults that count where an engine file leaves keys out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError, Problem, wrong_type
+from .fields import RIGID, Number
+from .model import EngineFile, label_table
+from .table import FileTable
+from .toml import name_file, parse_toml, read_bytes
+
+
+def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
+    """Return tables of a user of Python as TOML has them: keys are text, arrays and tuples are
+    lists, numpy's numbers are Python's; what is None is left out.
+
+    Raises:
+        InputError: a key that is no text or number; tables that hold themselves.
+    """
+    try:
+        return {_key(key): _plain(value) for key, value in tables.items() if value is not None}
+    except TypeError as error:
+        raise InputError([Problem("", str(error))]) from None
+    except RecursionError:
+        message = "tables are nested too deeply; an engine file needs no more than four levels"
+        raise InputError([Problem("", message)]) from None
+
+
+def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, Any], str]:
+    """Return the tables of what a user of Python gives: a path ("-": standard input), the text of a
+    file, of several lines, or a dict; and the file's name, empty where there is none.
+
+    Args:
+        function: that was given it, for messages.
+        wanted: what would be right, likewise.
+
+    Raises:
+        BalcliError: there is nothing to read.
+        InputError: it is no TOML.
+        TypeError: the source is none of these.
+    """
+    if isinstance(source, Mapping):
+        return normalize_tables(source), ""
+    if isinstance(source, str) and "\n" in source:
+        return parse_toml(source, ""), ""
+    if isinstance(source, (str, Path)):
+        name = name_file(source)
+        return parse_toml(read_bytes(source), name), name
+    raise wrong_type(function, source, wanted)
+
+
+def _key(key: object) -> str:
+    if isinstance(key, (str, int, np.integer)) and not isinstance(key, bool):
+        return str(key)
+    raise TypeError(
+        f"the key {str(key)[:60]} ({type(key).__name__}) is no text; write it as a file has it, "
+        'such as "stroke"'
+    )
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {_key(key): _plain(inner) for key, inner in value.items() if inner is not None}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, (list, tuple, range, Iterator)):
+        return [_plain(inner) for inner in value]
+    return value
+
+
+def list_tables(model: EngineFile) -> dict[str, Any]:
+    """Return the tables that describe a file again; numbers are in the units of the file."""
+    return _write(model)
+
+
+def _write(value: Any) -> Any:
+    if isinstance(value, FileTable):
+        fields = type(value).model_fields
+        given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
+        written = ((fields[key].alias or key, part) for key, part in given)
+        return {key: _write(part) for key, part in written if part is not None and part != ()}
+    if isinstance(value, Mapping):
+        return {str(key): _write(inner) for key, inner in value.items()}
+    if isinstance(value, tuple):
+        return [_write(inner) for inner in value]
+    return RIGID if value == math.inf else value
+
+
+def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables of a file with other values of some keys.
+
+    Args:
+        model: the file.
+        changes: by dotted names (`rod.length`, `crank.throws.2`, `mount.left.stiffness.1`); None
+            leaves a key out. What says the same otherwise (`rod.ratio` beside `rod.length`) is left
+            out, unless it is changed itself.
+
+    Raises:
+        InputError: a name of a member of a list that the file does not have.
+    """
+    tables = list_tables(model)
+    for path, value in changes.items():
+        *parents, last = path.split(".")
+        place, given = _descend(tables, model, parents, path)
+        if isinstance(place, list):
+            place[_find_member(place, given, last, path)] = value
+            continue
+        start = path.removesuffix(last)
+        for rival in given.rivals(last) if isinstance(given, FileTable) else ():
+            if start + rival not in changes:
+                place.pop(rival, None)
+        place[last] = value
+    return tables
+
+
+def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[Any, Any]:
+    """Return the table or list at these keys, as written and as the model has it (None: it has
+    none).
+    """
+    for key in keys:
+        if isinstance(place, list):
+            k = _find_member(place, given, key, path)
+            place, given = place[k], given[k]
+        else:
+            known = {str(k): one for k, one in given.items()} if isinstance(given, dict) else {}
+            given = known.get(key) if known else getattr(given, key, None)
+            place = place.setdefault(key, _write(given) if isinstance(given, tuple) else {})
+        if not isinstance(place, (dict, list)):
+            raise InputError([Problem(path, f"{key} is one value, with nothing below it")])
+    return place, given
+
+
+def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
+    """Return the place (from 0) of the member of a list that a number (from 1) or a name means."""
+    labels = [
+        label_table(one, k) if isinstance(one, FileTable) else str(k)
+        for k, one in enumerate(given, 1)
+    ]
+    if key in labels:
+        return labels.index(key)
+    if key.isdecimal() and 0 < int(key) <= len(place):
+        return int(key) - 1
+    there = ", ".join(labels[:8]) or "none"
+    raise InputError([Problem(path, f"there is no {key}; the file has {there}")])
+
+
+_TABLES = ("crank", "rod", "piston", "layout", "operation", "frame")
+_TOLD = "left out: "  # in the description of a key: what follows is taken
+
+
+def list_assumed(model: EngineFile) -> Iterator[str]:
+    """Yield each default in words, such as "operation.speed = 1000 rpm", or "rod.inertia: two
+    masses at the ends".
+    """
+    idle = _list_idle(model)
+    for name in _TABLES:
+        table = getattr(model, name)
+        for key, field in table.keys().items():
+            path = f"{name}.{key}"
+            if key in table.model_fields_set or path in idle:
+                continue
+            _, told, taken = (field.description or "").partition(_TOLD)
+            unit = next((m.dimension.unit for m in field.metadata if isinstance(m, Number)), "")
+            if told:
+                yield f"{path}: {taken}"
+            elif isinstance(field.default, str):
+                yield f"{path} = {field.default}"
+            elif isinstance(field.default, int | float) and field.default is not False:
+                yield f"{path} = {field.default:g} {unit}".rstrip()
+    if model.rod.mass is None and model.rod.small_end is None:
+        yield "rod.mass: a rod without mass"
+
+
+def _list_idle(model: EngineFile) -> set[str]:
+    """Return keys in whose place others stand, or that have no effect in this engine."""
+    found = {"rod.inertia"} if model.rod.pendulum is not None else set()
+    layout = model.layout
+    one_throw = len(model.crank.throws or (0,)) == 1 and layout.firing_order is None
+    one_bank = layout.bank_angle is None and layout.banks is None and layout.radial is None
+    if one_bank:
+        found |= {"crank.splay", "layout.rods", "layout.stagger"}
+    if one_throw and one_bank:
+        found |= {"layout.firing_intervals"}
+    return found

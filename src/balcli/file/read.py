@@ -1,0 +1,431 @@
+"""Text of an engine file -> its tables, and every mistake that the text has, each by its path.
+
+What the tables say against each other is not looked at here: that takes an engine (`engine.rules`).
+
+The tables of a file, read one by one: every mistake by its path, with what would be right.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from ..errors import CONTROL_CHARACTERS, InputError, Problem
+from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
+from .fields import printable, shorten
+from .messages import (
+    CHAPTER_LISTS,
+    CHAPTERS,
+    DEVICES,
+    ENGINE,
+    INSTEAD,
+    KNOWN,
+    TABLES,
+    TEXTS,
+    describe_finding,
+    find_inner_table,
+    import_table,
+    join_path,
+    name_heading,
+    refuse_other_kind,
+    suggest,
+    suggest_place,
+)
+from .model import ONE_BY_ONE, EngineFile, Override
+from .plain_tables import change_tables
+from .table import FileTable
+from .toml import parse_toml
+
+T = TypeVar("T", bound=FileTable)
+
+
+class RefusedTable(NamedTuple):
+    """A table that pydantic refuses.
+
+    Attributes:
+        broken: keys that cannot be read.
+        draft: the table without these, with examples of those that have to be there; None where
+            that is none, either.
+        is_consistent: whether what could be read has no contradictions.
+    """
+
+    broken: set[str]
+    draft: FileTable | None
+    is_consistent: bool
+
+
+def refuse(problems: Iterable[Problem], name: str) -> InputError:
+    """Return mistakes as one error: the first are listed, of the others there is the number. A key
+    that is missing is left out where it is there, misspelt.
+
+    Args:
+        problems: all mistakes of a file.
+        name: of the file.
+    """
+    problems = sorted(problems, key=lambda problem: problem.meant is None)
+    meant = {problem.meant for problem in problems}
+    listed = [problem for problem in problems if meant.isdisjoint(problem.missing)]
+    more = max(len(listed) - MOST_MISTAKES_SHOWN, 0)
+    return InputError(listed[:MOST_MISTAKES_SHOWN], name, more)
+
+
+class TableReader:
+    """Reads tables and collects the mistakes.
+
+    Args:
+        file_kind: what the file is, in words: "a chain file".
+        describe: one of pydantic's findings in a table with this path, in words.
+        is_engine: whether tables are those of an engine file, which has synonyms and hints.
+
+    Attributes:
+        problems: the mistakes so far.
+        refused: tables with mistakes in them, by their paths.
+    """
+
+    def __init__(
+        self,
+        file_kind: str,
+        describe: Callable[[str, ErrorDetails, type[FileTable]], Problem] = describe_finding,
+        *,
+        is_engine: bool = False,
+    ) -> None:
+        self._file_kind, self._describe, self._is_engine = file_kind, describe, is_engine
+        self._unknown = 0
+        self.problems: list[Problem] = []
+        self.refused: dict[str, RefusedTable] = {}
+
+    def read_list(
+        self, key: str, value: object, table: type[T], most: int = MOST_PARTS
+    ) -> tuple[T | None, ...] | None:
+        """Return the tables under a key, None for those with mistakes; None if it is no list.
+
+        Args:
+            key: of the list.
+            value: as TOML is read.
+            table: what each of them may say.
+            most: how many there may be.
+        """
+        if not isinstance(value, list):
+            wanted = f"write [[{key}]] in double brackets, once for each {key}"
+            self.add(key, f"is one of several; {wanted}")
+            return None
+        if len(value) > most:
+            self.add(key, f"stands {len(value)} times; at most {most} are taken")
+            return None
+        return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
+
+    def read_table(self, path: str, value: object, table: type[T]) -> T | None:
+        """Return the table with this path (empty: the file itself); None if it has mistakes."""
+        if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
+            self.add(path, f"stands once, in single brackets: [{path}]")
+            return None
+        if not isinstance(value, Mapping):
+            head = f"[{path}]"
+            if path[-1:].isdecimal() and not path.startswith("cylinder."):
+                head = f"[[{name_heading(path)}]]"
+            hint = f"write {head} and its keys below it"
+            self.add(path, f"{shorten(value)} stands where a table belongs; {hint}")
+            return None
+        keys = table.keys()
+        for key in value:
+            if key not in keys:
+                self.refuse_key(path, key, keys, value[key])
+        known = {key: part for key, part in value.items() if key in keys}
+        sizes = {key: _count_values(part) for key, part in known.items()}
+        huge = {key: size for key, size in sizes.items() if size > MOST_KEY_VALUES}
+        for key, size in huge.items():  # more than pydantic should look at one by one
+            message = f"holds {size} values; no engine needs more than {MOST_KEY_VALUES}"
+            self.add(join_path(path, [key]), message)
+        if huge:
+            return None
+        try:
+            return table.model_validate(known)
+        except ValidationError as error:
+            self._translate(path, table, known, error)
+            return None
+
+    def refuse_key(self, path: str, key: str, own: Collection[str] | None, value: object) -> None:
+        """Collect a key that is none of a table.
+
+        Args:
+            path: of the table; empty: the file itself.
+            key: as it is written.
+            own: keys of the table; None: no engine file has this table.
+            value: what stands there.
+        """
+        place = join_path(path, [key])
+        self._unknown += 1
+        if self._unknown > MOST_MISTAKES_SHOWN:  # of these only how many there are is told
+            self.problems.append(Problem(place, "unknown key", meant=""))
+            return
+        hint, near = suggest(key, own or (), is_engine=self._is_engine)
+        table, meant = f"[{printable(name_heading(path))}]", join_path(path, [near]) if near else ""
+        message = f"unknown key in {table if path else self._file_kind}"
+        is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
+        if self._is_engine and path and is_table:
+            message, meant = f"{key} is a table of its own, not one within {table}", key
+            several = key in DEVICES or key in CHAPTER_LISTS
+            head = f"[[{key}]]" if several else "[cylinder.3]" if key == "cylinder" else f"[{key}]"
+            hint = f"write {head} and its keys below it"
+        elif own is None:
+            message = f"there is no table {table}"
+        self.problems.append(Problem(place, f"{message}; {hint}" if hint else message, (), meant))
+
+    def refusal(self, name: str) -> InputError:
+        """Return the error that lists the mistakes of the file with this name (empty: none)."""
+        return refuse(self.problems, name or self._file_kind.removeprefix("a "))
+
+    def add(self, path: str, message: str) -> None:
+        """Collect a mistake."""
+        self.problems.append(Problem(path, message))
+
+    def _translate(
+        self, path: str, table: type[FileTable], value: Mapping[str, Any], error: ValidationError
+    ) -> None:
+        """Collect what the keys say against each other, as far as they can be read, and pydantic's
+        findings in them.
+        """
+        findings = [found for found in error.errors(include_url=False) if found["loc"]]
+        broken = {str(finding["loc"][0]) for finding in findings}
+        draft = _read_without(table, value, broken)
+        conflicts = list(_find_conflicts(path, table, value, broken, draft))
+        self.problems += conflicts
+        self.refused[path] = RefusedTable(broken, draft, not conflicts)
+        for finding in findings:
+            if finding["type"] == "extra_forbidden":  # in a table within the table
+                *parents, last = finding["loc"]
+                inner = find_inner_table(table, finding["loc"]).keys()
+                self.refuse_key(join_path(path, parents), str(last), inner, finding["input"])
+            elif not _is_miscounted(finding):
+                self.problems.append(self._describe(path, finding, table))
+
+
+def _is_miscounted(finding: ErrorDetails) -> bool:
+    """Return whether a list is called too short only because members of it, which have findings of
+    their own, were not counted.
+    """
+    return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
+
+
+def _read_without(
+    table: type[FileTable], value: Mapping[str, Any], broken: set[str]
+) -> FileTable | None:
+    """Return `RefusedTable.draft`."""
+    known = {key: part for key, part in value.items() if key not in broken}
+    needed = {key: field for key, field in table.keys().items() if field.is_required()}
+    examples = {key: (field.examples or [None])[0] for key, field in needed.items()}
+    try:
+        draft = table.model_validate(examples | known, context=broken)
+    except ValidationError:
+        return None
+    draft.model_fields_set.update(broken & value.keys())  # these are given, too
+    return draft
+
+
+def _find_conflicts(
+    path: str,
+    table: type[FileTable],
+    value: Mapping[str, Any],
+    broken: set[str],
+    draft: FileTable | None,
+) -> Iterator[Problem]:
+    """Yield what the keys, and the values of those that can be read, say against each other."""
+    for choice in table.choices:
+        missing = tuple(join_path(path, [key]) for key in choice.find_missing(value))
+        for mistake in choice.mistakes(value):
+            yield Problem(path, mistake, missing)
+    for rule in table.rules if draft is not None else ():
+        if rule.needs.isdisjoint(broken):
+            keys = {*rule.needs, *rule.wants} - value.keys()
+            missing = tuple(join_path(path, [key]) for key in keys)
+            for mistake in rule.check(draft):
+                yield Problem(path, mistake, missing)
+
+
+def _count_values(value: object) -> int:
+    """Return how many values a value holds, itself included."""
+    if isinstance(value, Mapping):
+        return 1 + sum(map(_count_values, value.values()))
+    return 1 + sum(map(_count_values, value)) if isinstance(value, list) else 1
+
+
+REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
+
+
+class Draft(NamedTuple):
+    """The readable part of an engine file.
+
+    Attributes:
+        model: the file. Where there are mistakes, tables that could not be read are left out of it:
+            their defaults stand there, or nothing where there is none.
+        legible: keys of the file that can be relied on: what they say, or do not say, was read,
+            and none that was probably meant is misspelt; those of [crank] and [layout] one by one,
+            too, as crank.throws.
+        problems: mistakes of the text.
+    """
+
+    model: EngineFile
+    legible: frozenset[str]
+    problems: tuple[Problem, ...]
+
+
+def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Draft:
+    """Return the readable part of a TOML text.
+
+    Args:
+        text: of the file.
+        name: of the file, for messages.
+        bare: whether a body on its mounts will do, without crank, rods and pistons: the model then
+            has none.
+
+    Raises:
+        InputError: it is no TOML, or of another kind.
+    """
+    return check_tables(parse_toml(text, name), Path(name).parent, name, bare=bare)
+
+
+def check_tables(
+    data: Mapping[str, Any], folder: Path, name: str = "", *, bare: bool = False
+) -> Draft:
+    """Return the readable part of the tables of a file; pydantic compiles only tables that are
+    there.
+
+    Args:
+        data: as TOML is read.
+        folder: in which the files are that they name.
+        name: of their own file, for messages.
+        bare: as of `read_tables`.
+
+    Raises:
+        InputError: they are of another kind of file.
+    """
+    refuse_other_kind(data, name, ENGINE)
+    body_alone = "body" in data and not any(key in data for key in REQUIRED)
+    if body_alone and not bare:
+        message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
+        raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
+    reader = TableReader(ENGINE.name, is_engine=True)
+    _refuse_strangers(reader, data)
+    for key, example in REQUIRED.items():
+        if key not in data and not body_alone:
+            hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
+            reader.problems.append(Problem.of_missing(key, hint))
+    parts: dict[str, Any] = {
+        key: _read_text(reader, key, data[key]) for key in TEXTS if key in data
+    }
+    for key in filter(data.__contains__, (*TABLES, *CHAPTERS)):
+        parts[key] = reader.read_table(key, data[key], import_table(key))
+    for key in filter(data.__contains__, (*DEVICES, *CHAPTER_LISTS)):
+        parts[key] = reader.read_list(key, data[key], import_table(key))
+    if "cylinder" in data:
+        parts["cylinder"] = _read_cylinders(reader, data["cylinder"])
+    return _draft(reader, parts, folder)
+
+
+def change_figures(
+    model: EngineFile, values: Mapping[str, float], tables: Collection[str]
+) -> EngineFile:
+    """Return the file with other figures in some of its tables.
+
+    Args:
+        model: the file.
+        values: by dotted names (`mount.left.stiffness.2`, `torsion.rear.1.inertia`).
+        tables: kinds of tables that change (`mount`); figures of all others are left alone.
+
+    Raises:
+        InputError: what a table then says against itself, such as a bore wider than its shaft.
+    """
+    own = {path: value for path, value in values.items() if path.partition(".")[0] in tables}
+    data = change_tables(model, own)
+    reader = TableReader(ENGINE.name, is_engine=True)
+    changed: dict[str, Any] = {}
+    for key in {path.partition(".")[0] for path in own}:
+        read = reader.read_list if isinstance(data[key], list) else reader.read_table
+        changed[key] = read(key, data[key], import_table(key))
+    if reader.problems:
+        raise reader.refusal("")
+    return model.model_copy(update=changed)
+
+
+def _refuse_strangers(reader: TableReader, data: Mapping[str, Any]) -> None:
+    """Refuse keys of the file itself that no engine file has. Of a table such as `[engine]`, which
+    is like none that there is, each of its keys: they have their places elsewhere.
+    """
+    for key in data:
+        if key in KNOWN:
+            continue
+        inside = data[key]
+        if not isinstance(inside, Mapping) or not inside or suggest(key, KNOWN)[1]:
+            reader.refuse_key("", key, KNOWN, inside)
+        else:
+            for inner, value in inside.items():
+                reader.refuse_key(printable(key), inner, None, value)
+
+
+def _draft(reader: TableReader, parts: dict[str, Any], folder: Path) -> Draft:
+    """Return what was read, from the parts of the file by their keys."""
+    broken = {key for key in REQUIRED if key not in parts}
+    broken |= {key for key, part in parts.items() if part is None}
+    broken |= {key for key in (*DEVICES, *CHAPTER_LISTS) if None in (parts.get(key) or ())}
+    read = {key: part for key, part in parts.items() if key not in broken}
+    cylinders: dict[int, Override | None] = parts.get("cylinder", {})
+    if None in cylinders.values():
+        broken.add("cylinder")
+        read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
+    misspelt = {problem.meant for problem in reader.problems if problem.meant}
+    broken |= misspelt & (set(KNOWN) - parts.keys())
+    legible: set[str] = set()
+    for path, table in ONE_BY_ONE.items():
+        lost = set(table.model_fields) if path in broken else set()
+        refused = reader.refused.get(path)
+        if refused and refused.draft is not None and refused.is_consistent:
+            read[path], lost = refused.draft, refused.broken
+        paths = {f"{path}.{key}" for key in table.model_fields.keys() - lost} - misspelt
+        if len(paths) < len(table.model_fields):
+            broken.add(path)
+        legible |= paths
+    legible |= set(KNOWN) - broken
+    model = EngineFile.model_construct(set(read), **read)
+    model._folder = folder
+    return Draft(model, frozenset(legible), tuple(reader.problems))
+
+
+def _read_text(reader: TableReader, key: str, value: object) -> str | None:
+    if not isinstance(value, str):
+        reader.add(key, f"{shorten(value)} is not text; write it in quotes")
+        return None
+    characters = CONTROL_CHARACTERS if key == "source" else rf"{CONTROL_CHARACTERS}|[\t\n]"
+    strange = None if value.isprintable() else re.search(characters, value)
+    if strange:
+        reader.add(
+            key,
+            f"has the control character U+{ord(strange[0]):04X}, which could command a terminal or "
+            "disguise what it shows; leave it out",
+        )
+    elif key == "name" and len(value) > LONGEST_NAME:
+        reader.add(
+            key,
+            f"has {len(value)} characters; it stands in every line of a CSV, at most "
+            f"{LONGEST_NAME} are taken",
+        )
+    return value
+
+
+def _read_cylinders(reader: TableReader, value: object) -> dict[int, Override | None]:
+    if isinstance(value, list):
+        reader.add("cylinder", "has a table for each that differs, such as [cylinder.3]")
+        return {}
+    cylinders: dict[int, Override | None] = {}
+    for key, part in value.items() if isinstance(value, Mapping) else [("", value)]:
+        if re.fullmatch(r"[1-9][0-9]{0,4}", key):
+            cylinders[int(key)] = reader.read_table(f"cylinder.{key}", part, Override)
+        else:
+            hint = INSTEAD.get(key or "count") or suggest_place(key)
+            hint = hint or "write [cylinder.3] for what differs in cylinder 3"
+            reader.add(join_path("cylinder", [key]), f"does not name a cylinder; {hint}")
+    return cylinders

@@ -1,0 +1,92 @@
+"""JSON Schema of the engine file, for editors that check and complete while one types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import combinations, product
+from typing import Any, TypeAlias
+
+from pydantic import BaseModel
+
+from .messages import CHAPTER_LISTS, CHAPTERS, DEVICES, TABLES, import_table
+from .model import EngineFile, Override
+from .table import FileTable
+
+Node: TypeAlias = dict[str, Any]  # of a JSON Schema, whose members are of many kinds
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def describe_engine_file() -> Node:
+    """Return the JSON Schema (draft 2020-12) of an engine file: every key with description, unit,
+    bounds and an example.
+    """
+    chapters = {key.capitalize(): import_table(key) for key in (*CHAPTERS, *CHAPTER_LISTS)}
+    tables: list[type[FileTable]] = [
+        *TABLES.values(),
+        *chapters.values(),
+        *DEVICES.values(),
+        Override,
+    ]
+    EngineFile.model_rebuild(_types_namespace=chapters)
+    document = describe_file(EngineFile, tables, "engine-file", "balcli engine file")
+    for table in tables:
+        document["$defs"][table.__name__] |= _exclusions(table)
+    document["properties"]["cylinder"]["propertyNames"] = {"pattern": "^[1-9][0-9]*$"}
+    return document
+
+
+def describe_file(
+    file: type[BaseModel], tables: Iterable[type[BaseModel]], name: str, title: str
+) -> Node:
+    """Return the JSON Schema (draft 2020-12) of files: every key with description, unit, bounds and
+    an example.
+
+    Args:
+        file: what they hold.
+        tables: those within it.
+        name: that the schema's identifier ends in.
+    """
+    for table in tables:
+        table.model_rebuild()  # pydantic before 2.13 writes no default of a table not built yet
+    document = tidy_schema(file.model_json_schema())
+    return {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}", **document, "title": title}
+
+
+def tidy_schema(schema: Node) -> Node:
+    """Return a schema without what pydantic adds for Python: null (TOML has none), titles, empty
+    defaults.
+    """
+    node: Node = {key: _tidy_member(value) for key, value in schema.items()}
+    if isinstance(node.get("description"), str):
+        node["description"] = " ".join(node["description"].split())  # docstrings are wrapped
+    options = [option for option in node.get("anyOf", ()) if option != {"type": "null"}]
+    if len(options) == 1:
+        del node["anyOf"]
+        node = options[0] | node
+    for field in node.get("properties", {}).values():
+        field.pop("title", None)
+        if not field.get("default") or isinstance(field["default"], dict):
+            field.pop("default", None)
+        unit = field.get("unit") or field.get("items", {}).get("unit")
+        if unit:
+            field["description"] += f" [{unit}]"  # editors show the description alone
+    return node
+
+
+def _tidy_member(value: object) -> object:
+    """Return a schema, or what holds schemas, tidied; anything else as it is."""
+    if isinstance(value, dict):
+        return tidy_schema(value)
+    return [_tidy_member(item) for item in value] if isinstance(value, list) else value
+
+
+def _exclusions(table: type[FileTable]) -> Node:
+    """Return `FileTable.choices` as JSON Schema."""
+    rules: list[Node] = []
+    for choice in table.choices:
+        if choice.required:
+            rules.append({"anyOf": [{"required": list(group)} for group in choice.groups]})
+        for group, other in combinations(choice.groups, 2):
+            rules += [{"not": {"required": list(pair)}} for pair in product(group, other)]
+    return {"allOf": rules} if rules else {}

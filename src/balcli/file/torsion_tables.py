@@ -1,0 +1,290 @@
+"""Table [torsion] of an engine file: what its crankshaft and all that hangs on it are like when
+they twist.
+
+It is imported for files that have it.
+
+Tables that chains of inertias and shafts share, wherever they are described: a shaft between two
+nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from ..limits import MOST_TORSION_NODES
+from .fields import RIGID, Number, OneOf, counted, shorten
+from .table import FileTable, GivenInertia, Name, Size, TableRule
+from .units import (
+    ANGLE,
+    INERTIA,
+    MASS,
+    PLAIN,
+    SHEAR_MODULUS,
+    STRESS,
+    TORSIONAL_DAMPING,
+    TORSIONAL_STIFFNESS,
+    Dimension,
+)
+
+
+class _Stiffness(Number):
+    """A torsional stiffness above 0, or "rigid"."""
+
+    def __init__(self) -> None:
+        super().__init__(TORSIONAL_STIFFNESS, above=0, most=1e24)
+
+    def read(self, value: object) -> float:
+        return math.inf if value == RIGID else super().read(value)
+
+    def json(self) -> dict[str, Any]:
+        return {"anyOf": [super().json(), {"const": RIGID}], "unit": TORSIONAL_STIFFNESS.unit}
+
+
+class _PolarInertia(Number):
+    """A moment of inertia above 0."""
+
+    def __init__(self) -> None:
+        super().__init__(INERTIA, above=0, most=1e24)
+
+    def read(self, value: object) -> float:
+        if value == 0 and not isinstance(value, bool):
+            raise ValueError("is 0; leave it out where a node has no inertia")
+        return super().read(value)
+
+
+NodeInertia = Annotated[float, _PolarInertia()]
+Stiffness = Annotated[float, _Stiffness()]
+Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
+Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
+Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
+StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
+AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
+_RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
+_RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
+_PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
+
+
+class ShaftKeys(FileTable):
+    """What a shaft is like: its stiffness, or the steel that makes it; its section gives stress."""
+
+    stiffness: Stiffness | None = Field(
+        None,
+        examples=[1.25e6],
+        description="torsional stiffness in the shaft's own speed; rigid: a flange or a mesh",
+    )
+    diameter: Size | None = Field(
+        None, examples=[85], description="diameter of the shaft: with it, stress is known"
+    )
+    length: Size | None = Field(
+        None, examples=[400], description="length of a plain shaft, instead of stiffness"
+    )
+    bore: Size | None = Field(
+        None, examples=[30], description="diameter of its bore, if it has one"
+    )
+    shear_modulus: Modulus = Field(
+        79.3, examples=[79.3], description="of what a plain shaft is made of; default: steel"
+    )
+    loss: Loss | None = Field(
+        None, examples=[0.035], description="loss factor, imaginary over real part of the stiffness"
+    )
+    damping: Damping = Field(
+        0.0, examples=[20], description="of a dashpot between the ends of the shaft"
+    )
+
+    def _check_length(self) -> Iterator[str]:
+        if self.stiffness is not None and self.length is not None:
+            yield "has stiffness and length; leave one of them out"
+
+    def _check_stiffness(self) -> Iterator[str]:
+        if self.stiffness is None and (self.length is None or self.diameter is None):
+            yield (
+                "has no stiffness; give it, such as stiffness = 1.25e6, or diameter and length of "
+                "a plain shaft"
+            )
+
+    def _check_bore(self) -> Iterator[str]:
+        if self.bore is not None and (self.diameter is None or self.bore >= self.diameter):
+            outer = "no diameter" if self.diameter is None else f"a diameter of {self.diameter:g}"
+            yield f"has a bore of {self.bore:g} mm and {outer}; the bore is the smaller of both"
+
+    rules = (
+        TableRule(_check_length, {"stiffness", "length"}),
+        TableRule(_check_stiffness, {"stiffness", "length", "diameter"}),
+        TableRule(_check_bore, {"bore", "diameter"}),
+    )
+
+
+_KEYS_OF_KIND = {
+    "viscous": ("inertia", "damping"),
+    "rubber": ("inertia", "stiffness", "loss"),
+    "pendulum": ("mass", "radius", "length"),
+}
+
+
+class Damper(FileTable):
+    """A damper on a node."""
+
+    kind: Annotated[str, OneOf(*_KEYS_OF_KIND)] = Field(
+        examples=["viscous"],
+        description="viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing "
+        "in the field of rotation",
+    )
+    inertia: GivenInertia | None = Field(None, examples=[30000], description="of the ring")
+    damping: _RingDamping | None = Field(None, examples=[12], description="of the oil film")
+    stiffness: _RingStiffness | None = Field(None, examples=[40000], description="of the rubber")
+    loss: Loss | None = Field(None, examples=[0.15], description="loss factor of the rubber")
+    mass: _PendulumMass | None = Field(None, examples=[2], description="of all pendulums")
+    radius: Size | None = Field(
+        None, examples=[60], description="from the axis to where a pendulum hangs"
+    )
+    length: Size | None = Field(
+        None, examples=[2.4], description="of a pendulum, from there to its centre of mass"
+    )
+
+    def _check_keys(self) -> Iterator[str]:
+        wanted = _KEYS_OF_KIND[self.kind]
+        given = self.model_fields_set - {"kind"}
+        if missing := [key for key in wanted if key not in given]:
+            yield f"is {self.kind} and lacks {' and '.join(missing)}"
+        if strange := sorted(given - set(wanted)):
+            yield f"is {self.kind}, which has no {' and no '.join(strange)}"
+
+    rules = (TableRule(_check_keys, {"kind"}),)
+
+
+class NodeKeys(FileTable):
+    """What a node is like: its name, its inertia, and its damper."""
+
+    name: Name = Field(examples=["flywheel"], description="what to call it; each its own")
+    inertia: NodeInertia | None = Field(
+        None, examples=[2.075e6], description="moment of inertia; left out: a massless node"
+    )
+    damper: Damper | None = Field(
+        None,
+        examples=[{"kind": "viscous", "inertia": 30000, "damping": 12}],
+        description="a damper that it has",
+    )
+
+
+class ChainKeys(FileTable):
+    """What holds for a whole chain: the loss of its shafts, and limits."""
+
+    loss: Loss = Field(
+        0.0, examples=[0.035], description="loss factor of every shaft that names none"
+    )
+    limit: StressLimit | None = Field(
+        None, examples=[40], description="stress of a shaft above which a speed is barred"
+    )
+    angle_limit: AngleLimit | None = Field(
+        None,
+        examples=[0.3],
+        description="angle by which the first node may swing either way; above, a speed is barred",
+    )
+
+
+def find_stiffness(shaft: ShaftKeys) -> float:
+    """Torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
+    if shaft.stiffness is not None or shaft.diameter is None or shaft.length is None:
+        return math.inf if shaft.stiffness is None else shaft.stiffness
+    outer, inner = shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3
+    modulus = shaft.shear_modulus * 1e9
+    return modulus * math.pi * (outer**4 - inner**4) / 32 / (shaft.length / 1e3)
+
+
+class SpeedRatio(Number):
+    """A speed ratio: not 0, negative where gears turn the other way."""
+
+    def __init__(self) -> None:
+        super().__init__(PLAIN, most=1e6)
+
+    def read(self, value: object) -> float:
+        ratio = super().read(value)
+        if abs(ratio) < 1e-6:
+            raise ValueError(f"{ratio:g} is no speed ratio; give driven over driving speed, not 0")
+        return ratio
+
+
+class _EachOrAll(Number):
+    """One figure above 0 for all throws, or a list of them."""
+
+    def __init__(self, dimension: Dimension) -> None:
+        super().__init__(dimension, above=0, most=1e24)
+
+    def read(self, value: object) -> tuple[float, ...]:  # type: ignore[override]
+        if not isinstance(value, list):
+            return (super().read(value),)
+        if not 1 <= len(value) <= MOST_TORSION_NODES:
+            raise ValueError(
+                f"{shorten(value)} has {counted(len(value), 'value')}; give one for all, or a list "
+                f"of up to {MOST_TORSION_NODES}"
+            )
+        return tuple(super(_EachOrAll, self).read(each) for each in value)
+
+    def json(self) -> dict[str, Any]:
+        items = {"type": "array", "items": super().json(), "minItems": 1}
+        return {"anyOf": [super().json(), items], "unit": self.dimension.unit}
+
+
+class Part(ShaftKeys, NodeKeys):
+    """What turns with the crankshaft before or behind its throws, and the shaft that leads to
+    it from the throws.
+    """
+
+    gear: Annotated[float, SpeedRatio()] | None = Field(
+        None,
+        description="speed over that of the crank; left out: as fast as what it hangs on. The mesh "
+        "sits there, and the shaft turns with this part",
+        examples=[0.5],
+    )
+    of: Name | None = Field(
+        None,
+        description="what it hangs on, a part or throw 1, throw 2, ...; left out: the part before "
+        "it in the list, the first on the nearest throw",
+        examples=["throw 1"],
+    )
+    node_damping: Damping = Field(
+        0.0, description="of the part against ground, as water damps a propeller", examples=[5]
+    )
+
+
+_Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
+
+
+class Torsion(ChainKeys):
+    """Torsional vibration: a node for each throw, and the parts before and behind them."""
+
+    throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = Field(
+        None,
+        description="torsional stiffness between neighbouring throws, or a list of all",
+        examples=[1.25e6],
+    )
+    throw_inertia: Annotated[tuple[float, ...], _EachOrAll(INERTIA)] | None = Field(
+        None,
+        description="moment of inertia of the crankshaft at each throw, its own mass and "
+        "counterweights included, without rods and pistons; or a list of all; left out: an equal "
+        "share of crank.inertia",
+        examples=[46700],
+    )
+    throw_diameter: Size | None = Field(
+        None,
+        description="diameter of the crankshaft between throws: with it, stress is known",
+        examples=[85],
+    )
+    throw_bore: Size | None = Field(
+        None, description="diameter of its bore, if it has one", examples=[30]
+    )
+    damping: Damping = Field(0.0, description="at every cylinder, against ground", examples=[2])
+    front: _Parts = Field((), description="parts before the first throw, outward")
+    rear: _Parts = Field((), description="parts behind the last throw, outward")
+
+    def _check_bore(self) -> Iterator[str]:
+        if self.throw_bore is not None and (
+            self.throw_diameter is None or self.throw_bore >= self.throw_diameter
+        ):
+            yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"
+
+    rules = (TableRule(_check_bore, {"throw_bore", "throw_diameter"}),)

@@ -1,0 +1,427 @@
+"""Figures with a unit, as an engine file may give them: "3.5 in", "1/7 turn", "8.1 lb in^2".
+
+A figure is matched by a regular expression first and nothing is ever evaluated. The arithmetic is
+exact (fractions), so that a figure is rounded once. Most units are told by others, in a table that
+is read as far as a figure needs it.
+
+The units that a figure may have: each is told by others, down to the few of `units.py`.
+
+Sources: the SI brochure (2019) for what is metric; the international yard and pound (1959) for the
+inch and the pound, which `units.py` has, and all that is made of them; CGPM 1901 for standard
+gravity; NIST SP 811 (2008), appendix B, for the rest.
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from functools import cache
+from typing import NamedTuple
+
+from ..limits import LONGEST_FIGURE
+
+_ROWS = {
+    # length
+    "metre meter": "1 m",
+    "micron": "1 um",
+    "inch inches": "1 in",
+    "mil thou": "0.001 in",
+    "ft foot feet": "12 in",
+    "yd yard": "3 ft",
+    # mass
+    "gram gramme": "1 g",
+    "t tonne": "1000 kg",
+    "pound lbm": "1 lb",
+    "oz ozm ounce": "1/16 lb",
+    "stone": "14 lb",
+    "grain": "1/7000 lb",
+    "slug": "1 lbf s^2/ft",
+    "slinch blob": "1 lbf s^2/in",
+    # time
+    "sec second": "1 s",
+    "min minute": "60 s",
+    "h hr hour": "3600 s",
+    "d day": "24 h",
+    # angle; r, U (German Umdrehung) and tr (French tour) are revolutions
+    "rev revolution r U tr": "1 turn",
+    "radian": "1 rad",
+    "pi": "1/2 turn",
+    "deg degree °": "1/360 turn",
+    "arcmin arcminute": "1/60 deg",
+    "arcsec arcsecond": "1/3600 deg",
+    "gon gradian": "1/400 turn",
+    # speed of rotation, frequency
+    "rpm": "1 turn/min",
+    "rps": "1 turn/s",
+    "Hz hertz": "1 s^-1",
+    # force
+    "N newton": "1 kg m/s^2",
+    "dyn dyne": "1e-5 N",
+    "kgf kp kilopond": "1 kg g_n",
+    "gf pond": "1 g g_n",
+    "tf": "1 t g_n",
+    "lbf": "1 lb g_n",
+    "ozf": "1 oz g_n",
+    "kip": "1000 lbf",
+    "pdl poundal": "1 lb ft/s^2",
+    # pressure and stress
+    "Pa pascal": "1 N/m^2",
+    "bar bara": "100000 Pa",
+    "atm atmosphere": "101325 Pa",
+    "at": "1 kgf/cm^2",
+    "torr Torr": "1/760 atm",
+    "mmHg": "133.322387415 Pa",  # 13 595.1 kg/m3, standard gravity
+    "inHg": "25.4 mmHg",
+    "psi psia": "1 lbf/in^2",
+    "psf": "1 lbf/ft^2",
+    "ksi": "1000 psi",
+    "Msi": "1000000 psi",
+    # torque, energy, power
+    "J joule": "1 N m",
+    "erg": "1e-7 J",
+    "Wh": "3600 J",
+    "Btu BTU": "1055.05585262 J",  # of the International Table
+    "W watt": "1 J/s",
+    "hp": "550 ft lbf/s",
+    "PS ch cv": "75 kgf m/s",
+    # written together
+    "Nm": "1 N m",
+    "Nmm": "1 N mm",
+    "Ns": "1 N s",
+    "Nms": "1 N m s",
+    "gmm": "1 g mm",
+    # volume: no field has it, but people know it
+    "l L litre liter": "1 dm^3",
+    "cc ccm": "1 cm^3",
+    # known, but no field has anything to do with them
+    "K kelvin °C degC celsius °F degF fahrenheit": "1 of_another_kind",
+    "A amp ampere V volt ohm mol mole cd candela": "1 of_another_kind",
+}
+DEFINITIONS = {name: figure for names, figure in _ROWS.items() for name in names.split()}
+
+AMBIGUOUS = {
+    "gr": "g, or grain (65 mg)?",
+    "gm": "g, or gigametre?",
+    "Mm": "mm, or megametre?",
+    "MG": "mg, or Mg (1000 kg)?",
+    "NM": "N m, or nanometre?",
+    "ton": "t (1000 kg), or 2000 lb, or 2240 lb?",
+    "cwt": "100 lb, or 112 lb?",
+    "barg": "bar over the atmosphere? Absolute it is 1.01325 bar more;",
+    "psig": "psi over the atmosphere? Absolute it is 14.696 psi more;",
+    "grad": "deg, or gon (0.9 deg)?",
+    "grade": "deg, or gon (0.9 deg)?",
+    "cycle": "turn, or the two of a four-stroke engine?",
+    "cpm": "rpm, or cycles of two turns in a minute?",
+    "cal": "4.184 J, or 4.1868 J?",
+    "kcal": "4184 J, or 4186.8 J?",
+}
+
+_PREFIXES = {
+    "G giga": 9,
+    "M mega": 6,
+    "k kilo": 3,
+    "h hecto": 2,
+    "da deca deka": 1,
+    "d deci": -1,
+    "c centi": -2,
+    "m milli": -3,
+    "µ μ u micro": -6,
+    "n nano": -9,
+}
+_SYMBOLS = "m g s rad N Pa bar J W Wh Hz Nm Ns Nms psi rpm"
+_WORDS = "metre meter gram gramme second radian newton pascal bar joule watt hertz"
+
+
+# "kPa" -> (3, "Pa"), "millimetre" -> (-3, "metre")
+PREFIXED = {
+    prefix + unit: (power, unit)
+    for prefixes, power in _PREFIXES.items()
+    for prefix in prefixes.split()
+    for unit in (_SYMBOLS if len(prefix) < 3 else _WORDS).split()
+}
+
+
+def find_near_name(name: str) -> str:
+    """The unit that was probably meant; empty if none comes to mind."""
+    from difflib import get_close_matches  # after a mistake alone
+
+    usual = [prefix + unit for prefix in "mcMk" for unit in _SYMBOLS.split()]
+    units = (*usual, *_SYMBOLS.split(), *DEFINITIONS)
+    known = {unit.lower(): unit for unit in units if unit not in AMBIGUOUS}
+    near = get_close_matches(name.lower(), known, 1, 0.75)
+    return known[near[0]] if near else ""
+
+
+PI = Fraction("3.14159265358979323846264338327950288419716939937510")
+
+
+class Powers(NamedTuple):
+    """Exponents of a dimension. Angle counts as one, so that rpm is no angle and degrees are no
+    plain number.
+    """
+
+    length: int = 0
+    mass: int = 0
+    time: int = 0
+    angle: int = 0
+
+
+class Unit(NamedTuple):
+    """`scale` in m, kg, s and turns."""
+
+    scale: Fraction
+    powers: Powers
+
+
+class Dimension(NamedTuple):
+    """A dimension of figures in engine files.
+
+    Attributes:
+        unit: of bare numbers.
+        name: in words, with its article.
+        examples: figures to show a reader.
+    """
+
+    unit: str
+    name: str
+    examples: tuple[str, ...] = ()
+
+    @property
+    def powers(self) -> Powers:
+        """Exponents of its unit."""
+        return read_unit(self.unit, self).powers
+
+
+# By definition: the international inch and pound (1959), standard gravity (CGPM 1901).
+INCH = Fraction(254, 10_000)  # m
+POUND = Fraction(45_359_237, 100_000_000)  # kg
+_GRAVITY = Fraction(980_665, 100_000)  # m/s2
+STANDARD_GRAVITY = float(_GRAVITY)
+POUND_FORCE = float(POUND) * STANDARD_GRAVITY  # N
+BAR = 1e5  # Pa
+
+_BASE = {
+    "m": Unit(Fraction(1), Powers(length=1)),
+    "g": Unit(Fraction(1, 1000), Powers(mass=1)),
+    "s": Unit(Fraction(1), Powers(time=1)),
+    "turn": Unit(Fraction(1), Powers(angle=1)),
+    "rad": Unit(1 / (2 * PI), Powers(angle=1)),
+    "in": Unit(INCH, Powers(length=1)),
+    "lb": Unit(POUND, Powers(mass=1)),
+    "g_n": Unit(_GRAVITY, Powers(1, 0, -2)),
+    "of_another_kind": Unit(Fraction(1), Powers(99)),
+}
+
+LENGTH = Dimension("mm", "a length", ("90 mm", "3.5 in"))
+MASS = Dimension("kg", "a mass", ("650 g", "0.8 lb"))
+ANGLE = Dimension("deg", "an angle", ("30 deg", "1.2 rad", "1/7 turn"))
+INERTIA = Dimension("kg mm^2", "a moment of inertia", ("4200 kg mm^2", "8.1 lb in^2"))
+UNBALANCE = Dimension("g mm", "an unbalance (mass times radius)", ("9000 g mm", "12.5 oz in"))
+SPEED = Dimension("rpm", "a speed of rotation", ("6000 rpm", "300 rad/s"))
+TIME = Dimension("s", "a time", ("0.82 s", "820 ms"))
+PRESSURE = Dimension("bar", "a pressure", ("9.5 bar", "1.2 MPa", "150 psi"))
+ENERGY = Dimension("J", "an energy", ("1400 J", "1.4 kJ"))
+STIFFNESS = Dimension("N/mm", "a stiffness", ("350 N/mm", "2000 lbf/in"))
+DAMPING = Dimension("N s/mm", "a damping", ("0.5 N s/mm", "3 lbf s/in"))
+TORQUE = Dimension("N m", "a torque", ("250 N m", "184 lbf ft"))
+TORSIONAL_STIFFNESS = Dimension(
+    "N m/rad", "a torsional stiffness", ("1.25e6 N m/rad", "24.17e6 lbf in/rad")
+)
+TORSIONAL_DAMPING = Dimension(
+    "N m s/rad", "a torsional damping", ("2 N m s/rad", "18 lbf in s/rad")
+)
+SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", ("79.3 GPa", "11.5e6 psi"))
+STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
+PLAIN = Dimension("", "a plain number")
+_KINDS = (  # how one speaks of what has these units; the first that has the powers
+    Dimension("J", "a torque or an energy"),
+    *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, STIFFNESS, DAMPING),
+    *(TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, PLAIN),
+    Dimension("N", "a force"),
+    Dimension("W", "a power"),
+    Dimension("Hz", "a frequency"),
+    Dimension("m^2", "an area"),
+    Dimension("m^3", "a volume"),
+    Dimension("m/s", "a velocity"),
+)
+
+# Compiled when a string is met
+BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
+_NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
+_FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³23])?"
+_JOINT = r"\s*[*·⋅/]\s*|[.-]|\s+"
+_UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
+_WHOLE = r"(\d+)(?:\s+|-)(?=[1-9]\d*\s*/)"  # of "3 1/2" and "3-1/2"
+FIGURE = rf"\s*([+-]?)(?:{_WHOLE})?({_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"
+_LARGE_AND_SMALL = r"\s*([+-]?)(\d+ *[A-Za-z]+) +(\d.*[A-Za-z])\s*"  # 1 lb 4 oz, 3 ft 2 1/2 in
+_INCH_MARK = r'^([^"”″]*\d)\s*["”″]\s*$'  # 3.5"
+# A crank speed counts turns, said or not. 1/s stays out: it is as often meant as rad/s.
+_PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1|\s*min⁻¹)\s*$"
+_HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
+# pi/2, -3*pi/4 rad
+_PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
+_POUND = r"(?i)\b(?:lbs?|pounds?)\b"  # a force where only that fits: 24 lb in/rad, 0.3 lb in s2
+_PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³23]))?"
+_RAISED = {"²": 2, "³": 3, "2": 2, "3": 3}
+
+
+def convert(text: str, dimension: Dimension) -> float:
+    """Return a figure in the bare unit of a dimension, correctly rounded.
+
+    Args:
+        text: number and unit, such as "3 1/2 in".
+        dimension: that the figure has to have.
+
+    Raises:
+        ValueError: what is wrong, and what would be right.
+    """
+    return float(convert_exactly(text, dimension))
+
+
+def convert_exactly(text: str, dimension: Dimension) -> Fraction:
+    """Return the exact figure in the bare unit of a dimension; arguments and errors as of
+    `convert`.
+    """
+    if len(text) > LONGEST_FIGURE:
+        raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
+    figure = re.sub(_INCH_MARK, r"\1 in", text)
+    try:
+        exact = _measure(figure, dimension) / read_unit(dimension.unit, dimension).scale
+        float(exact)
+    except ZeroDivisionError:
+        raise ValueError("divides by zero") from None
+    except OverflowError:
+        raise ValueError("is too large a number") from None
+    return exact
+
+
+def _measure(figure: str, dimension: Dimension) -> Fraction:
+    """The figure in m, kg, s and turns; a large unit and a small one add up ("1 lb 4 oz")."""
+    found = _split(_spell_out(figure, dimension))
+    both = None if found else re.fullmatch(_LARGE_AND_SMALL, figure, re.ASCII)
+    if both:
+        sign, large, small = both.groups()
+        whole, rest = _measure_part(large, dimension), _measure_part(small, dimension)
+        one = re.sub(r"\d+", "1", large)
+        if rest >= _measure(one, dimension):
+            raise ValueError(f'has "{small}" after "{large}", which is not less than "{one}"')
+        return -(whole + rest) if sign == "-" else whole + rest
+    if found is None:
+        comma = re.search(r"\d,\d", figure)
+        hint = " decimals take a point, thousands no comma;" if comma else ""
+        hint += " a minus sign is a hyphen;" if re.match(r"\s*[−–]", figure) else ""
+        raise ValueError(f"is not a number followed by a unit;{hint} {wanted(dimension)}")
+    number, names = found
+    if not names:
+        plain = f": {float(number):.6g}" if dimension is PLAIN else ""
+        raise ValueError(f"has no unit; {wanted(dimension)}{plain}")
+    unit = read_unit(names, dimension)
+    if unit.powers != dimension.powers:
+        force = read_unit(re.sub(_POUND, "lbf", names), dimension)
+        if force.powers == dimension.powers:
+            return number * force.scale
+        names_of_kinds = (kind.name for kind in _KINDS if kind.powers == unit.powers)
+        name = next(names_of_kinds, "of another dimension")
+        raise ValueError(f"is {name}, but {wanted(dimension)}")
+    return number * unit.scale
+
+
+def _measure_part(part: str, dimension: Dimension) -> Fraction:
+    """Return `_measure` of one figure of two; errors name it."""
+    try:
+        return _measure(part, dimension)
+    except ValueError as error:
+        raise ValueError(f'has "{part}", which {error}') from None
+
+
+def _spell_out(figure: str, dimension: Dimension) -> str:
+    """A speed or an angle with its turns said; the kgm2 of a moment of inertia in two words."""
+    if dimension is SPEED:  # "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm
+        counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", figure)
+        return re.sub(_PER_MINUTE, r"\1 rpm", counted)
+    if dimension is INERTIA:
+        return re.sub(r"kg(?=[cm]?m(?:\^|\*\*)?[2²])", "kg ", figure)
+    # "3 pi/4 rad" -> "3/4 pi", half a turn being the unit
+    parts = re.fullmatch(_PI, figure, re.ASCII) if dimension is ANGLE else None
+    return f"{parts[1]}{parts[2] or 1}/{parts[3] or 1} pi" if parts else figure
+
+
+def _split(figure: str) -> tuple[Fraction, str] | None:
+    """A figure's number, and the names of its unit; None: it is no figure."""
+    match = re.fullmatch(FIGURE, figure, re.ASCII)
+    if match is None:
+        return None
+    sign, whole, above, below, names = match.groups()
+    number = Fraction(above) / Fraction(below or 1)
+    if whole and number >= 1:  # not three and five halves
+        return None
+    number += Fraction(whole or 0)
+    return (-number if sign == "-" else number), names or ""
+
+
+@cache
+def read_unit(names: str, dimension: Dimension) -> Unit:
+    """Return the product of the parts of a unit.
+
+    Args:
+        names: of the parts, such as "kg mm^2".
+        dimension: for the examples in errors.
+
+    Raises:
+        ValueError: a part is unknown, or might be two units.
+    """
+    if re.sub(_PART, "", names, flags=re.ASCII).strip(" .-"):
+        raise ValueError(f'has the unknown unit "{names}"; {wanted(dimension)}')
+    scale, powers = Fraction(1), Powers()
+    for joint, name, power, raised in re.findall(_PART, names, re.ASCII):
+        if question := AMBIGUOUS.get(name) or AMBIGUOUS.get(name.removesuffix("s")):
+            raise ValueError(f'has the unit "{name}": {question} {wanted(dimension)}')
+        part = _find(name) or (_find(name.lower()) if name.isupper() and name[1:] else None)
+        if part is None:
+            near = find_near_name(name)
+            alone = _find(near) if name == names.strip() else None
+            if alone and alone.powers != dimension.powers:
+                near = ""
+            hint = f" did you mean {near}?" if near else ""
+            raise ValueError(f'has the unknown unit "{name}";{hint} {wanted(dimension)}')
+        exponent = int(power or _RAISED.get(raised, 1)) * (-1 if joint == "/" else 1)
+        scale *= part.scale**exponent
+        powers = Powers(*(p + exponent * q for p, q in zip(powers, part.powers, strict=True)))
+    return Unit(scale, powers)
+
+
+@cache
+def _find(name: str) -> Unit | None:
+    """A unit by its name, with a prefix, or several of it; None: there is no such unit."""
+    if name in _BASE:
+        return _BASE[name]
+    if name in DEFINITIONS:
+        number, names = _split(DEFINITIONS[name]) or (Fraction(), "")
+        unit = read_unit(names, PLAIN)
+        return Unit(number * unit.scale, unit.powers)
+    if name in PREFIXED:
+        power, of_which = PREFIXED[name]
+        unit = read_unit(of_which, PLAIN)
+        return Unit(Fraction(10) ** power * unit.scale, unit.powers)
+    one = name.removesuffix("s")
+    return _find(one) if one != name and len(one) > 1 and name.islower() else None
+
+
+def ask_unit(unit: str, *others: str) -> str:
+    """Return a question for messages on an unlikely figure: is it in its bare unit?
+
+    Args:
+        unit: the bare one.
+        others: figures in other units, such as "3.5 in".
+    """
+    said = " or ".join(f'"{other}"' for other in others)
+    return f"is it in {unit}? Another unit is said as in {said}"
+
+
+def wanted(dimension: Dimension) -> str:
+    """Return what would be right, with examples."""
+    if dimension is PLAIN:
+        return "a plain number is wanted, without quotes"
+    examples = " or ".join(f'"{e}"' for e in dimension.examples)
+    return f"{dimension.name} is wanted: a bare number in {dimension.unit}, or {examples}"

@@ -1,0 +1,158 @@
+"""Guide-force moments as builders of large engines state them: of inertia, and of the gas where the
+engine has some.
+
+Guide-force moments as single figures, for variants: `guide.6.H`, `guide.4.5.X`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from ..core.phasors import Array, Phasors
+from ..engine.build import Engine, build
+from ..engine.layout import MOMENTS_UNKNOWN
+from ..engine.load import FiguresOfVariants
+from ..errors import BalcliError
+from ..file.model import EngineFile
+from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER
+from .quantity import Subject, TargetQuantity, parse_target_quantity
+from .spectrum import (
+    compute_each_cylinder,
+    find_relevant_orders,
+    list_gas_orders,
+    mark_considerable,
+    merge_orders,
+    parse_order,
+)
+
+
+@dataclass(frozen=True)
+class GuideMoments:
+    """Sums of the cylinders' roll moments, N m, by order.
+
+    Attributes:
+        h: H-type, their sum.
+        x: X-type, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None
+            where all cylinders stand at one place, or it is not known where they stand.
+        height_m: L of each cylinder by its number, from the crankshaft to the middle of the guide,
+            shape (cylinders,).
+        with_gas: whether the roll of the gas is in it.
+    """
+
+    h: Phasors
+    x: Phasors | None
+    height_m: Array
+    with_gas: bool = False
+
+
+def compute_guide_moments(
+    engine: Engine, orders: Array | None = None, height_m: float | None = None
+) -> GuideMoments:
+    """Guide-force moments of an engine's cylinders; devices have none.
+
+    Each cylinder's roll moment is that about the crank axis, wherever the point of reference stands
+    in x and y. The X-type is that of the project guides of MAN B&W two-stroke engines, section
+    17.05: bi-moment `sum force couple x distance`, divided by the height of the guide.
+
+    Args:
+        engine: without trailing axes.
+        orders: shape (orders,), ascending; default: those worth showing.
+        height_m: from the crankshaft to the middle of the guide; default: each rod's length.
+    """
+    z_ref = engine.reference_m[2]
+    about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
+    roll = "roll" if engine.gas is None else "roll_total"
+    every = _find_orders(engine) if orders is None else orders
+    rolls = compute_each_cylinder(about_crank, every, [roll])[roll]
+    z = np.ravel(engine.cylinders.z)
+    h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
+    due = mark_considerable(h)
+    height = _rod_lengths(engine) if height_m is None else np.full(len(z), height_m)
+    x = None
+    if np.ptp(z) and engine.places_known:
+        x = _sum_weighted(rolls, (z - z_ref) / height)
+        due |= mark_considerable(x)
+    if orders is None:
+        orders = every[due]
+    chosen_x = None if x is None else x.select_orders(orders)
+    by_number = height[np.argsort(engine.numbers)]
+    return GuideMoments(h.select_orders(orders), chosen_x, by_number, engine.gas is not None)
+
+
+def _find_orders(engine: Engine) -> Array:
+    """All that may be worth showing; with gas, no more than is shown of gas."""
+    relevant = find_relevant_orders(engine)
+    if engine.gas is None:
+        return relevant
+    few = relevant[relevant <= HIGHEST_GAS_ORDER_UNASKED]
+    return merge_orders(few, list_gas_orders(engine))
+
+
+def _rod_lengths(engine: Engine) -> Array:
+    """Length of the rod of each cylinder, m, shape (cylinders,)."""
+    c = engine.cylinders
+    return np.broadcast_to(np.ravel(c.radius / c.lam), c.count)
+
+
+def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
+    """Sum over the cylinders of phasors of shape (orders, cylinders), each times its weight."""
+    total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
+    return sum(total[1:], total[0]).drop_noise()
+
+
+_SUBJECTS = {"guide": Subject("6", {"H": "N·m", "X": "N·m"})}
+
+
+def parse_quantity(text: str) -> TargetQuantity:
+    """`guide.6.H` and its like.
+
+    Raises:
+        BalcliError: anything else, with what there is.
+    """
+    found = parse_target_quantity(text, _SUBJECTS)
+    if parse_order(found.target) is None:
+        raise BalcliError(
+            f"{text} is no quantity: after guide comes an order up to {HIGHEST_ORDER}, as in "
+            "guide.6.H"
+        )
+    return found
+
+
+def list_names(model: EngineFile) -> Iterator[str]:
+    """Those that an engine has, with N for the order."""
+    yield "guide.N.H"
+    if _find(model).x is not None:
+        yield "guide.N.X"
+
+
+def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
+    """Nothing, unless one is of the X-type, of an engine that has none.
+
+    Raises:
+        BalcliError: the quantity, and why.
+    """
+    of_x = [q for q in quantities if q.part == "X"]
+    if of_x and _find(model).x is None:
+        known = len(build(model).throws_m) < 2 or build(model).places_known
+        why = "all cylinders stand at one place" if known else MOMENTS_UNKNOWN
+        raise BalcliError(f"{of_x[0].name}: {why}")
+
+
+def _find(model: EngineFile) -> GuideMoments:
+    return compute_guide_moments(build(model), np.array([1.0]))
+
+
+def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
+    """The amplitude of each quantity of one engine, which has what they are of."""
+    orders = np.array(sorted({float(q.target) for q in quantities}))
+    guide = compute_guide_moments(engine, orders)
+    found = {"H": guide.h, "X": guide.x or guide.h}
+    rows = [int(np.searchsorted(orders, float(q.target))) for q in quantities]
+    return [float(found[q.part].major[row]) for q, row in zip(quantities, rows, strict=True)]
+
+
+Variants = partial(FiguresOfVariants, evaluate_engine)

@@ -1,0 +1,174 @@
+"""Engine file -> what its body does on its mounts: the answer of `balcli mounts`.
+
+`balcli.analyze_mounts`
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from types import NoneType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.phases import RPM
+from ..core.vibration import Real
+from ..engine.build import Engine, check_engine, take_model
+from ..engine.figures import find_first_largest
+from ..errors import BalcliError, check_type
+from ..file.model import EngineFile
+from ..file.plain_tables import take_tables
+from ..file.read import check_tables
+from ..forces.spectrum import check_orders
+from ..process import Tell, tell_nobody
+from ..shell.arguments import check_mapping, check_speeds, tell_arguments
+from ..sizing.options import SchemeOptions
+from ..sizing.remedy import fit_devices
+from ..sizing.sizing import size
+from .build import build_mounted_body, check_mounted, find_mounted_modes, settle
+from .loads import find_loads
+from .records import AtRest, BodyMode, Fitted, Meeting, MountAtRest, MountReport, Other
+from .response import RunningBody, list_meetings, plain_order, respond
+from .rigid_body import AXES, elastic_centre, roll_axis
+
+_SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
+_SPEEDS = 141
+
+
+def choose_mount_speeds(engine: Engine) -> Real:
+    """Return the default speeds (rpm): from an eighth of the engine's speed to this."""
+    return np.asarray(np.linspace(_SLOWEST, 1.0, _SPEEDS) * float(engine.speed_rpm))
+
+
+def report_mounts(
+    model: EngineFile,
+    engine: Engine | None,
+    speeds_rpm: Real | None = None,
+    orders: Sequence[float] | None = None,
+    scheme: str | None = None,
+    others: Sequence[tuple[str, Engine]] = (),
+    name: str = "",
+    tell: Tell = tell_nobody,
+    options: SchemeOptions | None = None,
+) -> MountReport:
+    """Return the modes and rest of a body on its mounts, and its response to its engine.
+
+    Args:
+        model: File with [body] and [[mount]].
+        engine: Engine of the file; None: the first of the others, or modes and rest alone.
+        speeds_rpm: Speeds, rising, shape (speeds,); default: as of `choose_mount_speeds`.
+        orders: Orders of the load; default: all that are considerable.
+        scheme: Name of a balance scheme, with whose devices the response is computed as well.
+        others: Names and engines that are put on the same body and mounts, at the same speeds.
+        name: Name of the file, for messages.
+        tell: Function that is called with the share of the responses that is done.
+        options: Options of the scheme.
+
+    Raises:
+        InputError: Tables of the file do not fit together.
+        BalcliError: The scheme cannot be fitted, or as of `respond`.
+    """
+    mounted = build_mounted_body(model, name)
+    title = model.name
+    if engine is None and others:
+        (title, engine), *others = others
+    modes, found, remedy = find_mounted_modes(mounted), [], None
+    try:
+        asked = None if orders is None else check_orders(orders)
+        if asked is not None and asked[0] == 0:
+            raise BalcliError(
+                "order 0 does not vibrate: what is steady is told as rest; leave it out"
+            )
+        engines = [] if engine is None else [engine]
+        if engine is not None and scheme is not None:
+            remedy = size(engine, scheme, options)
+            engines.append(fit_devices(engine, remedy))
+        for each in (*engines, *(other for _, other in others)):
+            rpm = choose_mount_speeds(engines[0]) if speeds_rpm is None else speeds_rpm
+            loads = find_loads(each, mounted.body.centre, asked)
+            found.append(respond(mounted, RunningBody.of(mounted, modes, loads), rpm * RPM))
+            tell(len(found) / (len(engines) + len(others)))
+    except BalcliError as error:
+        raise BalcliError(f"{name}: {error}" if name else str(error)) from None
+    assumed = engine is not None and engine.speed_assumed and speeds_rpm is None
+    response = found.pop(0) if found else None
+    settled = settle(mounted, response.loads.mean if response else 0.0)
+    met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
+    stiffness = modes.stiffness.real
+    return MountReport(
+        name=title,
+        modes=tuple(
+            BodyMode(
+                float(modes.hertz[k]),
+                dict(zip(AXES, (100 * share).tolist(), strict=True)),
+                shape * np.copysign(1.0, shape[find_first_largest(share)]),
+                modes.motions[k],
+                float(modes.loss[k]),
+                tuple(Meeting(plain_order(order), rpm) for mode, order, rpm in met if mode == k),
+            )
+            for k, (shape, share) in enumerate(zip(modes.modes.shapes, modes.shares, strict=True))
+        ),
+        roll_axis=roll_axis(mounted.body),
+        elastic_centre_mm=1e3 * elastic_centre(stiffness, mounted.body.centre).point,
+        static=AtRest(tuple(map(MountAtRest, mounted.names, settled.forces, 1e3 * settled.travel))),
+        stiffness_N_per_m=stiffness,
+        response=response,
+        fitted=Fitted(remedy.scheme, found.pop(0), remedy) if remedy else None,
+        others=tuple(map(Other, (label for label, _ in others), found)) or None,
+        mounted=mounted,
+        assumed_rpm=float(engine.speed_rpm) if engine and assumed else None,
+    )
+
+
+@tell_arguments(speeds="speeds_rpm")
+def analyze_mounts(
+    source: Engine | str | Path | Mapping[str, Any],
+    speeds_rpm: ArrayLike | None = None,
+    *,
+    orders: Iterable[float] | None = None,
+    scheme: str | None = None,
+    others: Mapping[str, Engine] | None = None,
+) -> MountReport:
+    """What the frame feels of an engine on its mounts: natural modes, rest, forces of the mounts
+    and motion of points over a range of speeds.
+
+    Args:
+        source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or
+            a dict of its tables, which may also describe the body and mounts alone.
+        speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this.
+        orders: Orders of the load; default: all that are not negligible.
+        scheme: Balance scheme; with its devices the response is `fitted`.
+        others: Engines by name that are put on the same mounts.
+
+    Returns:
+        The document of `balcli mounts` as records: `modes` (`frequency_Hz`, `motion`, ...),
+        `response` (`mounts` and `points`, with `peak_N` or `peak_mm` over `speeds_rpm` and the
+        `worst` of the range; None without an engine), `fitted`, `others`.
+
+    Raises:
+        BalcliError: A mode without damping is driven within the range; the scheme cannot be fitted.
+        InputError: The file has mistakes, or a motion is held by no mount.
+        TypeError: The source or an argument has a wrong type.
+
+    Example:
+        >>> [mode.frequency_Hz for mode in analyze_mounts("i4_mounts.toml").modes]
+    """
+    speeds = check_speeds("analyze_mounts", speeds_rpm)
+    beside = {} if others is None else check_mapping("analyze_mounts", others, '{"V8": engine}')
+    engines = {str(name): check_engine("analyze_mounts", one) for name, one in beside.items()}
+    check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
+    asked = None if orders is None else check_orders(orders).tolist()
+    model, engine, name = _read(source)
+    return report_mounts(model, engine, speeds, asked, scheme, list(engines.items()), name)
+
+
+def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
+    """The file, its engine if it has one, and its name."""
+    if isinstance(source, Engine):
+        return take_model(source), source, ""
+    wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"
+    tables, name = take_tables("analyze_mounts", source, wanted)
+    found = check_mounted(check_tables(tables, Path(name).parent, name, bare=True), name)
+    return found.model, found.engine, name

@@ -1,0 +1,273 @@
+"""Tables of an engine file -> a rigid body on its mounts, SI, checked; its natural modes.
+
+An engine file with a body on mounts, or of these alone: read, checked, every mistake told.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.vibration import Complex, Modes, Real, modal_loss
+from ..engine.assembly import Assembly
+from ..engine.build import Engine
+from ..engine.load import build_named
+from ..engine.parse import find_contradictions
+from ..errors import InputError, Problem
+from ..file.doubts import NO_DISTANCE, doubt_losses
+from ..file.fields import printable, shorten
+from ..file.model import EngineFile
+from ..file.mount_tables import Mount, Point
+from ..file.read import REQUIRED, Draft, read_tables, refuse
+from ..file.toml import name_file, read_bytes
+from ..file.units import STANDARD_GRAVITY, ask_unit
+from ..limits import MOST_MOUNTS
+from .rigid_body import (
+    Body,
+    Mounts,
+    Settled,
+    complete_axes,
+    damping_matrix,
+    describe_free_motion,
+    find_body_modes,
+    find_free_motions,
+    mass_matrix,
+    name_mode,
+    name_motions,
+    settle_body,
+    share_energy,
+    stiffness_matrix,
+    turn_axes,
+)
+
+_MM = 1e-3  # m
+
+
+class MountedBody(NamedTuple):
+    """A body on its mounts, in the engine's axes.
+
+    Attributes:
+        body: with its centre of gravity and tensor.
+        static, dynamic: the mounts with their stiffness at rest and in vibration.
+        names: of the mounts.
+        weight: (3,) N.
+        point_names, points: (points, 3) m, whose motion is wanted.
+        carries_load: whether what takes the engine's torque stands on the body, too.
+    """
+
+    body: Body
+    static: Mounts
+    dynamic: Mounts
+    names: tuple[str, ...]
+    weight: Real
+    point_names: tuple[str, ...]
+    points: Real
+    carries_load: bool = False
+
+
+def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
+    """Return the body and the mounts of a file.
+
+    Args:
+        model: Engine file.
+        name: Name of the file, for messages.
+
+    Raises:
+        InputError: Tables are missing or do not fit together; no mount holds a motion.
+    """
+    problems, table, mounts = list(find_mounting_faults(model)), model.body, model.mount
+    if problems or table is None:
+        raise InputError(problems, name)
+    xx, yy, zz, xy, yz, zx = table.inertia
+    tensor = 1e-6 * np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])  # kg m2 of kg mm2
+    body, down = Body(table.mass, _MM * np.array(table.cg), tensor), np.array(table.gravity)
+    static = Mounts(
+        _MM * np.array([mount.at for mount in mounts]),
+        np.array([_find_axes(mount) for mount in mounts]),
+        1e3 * np.array([mount.stiffness for mount in mounts]),  # N/m of N/mm
+        np.array([[mount.loss] * 3 for mount in mounts]),
+        1e3 * np.array([mount.damping for mount in mounts]),
+    )
+    free = find_free_motions(body, static)
+    if len(free):
+        message = (
+            f"nothing holds the body against {describe_free_motion(free[0], body.centre)}; give a "
+            "mount that does, or stiffness along another axis"
+        )
+        raise InputError([Problem("mount", message)], name)
+    factors = np.array([[mount.dynamic_factor] for mount in mounts])
+    return MountedBody(
+        body,
+        static,
+        static._replace(stiffness=static.stiffness * factors),
+        tuple(mount.name for mount in mounts),
+        table.mass * STANDARD_GRAVITY * down / np.linalg.norm(down),
+        tuple(point.name for point in model.point),
+        _MM * np.array([point.at for point in model.point]).reshape(-1, 3),
+        table.carries_load,
+    )
+
+
+def _find_axes(mount: Mount) -> Real:
+    """Return the axes of a mount as the columns of a matrix (3, 3)."""
+    if mount.axes is not None:
+        return complete_axes(*mount.axes)
+    return turn_axes(*np.radians(mount.angles or (0.0, 0.0, 0.0)))
+
+
+def find_mounting_faults(
+    model: EngineFile, legible: frozenset[str] = frozenset({"body", "mount", "point"})
+) -> Iterator[Problem]:
+    """Yield what is missing of a body on its mounts, and names that come twice.
+
+    Args:
+        model: Engine file.
+        legible: Tables that could be read.
+    """
+    if "body" in legible and model.body is None:
+        yield Problem.of_missing("body", 'give it, such as "[body]" and "mass = 163.9" below it')
+    if "mount" in legible and not model.mount:
+        yield Problem.of_missing("mount", "write [[mount]] for every mount")
+    lists: dict[str, Sequence[Mount | Point]] = {"mount": model.mount, "point": model.point}
+    for key, tables in lists.items():
+        if len(tables) > MOST_MOUNTS:
+            yield Problem(key, f"stands {len(tables)} times; at most {MOST_MOUNTS} are taken")
+        met: dict[str, int] = {}
+        for number, table in enumerate(tables if key in legible else (), 1):
+            if (first := met.setdefault(table.name, number)) != number:
+                message = (
+                    f"{shorten(printable(table.name))} is also the name of {key}.{first}; each "
+                    "needs one of its own"
+                )
+                yield Problem(f"{key}.{number}.name", message)
+
+
+# ------------------------------------------------------------------ equations of motion
+class BodyModes(NamedTuple):
+    """Equations `(K + i w C - w^2 M) q = f` about the center of gravity, and their natural modes.
+
+    Attributes:
+        stiffness, damping, mass: K (dynamic), C and M, SI, shape (6, 6).
+        modes: Modes without damping, lowest first.
+        loss: Loss factor of each mode, shape (6,).
+        shares: Share of the kinetic energy of each mode in each motion, shape (modes, 6).
+        motions: Each mode in words.
+    """
+
+    stiffness: Complex
+    damping: Real
+    mass: Real
+    modes: Modes
+    loss: Real
+    shares: Real
+    motions: tuple[str, ...]
+
+    @property
+    def hertz(self) -> Real:
+        """Natural frequencies, Hz, shape (6,)."""
+        return self.modes.omega / (2 * np.pi)
+
+
+def find_mounted_modes(mounted: MountedBody) -> BodyModes:
+    """Return the equations of motion and the natural modes of a body on its mounts."""
+    body, mounts = mounted.body, mounted.dynamic
+    modes, names = find_body_modes(body, mounts), name_motions(-mounted.weight)
+    stiffness, damping = stiffness_matrix(body, mounts), damping_matrix(body, mounts)
+    shares = share_energy(modes, body)
+    motions = tuple(name_mode(share, names) for share in shares)
+    loss = modal_loss(modes, stiffness, damping)
+    return BodyModes(stiffness, damping, mass_matrix(body), modes, loss, shares, motions)
+
+
+def settle(mounted: MountedBody, torque: float = 0.0) -> Settled:
+    """Return the body at rest under its weight, with static stiffness.
+
+    Args:
+        torque: Mean torque about the crankshaft's axis on the body, N m; it has no effect where the
+            body carries the load, for then it acts between parts of the body.
+    """
+    leaning = 0.0 if mounted.carries_load else torque
+    load = np.concatenate([mounted.weight, [0.0, 0.0, leaning]])
+    return settle_body(mounted.body, mounted.static, load)
+
+
+SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber gives way by 1 to 20
+NEAR_THE_ORIGIN = 2.0  # mm; no mount stands within the crankshaft
+SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines have 0.2 to 1
+
+
+class MountedFile(NamedTuple):
+    """A file with [body] and [[mount]], its engine if it has one, and what is doubted of it."""
+
+    model: EngineFile
+    engine: Engine | None
+    doubts: tuple[str, ...]
+
+
+def read_mounted(path: str | Path) -> MountedFile:
+    """The file at a path, or on standard input for "-".
+
+    Raises:
+        BalcliError: there is nothing to read.
+        InputError: every mistake that it has.
+    """
+    name = name_file(path)
+    return check_mounted(read_tables(read_bytes(path), name, bare=True), name)
+
+
+def check_mounted(draft: Draft, name: str) -> MountedFile:
+    """The same of what could be read of a file; `name` is that of the file, for messages."""
+    faults = list(find_mounting_faults(draft.model, draft.legible))
+    has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
+    if draft.problems or faults:
+        whole = Assembly(draft.model, legible=draft.legible)
+        contradictions = find_contradictions(whole) if has_engine and draft.problems else []
+        raise refuse([*draft.problems, *contradictions, *faults], name)
+    engine = build_named(draft.model, name) if has_engine else None
+    doubts = () if engine is None else engine.unlikely
+    return MountedFile(draft.model, engine, (*doubts, *_find_doubts(draft.model)))
+
+
+def _find_doubts(model: EngineFile) -> Iterator[str]:
+    """Yield what no body and no mounts have: most likely a figure in another unit."""
+    body, mounts = model.body, model.mount
+    if body is None:
+        return
+    moments = dict(zip(("xx", "yy", "zz"), body.inertia, strict=False))
+    for name, value in moments.items():
+        first, second = (other for other in moments if other != name)
+        together = moments[first] + moments[second]
+        if value > together:
+            yield (
+                f"body.inertia: {name} of {value:g} is more than {first} and {second} together "
+                f"({together:g}), which no body has; are the axes right? z is the crankshaft's"
+            )
+    largest = max(moments.values())
+    across = math.sqrt(largest / body.mass)
+    farthest = max(math.dist(mount.at, body.cg) for mount in mounts)
+    if across < SMALL_BODY * farthest:
+        yield (
+            f"body.inertia: {largest:g} kg mm^2 is that of {body.mass:g} kg within {across:.2g} "
+            f"mm, and a mount stands {farthest:.3g} mm away; "
+            f"{ask_unit('kg mm^2', f'{largest:g} kg m^2')}"
+        )
+    sag = STANDARD_GRAVITY * body.mass / sum(sum(mount.stiffness) / 3 for mount in mounts)
+    if not SAG_LEAST <= sag <= SAG_MOST:
+        yield (
+            f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
+            f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
+        )
+    lists: dict[str, Sequence[Mount | Point]] = {"mount": mounts, "point": model.point}
+    for key, tables in lists.items():
+        for number, each in enumerate(tables, 1):
+            away = max(map(abs, each.at))
+            if NO_DISTANCE < away < NEAR_THE_ORIGIN:
+                yield (
+                    f"{key}.{number}.at of '{each.name}' is within {away:.3g} mm of the origin; "
+                    f"{ask_unit('mm', f'{away:.3g} m')}"
+                )
+    yield from doubt_losses((f"mount.{k}.loss", mount.loss) for k, mount in enumerate(mounts, 1))

@@ -1,0 +1,93 @@
+"""`balcli mounts`"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from ..errors import warn
+from ..file.toml import name_file
+from ..shell import scheme_options
+from ..shell.file_names import picture_form, text_format
+from ..shell.options import EnginePaths, FormatOption, Misfire, Output, UnitsOption, parse_orders
+from ..shell.output import refuse_overwriting, show, write_figure
+from ..shell.progress import reporting
+from ..shell.scheme_options import choose_beside, parse_scheme_options
+from ..shell.values import Speeds, optional, parse_speeds
+from ..show.formats import Units
+from ..show.units import SYSTEMS
+
+Orders = Annotated[
+    str | None,
+    optional("1-8|1,2,4", "Orders that count; default: all that are not negligible.", "--orders"),
+]
+
+
+def mounts(
+    paths: EnginePaths,
+    speeds: Speeds = None,
+    orders: Orders = None,
+    misfire: Misfire = None,
+    scheme: scheme_options.Scheme = None,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
+    plot: Annotated[
+        Path | None,
+        optional(
+            "FILE",
+            "Draw forces over speed, orders and modes, and the body moving in each mode; "
+            ".svg, .png or .pdf.",
+        ),
+    ] = None,
+    form: FormatOption = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """What the frame feels of an engine on its mounts: natural modes, rest, forces of the mounts
+    and motion of points over a range of speeds.
+
+    The file has [body], [[mount]] and, if motion of points is wanted, [[point]]; `balcli new
+    mounts` writes one to start from. Without an engine in it, modes and rest are told. Engines of
+    further files are put on the same mounts and shown next to it.
+
+    \b
+    Example:
+      balcli mounts i4_mounts.toml --speeds 700:6000:50
+    """
+    refuse_overwriting(reads=paths, writes={"--output": output, "--plot": plot})
+    form = text_format(output, form)
+    drawn = picture_form(plot, "--plot") if plot is not None else None
+    rpm, asked = parse_speeds(speeds), parse_orders(orders)
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    scheme = choose_beside(scheme, options)
+    from ..shell.inputs import name_engines, read_engine, silence_cylinders, warn_each
+    from .answer import report_mounts
+    from .build import read_mounted
+    from .show import RENDERER
+
+    name, silent = name_file(paths[0]), misfire or ()
+    model, engine, doubts = read_mounted(paths[0])
+    warn_each(doubts, name)
+    if engine is not None:
+        engine = silence_cylinders(engine, silent, paths[0])
+    others = [silence_cylinders(read_engine(path).engine, silent, path) for path in paths[1:]]
+    names = name_engines([model.name, *(other.name for other in others)], paths)
+    beside = list(zip(names[1:], others, strict=True))
+    with reporting("work") as tell:
+        result = report_mounts(model, engine, rpm, asked, scheme, beside, name, tell, options)
+    if result.response is None and any((speeds, orders, scheme, misfire)):
+        warn(
+            f"{name}: nothing shakes this body, so speeds, orders, misfires and schemes say "
+            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
+        )
+    warn_each(result.doubts, name)
+    if plot is not None and drawn is not None:
+        from .plot import make_mounts  # brings matplotlib
+
+        write_figure(make_mounts(result, SYSTEMS[units]), drawn, plot)
+    show([result], RENDERER, form, output, units)

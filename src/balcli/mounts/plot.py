@@ -1,0 +1,130 @@
+"""Picture of an engine on its mounts: forces over speed, orders that meet modes, motion of points,
+and the body moving in each mode.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engine.figures import find_first_largest
+from ..show.plot_style import (
+    BLUE,
+    FAINT,
+    INK,
+    MANY_LOOKS,
+    PAPER,
+    RED,
+    SOFT,
+    fit_name,
+    open_figure,
+    put_title,
+)
+from ..show.sheet import NAMELESS, number, order_name
+from ..show.units import System
+from .records import BodyMode, BodyResponse, MountReport
+from .rigid_body import PROJECTION, find_corners
+from .show import Kind, list_kinds
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+_WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
+_SWING = 0.22  # of the body's size, by which its farthest corner moves in a picture of a mode
+
+
+def make_mounts(result: MountReport, system: System) -> Figure:
+    """Return the picture of an engine on its mounts."""
+    response = result.response
+    with open_figure(11.0, 3.2 if response is None else 8.6) as fig:
+        put_title(fig, f"{fit_name(result.name or NAMELESS)}: on its mounts")
+        lower: Any = fig
+        if response is not None:
+            halves: Any = fig.subfigures(2, 1, height_ratios=(2.1, 1))
+            upper, lower = halves
+            meet = any(mode.meets for mode in result.modes)
+            count = 1 + meet + bool(response.points)
+            axes = iter(upper.subplots(1, count, squeeze=False)[0])
+            force, motion = list_kinds(system)
+            _draw_curves(next(axes), result, force)
+            if meet:
+                _draw_meetings(next(axes), result, response)
+            if response.points:
+                _draw_curves(next(axes), result, motion)
+        for k, (ax, mode) in enumerate(zip(lower.subplots(1, 6), result.modes, strict=True), 1):
+            _draw_mode(ax, k, mode, result)
+        return fig
+
+
+def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
+    """Draw a curve over speed for each mount or point; those of schemes and of other engines are
+    thin, in the same colour.
+    """
+    labels = ["", *(f", {fit_name(other.name, 20)}" for other in result.beside)]
+    for label, response in zip(labels, result.responses, strict=True):
+        for place, (line, colour) in zip(kind.places(response), MANY_LOOKS, strict=False):
+            ax.plot(
+                response.speeds_rpm,
+                kind.unit.of(getattr(place, kind.peak)),
+                color=colour,
+                linestyle="-." if label else line,
+                linewidth=1.0 if label else 1.8,
+                label=f"{fit_name(place.name, 20)}{label}",
+            )
+    ax.set_ylim(bottom=0)
+    title = "Force of each mount" if kind.part == "mount" else "Motion of points"
+    ax.set(xlabel="rpm", ylabel=f"{kind.unit.name}, all orders", title=title)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+
+
+def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> None:
+    """Draw orders over speed, as wide as the force of the mount with the largest, and modes."""
+    worst = [mount.worst.force_N for mount in response.mounts]
+    mount = response.mounts[int(find_first_largest(worst))]
+    largest = max(each.force_N.max() for each in mount.orders) or 1.0
+    rpm, highest = response.speeds_rpm, 2.5 * result.modes[-1].frequency_Hz
+    for each in mount.orders:
+        hertz = each.order * rpm / 60
+        width = np.maximum(_WIDEST * each.force_N / largest, _THINNEST)
+        ax.scatter(rpm, hertz, s=width**2, color=BLUE, linewidths=0, zorder=3)
+        ax.plot(rpm, hertz, color=BLUE, linewidth=_THINNEST)
+        inside = np.flatnonzero(hertz < 0.97 * highest)
+        if len(inside):
+            place = (rpm[inside[-1]], hertz[inside[-1]])
+            ax.text(*place, f" {order_name(each.order)}", color=INK, va="bottom")
+    for mode in result.modes:
+        ax.axhline(mode.frequency_Hz, color=RED, linewidth=0.8)
+    ax.set(
+        xlim=(rpm[0], rpm[-1] if len(rpm) > 1 else rpm[0] + 1),
+        ylim=(0, highest),
+        title="Orders (blue) meet modes (red)",
+        xlabel=f"rpm; width: force of {fit_name(mount.name, 20)}",
+        ylabel="Hz",
+    )
+
+
+def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
+    """Draw a block of the body's mass and inertia with its mounts, at rest and displaced."""
+    body = result.mounted.body
+    corners, places = find_corners(body), result.mounted.dynamic.at - body.centre
+    turned, carried = (mode.shape[:3] + np.cross(mode.shape[3:], p) for p in (corners, places))
+    farthest = float(np.linalg.norm(turned, axis=1).max()) or 1.0
+    scale = _SWING * 2 * float(corners.max()) / farthest
+    for points, colour, width in ((corners, FAINT, 1.0), (corners + scale * turned, BLUE, 1.4)):
+        flat = points @ PROJECTION.T
+        for i, j in combinations(range(8), 2):
+            if np.sum(corners[i] != corners[j]) == 1:
+                ax.plot(*flat[[i, j]].T, color=colour, linewidth=width)
+    rest, away = places @ PROJECTION.T, (places + scale * carried) @ PROJECTION.T
+    ax.plot(*rest.T, "o", color=SOFT, markersize=3, markerfacecolor=PAPER)
+    ax.plot(*np.stack([rest.T, away.T], axis=1), color=SOFT, linewidth=0.8)
+    ax.plot(*away.T, "o", color=RED, markersize=3)
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+    named = f"{k}: {number(mode.frequency_Hz, 3)} Hz\n{fill(mode.motion, 22)}"
+    ax.set_title(named, fontsize=8.5, pad=4)

@@ -1,0 +1,138 @@
+"""Single figures of an engine on its mounts, for variants: `mode.3.Hz`, `mode.roll.share`,
+`mount.left.force`, `point.lever.motion`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from ..core.phases import RPM
+from ..engine.figures import find_first_largest
+from ..engine.load import EngineVariants
+from ..errors import BalcliError
+from ..file.model import EngineFile, label_table
+from ..file.read import change_figures
+from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
+from .answer import choose_mount_speeds
+from .build import BodyModes, build_mounted_body, find_mounted_modes, settle
+from .loads import find_loads
+from .response import RunningBody, find_worst
+from .rigid_body import AXES, ROLL
+
+_SUBJECTS = {
+    "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
+    "mount": Subject("left", {"force": "N", "static": "N"}),
+    "point": Subject("lever", {"motion": "m"}),
+}
+_MOTIONS = {axis: k for k, axis in enumerate(AXES)} | {"roll": ROLL}
+_MODES = (*"123456", *_MOTIONS)
+_TABLES = ("body", "mount", "point")  # of the file, which no engine has
+_RUNS = ("force", "motion")  # what takes an engine that runs
+
+
+def parse_quantity(text: str) -> TargetQuantity:
+    """Return the quantity of this name; a mode is named by its number, or by the motion of which it
+    has the largest share.
+
+    Raises:
+        BalcliError: There is no such quantity.
+    """
+    found = parse_target_quantity(text, _SUBJECTS)
+    if found.kind == "mode" and found.target not in _MODES:
+        raise BalcliError(
+            f"{text} is no quantity: after mode comes its number from 1 to 6, or its motion: "
+            f"{', '.join(_MOTIONS)}"
+        )
+    return found
+
+
+def list_names(model: EngineFile) -> Iterator[str]:
+    """Yield the names of all quantities that a file has."""
+    for kind, targets in _name_targets(model).items():
+        yield from (
+            f"{kind}.{target}.{part}" for target in targets for part in _SUBJECTS[kind].units
+        )
+
+
+def _name_targets(model: EngineFile) -> dict[str, list[str]]:
+    return {
+        "mode": [*_MODES],
+        "mount": [label_table(table, k) for k, table in enumerate(model.mount, 1)],
+        "point": [label_table(table, k) for k, table in enumerate(model.point, 1)],
+    }
+
+
+def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
+    """Raise BalcliError if a quantity names a mount or point that the file does not have, or if the
+    file has no body on mounts.
+    """
+    if model.body is None or not model.mount:
+        raise BalcliError(
+            f"{quantities[0].name}: the file has no [body] on a [[mount]]; balcli mounts --help "
+            "says what it needs"
+        )
+    names = _name_targets(model)
+    for q in quantities:
+        refuse_stranger(q, names[q.kind])
+
+
+class Variants:
+    """Evaluates quantities of variants of a file one by one; what does not vary is computed once.
+
+    Args:
+        model: File with [body] and [[mount]].
+    """
+
+    def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
+        self._model, self._quantities = model, quantities
+        targets = _name_targets(model)
+        places = [(kind, name) for kind in ("mount", "point") for name in targets[kind]]
+        self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
+        self._curves = sorted({self._place[q] for q in quantities if q.part in _RUNS})
+        # The mean torque of the gas, less friction, leans on the mounts at rest.
+        self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
+        self._engines = EngineVariants(model)
+
+    def evaluate(self, values: Mapping[str, float]) -> list[float]:
+        """Return the value of each quantity for one variant, by the figures that vary.
+
+        Raises:
+            InputError, BalcliError: The variant cannot be.
+        """
+        mounted = build_mounted_body(change_figures(self._model, values, _TABLES))
+        modes, mean, largest = find_mounted_modes(mounted), 0.0, {}
+        if self._curves or self._leans:
+            engine = self._engines.build(
+                {path: v for path, v in values.items() if path.partition(".")[0] not in _TABLES}
+            )
+            loads = find_loads(engine, mounted.body.centre)
+            mean = loads.mean
+            if self._curves:
+                omega = choose_mount_speeds(engine) * RPM
+                running = RunningBody.of(mounted, modes, loads)
+                running.refuse_resonance(omega)
+                running = running.select(self._curves)
+                worst = find_worst(running, omega, running.find_peaks(omega))
+                largest = dict(zip(self._curves, worst.value.tolist(), strict=True))
+        rest = np.linalg.norm(settle(mounted, mean).forces, axis=-1).tolist()
+        found = []
+        for q in self._quantities:
+            if q.kind == "mode":
+                found.append(_read_mode(modes, q))
+            else:
+                found.append((rest if q.part == "static" else largest)[self._place[q]])
+        return found
+
+
+def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:
+    if q.target in _MOTIONS:
+        motion = _MOTIONS[q.target]
+        mode = int(modes.shares[:, motion].argmax())
+    else:
+        mode = int(q.target) - 1
+        motion = int(find_first_largest(modes.shares[mode]))
+    if q.part == "Hz":
+        return float(modes.hertz[mode])
+    return float(100 * modes.shares[mode, motion] if q.part == "share" else 50 * modes.loss[mode])

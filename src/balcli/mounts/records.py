@@ -1,0 +1,324 @@
+"""The figures of a body on its mounts, each declared once: JSON, CSV and the schema derive from
+these records (`documents.records`).
+
+Forces are those of the body on its mounts, along the engine's axes. Arrays over speeds have the
+shape (speeds,).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+
+from ..core.phases import RPM
+from ..core.records import HIDDEN, Axes
+from ..core.vibration import Complex, Real
+from ..file.fields import printable
+from ..show.result import Result
+from ..sizing.remedy import Remedy
+from .build import MountedBody
+from .loads import BodyLoads
+
+TRAVEL_MOST = 0.05  # m, of a mount that vibrates
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """An order meets a natural frequency.
+
+    Attributes:
+        order: Order.
+        speed_rpm: Crank speed at which it meets the frequency.
+    """
+
+    order: float
+    speed_rpm: float
+
+
+@dataclass(frozen=True, eq=False)
+class BodyMode:
+    """A natural mode of the body on its mounts.
+
+    Attributes:
+        frequency_Hz: Natural frequency without damping, with dynamic stiffness.
+        energy_percent: Shares of the kinetic energy in the motions x, y, z, rx, ry, rz.
+        shape: Motion of the center of gravity, m and rad, shape (6,), of unit modal mass.
+        motion: The mode in words.
+        loss_factor: Loss factor; at resonance the mode is magnified by its inverse.
+        meets: Orders that meet the mode within the range of speeds.
+    """
+
+    frequency_Hz: float
+    energy_percent: dict[str, float]
+    shape: Real
+    motion: str
+    loss_factor: float
+    meets: tuple[Meeting, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class MountAtRest:
+    """A mount under the weight and the mean torque.
+
+    Attributes:
+        name: Name of the mount.
+        force_N: Force along x, y, z.
+        travel_mm: Travel of the mounting point along x, y, z.
+    """
+
+    name: str
+    force_N: Real
+    travel_mm: Real
+
+
+@dataclass(frozen=True, eq=False)
+class AtRest:
+    """The body at rest, with static stiffness.
+
+    Attributes:
+        mounts: All mounts.
+    """
+
+    mounts: tuple[MountAtRest, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ForceOfOrder:
+    """Force of one order.
+
+    Attributes:
+        order: Order.
+        force_N: Largest force in a cycle, by speed.
+    """
+
+    order: float
+    force_N: Real
+
+
+@dataclass(frozen=True)
+class WorstForce:
+    """The largest force of a mount over all speeds, found between the given speeds as well.
+
+    Attributes:
+        force_N: Largest force, all orders together.
+        speed_rpm: Speed at which it is reached.
+        order: Largest single order at this speed.
+        order_force_N: Force of this order.
+        mode: Number of the mode that makes most of the force, from 0.
+    """
+
+    force_N: float
+    speed_rpm: float
+    order: float
+    order_force_N: float
+    mode: Annotated[int, HIDDEN]
+
+
+@dataclass(frozen=True, eq=False)
+class MountForce:
+    """Force of one mount by order and speed.
+
+    Attributes:
+        name: Name of the mount.
+        orders: Each order by itself.
+        peak_N: Largest force over the cycle, all orders added up in time, by speed.
+        worst: Largest force over all speeds.
+    """
+
+    name: str
+    orders: tuple[ForceOfOrder, ...]
+    peak_N: Real
+    worst: WorstForce
+
+
+@dataclass(frozen=True, eq=False)
+class MotionOfOrder:
+    """Motion of one order.
+
+    Attributes:
+        order: Order.
+        motion_mm: Largest motion in a cycle, by speed.
+    """
+
+    order: float
+    motion_mm: Real
+
+
+@dataclass(frozen=True)
+class WorstMotion:
+    """The largest motion of a point over all speeds, found between the given speeds as well.
+
+    Attributes:
+        motion_mm: Largest motion, all orders together.
+        speed_rpm: Speed at which it is reached.
+        order: Largest single order at this speed.
+        order_motion_mm: Motion of this order.
+        mode: Number of the mode that makes most of the motion, from 0.
+    """
+
+    motion_mm: float
+    speed_rpm: float
+    order: float
+    order_motion_mm: float
+    mode: Annotated[int, HIDDEN]
+
+
+@dataclass(frozen=True, eq=False)
+class PointMotion:
+    """Motion of one point by order and speed.
+
+    Attributes:
+        name: Name of the point.
+        orders: Each order by itself.
+        peak_mm: Largest motion over the cycle, all orders added up in time, by speed.
+        worst: Largest motion over all speeds.
+    """
+
+    name: str
+    orders: tuple[MotionOfOrder, ...]
+    peak_mm: Real
+    worst: WorstMotion
+
+
+@dataclass(frozen=True, eq=False)
+class Passed:
+    """What reaches the frame of one order: amplitudes by speed of the force (`force_x_N` ...) and
+    of the moment about the center of gravity (`moment_x_Nm` ...), as far as there are any.
+
+    Attributes:
+        order: Order.
+        rigid: Load that the same engine puts on a frame in which it stands rigidly.
+        on_mounts: Load through the mounts.
+    """
+
+    order: float
+    rigid: dict[str, Real]
+    on_mounts: dict[str, Real]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BodyResponse:
+    """Response of the body to an engine over a range of speeds.
+
+    Attributes:
+        no_gas_in: Cylinders without gas; left out if there are none.
+        no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
+        speeds_rpm: Crank speeds.
+        mounts: Force of each mount.
+        points: Motion of each point.
+        passed: Load on the frame, by order.
+        loads: Load of the engine on the body.
+        body: Motion of the center of gravity, m and rad, shape (orders, speeds, 6).
+    """
+
+    no_gas_in: tuple[int, ...] | None = None
+    no_burning_in: tuple[int, ...] | None = None
+    speeds_rpm: Real
+    mounts: tuple[MountForce, ...]
+    points: tuple[PointMotion, ...]
+    passed: tuple[Passed, ...]
+    loads: Annotated[BodyLoads, HIDDEN]
+    body: Annotated[Complex, HIDDEN]
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """The same engine with the devices of a balance scheme.
+
+    Attributes:
+        scheme: Name of the scheme.
+        response: Response of the body.
+        remedy: The devices.
+    """
+
+    scheme: str
+    response: BodyResponse
+    remedy: Annotated[Remedy, HIDDEN]
+
+
+@dataclass(frozen=True, eq=False)
+class Other:
+    """Another engine on the same body and mounts.
+
+    Attributes:
+        name: Name of the engine.
+        response: Response of the body.
+    """
+
+    name: str
+    response: BodyResponse
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class MountReport(Result):
+    """An engine on its mounts, or a body on mounts alone.
+
+    Attributes:
+        format: Name and version of this document.
+        name: Name of the engine, or of the body.
+        modes: The six natural modes, lowest first.
+        roll_axis: Torque roll axis: unit vector through the center of gravity about which a torque
+            about the crankshaft turns the body where nothing holds it.
+        elastic_centre_mm: Point x, y, z at which forces move the body with the least turning.
+        static: The body at rest.
+        stiffness_N_per_m: Dynamic stiffness about the center of gravity, N/m, N, N·m.
+        response: Response to the engine; left out where there is none.
+        fitted: Response with a balance scheme, if one was asked for.
+        others: Responses to other engines.
+        mounted: The body on its mounts.
+        assumed_rpm: Speed that is assumed, if neither the file nor the caller gives one.
+    """
+
+    format: Literal["balcli.mounts/1"] = "balcli.mounts/1"
+    name: str
+    modes: tuple[BodyMode, ...]
+    roll_axis: Real
+    elastic_centre_mm: Real
+    static: AtRest
+    stiffness_N_per_m: Annotated[Real, Axes(2)]
+    response: BodyResponse | None = None
+    fitted: Fitted | None = None
+    others: tuple[Other, ...] | None = None
+    mounted: Annotated[MountedBody, HIDDEN]
+    assumed_rpm: Annotated[float | None, HIDDEN] = None
+
+    @property
+    def summary(self) -> str:
+        """Name and natural frequencies."""
+        modes = ", ".join(f"{mode.frequency_Hz:.3g}" for mode in self.modes)
+        return f"of {self.name or 'a body'}: modes at {modes} Hz"
+
+    @property
+    def beside(self) -> tuple[Other, ...]:
+        """Responses that are shown next to that of the engine: with a scheme, of other engines."""
+        fitted = self.fitted and Other(self.fitted.scheme, self.fitted.response)
+        return (*([fitted] if fitted else []), *(self.others or ()))
+
+    @property
+    def responses(self) -> tuple[BodyResponse, ...]:
+        """All responses, that of the engine first."""
+        own = [] if self.response is None else [self.response]
+        return (*own, *(other.response for other in self.beside))
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Warning about the mount that travels most, if no mount travels as far."""
+        if self.response is None:
+            return ()
+        stiffness, loss, damping = self.mounted.dynamic[2:]
+        worst = [mount.worst for mount in self.response.mounts]
+        frequency = np.array([[each.order * each.speed_rpm * RPM] for each in worst])
+        springs = np.abs(stiffness * (1 + 1j * loss) + 1j * frequency * damping).max(axis=1)
+        travels = np.array([each.force_N for each in worst]) / springs
+        farthest = int(travels.argmax())
+        if travels[farthest] <= TRAVEL_MOST:
+            return ()
+        mount = self.response.mounts[farthest]
+        told = (
+            f"the mount {printable(mount.name)} would travel by {1e3 * travels[farthest]:.3g} mm "
+            f"or more at {mount.worst.speed_rpm:.4g} rpm, where stops hold others at 10 to 20; are "
+            "loss and damping right, and does it run at that speed, or pass it?"
+        )
+        return (told,)

@@ -1,0 +1,335 @@
+"""A rigid body on mounts: its stiffness, statics, natural modes and forced vibration.
+
+Motion is six numbers about the centre of gravity along the engine's axes: displacement x, y, z (m)
+and rotation about x, y, z (rad). Loads match: forces (N) and moments about the centre of gravity
+(N m). By order both are complex, frequencies in rad/s of any shape; see `vibration`.
+
+Motions of a rigid body in words.
+
+A body as pictures show it: an even block of its mass and moments of inertia, seen askew.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.vibration import Complex, Modes, Real, find_modes
+from ..file.fields import join_words
+
+_NO_SHARE = 1e-14  # of a mode's energy, which is 1
+_FREE = 1e-9  # singular values below this share of the largest mean a motion that nothing holds
+
+
+class Body(NamedTuple):
+    """A rigid body.
+
+    Attributes:
+        mass: kg.
+        centre: (3,) centre of gravity, m.
+        inertia: (3, 3) tensor about it, kg m2, as a matrix: products of inertia stand with minus.
+    """
+
+    mass: float
+    centre: Real
+    inertia: Real
+
+
+class Mounts(NamedTuple):
+    """Springs along three axes each, that hold a body to the ground.
+
+    Attributes:
+        at: (mounts, 3) m, in the axes and from the origin of the body's centre.
+        axes: (mounts, 3, 3), columns: the mount's own axes.
+        stiffness: (mounts, 3) N/m along these, static or dynamic, as what is computed wants it.
+        loss: (mounts, 3) loss factors.
+        damping: (mounts, 3) N s/m.
+    """
+
+    at: Real
+    axes: Real
+    stiffness: Real
+    loss: Real
+    damping: Real
+
+
+class Screw(NamedTuple):
+    """A small motion of a rigid body as a turn about a line, with a slide along it.
+
+    Attributes:
+        direction: (3,) unit vector of the line, or of the displacement where nothing turns.
+        point: (3,) of the line, the one closest to the centre of gravity, m; None: nothing turns.
+        pitch: slide for each rad, m.
+    """
+
+    direction: Real
+    point: Real | None
+    pitch: float
+
+
+class ElasticCentre(NamedTuple):
+    """Where forces move a body with the least turning.
+
+    Attributes:
+        point: (3,) m.
+        offset: largest moment about this point, for each N of the spring force of any displacement,
+            N m/N; 0: displacements and turns about it are independent.
+    """
+
+    point: Real
+    offset: float
+
+
+class Settled(NamedTuple):
+    """A body at rest under a load.
+
+    Attributes:
+        motion: (6,) of its centre of gravity.
+        forces: (mounts, 3) of the body on its mounts, N, along the engine's axes.
+        travel: (mounts, 3) of its mounting points, m.
+    """
+
+    motion: Real
+    forces: Real
+    travel: Real
+
+
+# ------------------------------------------------------------------ geometry
+def cross_matrix(vectors: ArrayLike) -> Real:
+    """(..., 3, 3) with `cross_matrix(a) @ b = a x b`, of vectors (..., 3)."""
+    return np.cross(np.eye(3), np.asarray(vectors, float)[..., None, :])
+
+
+def complete_axes(first: ArrayLike, second: ArrayLike) -> Real:
+    """(3, 3), columns: unit vectors along two perpendicular axes of any length and the third by the
+    right-hand rule.
+    """
+    one, two = (np.asarray(axis) / np.linalg.norm(axis) for axis in (first, second))
+    return np.stack([one, two, np.cross(one, two)], axis=1)
+
+
+def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
+    """(3, 3), columns: axes turned by these angles (rad) about x, then y, then z: `Rz Ry Rx`."""
+
+    def turn(angle: float, axis: int) -> Real:
+        c, s = np.cos(angle), np.sin(angle)
+        return np.roll([[1, 0, 0], [0, c, -s], [0, s, c]], (axis, axis), (0, 1))
+
+    return turn(about_z, 2) @ turn(about_y, 1) @ turn(about_x, 0)
+
+
+def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
+    """(points, 3, 6): displacement of points of the body for a unit of each of its motions,
+    `[1, -(p - c) x]`. Transposed, it makes a load of forces at the points.
+    """
+    arms = np.atleast_2d(np.asarray(points, float)) - np.asarray(centre, float)
+    still = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
+    return np.concatenate([still, -cross_matrix(arms)], axis=-1)
+
+
+def load_at_centre(
+    force: Complex, moment: Complex, reference: ArrayLike, centre: ArrayLike
+) -> Complex:
+    """The load (..., 6) of a force (..., 3) through a reference point and a moment (..., 3) about
+    it: about the centre of gravity the moment is `M + (reference - centre) x F`.
+    """
+    arm = np.asarray(reference, float) - np.asarray(centre, float)
+    return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
+
+
+def find_screw(motion: Real, centre: ArrayLike) -> Screw:
+    """The line about which a small motion (6,) of a body turns it."""
+    shift, turn = motion[:3], motion[3:]
+    if np.linalg.norm(turn) <= _FREE * np.linalg.norm(shift):
+        return Screw(_direction(shift), None, 0.0)
+    square = float(turn @ turn)
+    point = np.asarray(centre, float) + np.cross(turn, shift) / square
+    return Screw(_direction(turn), point, float(turn @ shift) / square)
+
+
+def _direction(vector: Real) -> Real:
+    """The unit vector whose largest component is positive."""
+    largest = vector[np.argmax(np.abs(vector))]
+    return vector / np.copysign(np.linalg.norm(vector), largest)
+
+
+# ------------------------------------------------------------------ matrices
+def mass_matrix(body: Body) -> Real:
+    """(6, 6) about the centre of gravity: kg, kg m2."""
+    result = np.zeros((6, 6))
+    result[:3, :3] = body.mass * np.eye(3)
+    result[3:, 3:] = body.inertia
+    return result
+
+
+def stretch_mounts(body: Body, mounts: Mounts) -> Real:
+    """(mounts, 3, 6): travel of every mount along its own axes for a unit of each motion."""
+    return np.swapaxes(mounts.axes, 1, 2) @ carry_points(mounts.at, body.centre)
+
+
+def stiffness_matrix(body: Body, mounts: Mounts) -> Complex:
+    """(6, 6) about the centre of gravity, complex where mounts have loss."""
+    travel = stretch_mounts(body, mounts).reshape(-1, 6)
+    complex_stiffness = (mounts.stiffness * (1 + 1j * mounts.loss)).reshape(-1)
+    return np.asarray((travel.T * complex_stiffness) @ travel, complex)
+
+
+def damping_matrix(body: Body, mounts: Mounts) -> Real:
+    """(6, 6) about the centre of gravity, of the dashpots."""
+    travel = stretch_mounts(body, mounts).reshape(-1, 6)
+    return (travel.T * mounts.damping.reshape(-1)) @ travel
+
+
+# ------------------------------------------------------------------ properties
+def find_free_motions(body: Body, mounts: Mounts) -> Real:
+    """(count, 6): independent motions that no mount holds, each as simple as can be: displacements
+    first, then turns. Empty for a body that is held.
+    """
+    springs = np.sqrt(mounts.stiffness)[..., None] * stretch_mounts(body, mounts)
+    root = np.linalg.cholesky(mass_matrix(body))
+    held = np.linalg.solve(root, springs.reshape(-1, 6).T).T
+    _, values, rows = np.linalg.svd(np.concatenate([held, np.zeros((6, 6))]))
+    free = rows[values <= _FREE * max(values[0], np.finfo(float).tiny)]
+    motions = np.linalg.solve(root.T, free.T).T
+    turns, sizes, _ = np.linalg.svd(motions[:, 3:])
+    sizes = np.append(sizes, np.zeros(len(motions)))[: len(motions)]
+    return (turns.T @ motions)[np.argsort(sizes, kind="stable")]
+
+
+def find_body_modes(body: Body, mounts: Mounts) -> Modes:
+    """Six natural modes without damping, of a body that is held in every way; shapes (6, 6) about
+    the centre of gravity.
+    """
+    travel = stretch_mounts(body, mounts).reshape(-1, 6)
+    stiff = mounts.stiffness.reshape(-1) > 0
+    return find_modes(travel[stiff], mounts.stiffness.reshape(-1)[stiff], mass_matrix(body))
+
+
+def share_energy(modes: Modes, body: Body) -> Real:
+    """(modes, 6): share of each mode's kinetic energy in each motion, `x_i (M x)_i`; sums are 1.
+    Products of inertia may make some of them negative; what is rounding alone is 0.
+    """
+    shares = modes.shapes * (modes.shapes @ mass_matrix(body))
+    return np.where(np.abs(shares) < _NO_SHARE, 0.0, shares)
+
+
+def roll_axis(body: Body, crank: ArrayLike = (0.0, 0.0, 1.0)) -> Real:
+    """(3,) unit vector of the axis through the centre of gravity about which a torque about the
+    crankshaft turns a body that nothing holds.
+    """
+    axis = np.linalg.solve(body.inertia, np.asarray(crank, float))
+    return axis / np.linalg.norm(axis)
+
+
+def elastic_centre(stiffness: Real, centre: ArrayLike) -> ElasticCentre:
+    """Of a stiffness (6, 6) about the centre of gravity: the point about which the spring forces of
+    pure displacements have the least moments, in mean square over the directions of a unit force.
+
+    A displacement u takes the force `K_uu u` and the moment `K_ru u` = `N F`; a force at p has the
+    moment `p x F`, so that p is the antisymmetric part of N, and the rest is what no point mends.
+    """
+    moments = np.linalg.solve(stiffness[:3, :3].T, stiffness[3:, :3].T).T
+    skew, rest = (moments - moments.T) / 2, (moments + moments.T) / 2
+    arm = np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
+    offset = float(np.abs(np.linalg.eigvalsh(rest)).max())
+    return ElasticCentre(np.asarray(centre, float) + arm, offset)
+
+
+# ------------------------------------------------------------------ loads
+def settle_body(body: Body, mounts: Mounts, load: Real) -> Settled:
+    """Statics of a body that is held in every way, under a steady load (6,), without loss."""
+    travel = stretch_mounts(body, mounts)
+    springs = np.sqrt(mounts.stiffness)[..., None] * travel
+    stiffness = springs.reshape(-1, 6).T @ springs.reshape(-1, 6)
+    motion = np.linalg.solve(stiffness, load)
+    own = mounts.stiffness * (travel @ motion)
+    forces = (mounts.axes @ own[..., None])[..., 0]
+    return Settled(motion, forces, carry_points(mounts.at, body.centre) @ motion)
+
+
+def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
+    """Return the force on every mount along the engine's axes for a unit of each motion of the
+    body: of springs with their loss, and of dashpots, for a unit of each speed; (mounts, 3, 6).
+    """
+    travel = stretch_mounts(body, mounts)
+    springs = (mounts.stiffness * (1 + 1j * mounts.loss))[..., None] * travel
+    dashpots = mounts.damping[..., None] * travel
+    return np.asarray(mounts.axes @ springs, complex), mounts.axes @ dashpots
+
+
+def apply_couplings(couplings: Complex | Real, motion: Complex) -> Complex:
+    """Return the vectors (..., places, 3) of couplings (places, 3, 6) and a motion (..., 6)."""
+    found = motion @ couplings.reshape(-1, 6).T
+    return found.reshape(*motion.shape[:-1], -1, 3)
+
+
+AXES = ("x", "y", "z", "rx", "ry", "rz")
+ROLL = AXES.index("rz")  # the turn about the crankshaft's axis
+_ALONE = 0.8  # share of the energy with which a motion counts as one alone
+_PART = 0.15  # share with which it is named beside another
+_STEEP = 0.8  # cosine: an axis farther from the vertical is not up and down
+_EXACT = 1e-9  # of a direction: what is less is rounding
+
+
+def name_motions(up: Real) -> tuple[str, ...]:
+    """Return the names of the motions along x, y, z and about them.
+
+    Turns about z, the crankshaft's axis, are always roll. Where no axis is near the vertical, none
+    is up and down.
+
+    Args:
+        up: Vector against the weight, shape (3,).
+    """
+    upright = int(np.argmax(np.abs(up)))
+    steep = abs(up[upright]) >= _STEEP * np.linalg.norm(up)
+    if upright == 2 or not steep:
+        along = "up and down" if steep else "along z"
+        return "along x", "along y", along, "turn about x", "turn about y", "roll"
+    names = ["sideways", "sideways", "lengthways", "pitch", "pitch", "roll"]
+    names[upright], names[3 + upright] = "up and down", "yaw"
+    return tuple(names)
+
+
+def name_mode(shares: Real, names: tuple[str, ...]) -> str:
+    """Return a mode in words, by its largest motions, at most three.
+
+    Args:
+        shares: Shares of the energy, shape (6,).
+        names: As of `name_motions`.
+    """
+    falling = np.argsort(-shares, kind="stable")
+    if shares[falling[0]] >= _ALONE:
+        return names[falling[0]]
+    return join_words([names[k] for k in falling[:3] if shares[k] >= _PART])
+
+
+def describe_free_motion(motion: Real, centre: Real) -> str:
+    """Return a motion (6,) that nothing holds in words: a displacement, or a turn about a line."""
+    screw = find_screw(motion, centre)
+    direction = np.where(np.abs(screw.direction) < _EXACT, 0.0, screw.direction)
+    along = "({:.3g}, {:.3g}, {:.3g})".format(*direction)
+    if np.count_nonzero(direction) == 1:
+        along = AXES[int(np.argmax(np.abs(direction)))]
+    if screw.point is None:
+        return f"moving along {along}"
+    x, y, z = 1e3 * np.where(np.abs(screw.point) < _EXACT, 0.0, screw.point)
+    return f"turning about {along} through ({x:.4g}, {y:.4g}, {z:.4g}) mm"
+
+
+_FLATTEST = 0.05  # square of a side, of the largest, below which a block is not drawn
+# On the page x of the engine is up, z runs to the right, y to the left and towards the reader.
+PROJECTION = np.array([[0.0, -0.62, 0.86], [1.0, -0.34, -0.28]])
+
+
+def find_corners(body: Body) -> Real:
+    """(8, 3) m, about the centre of gravity; those whose numbers differ in one bit share an edge.
+
+    Sides lie along the engine's axes; products of inertia are left out.
+    """
+    moments = np.diagonal(body.inertia)
+    squares = 1.5 * (moments.sum() - 2 * moments) / body.mass
+    half = np.sqrt(np.maximum(squares, _FLATTEST * squares.max()))
+    return np.array(list(product((-1.0, 1.0), repeat=3))) * half

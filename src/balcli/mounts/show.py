@@ -1,0 +1,332 @@
+"""What a person reads of an engine on its mounts, and the same figures as JSON and CSV."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.records import to_document as document
+from ..core.vibration import Real
+from ..engine.figures import find_first_largest
+from ..show.csv import Rows, name_cell
+from ..show.engine_facts import list_silent
+from ..show.figures import clean, silent_entries
+from ..show.formats import Renderer
+from ..show.sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name
+from ..show.units import ShownUnit, System
+from .records import BodyResponse, MountForce, MountReport, PointMotion, WorstForce, WorstMotion
+
+__all__ = ["document", "rows", "sheet"]
+
+_HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
+_COLUMNS = 6  # of orders and speeds in a table of a page's width
+_ROWS = 9  # speeds of a table
+_NEAR = 0.05  # distance of a speed from that at which an order meets a mode
+_SAME = 0.005  # change of a force that is none
+_SHARE = 1e-3  # of the largest free load: less is not worth a line
+
+
+class Kind(NamedTuple):
+    """What a response has by place: the force of mounts, or the motion of points.
+
+    Attributes:
+        part, figure: "mount" and "force", or "point" and "motion".
+        key, peak: Attributes of records that hold them.
+        unit: Unit in which they are shown, of values in the unit of the records.
+    """
+
+    part: str
+    figure: str
+    key: str
+    peak: str
+    unit: ShownUnit
+
+    def places(self, response: BodyResponse) -> tuple[MountForce | PointMotion, ...]:
+        """Return the mounts or the points."""
+        return response.mounts if self.part == "mount" else response.points
+
+    def show(self, record: object, key: str) -> str:
+        """Return a figure of a record as a table shows it."""
+        return number(self.unit.of(getattr(record, key)), 4)
+
+    def tell_highest(self, response: BodyResponse) -> tuple[MountForce | PointMotion, float, str]:
+        """Return the place with the largest value, of equal ones the first, the value, and it in
+        words.
+        """
+        values = [getattr(place.worst, self.key) for place in self.places(response)]
+        row = int(find_first_largest(values))
+        place = self.places(response)[row]
+        shown, rpm = self.show(place.worst, self.key), number(place.worst.speed_rpm, 4)
+        return place, values[row], f"{shown} {self.unit.name} at {rpm} rpm"
+
+
+def list_kinds(system: System) -> tuple[Kind, Kind]:
+    """Return the forces of mounts and the motion of points."""
+    length = ShownUnit(system.length.name, 1e3 * system.length.size)  # of mm
+    return (
+        Kind("mount", "force", "force_N", "peak_N", system.force),
+        Kind("point", "motion", "motion_mm", "peak_mm", length),
+    )
+
+
+def sheet(result: MountReport, system: System) -> Sheet:
+    """Return what matters first: what the frame feels, then modes, rest and the range of speeds."""
+    parts: list[Grid | Facts | Text] = []
+    response, (force, motion) = result.response, list_kinds(system)
+    if response is not None:
+        told = tuple(_answer(result, response, force, motion))
+        parts += [Text("What the frame feels", told), _grid_worst(result, force)]
+        parts += [_grid_worst(result, motion)] if response.points else []
+    parts += [_grid_modes(result), _tell_body(result, motion), _grid_rest(result, system, motion)]
+    if response is not None:
+        if any(mode.meets for mode in result.modes):
+            parts += [_grid_meetings(result)]
+        parts += [_grid_speeds(result, response, force), _grid_passed(response, system)]
+    return Sheet(f"{result.name or NAMELESS}: on its mounts", tuple(parts))
+
+
+def _answer(
+    result: MountReport, response: BodyResponse, force: Kind, motion: Kind
+) -> Iterator[str]:
+    """Yield sentences: where force and motion are largest, why, and what a scheme changes."""
+    place, value, told = force.tell_highest(response)
+    if value:
+        worst = place.worst
+        yield (
+            f"The mount {place.name} feels most: {told}, of which order {order_name(worst.order)} "
+            f"alone makes {force.show(worst, 'order_force_N')} {force.unit.name}. "
+            f"{_explain(result, response, worst)}"
+        )
+    else:
+        yield "The mounts feel nothing of the orders that count."
+    if response.points:
+        place, _, told = motion.tell_highest(response)
+        yield f"The point {place.name} moves most: {told}."
+    if response.loads.fired:
+        silent = _tell_silent(response)
+        yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
+    else:
+        yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
+    if result.assumed_rpm is not None:
+        told = f"{number(result.assumed_rpm, 4)} rpm, which is assumed"
+        yield f"The file gives no speed: these are the largest up to {told}."
+    for other in result.beside:
+        yield f"With {other.name} {''.join(_compare(response, other.response, force, motion))}."
+
+
+def _compare(own: BodyResponse, other: BodyResponse, force: Kind, motion: Kind) -> Iterator[str]:
+    """Yield parts of a sentence: the largest values of another response, how much less they are
+    than the engine's own, and whether its gas and its cylinders differ.
+    """
+    for kind in (force, motion) if own.points else (force,):
+        (_, before, _), (place, after, told) = map(kind.tell_highest, (own, other))
+        change = after / (before or 1.0) - 1
+        size = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
+        less = f": {size if abs(change) >= _SAME else 'as much'}" if before else ""
+        where = "the largest force of any mount is"
+        if kind is motion:
+            where = f"; the point {place.name} moves most,"
+        yield f"{where} {told}{less}"
+    if other.loads.fired != own.loads.fired:
+        yield ", its gas included" if other.loads.fired else ", of inertia alone"
+    if (silent := _tell_silent(other)) != _tell_silent(own):
+        yield silent
+
+
+def _tell_silent(response: BodyResponse) -> str:
+    """Return the cylinders that do not fire in words, each kind after a semicolon."""
+    silent = list_silent(response.loads.silent)
+    return "".join(f"; {what} {numbers}" for what, numbers in silent)
+
+
+def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | WorstMotion) -> str:
+    """Return the reason why a value is largest at its speed."""
+    speeds, hertz = response.speeds_rpm, worst.order * worst.speed_rpm / 60
+    mode = result.modes[worst.mode]
+    named = f"mode {worst.mode + 1} ({mode.motion}, {number(mode.frequency_Hz, 3)} Hz)"
+    if abs(mode.frequency_Hz / hertz - 1) <= _NEAR:
+        return f"There it meets {named}: resonance."
+    for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
+        if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
+            return f"That is the {end} speed of the range; most of the force is {named}."
+    return f"Most of it is {named}, which is not near the {number(hertz, 3)} Hz of that order."
+
+
+def _grid_worst(result: MountReport, kind: Kind) -> Grid:
+    """Return a row for each mount or point: its largest value, then those of other responses."""
+    heads = [kind.part, "all orders", "at, rpm", "largest order", "alone"]
+    for other in result.beside:
+        heads += [f"with {other.name}", "at, rpm"]
+    rows = []
+    for first, *others in zip(*map(kind.places, result.responses), strict=True):
+        cells = [first.name]
+        for worst in (each.worst for each in (first, *others)):
+            cells += [kind.show(worst, kind.key), number(worst.speed_rpm, 4)]
+        own = [order_name(first.worst.order), kind.show(first.worst, f"order_{kind.key}")]
+        rows.append((*cells[:3], *own, *cells[3:]))
+    note = (
+        "The largest value over the cycle, orders added up in time; over all speeds of the range."
+    )
+    title = f"Largest {kind.figure} of each {kind.part}, {kind.unit.name}"
+    return Grid(title, tuple(heads), tuple(rows), note)
+
+
+def _grid_modes(result: MountReport) -> Grid:
+    damped = any(mode.loss_factor for mode in result.modes)
+    heads = ["mode", "Hz", "motion", *(f"{axis} %" for axis in result.modes[0].energy_percent)]
+    rows = []
+    for k, mode in enumerate(result.modes, 1):
+        shares = (f"{round(share, 1) + 0.0:.1f}" for share in mode.energy_percent.values())
+        damping = [f"{50 * mode.loss_factor:.1f}"] if damped else []
+        rows.append((str(k), number(mode.frequency_Hz, 4), mode.motion, *shares, *damping))
+    note = (
+        "Shares of the kinetic energy in moving along x, y, z and turning about them; products of "
+        "inertia may make one negative. Without damping, dynamic stiffness."
+    )
+    heads += ["damping %"] if damped else []
+    return Grid("Natural modes", tuple(heads), tuple(rows), note, words=(0, 2))
+
+
+def _tell_body(result: MountReport, motion: Kind) -> Facts:
+    angle = math.degrees(math.acos(min(1.0, abs(result.roll_axis[2]))))
+    point = np.round(result.elastic_centre_mm, 6) / motion.unit.size + 0.0
+    place, along = (
+        ", ".join(number(float(value), 4) for value in vector)
+        for vector in (point, np.round(result.roll_axis, 9) + 0.0)
+    )
+    rolls = f"({along}) through the centre of gravity, {degrees(angle)} deg from z"
+    centre = f"({place}) {motion.unit.name}"
+    return Facts((("torque roll axis", rolls), ("elastic centre", centre)), "The body")
+
+
+def _grid_rest(result: MountReport, system: System, motion: Kind) -> Grid:
+    heads = ["mount", *(f"{axis}, {system.force.name}" for axis in "xyz")]
+    heads += [f"travel {axis}, {motion.unit.name}" for axis in "xyz"]
+    mounts = result.static.mounts
+    force = _wipe([mount.force_N for mount in mounts]) / system.force.size
+    travel = _wipe([mount.travel_mm for mount in mounts]) / motion.unit.size
+    rows = [
+        (name, *(number(v, 4) for v in force[k]), *(number(v, 3) for v in travel[k]))
+        for k, name in enumerate(mount.name for mount in mounts)
+    ]
+    mean = abs(result.response.loads.mean) if result.response else 0.0
+    moment = f"load's mean torque of {number(system.moment.of(mean), 4)} {system.moment.name}"
+    leaning = within = ""
+    if mean and result.mounted.carries_load:
+        within = f" The {moment} acts within the body."
+    elif mean:
+        leaning = f" and the reaction to the {moment}"
+    note = f"Of the body on its mounts, under its weight{leaning}; static stiffness.{within}"
+    return Grid("At rest", tuple(heads), tuple(rows), note)
+
+
+def _wipe(values: Sequence[Real]) -> Real:
+    """Return values as an array; those that are rounding next to the largest are 0."""
+    size = np.abs(values)
+    return np.where(size > 1e-12 * size.max(), values, 0.0)
+
+
+def _grid_meetings(result: MountReport) -> Grid:
+    met = [{one.order: one.speed_rpm for one in mode.meets} for mode in result.modes]
+    every = sorted({order for each in met for order in each})
+    orders, left = every[:_COLUMNS], len(every[_COLUMNS:])
+    heads = ("mode", "Hz", *(f"order {order_name(order)}" for order in orders))
+    rows = []
+    for k, (mode, rpm) in enumerate(zip(result.modes, met, strict=True), 1):
+        cells = (number(rpm[order], 4) if order in rpm else "–" for order in orders)
+        rows.append((str(k), number(mode.frequency_Hz, 4), *cells))
+    note = f"JSON has {left} order{'s' * (left > 1)} more." if left else ""
+    return Grid("Where orders meet modes, rpm", heads, tuple(rows), note)
+
+
+def _pick(count: int, most: int) -> list[int]:
+    """Return at most so many of a range, evenly, both ends included."""
+    return sorted({round(k * (count - 1) / (most - 1)) for k in range(most)})
+
+
+def _grid_speeds(result: MountReport, response: BodyResponse, force: Kind) -> Grid:
+    names, rpm = [mount.name for mount in response.mounts], response.speeds_rpm
+    heads = ["rpm", *names]
+    heads += [f"{name}, {other.name}" for other in result.beside for name in names]
+    peaks = [mount.peak_N for each in result.responses for mount in each.mounts]
+    rows = [
+        (number(rpm[s], 4), *(number(force.unit.of(peak[s]), 4) for peak in peaks))
+        for s in _pick(len(rpm), _ROWS)
+    ]
+    title = f"Force of each mount by speed, all orders together, {force.unit.name}"
+    return Grid(title, tuple(heads), tuple(rows))
+
+
+def _grid_passed(response: BodyResponse, system: System) -> Grid:
+    rpm = response.speeds_rpm
+    speeds = _pick(len(rpm), _COLUMNS - 1)
+    heads = ["order", "load", f"rigid, {number(float(rpm[-1]), 4)} rpm"]
+    heads += [f"{number(rpm[s], 4)} rpm" for s in speeds]
+    loads = [(each, key, load) for each in response.passed for key, load in each.rigid.items()]
+    rows = []
+    for passed, key, load in loads:
+        kind, axis, _ = key.split("_")
+        unit = system.force if kind == "force" else system.moment
+        if load[-1] > _SHARE * max(each[-1] for _, other, each in loads if kind in other):
+            name = "roll z" if key == "moment_z_Nm" else f"{kind} {axis}"
+            through = passed.on_mounts.get(key, np.zeros(len(rpm)))
+            size = f"{number(unit.of(load[-1]), 4)} {unit.name}"
+            shares = (f"{through[s] / load[s]:.1%}" for s in speeds)
+            rows.append((order_name(passed.order), name, size, *shares))
+    note = (
+        "What the mounts pass on, as a share of what the same engine would put on a frame in which "
+        "it stood rigidly; moments about the centre of gravity."
+    )
+    return Grid("Passed on to the frame", tuple(heads), tuple(rows), note, words=(0, 1))
+
+
+# ------------------------------------------------------------------ CSV
+def rows(result: MountReport, system: System) -> Rows:
+    """Return a figure a line."""
+    return Rows(_HEADER, _list_lines(result, system))
+
+
+def _list_lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]]:
+    force, motion = list_kinds(system)
+    for k, mode in enumerate(result.modes, 1):
+        head = ("mode", f"mode {k}", None, None)
+        yield *head, "frequency", clean(mode.frequency_Hz), "Hz"
+        yield *head, "motion", mode.motion, ""
+        for axis, share in mode.energy_percent.items():
+            yield *head, f"energy {axis}", clean(share), "%"
+    for k, mode in enumerate(result.modes, 1):
+        for one in mode.meets:
+            yield "meeting", f"mode {k}", one.order, one.speed_rpm, "speed", one.speed_rpm, "rpm"
+    for mount in result.static.mounts:
+        head = ("static", name_cell(mount.name), None, None)
+        for axis, own, travel in zip("xyz", mount.force_N, mount.travel_mm, strict=True):
+            yield *head, f"force {axis}", clean(force.unit.of(own)), force.unit.name
+            yield *head, f"travel {axis}", clean(motion.unit.of(travel)), motion.unit.name
+    labels = [] if result.response is None else [""]
+    labels += [] if result.fitted is None else ["with scheme "]
+    labels += [f"{name_cell(other.name)}: " for other in result.others or ()]
+    for label, response in zip(labels, result.responses, strict=True):
+        for key, numbers in silent_entries(response.loads.silent).items():
+            yield f"{label}engine", "", None, None, key, " ".join(map(str, numbers)), ""
+        for kind in (force, motion):
+            yield from _list_curves(response, kind, label)
+
+
+def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[Any, ...]]:
+    """Yield every mount, or point, by speed and order."""
+    figure, unit = kind.figure, kind.unit
+    for place in kind.places(response):
+        head = (f"{label}{kind.part}", name_cell(place.name))
+        curves = [
+            *((each.order, figure, getattr(each, kind.key)) for each in place.orders),
+            (None, f"peak {figure}", getattr(place, kind.peak)),
+        ]
+        for s, rpm in enumerate(response.speeds_rpm):
+            for order, name, curve in curves:
+                yield *head, order, clean(rpm), name, clean(unit.of(curve[s])), unit.name
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -1,0 +1,198 @@
+"""`balcli report`
+
+`balcli plot`
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import BalcliError, warn
+from ..file.toml import name_file
+from ..shell import scheme_options
+from ..shell.file_names import choose_target, format_of, parse_output, picture_form
+from ..shell.options import (
+    EnginePath,
+    Orders,
+    Speed,
+    Target,
+    UnitsOption,
+    parse_orders,
+    parse_speed,
+)
+from ..shell.output import emit, refuse_overwriting
+from ..shell.progress import reporting
+from ..shell.scheme_options import choose_scheme, parse_scheme_options
+from ..shell.values import optional
+from ..show.formats import Units
+from ..show.units import SYSTEMS
+from .names import OF_TORSION, PAGES, check_page
+
+if TYPE_CHECKING:
+    from ..engine.build import Engine
+    from ..file.model import EngineFile
+    from ..mounts.records import MountReport
+    from ..sizing.options import SchemeOptions
+    from ..torsion.answer import TorsionAnalysis
+
+
+Page = Annotated[
+    Path | None,
+    optional("OUT.html", "Write the page here; - is standard output.", "--output", "-o"),
+]
+
+
+def report(
+    path: EnginePath,
+    target: Target = None,
+    output: Page = None,
+    scheme: scheme_options.Scheme = None,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
+    speed: Speed = None,
+    orders: Orders = None,
+    units: UnitsOption = Units.SI,
+) -> None:
+    """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme
+    before and after.
+
+    \b
+    Example:
+      balcli report v8.toml v8.html
+    """
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
+    output = parse_output(choose_target(target, output, "X.html"))
+    format_of(output, None, {".html": "html", ".htm": "html"}, "html")
+    from ..analysis.answer import analyze
+    from ..balancing.answer import balance_engine as balance
+    from ..shell.inputs import read_engine
+    from .page import page
+
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    scheme = choose_scheme(scheme, options)
+    asked = parse_orders(orders)
+    _, model, engine = read_engine(path, parse_speed(speed))
+    result = analyze(engine, asked)
+    balanced = balance(engine, scheme, options, asked)
+    mounted = None
+    if model.body:
+        fitted = scheme if balanced.remedy.reasons else None  # without devices nothing is compared
+        mounted = _put_on_mounts(model, engine, fitted, options, name_file(path))
+    twisted = _twist(model, engine, name_file(path)) if model.torsion else None
+    turning = None if engine.gas is None else engine
+    with reporting("pictures") as tell:
+        text = page(result, balanced, SYSTEMS[units], mounted, twisted, turning, tell)
+    emit(text, output)
+
+
+def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
+    """How its crankshaft twists; None, with a warning, where that cannot be told."""
+    from ..torsion.answer import TorsionQuestion, answer_question
+    from ..torsion.load import make_source
+    from ..torsion.quantity import choose_torsion_speeds
+
+    try:
+        source = make_source(model, engine, name)
+        return answer_question(source, TorsionQuestion(choose_torsion_speeds(engine)))
+    except BalcliError as error:
+        warn(f"the page does not show the torsion: {error}")
+        return None
+
+
+def _put_on_mounts(
+    model: EngineFile, engine: Engine, scheme: str | None, options: SchemeOptions, name: str
+) -> MountReport | None:
+    """What the body does on its mounts; None, with a warning, where that cannot be told."""
+    from ..mounts.answer import report_mounts
+
+    try:
+        return report_mounts(model, engine, scheme=scheme, name=name, options=options)
+    except BalcliError as error:
+        warn(f"the page does not show the mounts: {error}")
+        return None
+
+
+def complete_pages(typed: str) -> list[str]:
+    """Return page names after the last comma of what was typed."""
+    before, comma, _ = typed.rpartition(",")
+    return [f"{before}{comma}{page}" for page in PAGES]
+
+
+Picture = Annotated[
+    Path | None, optional("OUT", "Write here; .svg, .png or .pdf.", "--output", "-o")
+]
+Pages = Annotated[
+    str,
+    typer.Option(
+        "--what",
+        metavar="PAGE,...",
+        autocompletion=complete_pages,
+        help="overview: locus of the force, or of the moment where no force is left, and spectrum; "
+        "polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
+        "crank angle; all: loci, bars and curves on one page; "
+        "factor: over the balance factor; bank: the force of a vee over its bank angle; inner: "
+        "along the crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and "
+        "main (polar diagrams of bearing loads); modes, campbell, response, waterfall: of its "
+        "torsion. Several: pages of one PDF, or a file each (v8-pin.svg).",
+    ),
+]
+
+
+def plot(
+    path: EnginePath,
+    target: Target = None,
+    output: Picture = None,
+    what: Pages = "overview",
+    scheme: scheme_options.Scheme = None,
+    order: scheme_options.Order = None,
+    at: scheme_options.At = None,
+    position: scheme_options.Position = None,
+    planes: scheme_options.Planes = None,
+    factor: scheme_options.Factor = None,
+    measured: scheme_options.Measured = None,
+    roll: scheme_options.Roll = None,
+    speed: Speed = None,
+    orders: Orders = None,
+    speeds: Annotated[
+        str | None,
+        optional(
+            "A:B:STEP", "Of torsion, rpm; default: half to one and a half times the file's speed."
+        ),
+    ] = None,
+    units: UnitsOption = Units.SI,
+) -> None:
+    """Draw free forces and moments: the locus over a revolution and the spectrum of orders, or
+    other pages (--what).
+
+    \b
+    Example:
+      balcli plot v8.toml v8.svg
+    """
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
+    output = choose_target(target, output, "X.svg")
+    form, pages = picture_form(output), parse_pages(what)
+    files = [output]  # of one page, and of a PDF
+    if len(pages) > 1 and form != "pdf":
+        files = [output.with_stem(f"{output.stem}-{page}") for page in pages]
+    readings = len({page in OF_TORSION for page in pages})
+    writes = dict(zip(map("--what {}".format, pages), files, strict=False))
+    refuse_overwriting(reads=[path] * readings, writes=writes)
+    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    from .plot import Asked, make_figures, write_pages
+
+    asked = Asked(speed, orders, speeds, scheme, options, units)
+    write_pages(make_figures(path, pages, asked), files, form)
+
+
+def parse_pages(text: str) -> tuple[str, ...]:
+    """Return the pages of `--what`, each once; raise BalcliError if there is no such page."""
+    words = dict.fromkeys(word.strip().lower() for word in text.split(",") if word.strip())
+    return tuple(check_page(word) for word in words or ("",))

@@ -1,0 +1,356 @@
+"""A page of its own: what the engine is and does, drawn, in tables, and in motion. Nothing in it is
+loaded from elsewhere.
+
+What the page needs to turn the mechanism and its vectors: plain figures in mm, deg and the
+reader's units, ready for JSON.
+
+What the page needs to rock the body on its mounts: plain figures in mm and rad.
+
+What the page needs to run torque and pressure with the crank, in the reader's units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..analysis import show as analysis
+from ..analysis.answer import Analysis
+from ..balancing import show as balance
+from ..balancing.answer import Balance
+from ..core.cylinders import Device, DeviceKind
+from ..core.mechanisms.linkage import Articulated, Rotary
+from ..core.phasors import Array, Phasors
+from ..engine.build import Engine
+from ..forces.gas_torque import find_torque_curves
+from ..forces.kinds import MOMENT, VECTORS
+from ..forces.spectrum import take_gas
+from ..mounts.records import MountReport
+from ..mounts.rigid_body import PROJECTION, find_corners
+from ..process import Tell, tell_nobody
+from ..show.figures import clean
+from ..show.plot_style import inline_svg, save_figure
+from ..show.sheet import NEGLIGIBLE, ON_A_PAGE, Facts, Grid, Text, order_number
+from ..show.units import ShownUnit, System
+from ..version import __version__
+from .names import OF_TORSION
+from .pages import PageSubject, draw_panel
+from .study import Study
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+    from ..torsion.answer import TorsionAnalysis
+
+
+_SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
+ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to be drawn
+
+
+def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, Any]:
+    """The mechanism, and what shakes as the engine is and with devices fitted."""
+    engine = now.engine
+    stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
+    bore = bore or ASSUMED_BORE * stroke
+    shown = {"as in the file": now} | ({} if after is None else {"with the devices fitted": after})
+    return {
+        "stroke": stroke,
+        "bore": bore,
+        "rotary": isinstance(engine.cylinders.linkage, Rotary),
+        "cylinders": _cylinder_entries(engine),
+        "variants": [_variant_entry(name, each, system, bore) for name, each in shown.items()],
+        "units": {
+            kind.name: {
+                "name": (unit := system.unit(kind)).name,
+                "thousand": f"k{unit.name}" if unit.size == 1 else "",
+                "least": unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),  # that counts
+            }
+            for kind in VECTORS
+        },
+        "orders": [
+            order_number(n) for n in now.orders if any(_shakes(each, n) for each in shown.values())
+        ],
+    }
+
+
+def _cylinder_entries(engine: Engine) -> list[dict[str, Any]]:
+    """One entry a cylinder, mm and degrees: axis, its own crank angle at crank angle 0, rod,
+    offset, place; knuckle pin and master's row.
+    """
+    c, linkage = engine.cylinders, engine.cylinders.linkage
+    rods = linkage.hung if isinstance(linkage, Rotary) else linkage
+    columns = {
+        "number": engine.numbers,
+        "axis": c.axis_of_each_deg,
+        "phase": c.angle_deg,
+        "z": c.z * 1e3,
+        "rod": np.broadcast_to(np.ravel(c.radius / c.lam) * 1e3, c.count),
+        "offset": np.broadcast_to(np.ravel(c.offset) * 1e3, c.count),
+    }
+    lists = [np.asarray(column).tolist() for column in columns.values()]
+    found = [dict(zip(columns, values, strict=True)) for values in zip(*lists, strict=True)]
+    if isinstance(rods, Articulated):
+        pins = np.ravel(rods.knuckle) * float(c.radius) * 1e3
+        for row, entry in enumerate(found):
+            if rods.master[row] != row:
+                entry |= {
+                    "master": int(rods.master[row]),
+                    "knuckle": [float(pins[row].real), float(pins[row].imag)],
+                    "lead": float(rods.lead_deg[row]),
+                }
+    return found
+
+
+def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> dict[str, Any]:
+    drawn = place_beside(result.engine, bore / 1e3)
+    devices = enumerate(result.engine.devices)
+    entry: dict[str, Any] = {"force": [], "moment": []} | {
+        kind.name: _vector_rows(phasors, system.unit(kind))
+        for kind, phasors in result.spectra.vectors()
+        if result.moments_known or kind is not MOMENT
+    }
+    entry["devices"] = [_device_entry(device, drawn.get(row)) for row, device in devices]
+    return {"label": label, **entry}
+
+
+def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
+    """Return a row an order: the order, forward x and y, backward x and y."""
+    forward, backward = phasors.forward / unit.size, phasors.backward / unit.size
+    parts = (phasors.orders, forward.real, forward.imag, backward.real, backward.imag)
+    rows: list[list[float]] = (np.stack(parts, axis=-1) + 0.0).tolist()
+    return rows
+
+
+def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
+    """Where to draw the shafts that stand within the circle of the crank pins, where none can be:
+    beside the engine, those that turn with the crank on the right, the others on the left; x + iy
+    (m) by rows of the devices.
+
+    Args:
+        bore: m.
+    """
+    c = engine.cylinders
+    r = float(c.radius)
+    across, reach = np.sin(np.radians(c.axis_of_each_deg)), r + r / c.lam + bore
+    width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
+    found: dict[int, complex] = {}
+    rows: dict[tuple[int, bool], int] = {}  # of each shaft on its side of the engine
+    for k, device in enumerate(engine.devices):
+        if device.kind is not DeviceKind.SHAFT or abs(complex(device.place)) >= r:
+            continue
+        ahead = bool(device.forward)
+        side = rows.setdefault((device.order, ahead), sum(way == ahead for _, way in rows))
+        found[k] = complex(-_SHAFT_WIDTH * r * side, (1 if ahead else -1) * (width + r))
+    return found
+
+
+def _device_entry(device: Device, drawn: complex | None) -> dict[str, Any]:
+    """A device for the page: unbalance in g mm, places in mm; `drawn`: where it is shown instead of
+    its place.
+    """
+    forward, backward = complex(device.forward), complex(device.backward)
+    place = complex(device.place) if drawn is None else drawn
+    return {
+        "order": order_number(device.order),
+        "forward": [forward.real * 1e6, forward.imag * 1e6],
+        "backward": [backward.real * 1e6, backward.imag * 1e6],
+        "at": [place.real * 1e3, place.imag * 1e3],
+        "z": float(device.z) * 1e3,
+        "beside": drawn is not None,
+    }
+
+
+def _shakes(result: Analysis, order: float) -> bool:
+    vectors = (phasors for _, phasors in result.spectra.vectors())
+    return any(np.any((p.orders == order) & ~p.balanced) for p in vectors)
+
+
+FOLDER = Path(__file__).with_name("assets")
+_PICTURES = (
+    ("polar", "force"),
+    ("polar", "moment"),
+    ("spectrum", "force"),
+    ("spectrum", "moment"),
+    ("curves", "force"),
+    ("curves", "moment"),
+    ("spectrum", "about"),
+    ("curves", "about"),
+)
+_COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"))
+
+
+def page(
+    result: Analysis,
+    balanced: Balance,
+    system: System,
+    mounted: MountReport | None = None,
+    twisted: TorsionAnalysis | None = None,
+    turning: Engine | None = None,
+    tell: Tell = tell_nobody,
+) -> str:
+    """The report of an engine, of a remedy for it, of what it does on its mounts, of how its
+    crankshaft twists, and of what its gas does. Whatever comes from the engine file is escaped.
+    `tell` is told which share of the pictures of forces and moments is drawn.
+    """
+    from markupsafe import Markup
+
+    own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
+    told = ("force", "about", *(["moment"] if result.moments_known else []))
+    fitted = bool(balanced.remedy.reasons)
+    compared = _COMPARED if fitted else ()
+    now = PageSubject(Study(result), system)
+    after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
+    alone = _choose_panels(now, _PICTURES, told)
+    beside = _choose_panels(after, compared, told)
+    pictures = []
+    for panel in (*alone, *beside):
+        pictures.append(Markup(draw_panel(*panel)))
+        tell(len(pictures) / (len(alone) + len(beside)))
+    return _template().render(
+        title=own.title,
+        version=__version__,
+        facts=own.parts[0],
+        verdict=next((part for part in own.parts if part.title == "Verdict"), None),
+        figures=[part for part in own.parts[1:] if part.title != "Verdict"],
+        remedy=remedy.parts,
+        fitted=fitted,
+        scene=scene(result, balanced.after if fitted else None, system),
+        pictures=pictures[: len(alone)],
+        compared=pictures[len(alone) :],
+        style=_read("report.css"),
+        script=_read("report.js"),
+        **_gather_chapters(mounted, twisted, turning, system),
+    )
+
+
+def _gather_chapters(
+    mounted: MountReport | None,
+    twisted: TorsionAnalysis | None,
+    turning: Engine | None,
+    system: System,
+) -> dict[str, Any]:
+    """What the template takes of mounts, torsion and gas; None of a chapter that is not there."""
+    from markupsafe import Markup
+
+    chapters: dict[str, Any] = {"mounts": None, "torsion": None, "running": None}
+    if turning is not None:
+        chapters |= {
+            "running": running(turning, system),
+            "running_script": _read("running.js"),
+        }
+    if mounted is not None:
+        from ..mounts import show as mounts  # for files that have mounts
+
+        chapters |= {
+            "mounts": mounts.sheet(mounted, system),
+            "rocking": rocking(mounted),
+            "rocking_script": _read("rocking.js"),
+        }
+    if twisted is not None:
+        from ..torsion import show as torsion  # for files that have it
+        from ..torsion.plot import make_torsion
+
+        chapters |= {"torsion": torsion.sheet(twisted, system), "twists": []}
+        for what in OF_TORSION:
+            figure = make_torsion(twisted, what, system, titled=False)
+            svg = inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
+            chapters["twists"].append(Markup(svg))
+    return chapters
+
+
+def _read(name: str) -> Markup:
+    """A script or style of the page, as it is."""
+    from markupsafe import Markup
+
+    return Markup((FOLDER / name).read_text(encoding="utf-8"))
+
+
+def _choose_panels(
+    subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
+) -> list[tuple[PageSubject, str, str]]:
+    """Those of the quantities that are told; of one without a picture the first, which says so."""
+    chosen: list[tuple[PageSubject, str, str]] = []
+    for what, quantity in panels:
+        is_first = all(quantity != other for _, _, other in chosen)
+        if quantity in told and (is_first or not subject.find_words(quantity)):
+            chosen.append((subject, what, quantity))
+    return chosen
+
+
+def kind(part: Grid | Facts | Text) -> str:
+    """Which macro of the template shows a part."""
+    return type(part).__name__.lower()
+
+
+def _template() -> Any:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(FOLDER),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
+    environment.filters["kind"] = kind
+    return environment.get_template("report.html")
+
+
+_SPEEDS = 48  # of the range, that the page has
+
+
+def rocking(result: MountReport) -> dict[str, Any] | None:
+    """The block and its mounts about the centre of gravity, and its motion by speed and order: six
+    cosines, then six sines (mm, rad). None where no engine runs.
+    """
+    response = result.response
+    if response is None:
+        return None
+    body = result.mounted.body
+    count = len(response.speeds_rpm)
+    rows = np.linspace(0, count - 1, min(count, _SPEEDS)).round().astype(int)
+    motion = np.moveaxis(response.body[:, rows], 1, 0) * np.repeat([1e3, 1.0], 3)
+    parts = np.concatenate([motion.real, -motion.imag], axis=-1)
+    return {
+        "projection": PROJECTION.tolist(),
+        "corners": (1e3 * find_corners(body)).round(3).tolist(),
+        "mounts": (1e3 * (result.mounted.dynamic.at - body.centre)).round(3).tolist(),
+        "speeds": [float(f"{rpm:.5g}") for rpm in response.speeds_rpm[rows]],
+        "orders": [passed.order for passed in response.passed],
+        "motion": [[[float(f"{v:.5g}") for v in order] for order in speed] for speed in parts],
+    }
+
+
+_STEP = 2.0  # deg
+
+
+def running(engine: Engine, system: System) -> dict[str, Any]:
+    """Return curves over one cycle at even crank angles, each with its name and unit."""
+    gas, curves = take_gas(engine), find_torque_curves(replace(engine, ripple=()))
+    at = np.radians(np.arange(0.0, gas.cycle_deg + _STEP / 2, _STEP))
+    total = curves.total.at(at)
+    unit = system.moment.fit(float(np.abs(total).max()))
+    shown: list[dict[str, Any]] = [
+        {
+            "id": "torque",
+            "unit": unit.name,
+            "total": _rounded(total / unit.size),
+            "gas": _rounded(curves.gas.at(at) / unit.size),
+            "mean": float(f"{curves.total.mean / unit.size:.5g}"),
+        }
+    ]
+    first = gas.cylinders[engine.numbers.index(1)]
+    if first.torque.pressure is not None:
+        own = first.find_pressure(at - first.fires)
+        unit = system.pressure.fit(float(own.max()))
+        shown.append({"id": "pressure", "unit": unit.name, "total": _rounded(own / unit.size)})
+    return {"cycle": gas.cycle_deg, "step": _STEP, "curves": shown}
+
+
+def _rounded(values: Array) -> list[float]:
+    return [float(f"{v:.5g}") for v in values.tolist()]

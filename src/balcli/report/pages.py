@@ -1,0 +1,370 @@
+"""The pages of an engine: which pictures each one has, and where they stand.
+
+A force or moment that is balanced, negligible or unknown has no picture; a line below the page says
+so.
+
+Pictures of a vee over its bank angle: the path of the force's tip, and its two vectors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..analysis.answer import Analysis
+from ..analysis.plot import (
+    draw_along,
+    draw_curves,
+    draw_factors,
+    draw_scalar_bars,
+    draw_vector_bars,
+    visible_rows,
+)
+from ..balancing.bobweight_page import percent
+from ..core.phasors import Array, Phasors
+from ..forces.crankshaft import AlongCrank
+from ..forces.kinds import EVERY_KIND, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
+from ..show.engine_facts import tell_pivot
+from ..show.plane import FINE, draw_locus, draw_order, set_up_plane
+from ..show.plot_style import (
+    BLUE,
+    INK,
+    RED,
+    fit_name,
+    inline_svg,
+    open_figure,
+    put_legend_above,
+    put_title,
+    save_figure,
+)
+from ..show.sheet import NAMELESS, NEGLIGIBLE, size_text, small_text
+from ..show.units import SI, ShownUnit, System
+from ..torque.plot import (
+    MainLoads,
+    PinLoads,
+    Pressures,
+    Torques,
+    draw_main,
+    draw_p_v,
+    draw_pin,
+    draw_pressure,
+    draw_torque,
+)
+from .study import Banks, Study
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+_BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
+
+
+def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
+    """Draw the path of the force's tip for several bank angles."""
+    from matplotlib import colormaps
+
+    shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in _BANKS_DEG]
+    s = unit.fit(float(banks.force.major.max(initial=0)))
+    ahead, against = banks.force.forward[0, shown], banks.force.backward[0, shown]
+    turn = np.exp(1j * FINE)
+    paths = (ahead[:, None] * turn + against[:, None] / turn) / s.size
+    set_up_plane(ax, float(np.abs(paths).max()), "force", s.name)
+    for path, angle, shade in zip(paths, _BANKS_DEG, np.linspace(0, 0.9, 7), strict=True):
+        colour = colormaps["viridis"](shade)
+        ax.plot(
+            path.imag, path.real, "o-", color=colour, markevery=360, markersize=3, label=f"{angle}°"
+        )
+    ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle")
+    put_legend_above(ax, len(_BANKS_DEG))
+
+
+def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
+    """Draw the sizes of both rotating vectors as radii in the directions of the two banks, whose
+    angle is varied.
+    """
+    ahead, against = np.abs(banks.force.forward[0]), np.abs(banks.force.backward[0])
+    largest = float(max(ahead.max(), against.max()))
+    s = unit.fit(largest)
+    ax.set_theta_zero_location("N")
+    ax.set_theta_direction(-1)
+    half = np.radians(banks.angles_deg) / 2
+    for size, colour, style, label in (
+        (ahead, BLUE, "-", "with the crank"),
+        (against, RED, (0, (5, 1.5)), "against it"),
+    ):
+        both = np.concatenate([size[::-1], size]) / s.size
+        angles = np.concatenate([-half[::-1], half])
+        ax.plot(angles, both, color=colour, linestyle=style, label=label)
+    if banks.own_deg <= 180:
+        for side in (-0.5, 0.5):
+            ax.axvline(np.radians(side * banks.own_deg), color=INK, linewidth=0.9, linestyle=":")
+    marks = np.arange(-90, 91, 30)
+    ax.set_thetagrids(marks, [f"{abs(2 * mark):g}°" for mark in marks])
+    ax.set(thetamin=-90, thetamax=90, rmax=1.08 * largest / s.size or 1)
+    ax.set_title(f"Its two vectors by bank angle, {s.name} (dotted: this engine)", pad=6)
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.02), ncols=2)
+
+
+_VECTORS = tuple(kind.name for kind in VECTORS)
+ABOUT = "about"  # couple, torque and roll about the crank, in one picture
+PICTURED = (*_VECTORS, ABOUT)
+_TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the crank"}
+
+
+@dataclass(frozen=True)
+class PageSubject:
+    """The engine of a page, and the units in which it is drawn."""
+
+    study: Study
+    system: System = SI
+
+    @property
+    def now(self) -> Analysis:
+        """The engine, with the devices of the scheme if there is one."""
+        return self.study.now
+
+    def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
+        """Return a force, a moment or the roll now, and before the devices were fitted."""
+        name = ROLL.name if quantity == ABOUT else quantity
+        before = self.study.before
+        return self.now.spectra[name], None if before is None else before.spectra[name]
+
+    def unit(self, quantity: str) -> ShownUnit:
+        """Return the unit in which a quantity is drawn."""
+        return self.system.moment if quantity == ABOUT else self.system.unit(KINDS[quantity])
+
+    def list_scalars(self, *, with_gas: bool) -> dict[str, Phasors]:
+        """Return the moments about the crank by label, the roll last."""
+        kinds = SCALARS
+        if with_gas and self.now.spectra.gas is not None:
+            kinds = (TORQUE, GAS, ROLL_TOTAL)
+        return {EVERY_KIND[kind.name].label: self.now.spectra[kind.name] for kind in kinds}
+
+    def find_words(self, quantity: str) -> str:
+        """Return a word for a quantity without a picture, which is unknown, balanced or negligible;
+        empty if there is a picture.
+        """
+        if quantity == "moment" and not self.now.moments_known:
+            return "not known: crank.spacing is missing"
+        curves: Sequence[Phasors | None] = self.phasors(quantity)
+        if quantity == ABOUT:
+            curves = list(self.list_scalars(with_gas=True).values())
+        there = [curve for curve in curves if curve is not None]
+        largest = float(max(np.abs(c.values(_divide_cycle(c))).max(initial=0) for c in there))
+        kind = ROLL.name if quantity == ABOUT else quantity
+        if not largest or largest < NEGLIGIBLE * self.now.of_one_cylinder[kind]:
+            return small_text(largest, self.unit(quantity))
+        return ""
+
+    def find_pictured(self, quantities: Sequence[str]) -> tuple[list[str], str]:
+        """Return the quantities that have a picture, and a line about the others."""
+        words = {quantity: self.find_words(quantity) for quantity in quantities}
+        line = "; ".join(f"{_TITLES[each]}: {said}" for each, said in words.items() if said)
+        return [quantity for quantity, said in words.items() if not said], line
+
+    def title(self, what: str, quantity: str) -> str:
+        """Return the title of one of the pictures of a quantity."""
+        title = _TITLES[quantity]
+        if quantity == ABOUT and self.now.engine.gas is not None:
+            title += ", with gas" if what == "spectrum" else ", of inertia alone"
+        return title.replace("the crank", tell_pivot(self.now.engine).removesuffix(" axis"))
+
+
+def _divide_cycle(*curves: Phasors | None) -> Array:
+    """Return the crank angles of a curve, rad, every degree: to 720 degrees with half orders."""
+    halves = any(np.any(c.orders[~c.balanced] % 1) for c in curves if c is not None)
+    return np.radians(np.arange((720 if halves else 360) + 1))
+
+
+def make_page(subject: PageSubject, what: str) -> Figure:
+    """Return a page of pictures; `what` is one of `PAGES` that is not of torsion."""
+    width, height, lay_out = _LAYOUTS[what]
+    engine, remedy = subject.now.engine, subject.study.remedy
+    title = f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm"
+    if remedy is not None:
+        share = f" {percent(remedy.card[0].factor)}" if remedy.card else ""
+        order = "" if remedy.order is None else f", order {remedy.order}"
+        title += f"\nwith scheme {remedy.scheme}{share}{order}"
+    with open_figure(width, height) as fig:
+        fig.set_layout_engine("constrained", h_pad=0.1)
+        if words := lay_out(fig, subject):
+            fig.supxlabel(words, x=0.01, ha="left", fontsize=9)
+        if not fig.axes:
+            fig.set_size_inches(6.4, 0.7)
+        put_title(fig, title)
+        return fig
+
+
+def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
+    """Return one picture of one quantity as an SVG for an HTML page, or words in its place."""
+    if words := subject.find_words(quantity):
+        return f"<p><b>{subject.title(what, quantity)}</b><br>{words}</p>"
+    with open_figure(*((4.2, 4.0) if what == "polar" else (5.2, 3.1))) as fig:
+        fig.set_facecolor("none")
+        _draw(fig.subplots(), subject, what, quantity)
+        name = f"{what}-{quantity}{'-after' if subject.study.before else ''}"
+        return inline_svg(save_figure(fig, "svg"), name)
+
+
+# ------------------------------------------------------------------ forces and moments
+def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
+    """Draw one picture of a force or moment, or of the moments about the crank."""
+    unit, (curve, before) = subject.unit(quantity), subject.phasors(quantity)
+    scalars = {}
+    if quantity == ABOUT:
+        scalars = subject.list_scalars(with_gas=what == "spectrum")
+    ax.set_title(subject.title(what, quantity))
+    if what == "polar":
+        draw_locus(ax, curve, quantity, unit, before)
+    elif what == "spectrum" and scalars:
+        draw_scalar_bars(ax, scalars, unit)
+    elif what == "spectrum":
+        draw_vector_bars(ax, curve, quantity, unit, before)
+    else:
+        crank = _divide_cycle(*scalars.values(), curve, before)
+        read = np.real if scalars else np.abs
+        lines = {label: each.values(crank).real for label, each in scalars.items()}
+        if not scalars:
+            values = curve.values(crank)
+            lines = {"along x": values.real, "along y": values.imag, "size": np.abs(values)}
+        old = None if before is None else read(before.values(crank))
+        draw_curves(ax, crank, lines, "moment" if scalars else quantity, unit, old)
+
+
+def _lay_out_overview(fig: Figure, subject: PageSubject) -> str:
+    """The locus of the force, or of the moment where no force is left, and the orders."""
+    shown, words = subject.find_pictured(PICTURED)
+    loci = [quantity for quantity in shown if quantity in _VECTORS][:1]
+    fig.set_size_inches(5.2 + 5.6 * len(loci), max(3.4, 2.2 * len(shown) + 0.4, 6.0 * len(loci)))
+    grid = fig.add_gridspec(len(shown) or 1, 1 + len(loci))
+    for quantity in loci:
+        _draw(fig.add_subplot(grid[:, 0]), subject, "polar", quantity)
+    for row, quantity in enumerate(shown):
+        _draw(fig.add_subplot(grid[row, -1]), subject, "spectrum", quantity)
+    return words
+
+
+def _lay_out_rows(fig: Figure, subject: PageSubject, *, whats: Sequence[str], height: float) -> str:
+    """A row of pictures for each quantity; what acts about the crank has no locus."""
+    shown, words = subject.find_pictured(PICTURED)
+    fig.set_figheight(0.5 + height * len(shown))
+    grid = fig.add_gridspec(len(shown) or 1, 6)
+    for row, quantity in enumerate(shown):
+        pictures = [what for what in whats if what != "polar" or quantity != ABOUT]
+        span = 6 // len(pictures)
+        for k, what in enumerate(pictures):
+            _draw(fig.add_subplot(grid[row, k * span : (k + 1) * span]), subject, what, quantity)
+    return words
+
+
+def _lay_out_polar(fig: Figure, subject: PageSubject) -> str:
+    shown, words = subject.find_pictured(_VECTORS)
+    fig.set_size_inches(max(4.8 * len(shown), 5.2), 5.6)
+    for k, quantity in enumerate(shown, 1):
+        _draw(fig.add_subplot(1, len(shown), k), subject, "polar", quantity)
+    return words
+
+
+def _lay_out_orders(fig: Figure, subject: PageSubject) -> str:
+    """The largest four orders of force and of moment."""
+    shown, words = subject.find_pictured(_VECTORS)
+    found = []
+    for quantity in shown:
+        curve = subject.phasors(quantity)[0]
+        least = NEGLIGIBLE * subject.now.of_one_cylinder[quantity]
+        rows = [k for k in visible_rows(curve) if curve.major[k] > least and curve.orders[k] >= 1]
+        found += [(quantity, curve, k) for k in rows[:4]]
+    height = 1 if len(found) <= 3 else 2
+    columns = -(-len(found) // height)
+    fig.set_size_inches(max(1.0 + 3.3 * columns, 4.3), 0.4 + 3.5 * height)
+    for place, (quantity, curve, k) in enumerate(found, 1):
+        ax = fig.add_subplot(height, columns, place)
+        draw_order(ax, curve, k, quantity, subject.unit(quantity))
+    return words
+
+
+# ------------------------------------------------------------------ other pages
+def _lay_out_factor(fig: Figure, subject: PageSubject) -> None:
+    moment = subject.system.moment if subject.now.moments_known else None
+    draw_factors(fig.subplots(), subject.study.factors, subject.system.force, moment)
+
+
+def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
+    banks, unit = subject.study.banks, subject.system.force
+    if banks is None:
+        raise ValueError("a page of bank angles needs a study of them")
+    largest = float(banks.force.major.max(initial=0))
+    if largest < NEGLIGIBLE * subject.now.of_one_cylinder["force"]:
+        size = size_text(largest, unit, 2)
+        return f"Force of order {banks.order:g}: negligible ({size}), whatever the bank angle"
+    draw_end_curves(fig.add_subplot(1, 2, 1), banks, unit)
+    draw_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks, unit)
+    return ""
+
+
+def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
+    """Shear, bending and bearings along the crankshaft; with gas bending of both, and bearings."""
+    bent, system = subject.study.bent, subject.system
+    gas = [inner.with_gas for inner in bent if inner.with_gas is not None]
+    # Curves by title, and how points are joined.
+    pictures: dict[str, tuple[Sequence[AlongCrank], str]] = {
+        "Shear force along the crankshaft": ([b.shear for b in bent], "steps-post"),
+        "Bending moment": ([b.bending for b in bent], "default"),
+        "Inertia load of each main bearing": ([b.bearings for b in bent if b.bearings], ""),
+    }
+    if gas:
+        pictures = {
+            "Bending moment in the crankshaft, with gas": ([b.bending for b in gas], "default"),
+            "Bending moment in the block, with gas": ([b.block_bending for b in gas], "default"),
+            "Load of each main bearing, with gas": ([b.bearings for b in gas], ""),
+        }
+    missing = [title for title, (curves, _) in pictures.items() if not curves]
+    fig.set_figheight(0.4 + 2.4 * (3 - len(missing)))
+    axes = fig.subplots(3 - len(missing), 1, sharex=True)
+    shown = ((title, *each) for title, each in pictures.items() if each[0])
+    for ax, (title, curves, steps) in zip(axes, shown, strict=True):
+        what = "moment" if "moment" in title else "force"
+        draw_along(ax, curves, what, system, steps, "the cycle" if gas else "a revolution")
+        ax.set_title(title)
+        ax.label_outer()
+    axes[-1].set_xlabel(f"z, {system.length.name} (free end on the left)")
+    return "".join(f"{title}: one throw, bearings not known" for title in missing)
+
+
+def _lay_out_gas(fig: Figure, subject: PageSubject, *, over_volume: bool = False) -> None:
+    system = subject.system
+    match subject.study.gas:
+        case Pressures() as found if over_volume:
+            draw_p_v(fig.subplots(), found, system)
+        case Pressures() as found:
+            draw_pressure(fig.subplots(), found, system.pressure)
+        case Torques() as found:
+            draw_torque(fig.subplots(), found, system.moment)
+        case PinLoads() as found:
+            draw_pin(fig, found, system.force)
+        case MainLoads() as found:
+            draw_main(fig, found, system.force)
+
+
+# Width and height in inches, which some layouts change.
+_LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | None]]] = {
+    "overview": (10.8, 6.4, _lay_out_overview),
+    "all": (11.7, 8, partial(_lay_out_rows, whats=("polar", "spectrum", "curves"), height=3.6)),
+    "polar": (9.6, 5.6, _lay_out_polar),
+    "orders": (11.7, 7.4, _lay_out_orders),
+    "spectrum": (6.5, 8.0, partial(_lay_out_rows, whats=("spectrum",), height=2.5)),
+    "curves": (7.5, 8.6, partial(_lay_out_rows, whats=("curves",), height=2.7)),
+    "factor": (7.2, 4.6, _lay_out_factor),
+    "bank": (9.6, 5.4, _lay_out_bank),
+    "inner": (7.5, 7.6, _lay_out_inner),
+    "pressure": (7.2, 4.4, _lay_out_gas),
+    "p-v": (6.4, 4.8, partial(_lay_out_gas, over_volume=True)),
+    "torque": (8.4, 4.8, _lay_out_gas),
+    "pin": (9.6, 5.9, _lay_out_gas),
+    "main": (9.6, 6.4, _lay_out_gas),
+}

@@ -1,0 +1,206 @@
+"""`balcli.plot`
+
+Draw the pages of `balcli plot`, and write them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from types import NoneType
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..analysis.answer import Analysis
+from ..balancing.answer import Balance
+from ..engine.build import Engine, take_model
+from ..errors import check_type, warn, wrong_type
+from ..field.answer import FieldBalance
+from ..field.plot import make_field
+from ..forces.spectrum import check_orders
+from ..mounts.plot import make_mounts
+from ..mounts.records import MountReport
+from ..shell.arguments import check_speeds, check_torsion_orders, tell_arguments
+from ..shell.inputs import read_engine, require_gas
+from ..shell.options import parse_orders, parse_speed
+from ..shell.output import write_file
+from ..shell.scheme_options import choose_beside
+from ..show.formats import Units
+from ..show.plot_style import save_figure, save_pages
+from ..show.units import SI, SYSTEMS
+from ..sizing.options import SchemeOptions
+from ..studies.sweep import Swept
+from ..studies.sweep_show import check_drawable, make_sweep
+from ..torque.records import TorqueAnalysis
+from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
+from ..torsion.ask import make_figures_of_torsion
+from ..torsion.load import make_source
+from ..torsion.plot import make_torsion
+from ..torsion.quantity import choose_torsion_speeds
+from .names import OF_GAS, OF_TORSION, PAGES, check_page
+from .pages import PageSubject, make_page
+from .study import Study, compute_study, refuse_scheme
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ..show.plot_style import Form
+
+
+Shown: TypeAlias = (
+    Engine | Analysis | Balance | Swept | TorqueAnalysis | TorsionAnalysis | MountReport
+) | FieldBalance
+_DRAWN = (
+    "give an Engine, or an answer of analyze, balance, sweep, analyze_torque, analyze_torsion, "
+    "analyze_mounts or balance_rotor"
+)
+
+
+@tell_arguments(speeds="speeds_rpm")
+def plot(
+    shown: Shown,
+    what: str | None = None,
+    *,
+    orders: Iterable[float] | None = None,
+    scheme: str | None = None,
+    speeds_rpm: ArrayLike | None = None,
+) -> Figure:
+    """Draw an engine or an answer, as `balcli plot` does, as a figure of matplotlib.
+
+    Nothing global is touched and no display is needed: a notebook shows the figure where it is the
+    last line of a cell, `figure.savefig("a.svg")` writes it, `figure.axes` can be changed.
+
+    Args:
+        shown: an engine, or the answer of a function that has a picture.
+        what: page of an engine, its analysis or balance: "overview" (default: one locus, and the
+            spectrum), "polar" (loci of force and moment), "orders" (the two vectors of each),
+            "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
+            "bank" (a vee over its bank angle), "factor" (over the balance factor); with gas
+            "pressure", "p-v", "torque", "pin", "main"; of torsion "all", "modes", "campbell",
+            "response", "waterfall". Other answers have one picture.
+        orders: of an engine, which are drawn; default: all that are not negligible.
+        scheme: of an engine, a balance scheme to compare with.
+        speeds_rpm: of an engine and its torsion; default: half to one and a half times its speed.
+
+    Raises:
+        BalcliError: there is no such picture of it, with those that there are.
+        TypeError: what has no picture.
+
+    Example:
+        >>> plot(load("v8.toml"), "polar").savefig("v8.png")
+    """
+    check_type("what", what, (str, NoneType), 'give the name of a page, such as "polar"')
+    match shown:
+        case Engine():
+            return _plot_engine(shown, what or "overview", orders, scheme, speeds_rpm)
+        case Analysis():
+            asked = shown.orders if orders is None else orders
+            return _plot_engine(shown.engine, what or "overview", asked, scheme, speeds_rpm)
+        case Balance():
+            study = Study(shown.after, shown.before, shown.remedy)
+            return make_page(PageSubject(study), check_page(what or "overview", PAGES[:6]))
+        case TorqueAnalysis(engine=Engine() as engine):
+            return _plot_engine(engine, check_page(what or "torque", OF_GAS))
+        case TorsionAnalysis():
+            return _plot_torsion(shown, what or "all")
+    check_page(what or "all", ("all",))
+    match shown:
+        case Swept():
+            check_drawable(shown.sweep)
+            return make_sweep(shown.sweep, shown.values)
+        case MountReport():
+            return make_mounts(shown, SI)
+        case FieldBalance():
+            return make_field(shown)
+    raise wrong_type("plot", shown, _DRAWN)
+
+
+def _plot_engine(
+    engine: Engine,
+    what: str,
+    orders: Iterable[float] | None = None,
+    scheme: str | None = None,
+    speeds_rpm: ArrayLike | None = None,
+) -> Figure:
+    if check_page(what) not in OF_TORSION:
+        asked = None if orders is None else check_orders(orders).tolist()
+        return make_page(PageSubject(compute_study(engine, what, asked, scheme)), what)
+    exciting = check_torsion_orders(orders)
+    source = make_source(take_model(engine), engine, engine.name, exciting)
+    speeds = check_speeds("plot", speeds_rpm)
+    if speeds is None and what in ("response", "waterfall"):
+        speeds = np.asarray(choose_torsion_speeds(engine), dtype=float)
+    return _plot_torsion(answer_question(source, TorsionQuestion(speeds, exciting)), what)
+
+
+def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
+    known = ("all", *(OF_TORSION if result.response is not None else OF_TORSION[:2]))
+    return make_torsion(result, check_page(what, known))
+
+
+_SHOWN = {"inner": "inner", "bank": "force"}  # the only results that these pages need
+
+
+class Asked(NamedTuple):
+    """Options as typed; options of a balance scheme as they were read."""
+
+    speed: str | None
+    orders: str | None
+    speeds: str | None
+    scheme: str | None
+    options: SchemeOptions
+    units: Units
+
+
+def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
+    """Return a figure for each page of an engine file, which is read once for pages of torsion and
+    once for all others.
+
+    Raises:
+        BalcliError: an option does not suit a page, or the file lacks what a page shows.
+    """
+    found: dict[str, Figure] = {}
+    of_torsion = [page for page in pages if page in OF_TORSION]
+    others = [page for page in pages if page not in OF_TORSION]
+    if of_torsion:
+        refuse_scheme(choose_beside(asked.scheme, asked.options), of_torsion[0])
+        drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, asked.units)
+        found |= zip(of_torsion, drawn, strict=True)
+    elif asked.speeds is not None:
+        warn("--speeds counts for pages of torsion alone; the speed of the others is --speed")
+    if others:
+        found |= zip(others, _make_pages(path, others, asked), strict=True)
+    elif asked.speed is not None:
+        warn("--speed counts for nothing here; pages of torsion take a range, --speeds A:B")
+    return [found[page] for page in pages]
+
+
+def _make_pages(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
+    beside = choose_beside(asked.scheme, asked.options) if {*pages} != {"factor"} else None
+    orders = parse_orders(asked.orders)
+    shown = tuple(_SHOWN[page] for page in pages) if {*pages} <= {*_SHOWN} else None
+    engine = read_engine(path, parse_speed(asked.speed), shown).engine
+    if any(page in OF_GAS for page in pages):
+        require_gas(engine, path)
+    figures = []
+    for page in pages:
+        scheme = asked.scheme if page == "factor" else beside
+        study = compute_study(engine, page, orders, scheme, asked.options)
+        figures.append(make_page(PageSubject(study, SYSTEMS[asked.units]), page))
+    return figures
+
+
+def write_pages(figures: Sequence[Figure], files: Sequence[Path], form: Form) -> None:
+    """Write all pages into one PDF, or each page into its own file.
+
+    Raises:
+        BalcliError: A file cannot be written.
+    """
+    if len(files) < len(figures):
+        contents = [save_pages(figures)]
+    else:
+        contents = [save_figure(figure, form) for figure in figures]
+    for content, file in zip(contents, files, strict=True):
+        write_file(content, file)

@@ -1,0 +1,152 @@
+"""What a picture shows: an engine as it is or with a scheme's devices, over the balance factor, or
+over the bank angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..analysis.answer import Analysis, analyze, find_inner_loads
+from ..balancing.answer import balance_engine as balance
+from ..core.phasors import Array, Phasors
+from ..engine.build import Engine
+from ..errors import BalcliError
+from ..forces.crankshaft import InnerLoads
+from ..forces.spectrum import compute_spectra
+from ..sizing.bobweights import FactorPeaks
+from ..sizing.factor import find_best_factor
+from ..sizing.options import SchemeOptions
+from ..sizing.remedy import Remedy
+from ..sizing.sizing import size
+from ..torque.plot import PAGES, GasPicture, compute_picture
+
+FACTORS = tuple(k / 50 for k in range(51))
+_ALONE = ("bank", *PAGES)  # studies of the engine as it is
+
+
+class Banks(NamedTuple):
+    """Free force of one order over the bank angle of a vee, all else unchanged.
+
+    Attributes:
+        angles_deg: shape (angles,).
+        own_deg: the engine's bank angle.
+        force: N, shape (1, angles).
+    """
+
+    order: float
+    angles_deg: Array
+    own_deg: float
+    force: Phasors
+
+
+class Study(NamedTuple):
+    """What a page shows.
+
+    Attributes:
+        now, before: the engine, and without the devices that were fitted, if any were.
+        remedy: those devices.
+        factors: rows of peaks over the balance factor, ascending; the best of all among them.
+        banks: an order over the bank angle.
+        bent: what bends the crankshaft now, and before.
+        gas: pressures, torque or loads of an engine with gas.
+    """
+
+    now: Analysis
+    before: Analysis | None = None
+    remedy: Remedy | None = None
+    factors: Sequence[FactorPeaks] = ()
+    banks: Banks | None = None
+    bent: tuple[InnerLoads, ...] = ()
+    gas: GasPicture | None = None
+
+
+def compute_study(
+    engine: Engine,
+    what: str,
+    orders: Sequence[float] | None = None,
+    scheme: str | None = None,
+    options: SchemeOptions | None = None,
+) -> Study:
+    """Return what the page `what` shows.
+
+    Args:
+        engine: without trailing axes.
+        orders: orders to show; "bank" shows the first one.
+        scheme: the balance scheme to compare with, if any.
+        options: of the scheme; "factor" takes planes alone.
+
+    Raises:
+        BalcliError: the scheme is unknown, cannot be fitted, or does not suit the page; the engine
+            is no vee and "bank" is asked for.
+    """
+    if what == "factor":
+        return Study(analyze(engine, orders), factors=_sweep_factors(engine, scheme, options))
+    if what in _ALONE:
+        refuse_scheme(scheme, what)
+    if scheme is not None:
+        found = balance(engine, scheme, options, orders)
+        engines = (found.after.engine, engine) if what == "inner" else ()
+        bent = tuple(map(find_inner_loads, engines))
+        return Study(found.after, found.before, found.remedy, bent=bent)
+    now = analyze(engine, orders)
+    if what in PAGES:
+        return Study(now, gas=compute_picture(engine, what))
+    if what == "inner":
+        return Study(now, bent=(find_inner_loads(engine),))
+    if what == "bank":
+        force = now.spectra["force"]
+        free = force.orders[(force.orders >= 1) & ~force.balanced].tolist()
+        return Study(now, banks=swing_banks(engine, orders[0] if orders else [*free, 2][0]))
+    return Study(now)
+
+
+def refuse_scheme(scheme: str | None, what: str) -> None:
+    """Raise BalcliError if there is a scheme: the page shows the engine as it is."""
+    if scheme is not None:
+        raise BalcliError(
+            f"--what {what} shows the engine as it is: leave --scheme and its options out"
+        )
+
+
+def _sweep_factors(
+    engine: Engine, scheme: str | None, options: SchemeOptions | None
+) -> tuple[FactorPeaks, ...]:
+    """Return the peaks over the balance factor, ascending, with the best factor among them."""
+    asked = options or SchemeOptions()
+    if scheme not in (None, "factor"):
+        raise BalcliError(f"--what factor is of the scheme factor: leave --scheme {scheme} out")
+    if asked.factor is not None or asked.measured is not None:
+        raise BalcliError("--what factor shows all factors: leave --factor and --measured out")
+    asked = asked._replace(factor=FACTORS)
+    sweep = size(engine, "factor", asked).sweep
+    return tuple(sorted({*sweep, find_best_factor(engine, asked, sweep)}))
+
+
+def swing_banks(engine: Engine, order: float) -> Banks:
+    """Return the free force of an order while the two banks of a vee are swung apart from 0 to 180
+    degrees, the crankshaft unchanged.
+
+    Raises:
+        BalcliError: the engine is no vee.
+    """
+    c = engine.cylinders
+    axes = np.ravel(c.axis_deg)
+    if len(axes) != 2 or c.linkage is not None:
+        raise BalcliError(
+            f"--what bank swings the two banks of a vee; this engine has {len(axes)} "
+            f"bank{'s' if len(axes) > 1 else ''}"
+            f"{' and articulated or turning cylinders' if c.linkage is not None else ''}"
+        )
+    middle, side = axes.mean(), np.sign(axes - axes.mean())
+    angles = np.arange(0.0, 180.5, 1.0)
+    forces = []
+    for angle in angles:
+        swung = replace(c, axis_deg=middle + side * angle / 2)
+        alone = replace(engine, cylinders=swung, devices=(), ripple=())
+        forces.append(compute_spectra(alone, [order], ["force"])["force"].vectors)
+    force = Phasors(np.array([float(order)]), np.stack(forces, axis=2), np.zeros(1))
+    return Banks(order, angles, float(np.ptp(axes)), force)

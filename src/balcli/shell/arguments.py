@@ -1,0 +1,176 @@
+"""What a user of Python gives, as the rooms take it; what is wrong is told in words."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping
+from functools import wraps
+from inspect import signature
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.phasors import Array
+from ..errors import BalcliError, InputError, wrong_type
+from ..file.fields import shorten
+from ..forces.spectrum import check_orders
+from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
+
+Words = str | Iterable[str]  # names, or a text of them with commas between
+_REAL = (int, float, np.integer, np.floating)
+_OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
+P = ParamSpec("P")
+Answer = TypeVar("Answer")
+
+
+def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P, Answer]]:
+    """Decorator of a function whose errors come from rooms that name options of the command line:
+    they name its arguments instead, `damper_inertia` for `--damper-inertia`.
+
+    Args:
+        others: arguments whose option is called otherwise, by that (`speeds="speeds_rpm"`).
+    """
+
+    def decorate(function: Callable[P, Answer]) -> Callable[P, Answer]:
+        names = {**{name: name for name in signature(function).parameters}, **others}
+
+        def name_argument(option: re.Match[str]) -> str:
+            name = (option[1] or "").replace("-", "_")  # none within a command: `balcli new`
+            return names.get(name, option[0])
+
+        @wraps(function)
+        def call(*args: P.args, **kwargs: P.kwargs) -> Answer:
+            try:
+                return function(*args, **kwargs)
+            except InputError as error:
+                told = [
+                    p._replace(message=_OPTION.sub(name_argument, p.message))
+                    for p in error.problems
+                ]
+                raise InputError(told, error.file, error.more) from None
+            except BalcliError as error:
+                raise BalcliError(_OPTION.sub(name_argument, str(error))) from None
+
+        return call
+
+    return decorate
+
+
+def join_names(function: str, words: Words | None) -> str | None:
+    """Names as the command line has them, with commas between; None as it is.
+
+    Raises:
+        TypeError: they are no names.
+    """
+    if words is None or isinstance(words, str):
+        return words
+    if isinstance(words, Iterable):
+        listed = list(words)
+        if all(isinstance(word, str) for word in listed):
+            return ",".join(listed)
+    raise wrong_type(function, words, 'give names, such as ["force.2.major", "moment.1.backward"]')
+
+
+def check_mapping(function: str, value: object, example: str) -> Mapping[Any, Any]:
+    """A dict that a function was given.
+
+    Raises:
+        TypeError: it is none.
+    """
+    if not isinstance(value, Mapping):
+        raise wrong_type(function, value, f"give a dict, such as {example}")
+    return value
+
+
+def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
+    """Speeds as an array that rises, rpm; None as it is.
+
+    Raises:
+        BalcliError: one that is not above 0; too many; more than one axis.
+        TypeError: they are no numbers.
+    """
+    if speeds_rpm is None:
+        return None
+    try:
+        given = np.asarray(speeds_rpm)
+        if given.dtype.kind not in "iufO":  # numpy would read numbers out of texts
+            raise TypeError
+        found = np.unique(given.astype(float).ravel())
+    except (TypeError, ValueError):
+        raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
+    except OverflowError:  # a whole number of hundreds of digits
+        found = np.array([math.inf])
+    if given.ndim > 1:
+        raise BalcliError(f"speeds_rpm: of shape {given.shape}; give them along one axis")
+    if not found.size or not np.all((found >= SMALLEST_POSITIVE) & (found < 1e9)):
+        raise BalcliError("speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]")
+    if found.size > MOST_SPEEDS:
+        raise BalcliError(f"speeds_rpm: {found.size} speeds; at most {MOST_SPEEDS} are computed")
+    return found
+
+
+def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
+    """Orders that excite torsional vibration, ascending, each once; None as it is.
+
+    Raises:
+        BalcliError: there are none, some are no multiples of 1/2, not above 0, or too high.
+        TypeError: they are no numbers.
+    """
+    if orders is None:
+        return None
+    found = check_orders(orders)
+    if not 0 < found[0] <= found[-1] <= HIGHEST_TORSION_ORDER:
+        raise BalcliError(
+            f"orders: {found[0]:g} to {found[-1]:g}; those of torsional vibration are above 0, to "
+            f"{HIGHEST_TORSION_ORDER} at most"
+        )
+    return found
+
+
+def check_inertia(name: str, value: object) -> float | None:
+    """A moment of inertia that a function was given, kg m2; None as it is.
+
+    Raises:
+        BalcliError: it is not above 0, or beyond computing.
+        TypeError: it is no number.
+    """
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, _REAL):
+        raise wrong_type(name, value, "give a moment of inertia in kg m2, such as 0.1")
+    if not 0 < value < LARGEST_INERTIA:
+        raise BalcliError(f"{name}: {shorten(value)}; give a moment of inertia in kg m2, above 0")
+    return float(value)
+
+
+def check_count(name: str, value: object, least: int = 1, most: int | None = None) -> int:
+    """A whole number that a function was given.
+
+    Raises:
+        BalcliError: it is too small or too large.
+        TypeError: it is none.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise wrong_type(name, value, f"give a whole number from {least}")
+    if value < least:
+        raise BalcliError(f"{name}: {shorten(value)} is less than {least}")
+    if most is not None and value > most:
+        raise BalcliError(f"{name}: give {most} at most")
+    return int(value)
+
+
+def read_position(name: str, value: object) -> tuple[float, float, float]:
+    """A place that a function was given, m: x, y and z.
+
+    Raises:
+        TypeError: it is not three numbers.
+    """
+    try:
+        if any(isinstance(number, str) for number in value):  # type: ignore[attr-defined]
+            raise TypeError
+        x, y, z = map(float, value)  # type: ignore[call-overload]
+    except (TypeError, ValueError, OverflowError):
+        raise wrong_type(name, value, "give x, y and z in m, such as (0.3, 0, 0)") from None
+    return x, y, z

@@ -1,0 +1,178 @@
+"""Names of files and formats: `-` is standard output, and an ending says the format of a file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+import typer
+
+from ..errors import BalcliError
+from ..show.formats import Format
+from .values import optional
+
+if TYPE_CHECKING:
+    from ..show.plot_style import Form
+
+
+F = TypeVar("F", bound=str)
+
+_SHORT = {"md": "markdown", "txt": "table", "text": "table"}
+TEXTS = {
+    ".txt": Format.TABLE,
+    ".json": Format.JSON,
+    ".csv": Format.CSV,
+    ".md": Format.MARKDOWN,
+}
+PICTURES: dict[str, Form] = {".svg": "svg", ".png": "png", ".pdf": "pdf"}
+_LATEX = "for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex)"
+_INSTEAD = {
+    ".tex": _LATEX,
+    **dict.fromkeys(
+        PICTURES,
+        "pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and "
+        "field",
+    ),
+    **dict.fromkeys((".html", ".htm"), "pages are written by balcli report FILE X.html"),
+}
+# Endings of other formats, which --format cannot override.
+_KNOWN = {*TEXTS, *PICTURES, ".html", ".htm", ".toml", ".parquet", ".xlsx", ".jpg", ".jpeg"}
+
+
+class SeriesFormat(StrEnum):
+    """Formats of long series of numbers."""
+
+    CSV = "csv"
+    JSON = "json"
+
+
+class VariantsFormat(StrEnum):
+    """Formats of the variants of a sweep."""
+
+    TABLE = "table"
+    MARKDOWN = "markdown"
+    CSV = "csv"
+    JSON = "json"
+    PARQUET = "parquet"
+
+
+SERIES = {".csv": SeriesFormat.CSV, ".json": SeriesFormat.JSON}
+VARIANTS = {
+    ".csv": VariantsFormat.CSV,
+    ".json": VariantsFormat.JSON,
+    ".parquet": VariantsFormat.PARQUET,
+    ".txt": VariantsFormat.TABLE,
+    ".md": VariantsFormat.MARKDOWN,
+}
+
+
+class Place(NamedTuple):
+    """Target of a sweep: a file, or a folder of several."""
+
+    path: Path
+    is_folder: bool
+
+
+def read_place(text: str) -> Place | None:
+    """Parse the target of a sweep: a folder ends with a slash; None is standard output."""
+    path = parse_output(Path(text))
+    return None if path is None else Place(path, text.endswith(("/", os.sep)))
+
+
+def parse_output(path: Path | None) -> Path | None:
+    """Return the file to write, None for standard output."""
+    return None if str(path) in ("-", "/dev/stdout", "/dev/fd/1") else path
+
+
+def choose_target(second: Path | None, output: Path | None, example: str) -> Path:
+    """Return the file of a page or picture: the second argument, or the value of `--output`.
+
+    Raises:
+        BalcliError: both are given, or neither.
+    """
+    if second is not None and output is not None:
+        raise BalcliError(f"{second} and --output {output}: one file is written; leave one out")
+    if (target := second or output) is None:
+        raise BalcliError(f"name the file to write, such as -o {example}")
+    return target
+
+
+def format_option(formats: type[StrEnum], text: str) -> Any:
+    """Declare an option `--format`, `-f` for these formats, by name or by ending, in any case.
+
+    Args:
+        formats: the formats, by the names that users type.
+        text: the help of the option.
+    """
+
+    def parse(name: str) -> StrEnum:
+        small = name.lower()
+        try:
+            return formats(_SHORT.get(small, small))
+        except ValueError:
+            known = ", ".join(f"'{one}'" for one in formats)
+            latex = f"; {_LATEX}" if small in ("latex", "tex") and "markdown" in [*formats] else ""
+            raise typer.BadParameter(f"'{name}' is not one of {known}{latex}.") from None
+
+    names = "|".join(formats)
+    return optional(names, text, "--format", "-f", parser=parse)
+
+
+def text_format(output: Path | None, asked: Format | None) -> Format:
+    """Return the format of a result; a table by default. Raises as `format_of`."""
+    return format_of(output, asked, TEXTS, Format.TABLE)
+
+
+def format_of(
+    output: Path | None,
+    asked: F | None,
+    endings: Mapping[str, F],
+    default: F | None = None,
+    option: str = "--output",
+) -> F:
+    """Return the format of a file: by its ending, or `--format` if the ending says nothing.
+
+    Args:
+        output: the file; None: standard output.
+        asked: the value of `--format`, if it was given.
+        endings: the formats that can be written, by ending (`.csv`).
+        default: the format of standard output, and of a file without an ending.
+        option: the option that names the file, for messages.
+
+    Raises:
+        BalcliError: format and ending contradict each other, or the ending is none of these.
+    """
+    ending = "" if output is None else output.suffix.lower()
+    written = endings.get(ending)
+    if written is not None:
+        if asked not in (None, written):
+            raise BalcliError(
+                f"{option} {output}: {ending} is {written}, but --format says {asked}; leave one "
+                "of them out"
+            )
+        return written
+    usual = asked or default
+    if usual is not None and (not ending or (asked is not None and ending not in _KNOWN)):
+        return usual
+    reason = f"{ending} cannot be written here" if ending else "has no ending that says its format"
+    raise BalcliError(
+        f"{option} {output}: {reason}; give a name that ends in {_list_or([*endings])}"
+        + (f"; {_INSTEAD[ending]}" if ending in _INSTEAD and ".csv" in endings else "")
+    )
+
+
+def picture_form(output: Path, option: str = "--output") -> Form:
+    """Return the format of a picture: svg, png or pdf. Raises as `format_of`."""
+    return format_of(output, None, PICTURES, option=option)
+
+
+def require_ending(output: Path | None, ending: str, option: str = "--output") -> None:
+    """Raise BalcliError for a file with another ending than this one."""
+    format_of(output, None, {ending: ending}, ending, option)
+
+
+def _list_or(words: Sequence[str]) -> str:
+    return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))

@@ -1,0 +1,208 @@
+"""Engine files as commands read them: what is good is computed, what is bad is named."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path
+from typing import NamedTuple, TypeVar
+
+import typer
+
+from ..engine.build import NO_GAS, Engine, take_model
+from ..engine.layout import MOMENTS_UNKNOWN
+from ..engine.load import build_named
+from ..engine.parse import parse
+from ..errors import BalcliError, Exit, is_verbose, legible, note, say, warn
+from ..file.messages import OtherKindError
+from ..file.model import EngineFile
+from ..file.toml import find_near_file, name_file, read_bytes
+from .options import WORDS_OF_ONLY
+
+# What says something of moments besides them, of all that can be asked for.
+ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
+
+P = TypeVar("P")
+T = TypeVar("T")
+
+
+class LoadedEngine(NamedTuple):
+    """An engine file that has been read: its text, what it says, and the engine."""
+
+    text: bytes
+    model: EngineFile
+    engine: Engine
+
+
+def read_engine(
+    path: str, speed_rpm: float | None = None, asked: Collection[str] | None = None
+) -> LoadedEngine:
+    """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
+
+    Args:
+        speed_rpm: crank speed of the engine instead of the file's.
+        asked: names of quantities and tables that a user asked for; None: whatever the command
+            shows. What says nothing of moments needs no warning that they are not known.
+
+    Raises:
+        BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
+    """
+    if path in WORDS_OF_ONLY and not os.path.exists(path):
+        raise BalcliError(
+            f"{path}: no such file; several words of --only stand with commas between them: "
+            f"--only force,{path}"
+        )
+    text = read_bytes(path)
+    model = parse(text, name_file(path))
+    engine = build_named(model, path)
+    if is_verbose():
+        _tell_what_was_read(name_file(path), text, engine)
+    if not engine.places_known:
+        _tell_unknown(name_file(path), asked)
+    if "gas" in (asked or ()):
+        require_gas(engine, path)
+    warn_each(engine.unlikely, name_file(path))
+    if speed_rpm is not None:
+        engine = replace(engine, speed_rpm=speed_rpm, model=None)
+    return LoadedEngine(text, model, engine)
+
+
+def _tell_what_was_read(name: str, text: bytes, engine: Engine) -> None:
+    """Notes for those who want to know how a file was understood."""
+    from ..file.plain_tables import list_assumed  # for them alone
+
+    note(f"{name}: read, {len(text)} bytes")
+    inferred = {line.partition(" =")[0]: line for line in engine.inferred}
+    rest = list_assumed(take_model(engine))
+    others = [line for line in rest if line.partition(" =")[0].partition(":")[0] not in inferred]
+    for each in (*inferred.values(), *others):
+        note(f"{name}: not in the file: {each}")
+
+
+def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
+    """Warn that moments are not known, where something of them was asked for; an error where it was
+    one of them by name.
+    """
+    words = ABOUT_MOMENTS if asked is None else asked
+    if by_name := [quantity for quantity in ("moment", "inner") if quantity in words]:
+        raise BalcliError(f"{name}: {by_name[0]}: {MOMENTS_UNKNOWN}")
+    if ABOUT_MOMENTS.intersection(words):
+        warn_of_unknown_moments(name)
+
+
+def warn_of_unknown_moments(name: str) -> None:
+    """Say on standard error that the moments of this file are not known, and why."""
+    warn(f"{name}: {MOMENTS_UNKNOWN}")
+
+
+def warn_each(doubts: Iterable[str], name: str) -> None:
+    """Say on standard error what is doubted of this file."""
+    for doubt in doubts:
+        warn(f"{name}: {doubt}")
+
+
+def try_each(
+    paths: Iterable[P], work: Callable[[P], T], found: Collection[P] = ()
+) -> tuple[list[T], list[str]]:
+    """Results of all good files, in order, and the messages of the bad ones. Those that were found
+    in a folder are passed over, with a note, where they are of another kind.
+    """
+    results, errors = [], []
+    for path in paths:
+        try:
+            results.append(work(path))
+        except BalcliError as error:
+            if path in found and isinstance(error, OtherKindError):
+                note(f"{path}: passed over, a file of another kind")
+            else:
+                errors.append(str(error))
+    return results, errors
+
+
+def exit_on_errors(errors: Sequence[str]) -> None:
+    """End with exit status 2 after these messages on standard error, if there are any."""
+    for text in errors:
+        say(f"balcli: {text}")
+    if errors:
+        raise typer.Exit(Exit.BAD_INPUT)
+
+
+def find_engine_files(paths: Sequence[Path]) -> list[Path]:
+    """Engine files as named, and all that are in a folder or in folders within it; those whose
+    name begins with a dot, and files of settings, are passed over.
+
+    Raises:
+        BalcliError: a path that is not there, a folder without engine files.
+    """
+    files: list[Path] = []
+    for path in paths:
+        # Unlike Path.is_dir, this is false where one may not look, or the name is too long.
+        folder = os.path.isdir(path)
+        found = sorted(filter(_is_engine, _walk(path))) if folder else [path]
+        if not found or not os.path.exists(path):
+            reason = "has no engine files (*.toml)"
+            if not folder:
+                reason = f"no such file or folder{find_near_file(path)}"
+            raise BalcliError(f"{path}: {reason}")
+        files += found
+    return files
+
+
+def find_expected(paths: Sequence[Path]) -> list[Path]:
+    """Files where `check` has its records, of those paths that are folders and folders within."""
+    files = chain.from_iterable(_walk(path) for path in paths if os.path.isdir(path))
+    return sorted({f for f in files if f.parent.name == "expected" and f.suffix == ".json"})
+
+
+def _walk(folder: Path) -> Iterator[Path]:
+    """All files in a folder and those within it that are not hidden."""
+    for place, inner, files in os.walk(folder):
+        inner[:] = [name for name in inner if not name.startswith(".")]
+        yield from (Path(place, name) for name in files)
+
+
+def _is_engine(path: Path) -> bool:
+    return path.suffix == ".toml" and path.name != "pyproject.toml" and path.is_file()
+
+
+def require_gas(engine: Engine, path: str) -> None:
+    """Refuse an engine without gas, by its file.
+
+    Raises:
+        BalcliError: with what is missing.
+    """
+    if engine.gas is None:
+        raise BalcliError(f"{name_file(path)}: {NO_GAS}")
+
+
+def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> Engine:
+    """The engine with the gas of some cylinders doing nothing.
+
+    Raises:
+        BalcliError: it has no gas, or no such cylinder.
+    """
+    if not numbers:
+        return engine
+    require_gas(engine, path)
+    from ..forces.gas_torque import silence  # for those who ask
+
+    for number in numbers:
+        engine = silence(engine, number)
+    return engine
+
+
+def named_by_file(engine: Engine, path: str) -> Engine:
+    """The engine, called by its file where it has no name."""
+    return engine if engine.name else replace(engine, name=legible(Path(name_file(path)).stem))
+
+
+def name_engines(names: Sequence[str], paths: Sequence[str]) -> list[str]:
+    """What to call engines beside each other: each by its name, or by its file where it has none or
+    shares it with another.
+    """
+    return [
+        name if name and names.count(name) == 1 else legible(name_file(path))
+        for name, path in zip(names, paths, strict=True)
+    ]

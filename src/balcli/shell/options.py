@@ -1,0 +1,242 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import BalcliError
+from ..forces.kinds import GAS_KINDS, KINDS, VECTORS
+from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER, LONGEST_SHOWN, SMALLEST_POSITIVE
+from ..show.formats import Format, Units
+from .file_names import format_option, parse_output
+from .values import doubt_thousands, optional, read_length, read_speed
+
+# words of `analyze --only` that name a table or text of what is computed anyway
+PARTS = ("xy", "textbook", "verdict")
+WORDS_OF_ONLY = (*KINDS, "peak", "sizing", *GAS_KINDS, "inner", "guide", *PARTS)
+
+
+EnginePath = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE", help="Engine file (TOML); - reads standard input.", show_default=False
+    ),
+]
+EnginePaths = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="FILE...", show_default=False, help="Engine files (TOML); - reads standard input."
+    ),
+]
+FormatOption = Annotated[
+    Format | None,
+    format_option(
+        Format,
+        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
+        ".json, .csv, .md), else table.",
+    ),
+]
+UnitsOption = Annotated[
+    Units,
+    typer.Option(
+        "--units",
+        case_sensitive=False,
+        envvar="BALCLI_UNITS",
+        show_envvar=False,
+        help="imperial: lbf, lbf·ft, oz·in, lb·in², psi, hp; JSON stays SI.",
+    ),
+]
+Output = Annotated[
+    Path | None,
+    optional(
+        "FILE",
+        "Write into this file instead; its ending says the format. - is standard output.",
+        "--output",
+        "-o",
+        callback=parse_output,
+    ),
+]
+ProgressAtOnce = Annotated[
+    bool,
+    typer.Option(
+        "--progress", help="Say on a terminal how far it is from the start, not after two seconds."
+    ),
+]
+Target = Annotated[
+    Path | None,
+    typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),
+]
+Speed = Annotated[
+    str | None, optional("RPM", "Crank speed instead of the file's, rpm.", "--speed", "--rpm")
+]
+Orders = Annotated[
+    str | None,
+    optional(
+        "1-8|0.5-8|1,2,4",
+        "Orders to show, halves too where a range begins or ends with one; default: 1, 2 and "
+        "all to 512 that are not negligible; with gas all to 12, and of an engine that fires "
+        "more than 12 times a turn this order and its double.",
+        "--orders",
+    ),
+]
+Only = Annotated[
+    str | None,
+    optional(
+        "WHAT,...",
+        f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
+        "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
+        "--only",
+    ),
+]
+OnlyParts = Annotated[
+    str | None,
+    optional(
+        "WHAT,...",
+        f"Only some of {', '.join(KINDS)}, peak, sizing, gas; inner (shear, bending, bearing "
+        "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
+        "--only",
+    ),
+]
+Whole = Annotated[
+    bool, typer.Option("--all", help="Every table and every order that is not rounding.")
+]
+Misfire = Annotated[
+    list[int] | None,
+    optional(
+        "N",
+        "A cylinder without gas, not even compressed ([cylinder.N] heat = 0 compresses); may be "
+        "given again.",
+    ),
+]
+GuideHeight = Annotated[
+    str | None,
+    optional(
+        "MM",
+        "With --only guide: from the crankshaft to the middle of the guides, in mm or as "
+        "'80 in'; default: length of the rod.",
+        "--guide-height",
+    ),
+]
+
+
+def parse_orders(text: str | None) -> list[float] | None:
+    """Orders as in `1-8`, `1,2,4`, `1-4,8`, or in halves `0.5-8`.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    if text is None:
+        return None
+    bounds = f"must rise and end at {HIGHEST_ORDER} at most"
+    return read_orders(text, "give orders such as 1-8, 1,2,4 or 0.5-8", bounds, 0, HIGHEST_ORDER)
+
+
+def read_orders(text: str, right: str, bounds: str, least: float, most: float) -> list[float]:
+    """Orders and ranges of them with commas between: of a range that begins or ends with a half
+    halves, too.
+
+    Args:
+        right: what to give, for messages.
+        bounds: that ranges rise from the least to the most, for messages.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    start = f'--orders "{text[:LONGEST_SHOWN]}": '
+    orders: list[float] = []
+    for part in text.split(","):
+        first, dash, last = part.partition("-")
+        low = _count_halves(first)
+        high = _count_halves(last) if dash else low
+        if low is None or high is None:
+            raise BalcliError(start + right)
+        if not 2 * least <= low <= high <= 2 * most:
+            raise BalcliError(f"{start}{part.strip()} {bounds}")
+        in_halves = low % 2 or high % 2
+        orders += (
+            [half / 2 for half in range(low, high + 1)]
+            if in_halves
+            else range(low // 2, high // 2 + 1)
+        )
+    return orders
+
+
+def _count_halves(text: str) -> int | None:
+    """Twice an order that is written with digits, such as `8` or `0.5`; None for anything else."""
+    if not re.fullmatch(r"\s*[0-9]{1,12}(\.[05]0*)?\s*", text, re.ASCII):
+        return None
+    return round(2 * float(text))
+
+
+def parse_only(text: str | None) -> list[str] | None:
+    """The quantities of `--only`, by name, with commas or blanks between; a plural names the same.
+
+    Raises:
+        BalcliError: all of them.
+    """
+    if text is None:
+        return None
+    words = [word.lower() for word in re.split(r"\s*,\s*|\s+", text.strip())]
+    if "all" in words:
+        raise BalcliError("--only all: without --only there is all that is usual, with --all more")
+    return [word[:-1] if word[:-1] in (*KINDS, "peak", "guide") else word for word in words]
+
+
+def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
+    """What `--only` of `analyze` asks to compute, and all words of it.
+
+    A word that names a table alone (`PARTS`) is computed from force and moment, unless quantities
+    are named beside it.
+
+    Raises:
+        BalcliError: words that are none of these.
+    """
+    words = parse_only(text)
+    if words is None:
+        return None, frozenset()
+    if strangers := sorted({*words}.difference(WORDS_OF_ONLY)):
+        named = ", ".join(stranger or '""' for stranger in strangers)
+        raise BalcliError(f"--only {named}: choose from {', '.join(WORDS_OF_ONLY)}")
+    quantities = [word for word in words if word not in PARTS]
+    vectors = {kind.name for kind in VECTORS}
+    if len(quantities) < len(words) and not vectors.intersection(quantities):
+        quantities += sorted(vectors)
+    return quantities, frozenset(words)
+
+
+def parse_speed(text: str | None) -> float | None:
+    """The speed of `--speed`, rpm.
+
+    Raises:
+        BalcliError: unless it is positive and finite.
+    """
+    if text is None:
+        return None
+    speed = read_speed("--speed", text)
+    if not SMALLEST_POSITIVE <= speed < 1e9:
+        raise BalcliError(
+            f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9"
+        )
+    doubt_thousands("--speed", text)
+    return speed
+
+
+def parse_guide_height(text: str | None, units: Units) -> float | None:
+    """The height of `--guide-height`, m.
+
+    Raises:
+        BalcliError: unless it is positive and finite.
+    """
+    if text is None:
+        return None
+    height = read_length("--guide-height", text, units)
+    if not 0 < height < HIGHEST_GUIDE_M:
+        raise BalcliError(
+            f"--guide-height {text}: the distance from the crankshaft to the middle of the guides "
+            f"must be positive, below {HIGHEST_GUIDE_M:g} m"
+        )
+    return height

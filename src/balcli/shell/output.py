@@ -1,0 +1,208 @@
+"""Output of results: to standard output or into a file, never onto a file that a command reads."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TextIO, TypeVar
+
+from ..errors import BalcliError, tell_unwritable
+from ..file.toml import parse_toml, read_bytes
+from ..files import replacing
+from ..process import has_no_reader
+from ..show.formats import Format, Renderer, Units, render
+from ..show.units import SYSTEMS
+from .file_names import Place
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ..show.plot_style import Form
+
+
+R = TypeVar("R")
+_OF_RESULTS = ("OUT", "--output")  # where - is standard output
+
+
+def show(
+    results: Sequence[R],
+    renderer: Renderer[R],
+    form: Format,
+    output: Path | None,
+    units: Units = Units.SI,
+) -> None:
+    """Print results in this format, or write them into a file.
+
+    Raises:
+        BalcliError: the file cannot be written.
+    """
+    emit(render(results, renderer, form, SYSTEMS[units], seen=is_seen(output)), output)
+
+
+def is_seen(output: Path | None) -> bool:
+    """Whether the output is printed to a terminal."""
+    return output is None and sys.stdout.isatty()
+
+
+def emit(text: str, output: Path | None = None) -> None:
+    """Print a text that ends in a newline, or write it into a file.
+
+    Raises:
+        BalcliError: the file cannot be written; an older one is left as it was.
+    """
+    text = text if text.endswith("\n") else text + "\n"
+    if output is not None:
+        write_file(text, output)
+        return
+    with standard_output() as stream:
+        stream.write(text)
+
+
+@contextmanager
+def standard_output() -> Iterator[TextIO]:
+    """Yield standard output. A pipe that its reader has closed is no error.
+
+    Raises:
+        BalcliError: standard output cannot be written.
+    """
+    try:
+        yield sys.stdout
+        sys.stdout.flush()
+    except OSError as error:
+        # What is left in the buffer goes nowhere, else the end of Python would fail again.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not has_no_reader(error):
+            raise BalcliError(
+                f"standard output: cannot be written ({error.strerror or error})"
+            ) from None
+
+
+def write_file(content: str | bytes, target: Path) -> None:
+    """Write a file in one step.
+
+    Raises:
+        BalcliError: the file cannot be written; an older one is left as it was.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    with replacing(target) as place:
+        place.write_bytes(data)
+
+
+def write_figure(figure: Figure, form: Form, target: Path) -> None:
+    """Write the file of a picture in one step; raises as `write_file`."""
+    from ..show.plot_style import save_figure  # few draw
+
+    write_file(save_figure(figure, form), target)
+
+
+def make_folder_of(path: Path) -> Path:
+    """Make the folder of a file, unless it is there; returns the file's path.
+
+    Raises:
+        BalcliError: the folder cannot be made.
+    """
+    try:
+        path.parent.mkdir(exist_ok=True)
+    except OSError as error:
+        raise BalcliError(f"{path.parent}: cannot be made ({error.strerror or error})") from None
+    return path
+
+
+# ------------------------------------------------------------------ refusals
+def refuse_existing(path: Path | None, force: bool) -> None:
+    """Raise BalcliError if a file exists that may not be overwritten."""
+    if path is not None and os.path.lexists(path) and not force:
+        raise BalcliError(
+            f"{path}: already exists; choose another name, or --force to overwrite it"
+        )
+
+
+def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Place | None]) -> None:
+    """Check the targets of a command before it computes anything.
+
+    Args:
+        reads: paths of the files that are read; `-` is standard input.
+        writes: target of every option (`--output`); None: nothing is written.
+
+    Raises:
+        BalcliError: a target is a file that is read, or that an engine file names, or another
+            target, or has no folder; standard input is read twice; `-` is not for results.
+    """
+    if list(reads).count("-") > 1:
+        raise BalcliError("standard input (-) is named twice, and can be read only once")
+    targets = {
+        option: place.path if isinstance(place, Place) else place
+        for option, place in writes.items()
+        if place is not None
+    }
+    sources = [Path(path) for path in reads if path != "-"]
+    if any(map(os.path.isfile, targets.values())):
+        sources += [file for source in sources for file in _list_named_files(source)]
+    done: list[Path] = []
+    for option, target in targets.items():
+        if str(target) == "-" and option not in _OF_RESULTS:
+            raise BalcliError(f"{option} -: name a file; standard output is for results alone")
+        if any(_is_same_file(target, source) for source in sources):
+            raise BalcliError(
+                f"{option} {target}: this is a file that is read, which stays as it is; "
+                "choose another name"
+            )
+        if any(_is_same_file(target, other) for other in done):
+            raise BalcliError(
+                f"{option} {target}: another result goes there, too; choose another name"
+            )
+        done.append(target)
+        try:
+            os.stat(os.path.join(target.parent, ""))
+        except OSError as error:
+            raise tell_unwritable(target, error) from None
+
+
+def _is_same_file(one: Path, other: Path) -> bool:
+    """Whether two paths are one file, whether it exists or not; a device may be used twice."""
+    if not os.path.exists(one):
+        return os.path.realpath(one) == os.path.realpath(other)
+    return os.path.isfile(one) and os.path.exists(other) and os.path.samefile(one, other)
+
+
+def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
+    """Check that an engine file that is written into another folder finds the files that it names.
+
+    Args:
+        text: the text of the engine or chain file, which is valid.
+        source: its path; `-` is standard input, in the working folder.
+        target: the path of the new file.
+
+    Raises:
+        BalcliError: the target's folder lacks a file, or has another one of that name.
+    """
+    folder = Path(source).parent
+    if folder.resolve() == target.parent.resolve():
+        return
+    for name in _list_names(tomllib.loads(text.decode("utf-8-sig"))):
+        with suppress(OSError):
+            if (folder / name).read_bytes() == (target.parent / name).read_bytes():
+                continue
+        raise BalcliError(
+            f'{target}: the engine file names "{name}", which stands beside it in {folder}; '
+            f"write into that folder, or copy {name} into {target.parent} first"
+        )
+
+
+def _list_named_files(source: Path) -> list[Path]:
+    """Return the files that an engine file names; an unreadable one, reported later, names none."""
+    try:
+        data = parse_toml(read_bytes(source), str(source)) if os.path.isfile(source) else {}
+        return [source.parent / name for name in _list_names(data)]
+    except (BalcliError, AttributeError, TypeError):
+        return []
+
+
+def _list_names(data: dict[str, Any]) -> Iterator[str]:
+    """Yield the file names in an engine file's tables."""
+    for table in (data.get("gas", {}), *data.get("cylinder", {}).values()):
+        yield from (table[key] for key in ("indicator", "harmonics") if key in table)

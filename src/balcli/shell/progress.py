@@ -1,0 +1,145 @@
+"""Progress of long computations: a bar on a terminal, and how far it was after Ctrl-C."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, TypeVar
+
+import typer
+
+from ..errors import Exit, is_quiet, say
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
+
+
+T = TypeVar("T")
+
+_SILENT_S, _EVERY_S = 2.0, 0.5  # before the bar appears, and between two updates
+
+
+class Progress:
+    """Callback that counts the work done and shows it on a terminal.
+
+    Attributes:
+        done: the work done so far.
+        stopped: whether Ctrl-C asks the computation to end with what there is.
+    """
+
+    def __init__(self, what: str, total: float | None, at_once: bool, shown: bool) -> None:
+        self.done, self.stopped = 0.0, False
+        self._what, self._total = what, total
+        self._next = time.monotonic() + (0.0 if at_once else _SILENT_S)
+        wanted = shown and not is_quiet() and sys.stderr.isatty()
+        self._bar = _make_bar(what, total) if wanted else None
+
+    def __call__(self, done: float) -> bool:
+        """Report the work done; returns whether to stop."""
+        self.done = done
+        if self._bar is not None and time.monotonic() >= self._next:
+            self._next = time.monotonic() + _EVERY_S
+            self._bar.start()
+            self._bar.update(self._bar.task_ids[0], completed=done, refresh=True)
+        return self.stopped
+
+    @property
+    def cut_short(self) -> bool:
+        """Whether Ctrl-C ended the computation before all was done."""
+        return self.stopped and self.done < (self._total or 1.0)
+
+    def describe(self) -> str:
+        """Return the work done, such as "20000 of 4000000 variants" or "0.50% of the work"."""
+        if self._total is None:
+            return f"{self.done:.2%} of the {self._what}"
+        return f"{self.done:.0f} of {self._total:.0f} {self._what}"
+
+    def close(self) -> None:
+        """Remove the bar."""
+        if self._bar is not None:
+            self._bar.stop()
+
+
+def _make_bar(what: str, total: float | None) -> Bar:
+    """Return a bar on standard error that has not been started; messages are printed above it."""
+    from rich import progress
+    from rich.console import Console
+
+    bar = progress.Progress(
+        progress.TextColumn("balcli: {task.description}"),
+        progress.BarColumn(),
+        progress.TaskProgressColumn(),
+        *([] if total is None else [progress.MofNCompleteColumn()]),
+        progress.TimeRemainingColumn(),
+        console=Console(file=sys.stderr),
+        auto_refresh=False,
+        transient=True,
+        redirect_stdout=False,
+    )
+    bar.add_task(what, total=total or 1.0)
+    return bar
+
+
+@contextmanager
+def reporting(
+    what: str, total: float | None = None, at_once: bool = False, shown: bool = True
+) -> Iterator[Progress]:
+    """Yield a callback for the work done. Ctrl-C ends the command and prints how far it was.
+
+    Args:
+        what: the noun for the work, such as "samples".
+        total: the number of them; None: the callback gets the share of all, from 0 to 1.
+        at_once: show the bar from the start, not after two seconds.
+        shown: False where results are written to the terminal meanwhile.
+    """
+    progress = Progress(what, total, at_once, shown)
+    try:
+        yield progress
+    except KeyboardInterrupt:
+        progress.close()
+        if progress.done:
+            say(f"balcli: stopped after {progress.describe()}")
+        raise typer.Exit(Exit.INTERRUPTED) from None
+    finally:
+        progress.close()
+
+
+@contextmanager
+def reporting_until_stopped(
+    what: str, total: float | None = None, at_once: bool = False, shown: bool = True
+) -> Iterator[Progress]:
+    """As `reporting`, for a computation that can end early with a smaller result: the first Ctrl-C
+    only sets `stopped`, the second one ends the command. An ignored Ctrl-C (`nohup`) stays ignored.
+    """
+    before = signal.getsignal(signal.SIGINT)
+    with reporting(what, total, at_once, shown) as progress:
+
+        def stop(*_: object) -> None:
+            progress.stopped = True
+            signal.signal(signal.SIGINT, before)
+
+        signal.signal(signal.SIGINT, before if before is signal.SIG_IGN else stop)
+        try:
+            yield progress
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+
+def exit_if_cut_short(progress: Progress, what_there_is: str = "") -> None:
+    """End with the status of an interruption and print how far the work was, if there was one."""
+    if progress.cut_short:
+        tail = f"; {what_there_is}" if what_there_is else ""
+        say(f"balcli: stopped after {progress.describe()}{tail}")
+        raise typer.Exit(Exit.INTERRUPTED)
+
+
+def each_until_stopped(items: Sequence[T], progress: Progress) -> Iterator[T]:
+    """Yield the items until Ctrl-C; each one is counted when the next is requested."""
+    for count, item in enumerate(items):
+        if progress(count):
+            return
+        yield item
+    progress(len(items))

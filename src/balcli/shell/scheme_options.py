@@ -1,0 +1,140 @@
+"""What a balance scheme is asked for, wherever devices are fitted: `balance`, and all that shows an
+engine with them beside the engine as it is.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated
+
+from ..errors import BalcliError, warn
+from ..limits import LARGEST_FACTOR, MOST_FACTORS
+from ..show.formats import Units
+from ..sizing.options import SchemeOptions
+from .values import optional, read_lengths, read_mass_on_scales, read_share
+
+
+def complete_schemes(incomplete: str) -> list[str]:
+    """Return the balance schemes that begin with this text."""
+    from ..sizing.options import NAMES
+
+    return [name for name in NAMES if name.startswith(incomplete)]
+
+
+Scheme = Annotated[
+    str | None,
+    optional(
+        "NAME",
+        "Also with the devices of a balance scheme, such as auto.",
+        autocompletion=complete_schemes,
+    ),
+]
+Order = Annotated[
+    int | None, optional("N", "Order to balance; default: the lowest that the scheme can balance.")
+]
+At = Annotated[
+    list[str] | None,
+    optional("X,Y", "Place of the shaft, mm; given twice: first of that against the crank."),
+]
+Position = Annotated[str | None, optional("Z", "Axial place of new devices, mm.")]
+Planes = Annotated[
+    str | None,
+    optional(
+        "ends|throws|Z,Z...",
+        "Where along the crank: at its end throws, at every throw, or at these z in mm.",
+    ),
+]
+Factor = Annotated[
+    str | None,
+    optional("K|K:K:STEP", "Share of the reciprocating mass, such as 51% or a range 50%:54%:1%."),
+]
+Measured = Annotated[
+    str | None, optional("MASS", 'Instead of --factor: what balances a bare pin, such as "812 g".')
+]
+Roll = Annotated[
+    str | None, optional("zero", "Place two shafts such that they cancel the roll of inertia, too.")
+]
+
+
+def parse_scheme_options(
+    order: int | None,
+    at: list[str] | None,
+    position: str | None,
+    planes: str | None,
+    factor: str | None,
+    measured: str | None,
+    roll: str | None,
+    units: Units,
+) -> SchemeOptions:
+    """Return what of a scheme is asked for, in SI.
+
+    Raises:
+        BalcliError: a text that cannot be read.
+    """
+    one = "one place along z in mm, such as 40"
+    pair = "x,y of a shaft in mm, such as -40,60"
+    along = None if position is None else read_lengths("--position", position, one, 1, units)[0]
+    return SchemeOptions(
+        order=order,
+        at=tuple(complex(*read_lengths("--at", text, pair, 2, units)) for text in at or ()) or None,
+        position=along,
+        planes=None if planes is None else _parse_planes(planes, units),
+        factor=None if factor is None else _parse_factors(factor),
+        measured=None if measured is None else _parse_measured(measured, units),
+        roll=roll,
+    )
+
+
+def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto") -> str:
+    """Return the scheme asked for; without one `factor` where there is a factor, else the usual
+    one.
+    """
+    if asked is not None:
+        return asked
+    by_factor = options.factor is not None or options.measured is not None
+    return "factor" if by_factor else usual
+
+
+def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
+    """Return the scheme to show next to the engine as it is; None if none was asked for."""
+    if asked is None and options == SchemeOptions():
+        return None
+    return choose_scheme(asked, options)
+
+
+def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
+    if text in ("ends", "throws"):
+        return text
+    wanted = "ends, throws, or places along z in mm, such as -200,200"
+    places = read_lengths("--planes", text, wanted, units=units)
+    if len(places) > 2 and len(set(places)) < len(places):
+        warn(f'--planes "{text[:60]}": names a place twice; decimals take a point, not a comma')
+    return places
+
+
+def _parse_measured(text: str, units: Units) -> float:
+    """Return a mass in kg."""
+    mass = read_mass_on_scales("--measured", text, units)
+    if mass < 0:
+        raise BalcliError(f'--measured "{text[:60]}": a mass on the pin is not negative')
+    return mass
+
+
+def _parse_factors(text: str) -> tuple[float, ...]:
+    """Return the factors of `0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
+    wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
+    parts = [read_share("--factor", part, wanted) for part in re.split("[:,]", text)]
+    if ":" not in text:
+        if re.fullmatch(r"0,\d+|\d+,\d+ *%", text) and max(parts) > LARGEST_FACTOR:
+            raise BalcliError(
+                f'--factor "{text}": decimals take a point, such as {text.replace(",", ".")}'
+            )
+        return tuple(parts)
+    first, last, step = parts if len(parts) == 3 else (1, 0, 1)
+    if not (step > 0 and last >= first and (last - first) / step <= MOST_FACTORS):
+        raise BalcliError(
+            f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '
+            f"steps; give {wanted}"
+        )
+    steps = int((last - first) / step + 1e-9)
+    return tuple(round(first + k * step, 12) for k in range(steps + 1))

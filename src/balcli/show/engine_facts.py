@@ -1,0 +1,204 @@
+"""An engine in a few lines, as it stands at the head of an analysis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from ..core.phasors import Figure
+from ..engine.build import Engine, SilentCylinders
+from ..file.fields import count_lambda_digits
+from ..limits import HIGHEST_ORDER_UNASKED
+from .figures import silent_entries
+from .sheet import Facts, get_digits, given, number
+from .units import System
+
+AXES_SHOWN = 9  # of banks
+THROWS_SHOWN = 12
+EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
+
+
+def speed_facts(engine: Engine) -> Facts:
+    """The crank speed, and which cylinders have no gas, or burn nothing."""
+    return Facts((("speed", tell_speed(engine)), *list_silent(engine.silent)))
+
+
+def tell_pivot(engine: Engine) -> str:
+    """About what couple and roll are told."""
+    return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
+
+
+_TURNING = '"with the crank" is with the cylinders here, and counterweights stand on them'
+
+
+def engine_facts(
+    engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
+) -> Facts:
+    """Cylinders, crank, firing, speed, masses that the figures include, devices; and, of the whole,
+    how high orders go, the reference of moments and the source.
+
+    Args:
+        higher: whether there may be orders above those that are shown unless they are asked for.
+        speeds_rpm: which there are figures of, ascending, where there are several.
+    """
+    about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
+    reference = f"moments about x, y, z = {about} {system.length.name}"
+    if not engine.places_known:
+        reference = "moments are not known: crank.spacing is missing"
+    orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
+    devices = f"{len(engine.devices)} of the file are included" if engine.devices else ""
+    cylinders = f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
+    pairs = (
+        ("cylinders", cylinders),
+        ("crank", _crank(engine, system)),
+        ("throws", _throws(engine)),
+        ("turning", _TURNING if engine.rotary else ""),
+        ("firing" if engine.fires_deg else "cycle", _firing(engine)),
+        *list_silent(engine.silent),
+        ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
+        ("masses", _masses(engine, system, whole=whole)),
+        ("devices", devices),
+        ("orders", orders if whole else ""),
+        ("reference", reference if whole or any(engine.reference_m) else ""),
+        ("assumed", _tell_inferred(engine)),
+        ("source", engine.source if whole else ""),
+    )
+    return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _tell_inferred(engine: Engine) -> str:
+    """Keys that the file leaves out; throws and intervals without their values, which stand in
+    lines of their own.
+    """
+    shown = {"crank.throws", "layout.firing_intervals"}
+    pairs = (line.split(" = ") for line in engine.inferred)
+    return ", ".join(key if key in shown else f"{key} = {value}" for key, value in pairs)
+
+
+def tell_speed(engine: Engine, *, steady: bool = False) -> str:
+    """Its mean speed, and whether that is assumed or uneven; `steady`: of figures in which an
+    uneven speed does not count.
+    """
+    counts = "uneven: figures are those of the uneven speed"
+    counts = "the file's uneven one does not count" if steady else counts
+    uneven = f", {counts}" if engine.ripple else ""
+    assumed = ", assumed: the file gives none" if engine.speed_assumed else ""
+    return f"{given(float(engine.speed_rpm))} rpm{assumed}{uneven}"
+
+
+def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
+    first, last = (given(float(speed)) for speed in (speeds_rpm[0], speeds_rpm[-1]))
+    gas = "" if engine.gas is None else "; gas as in the file at every speed"
+    return f"{first} to {last} rpm, {len(speeds_rpm)} speeds{gas}"
+
+
+def _throws(engine: Engine) -> str:
+    """Angles of the throws after cylinder 1's pin, free end to flywheel end; of split pins, first
+    those of one bank. Empty of one throw with one pin.
+    """
+    pins: dict[int, list[float]] = {}
+    for weighed, pin in zip(engine.weighed, engine.pins_deg.values(), strict=True):
+        pins.setdefault(weighed.throw, []).append(float(pin))
+    first, *others = pins[min(pins)]
+    lead = round((others[0] - first + 180) % 360 - 180, 6) if others else 0
+    if (len(pins) == 1 and not lead) or engine.rotary:
+        return ""
+    angles = [f"{round(round(pins[throw][0], 6), 1) % 360:g}" for throw in sorted(pins)]
+    shown = ", ".join(angles[:THROWS_SHOWN])
+    more = ", …" * (len(pins) > THROWS_SHOWN)
+    start = "" if angles[0] == "0" else " from cylinder 1's pin"
+    splay = f", split pins: the next bank's at {lead:+g} deg" if lead else ""
+    return f"{shown}{more} deg{start}{splay}"
+
+
+def _banks(engine: Engine) -> str:
+    if engine.rotary:
+        return " that turn about a crank standing still"
+    axes = np.ravel(engine.cylinders.axis_deg)
+    if len(axes) == 1:
+        return " in line"
+    shown = ", ".join(f"{axis:.4g}" for axis in axes[:AXES_SHOWN])
+    return f", banks at {shown}{' …' if len(axes) > AXES_SHOWN else ''} deg"
+
+
+def _bore(engine: Engine, system: System) -> str:
+    """Bore, stroke and displacement, where the file gives the bore."""
+    bore_m = float(engine.bore_m)
+    if math.isnan(bore_m):
+        return ""
+    bore = number(system.length.of(bore_m))
+    stroke = number(system.length.of(2 * float(engine.cylinders.radius)))
+    volume = system.volume.fit(float(engine.displacement_m3))
+    size = f"{number(volume.of(float(engine.displacement_m3)), 4)} {volume.name}"
+    return f", bore × stroke {bore} × {stroke} {system.length.name}, {size}"
+
+
+def _crank(engine: Engine, system: System) -> str:
+    """Crank radius, rod length and their ratio, of cylinder 1."""
+    c, unit = engine.cylinders, system.length
+    first = engine.numbers.index(1)
+    radius, lam = float(c.radius), float(c.lam[first if len(c.lam) > 1 else 0])
+    r, rod = (f"{number(unit.of(length))} {unit.name}" for length in (radius, radius / lam))
+    ratio = given(lam, count_lambda_digits(lam, get_digits(4)))
+    return f"r = {r}, rod {rod}, λ = {ratio}{_unequal(engine)}"
+
+
+def _masses(engine: Engine, system: System, *, whole: bool) -> str:
+    """Masses that go to and fro and that turn, of cylinder 1, and what turns with its pin where
+    that carries several rods.
+    """
+    row, unit = engine.numbers.index(1), system.mass
+    weighed = engine.weighed[row]
+
+    def shown(kg: Figure) -> str:
+        return number(unit.of(float(kg)), 4)
+
+    text = f"reciprocating {shown(weighed.reciprocating)} {unit.name} per cylinder"
+    text += " (piston, rod's small end)" * whole
+    if not engine.rotary:  # else the pins stand still
+        shells = ", shells and oil" if weighed.rod_bearing or weighed.oil else ""
+        text += f", rotating {shown(weighed.rotating + weighed.share)} {unit.name} per rod"
+        text += f" (big end{shells}, share of the throw)" * whole
+        on_pin = next(rows for rows in engine.rows_by_pin if row in rows)
+        if len(on_pin) > 1 and engine.cylinders.linkage is None:
+            sharing = [engine.weighed[k] for k in on_pin]
+            together = shown(sum(float(w.rotating + w.share) for w in sharing))
+            text += f" ({together} per pin of {len(on_pin)} rods)"
+    return text + _unequal(engine)
+
+
+def _unequal(engine: Engine) -> str:
+    return "" if engine.equal else " (cylinder 1; others differ)"
+
+
+def _firing(engine: Engine) -> str:
+    """Firing order, the intervals between firings, and the strokes of a cycle, as far as the file
+    says or implies them.
+    """
+    if not engine.fires_deg:
+        said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
+        return tell_strokes(engine) if said or engine.gas is not None else ""  # else assumed
+    instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
+    gaps = [b - a for a, b in pairwise(instants)]
+    intervals, even, splay = f"every {gaps[0]:.4g}", "", engine.splay_for_even_firing
+    if max(gaps) - min(gaps) >= EVEN_DEG:
+        intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)}"
+        even = "" if splay is None else f" (evenly with crank.splay = {splay:g})"
+    order = "-".join(map(str, engine.fires_deg))
+    return f"{order}, {intervals} deg{even}, {tell_strokes(engine)}"
+
+
+def tell_strokes(engine: Engine) -> str:
+    """`four-stroke` or `two-stroke`."""
+    return "two-stroke" if engine.strokes == 2 else "four-stroke"
+
+
+def list_silent(silent: SilentCylinders) -> list[tuple[str, str]]:
+    """A line of the cylinders without gas, and one of those that compress and burn nothing."""
+    return [
+        (key.replace("_", " "), ", ".join(map(str, numbers)))
+        for key, numbers in silent_entries(silent).items()
+    ]

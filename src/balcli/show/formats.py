@@ -1,0 +1,129 @@
+"""Which formats there are, and how a result becomes text in each.
+
+Which documents there are, without what it takes to describe them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, assert_never
+
+if TYPE_CHECKING:
+    from .csv import Columns, Rows
+    from .sheet import Sheet
+    from .units import System
+
+
+class Format(StrEnum):
+    """How a result is written."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+    MARKDOWN = "markdown"
+
+
+class Units(StrEnum):
+    """Units of tables, CSV and Markdown; JSON stays SI."""
+
+    SI = "si"
+    IMPERIAL = "imperial"
+
+
+Shown = TypeVar("Shown")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Columnar(Generic[Shown]):
+    """How results of one kind become documents and columns.
+
+    Attributes:
+        document: Makes what JSON says, in SI units.
+        columns: Makes the columns of DataFrames; None: those of the rows of CSV.
+    """
+
+    document: Callable[[Shown], Any]
+    columns: Callable[[Shown], Columns] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Renderer(Columnar[Shown]):
+    """How results of one kind are shown.
+
+    Attributes:
+        sheet: Makes what a person reads, in these units.
+        rows: Makes what CSV lists, in these units.
+    """
+
+    sheet: Callable[[Shown, System], Sheet]
+    rows: Callable[[Shown, System], Rows]
+
+
+def render(
+    results: Sequence[Shown],
+    renderer: Renderer[Shown],
+    form: Format,
+    system: System,
+    *,
+    seen: bool = False,
+) -> str:
+    """Text of one or more results in one format: sheets one after the other, one JSON document a
+    line, all rows of CSV under one header.
+
+    Args:
+        seen: whether a person will see it in a terminal, with colours and at its width.
+    """
+    match form:  # the module of the one format that is asked for is imported
+        case Format.TABLE | Format.MARKDOWN:
+            sheets = [renderer.sheet(result, system) for result in results]
+            return lay_out(sheets, form, seen=seen)
+        case Format.CSV:
+            from .csv import csv_text
+
+            return csv_text([renderer.rows(result, system) for result in results])
+        case Format.JSON:
+            from .csv import json_text
+
+            return "\n".join(json_text(renderer.document(result)) for result in results)
+        case _:
+            assert_never(form)
+
+
+def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
+    """Sheets as tables or Markdown, one after the other; `seen` as of `render`."""
+    if form is Format.MARKDOWN:
+        from .table import markdown
+
+        return markdown(sheets)
+    if seen:
+        from .terminal import terminal  # rich
+
+        return terminal(sheets)
+    from .table import plain_text
+
+    return plain_text(sheets)
+
+
+# By name, which stands in `format` too: module of the package, and the class that declares it.
+DOCUMENTS = {
+    "analysis": "show.document:Analysis",
+    "balance": "show.document:Balance",
+    "bench": "bench:Bench",
+    "check": "regression:Check",
+    "compare": "analysis.comparison:Comparison",
+    "curves": "show.document:Curves",
+    "field": "field.answer:FieldBalance",
+    "marine": "show.document:Marine",
+    "mounts": "mounts.records:MountReport",
+    "numbers": "studies.quantities:NamedNumbers",
+    "scatter": "studies.scatter:Scatter",
+    "search": "show.document:Search",
+    "speeds": "show.document:Speeds",
+    "sum": "show.document:Sum",
+    "sweep": "show.document:Sweep",
+    "table": "show.document:Table",
+    "torque": "torque.records:TorqueAnalysis",
+    "torsion": "torsion.answer:TorsionAnalysis",
+}

@@ -1,0 +1,135 @@
+"""Pictures in the plane of forces and moments: loci and rotating vectors.
+
+The plane is seen from the free end: x up, y to the right, so that the crank turns clockwise.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.phasors import Array, Complex, Phasors
+from .plot_style import BLUE, INK, PAPER, RED, SOFT, put_legend_above
+from .sheet import NOTHING, VISIBLE, number, order_name, size_text
+from .units import ShownUnit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
+_ORDER_ANGLE = 36  # degrees of the order's own angle, at which both of its vectors are seen apart
+_BOX: Any = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
+
+
+def set_up_plane(ax: Axes, largest: float, what: str = "", unit: str = "") -> float:
+    """Make the axes a square with the origin in its middle; return half its side.
+
+    Args:
+        ax: Axes of the picture.
+        largest: Size of the largest vector, in the unit of the axes.
+        what, unit: Quantity and unit for the labels of the axes; empty: no labels.
+    """
+    up, right = (f"{what} along {axis}, {unit}" if what else "" for axis in "xy")
+    limit = 1.25 * (largest or 1.0)
+    ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel=right, ylabel=up)
+    ax.locator_params(nbins=5)
+    ax.axhline(0, color=SOFT, linewidth=0.7, zorder=1)
+    ax.axvline(0, color=SOFT, linewidth=0.7, zorder=1)
+    return limit
+
+
+def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: float) -> None:
+    """Draw the path of a vector's tip, with dots every `step` degrees and the crank angle at every
+    second dot, on the outer side of the path.
+
+    Args:
+        path: in the unit of the axes, real upwards, shape (angles,).
+        crank_deg: shape (angles,).
+        step: crank angle between dots, degrees.
+        limit: half the side of the axes.
+    """
+    ax.plot(path.imag, path.real, color=BLUE)
+    marks = np.arange(0, crank_deg[-1], step)
+    rows = np.abs(crank_deg[:, None] - marks).argmin(axis=0)
+    at, along = path[rows], np.gradient(path)[rows]
+    ax.plot(at.imag, at.real, "o", color=BLUE, markersize=2.6)
+    normal = 1j * along * np.where((1j * along * at.conj()).real < 0, -1, 1)
+    normal = np.where(np.abs(along) > 0.05 * np.abs(along).max(initial=0), normal, at)
+    written: list[complex] = []
+    for mark, place, out in zip(marks[::2], at[::2], normal[::2], strict=True):
+        spot = place + 0.085 * limit * out / (abs(out) or 1)
+        if all(
+            abs(spot.real - other.real) > 0.07 * limit or abs(spot.imag - other.imag) > 0.16 * limit
+            for other in written
+        ):
+            where: Any = {"ha": "center", "va": "center", "bbox": _BOX, "zorder": 1.5}
+            ax.text(spot.imag, spot.real, f"{mark:g}°", fontsize=7, **where)
+            written.append(spot)
+
+
+def draw_locus(
+    ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
+) -> None:
+    """Draw where the tip of a vector goes in a revolution, dashed where it went `before`."""
+    shown = [curve] if before is None else [curve, before]
+    paths = [each.values(np.radians(np.arange(find_period_deg(each) + 1))) for each in shown]
+    largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
+    s = unit.fit(float(most))
+    limit = set_up_plane(ax, float(most) / s.size, what, s.name)
+    path, *others = (each / s.size for each in paths)
+    angles = np.arange(len(path), dtype=float)
+    for old in others:
+        ax.plot(old.imag, old.real, color=SOFT, linewidth=1, linestyle=(0, (4, 2)), label="before")
+        ax.plot([], [], color=BLUE, label="after")
+        put_legend_above(ax)
+    if largest > 0.15 * most:
+        draw_path(ax, path, angles, angles[-1] / 12, limit)
+        start = len(path) // 25
+        way = path[start + 1] - path[start]
+        tip = path[start] + 0.02 * limit * way / (abs(way) or 1)
+        _draw_arrow(ax, path[start], tip, color=BLUE, linewidth=1.2, mutation_scale=13)
+        return
+    ax.plot(path.imag, path.real, color=BLUE)  # crank angles would overlap
+    size = f"at most {size_text(float(largest), unit, 3)}" if largest else NOTHING
+    ax.text(0, float(largest) / s.size + 0.06 * limit, size, ha="center", va="bottom", bbox=_BOX)
+
+
+def _draw_arrow(ax: Axes, start: complex, tip: complex, **look: Any) -> None:
+    """Draw an arrow between two places of the plane."""
+    ends = (tip.imag, tip.real), (start.imag, start.real)
+    ax.annotate("", *ends, arrowprops={"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0, **look})
+
+
+def find_period_deg(curve: Phasors) -> int:
+    """Return the crank angle after which the visible orders of a curve repeat, degrees."""
+    seen = curve.orders[curve.major > VISIBLE * curve.major.max(initial=0)]
+    repeats = int(np.gcd.reduce((2 * seen).astype(int), initial=0))  # in two revolutions
+    return 720 // min(repeats, 24) if repeats else 360
+
+
+def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> None:
+    """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
+    order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_ORDER_ANGLE))
+    s = unit.fit(float(curve.major[k]))
+    forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size
+    path = forward * np.exp(1j * FINE) + backward * np.exp(-1j * FINE)
+    set_up_plane(ax, float(np.abs(path).max()), what, s.name)
+    ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
+    ax.plot(path.imag, path.real, color=INK)
+    start = 0j
+    for vector, colour, style, way in (
+        (complex(forward * phase), BLUE, "-", "with the crank"),
+        (complex(backward / phase), RED, (0, (3, 1)), "against it"),
+    ):
+        if not vector:
+            continue
+        ring, tip = start + vector * np.exp(1j * FINE), start + vector
+        ax.plot(ring.imag, ring.real, color=colour, linewidth=0.7, linestyle=":")
+        look: Any = {"color": colour, "linestyle": style}
+        _draw_arrow(ax, start, tip, linewidth=1.5, mutation_scale=11, **look)
+        label = f"{number(abs(vector), 3)} {s.name} {way}"
+        ax.plot([], [], label=label, **look)
+        start = tip
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, columnspacing=1)

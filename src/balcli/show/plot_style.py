@@ -1,0 +1,142 @@
+"""The style of all pictures, and the figures that are drawn in it.
+
+Nothing global is left changed, and no display is needed.
+
+Figures that keep our style, so that a notebook shows them as files have them.
+"""
+
+from __future__ import annotations
+
+import logging
+import re
+import warnings
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from io import BytesIO
+from pathlib import Path
+from textwrap import wrap
+from threading import RLock
+from typing import TYPE_CHECKING, Any, Literal
+from unicodedata import east_asian_width
+
+from matplotlib.figure import Figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+Form = Literal["svg", "png", "pdf"]
+
+# Wong, Nature Methods 8 (2011) 441: colour-blind readers distinguish these colours; line styles and
+# hatches distinguish the curves in black and white.
+INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
+BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
+# Looks of up to twelve curves.
+MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
+_WORDS = ("ink", "soft", "faint", "paper", "blue", "red", "green")
+NAMES = dict(zip((INK, SOFT, FAINT, PAPER, BLUE, RED, GREEN), _WORDS, strict=True))
+_LETTER, _WIDE_LETTER = 0.1, 0.19  # width in a title, inches
+
+STYLE = Path(__file__).with_name("balcli.mplstyle")
+# Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.
+_EASTERN = ("Noto Sans CJK SC", "Microsoft YaHei", "PingFang SC", "Arial Unicode MS")
+_UNDATED: Any = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
+_one_at_a_time = RLock()
+
+
+@contextmanager
+def open_figure(width: float, height: float) -> Iterator[Picture]:
+    """Open a figure of this size in inches; what is drawn within the context has our style."""
+    with in_our_style():
+        yield Picture(figsize=(width, height), layout="constrained")
+
+
+@contextmanager
+def in_our_style() -> Iterator[None]:
+    """Set our style, whatever the user's own is, for one thread at a time: matplotlib has one style
+    for all threads.
+    """
+    with _one_at_a_time, warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from")
+        logger = logging.getLogger("matplotlib")
+        level = logger.level
+        logger.setLevel(logging.ERROR)  # "building the font cache" does not concern the user
+        try:
+            import matplotlib
+            from matplotlib.font_manager import get_font_names
+
+            with matplotlib.rc_context():
+                matplotlib.rcdefaults()
+                matplotlib.rc_file(STYLE, use_default_template=False)
+                eastern = [family for family in _EASTERN if family in get_font_names()][:1]
+                matplotlib.rcParams["font.family"] = ["sans-serif", *eastern]
+                yield
+        finally:
+            logger.setLevel(level)
+
+
+def save_figure(figure: Figure, form: Form) -> bytes:
+    """Return a figure as the content of a file; the same figure gives the same bytes."""
+    with in_our_style():
+        buffer = BytesIO()
+        figure.savefig(buffer, format=form, metadata=_UNDATED[form])
+        return buffer.getvalue()
+
+
+def save_pages(figures: Iterable[Figure]) -> bytes:
+    """Return figures as the pages of one PDF."""
+    with in_our_style():
+        from matplotlib.backends.backend_pdf import PdfPages
+
+        buffer = BytesIO()
+        with PdfPages(buffer, metadata=_UNDATED["pdf"]) as pages:
+            for figure in figures:
+                figure.savefig(pages, format="pdf")
+        return buffer.getvalue()
+
+
+def inline_svg(svg: bytes, name: str) -> str:
+    """Return an SVG that stands in an HTML page: its colours are those of the page (`--ink` ...),
+    its ids begin with `name`, and it grows with its column.
+    """
+    text = svg.decode()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.S)
+    text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text)
+    size = r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"'
+    text = re.sub(size, r'\1 style="max-width: \2pt"', text, count=1)
+    return re.sub("|".join(NAMES), lambda colour: f"var(--{NAMES[colour[0]]})", text)
+
+
+def fit_name(name: str, most: int = 90) -> str:
+    """Return a name on one line that any format can hold, with at most this many letters."""
+    text = " ".join("".join(c if c.isprintable() else " " for c in name).split())
+    return text if len(text) <= most else text[: most - 1].rstrip() + "…"
+
+
+def put_title(fig: Figure, text: str) -> None:
+    """Put a title over a figure, on as many lines as it needs."""
+    wide = any(east_asian_width(letter) in "WF" for letter in text)
+    letters = int(fig.get_figwidth() / (_WIDE_LETTER if wide else _LETTER))
+    lines = [part for line in text.splitlines() for part in wrap(line, letters)]
+    fig.suptitle("\n".join(lines), x=0.01, ha="left")
+
+
+def put_legend_above(ax: Axes, columns: int = 4) -> None:
+    """Put the legend between the axes and their title."""
+    legend = ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
+    legend.set_in_layout(False)  # a long legend must not narrow the axes
+
+
+class Picture(Figure):
+    """A matplotlib figure without a window; files and notebooks show what is changed in it."""
+
+    def savefig(self, fname: Any, **kwargs: Any) -> None:
+        """Write the figure, as `matplotlib.figure.Figure.savefig` does."""
+        with in_our_style():
+            super().savefig(fname, **kwargs)
+
+    def _repr_png_(self) -> bytes:
+        buffer = BytesIO()
+        self.savefig(buffer, format="png", dpi=100)  # a column of a notebook
+        return buffer.getvalue()

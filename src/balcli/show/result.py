@@ -1,0 +1,212 @@
+"""What every answer can do besides holding figures: tell in a line what it is, be shown in a
+notebook, become a dict, rows, a DataFrame, a Dataset or a Parquet file.
+
+How answers are shown is the business of `render`, which stands above them; it is imported when one
+is asked for.
+
+Answers for other libraries: documents, rows, and columns for pandas and Parquet.
+"""
+
+from __future__ import annotations
+
+import math
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import BalcliError
+from ..files import replacing
+from ..version import __version__
+from .csv import Column, Columns, Rows, stamp
+from .formats import Columnar, Renderer
+from .units import SI
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Result:
+    """An answer, which can be kept, shown and handed on."""
+
+    @property
+    def summary(self) -> str:
+        """What it is, in a few words."""
+        return ""
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What it has that can be and yet is unlikely, in words, as the commands say it on standard
+        error; of what a file says, its engine tells.
+        """
+        return ()
+
+    def __repr__(self) -> str:
+        return f"<{' '.join(filter(None, (type(self).__name__, self.summary)))}>"
+
+    def _repr_html_(self) -> str:
+        """What the command prints, for a notebook."""
+        return import_module("balcli.report.notebook").show_in_notebook(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The document that the command writes as JSON (docs/json.md): its keys name SI units."""
+        return import_module("balcli.show.result").describe(self)
+
+    def rows(self) -> list[dict[str, Any]]:
+        """One dict a row, all with the same keys: a DataFrame of any library takes them as they
+        are. What has no value is None.
+        """
+        return import_module("balcli.show.result").list_rows(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The rows as a DataFrame; units of columns are its `attrs["units"]`, as far as neither
+        their names nor a column `unit` tell them.
+
+        Raises:
+            BalcliError: pandas is not installed.
+        """
+        return import_module("balcli.show.result").make_frame(self)
+
+    def to_parquet(self, path: str | Path) -> None:
+        """Write the rows into a Parquet file; each column has its unit in the metadata.
+
+        Raises:
+            BalcliError: pyarrow is not installed; the file cannot be written.
+        """
+        import_module("balcli.show.result").write_parquet(self, path)
+
+
+# Which module shows a kind of answer: its document, and its columns or the rows of its CSV.
+RENDERERS = {
+    "Analysis": "analysis.show",
+    "Balance": "balancing.show",
+    "Combined": "analysis.two_engines",
+    "Comparison": "analysis.comparison",
+    "Curves": "analysis.curves",
+    "FieldBalance": "field.show",
+    "MountReport": "mounts.show",
+    "Scatter": "scatter",
+    "Search": "studies.search.command",
+    "Swept": "sweep",
+    "Table": "books.show",
+    "TorqueAnalysis": "torque.show",
+    "TorsionAnalysis": "torsion.show",
+}
+INSTALLED_BY = {"pandas": "pandas", "pyarrow": "balcli[scale]"}
+
+
+def find_renderer(result: Result) -> Columnar[Any]:
+    """Return what shows an answer."""
+    module = import_module(f"balcli.{RENDERERS[type(result).__name__]}")
+    renderer: Columnar[Any] = module.RENDERER
+    return renderer
+
+
+def describe(result: Result) -> dict[str, Any]:
+    """The JSON document of an answer."""
+    found: dict[str, Any] = stamp(find_renderer(result).document(result))
+    return found
+
+
+def list_rows(result: Result) -> list[dict[str, Any]]:
+    """One dict a row."""
+    found = list_columns(result).values
+    lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
+    lines = zip(*lists, strict=True)
+    return [dict(zip(found, map(_none_for_nan, line), strict=True)) for line in lines]
+
+
+def _none_for_nan(value: Any) -> Any:
+    return None if isinstance(value, float) and math.isnan(value) else value
+
+
+def list_columns(result: Result) -> Columns:
+    """The columns of an answer: those that its renderer names, or those of its CSV."""
+    renderer = find_renderer(result)
+    if renderer.columns is None and isinstance(renderer, Renderer):
+        found = _read_columns(renderer.rows(result, SI))
+    elif renderer.columns is not None:
+        found = renderer.columns(result)
+    return found._replace(values={k: _fill_gaps(column) for k, column in found.values.items()})
+
+
+def _fill_gaps(column: Column) -> Column:
+    """Numbers among which some are missing as an array with nan: of a list with None other
+    libraries make objects, with which nothing can be computed.
+    """
+    if isinstance(column, np.ndarray) or None not in column:
+        return column
+    return column if any(isinstance(value, str) for value in column) else np.array(column, float)
+
+
+def _read_columns(rows: Rows) -> Columns:
+    """Rows of CSV as columns of one type each: words among numbers get a column of their own, with
+    `_text` after its name.
+    """
+    lines = list(rows.lines)
+    values: dict[str, Column] = {}
+    for k, head in enumerate(rows.header):
+        name = f"{head} ({k + 1})" if head in values else head  # an engine may be called "order"
+        cells = [line[k] for line in lines]
+        numbers = [_number(cell) for cell in cells]
+        words = [_word(cell) for cell in cells]
+        if any(number is not None for number in numbers):
+            values[name] = numbers
+        if any(word is not None for word in words):
+            values[f"{name}_text" if name in values else name] = words
+        if name not in values:
+            values[name] = numbers  # nothing in it
+    return Columns(values)
+
+
+def _number(cell: Any) -> float | None:
+    """A cell as a number; None if it is none."""
+    return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else None
+
+
+def _word(cell: Any) -> str | None:
+    """A cell as text; None for a number, and where nothing is said."""
+    if isinstance(cell, bool):
+        return str(cell).lower()
+    return cell if isinstance(cell, str) and cell else None
+
+
+# ------------------------------------------------------------------ other libraries
+def import_library(name: str, method: str) -> Any:
+    """A library that balcli does without unless it is asked for.
+
+    Raises:
+        BalcliError: it is not there, with what to install.
+    """
+    try:
+        return import_module(name)
+    except ImportError:
+        top = name.partition(".")[0]
+        wanted = INSTALLED_BY[top]
+        raise BalcliError(f"{method} needs {top}: pip install {wanted}") from None
+
+
+def make_frame(result: Result) -> Any:
+    """A DataFrame of pandas."""
+    pandas = import_library("pandas", "to_pandas()")
+    found = list_columns(result)
+    frame = pandas.DataFrame(dict(found.values))
+    frame.attrs["units"] = dict(found.units)
+    return frame
+
+
+def write_parquet(result: Result, path: str | Path) -> None:
+    """A Parquet file, which takes its place when it is whole; errors as of `replacing`."""
+    parquet = import_library("pyarrow.parquet", "to_parquet()")
+    pyarrow = import_library("pyarrow", "to_parquet()")
+    found = list_columns(result)
+    arrays = [pyarrow.array(column, from_pandas=True) for column in found.values.values()]
+    fields = [
+        pyarrow.field(name, array.type, metadata={"unit": found.units.get(name, "")})
+        for name, array in zip(found.values, arrays, strict=True)
+    ]
+    about = {"balcli.version": __version__, "balcli.show.result": type(result).__name__}
+    table = pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about))
+    with replacing(Path(path)) as place:
+        parquet.write_table(table, place)

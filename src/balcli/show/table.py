@@ -1,0 +1,163 @@
+"""Sheets as plain text, for whoever reads them in no terminal: as wide as their figures are.
+
+It is what rich would print there without colours, but importing rich takes longer than all else
+that a command does.
+
+A sheet as Markdown.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, zip_longest
+
+from ..errors import legible
+from .sheet import Facts, Grid, Sheet, Text
+
+GAP = 3  # blanks between the columns of a grid
+FACTS_GAP = 2  # between names and what they are
+PROSE = 50  # width at which columns of words are folded; figures never are
+_SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # what we write ourselves takes one place each
+
+
+def plain_text(sheets: Sequence[Sheet]) -> str:
+    """All sheets one after the other, no line with blanks at its end."""
+    text = "\n".join(line for sheet in sheets for line in _lines(sheet))
+    return legible("\n".join(line.rstrip() for line in text.split("\n")))
+
+
+def _lines(sheet: Sheet) -> Iterator[str]:
+    yield sheet.title
+    for part in sheet.parts:
+        yield ""
+        if part.title:
+            yield part.title
+        match part:
+            case Grid():
+                yield from _grid_lines(part)
+                if part.note:
+                    yield part.note
+            case Facts():
+                yield from _fact_lines(part)
+            case Text():
+                yield from part.paragraphs
+    yield ""
+
+
+def _grid_lines(grid: Grid) -> Iterator[str]:
+    """Headings, a rule, and the rows; words to the left, figures to the right."""
+    widths = [_measure(grid, k) for k in range(len(grid.columns))]
+    yield from _row_lines(grid.columns, widths, grid.words)
+    yield "─" * (sum(widths) + GAP * (len(widths) - 1))
+    for row in grid.rows:
+        yield from _row_lines(row, widths, grid.words)
+
+
+def _measure(grid: Grid, k: int) -> int:
+    """Width of a column."""
+    widest = max(map(count_places, column_texts(grid, k)))
+    return min(widest, PROSE) if k and k in grid.words else widest
+
+
+def column_texts(grid: Grid, k: int) -> list[str]:
+    """Everything that stands in a column."""
+    return [grid.columns[k], *(row[k] for row in grid.rows)]
+
+
+def _row_lines(cells: Sequence[str], widths: list[int], words: Sequence[int]) -> Iterator[str]:
+    """One line, or as many as the longest of its cells takes when it is folded."""
+    folded = [fold(cell, width) for cell, width in zip(cells, widths, strict=True)]
+    for pieces in zip_longest(*folded, fillvalue=""):
+        columns = enumerate(zip(pieces, widths, strict=True))
+        yield (" " * GAP).join(_justify(*cell, to_the_left=k in words) for k, cell in columns)
+
+
+def _justify(text: str, width: int, *, to_the_left: bool) -> str:
+    blanks = " " * (width - count_places(text))
+    return text + blanks if to_the_left else blanks + text
+
+
+def fold(text: str, width: int) -> list[str]:
+    """The text in lines of this width, broken between words, and in a word where it is longer."""
+    if count_places(text) <= width:
+        return [text]
+    lines = [""]
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}" if lines[-1] else word
+        if count_places(longer) <= width:
+            lines[-1] = longer
+            continue
+        lines.append("")
+        for letter in word:
+            if count_places(lines[-1] + letter) > width:
+                lines.append("")
+            lines[-1] += letter
+    return [line for line in lines if line]
+
+
+def _fact_lines(facts: Facts) -> Iterator[str]:
+    """Names to the left, what they are beside them."""
+    width = max((count_places(name) for name, _ in facts.pairs), default=0)
+    for name, value in facts.pairs:
+        yield _justify(name, width, to_the_left=True) + " " * FACTS_GAP + value
+
+
+def count_places(text: str) -> int:
+    """How many places a text takes where every letter is as wide as another, or twice as wide."""
+    if text.isascii() or all(letter < "\u0300" or letter in _SINGLE for letter in text):
+        return len(text)
+    from rich.cells import cell_len  # knows Unicode's wide and combining letters
+
+    return cell_len(text)
+
+
+_SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~])")
+
+
+def markdown(sheets: list[Sheet]) -> str:
+    """All sheets as Markdown, one after the other."""
+    return "\n\n".join(chain.from_iterable(map(_blocks, sheets))) + "\n"
+
+
+def escape(text: str) -> str:
+    """Text that Markdown leaves as it is."""
+    return _SPECIAL.sub(r"\\\1", legible(text.replace("\n", " ")))
+
+
+def _blocks(sheet: Sheet) -> Iterator[str]:
+    """Title and parts, which blank lines separate."""
+    yield f"# {escape(sheet.title)}"
+    yield from map(_part, sheet.parts)
+
+
+def _part(part: Grid | Facts | Text) -> str:
+    head = f"## {escape(part.title)}\n\n" if part.title else ""
+    match part:
+        case Grid():
+            return (
+                head
+                + "\n".join(_list_rows(part))
+                + (f"\n\n{escape(part.note)}" if part.note else "")
+            )
+        case Facts():
+            return head + "\n".join(
+                f"- {escape(name)}: {escape(value)}" for name, value in part.pairs
+            )
+        case Text():
+            return head + "\n\n".join(escape(p) for p in part.paragraphs)
+
+
+def _list_rows(grid: Grid) -> Iterator[str]:
+    """Heading, rule and rows of a table."""
+    yield _line(map(escape, grid.columns))
+    yield _line("---" if k in grid.words else "---:" for k in range(len(grid.columns)))
+    for i, row in enumerate(grid.rows):
+        yield _line(
+            f"**{escape(cell)}**" if (i, k) in grid.marked else escape(cell)
+            for k, cell in enumerate(row)
+        )
+
+
+def _line(cells: Iterable[str]) -> str:
+    return "| " + " | ".join(cells) + " |"

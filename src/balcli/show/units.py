@@ -1,0 +1,117 @@
+"""Units on the way out."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from ..file import units
+from ..forces.kinds import Kind
+
+POUND, INCH = float(units.POUND), float(units.INCH)  # kg, m
+
+
+class ShownUnit(NamedTuple):
+    """A unit of what people read.
+
+    Attributes:
+        name: as it is written.
+        size: how many SI units it is.
+        larger: the unit in which people read large values.
+        most: value in this unit from which on they do; 0: always, and this one is for programs.
+    """
+
+    name: str
+    size: float
+    larger: ShownUnit | None = None
+    most: float = math.inf
+
+    def of(self, value: float) -> float:
+        """A value in SI units in this unit."""
+        return value / self.size
+
+    def fit(self, largest: float) -> ShownUnit:
+        """The unit for values up to this one (SI; nan: not known): this one, or a larger."""
+        if self.larger is not None and abs(largest) >= self.most * self.size:
+            return self.larger.fit(largest)
+        return self
+
+
+class System(NamedTuple):
+    """The units in which people read a result."""
+
+    force: ShownUnit
+    moment: ShownUnit
+    unbalance: ShownUnit
+    mass: ShownUnit
+    length: ShownUnit
+    volume: ShownUnit
+    pressure: ShownUnit
+    stress: ShownUnit
+    energy: ShownUnit
+    power: ShownUnit
+    inertia: ShownUnit
+    heat: ShownUnit
+
+    @property
+    def torsional_stiffness(self) -> ShownUnit:
+        """Moment for each radian."""
+        return ShownUnit(f"{self.moment.name}/rad", self.moment.size)
+
+    @property
+    def torsional_damping(self) -> ShownUnit:
+        """Moment for each radian in a second."""
+        return ShownUnit(f"{self.moment.name}·s/rad", self.moment.size)
+
+    def unit(self, kind: Kind) -> ShownUnit:
+        """The unit of a kind of force or moment."""
+        return self.force if kind.dimension == "force" else self.moment
+
+    def instead_of(self, name: str) -> ShownUnit:
+        """The unit that stands for the SI unit of this name; for rpm or degrees they themselves."""
+        pairs = zip(SI, self, strict=True)
+        return next((ours for si, ours in pairs if si.name == name), ShownUnit(name, 1))
+
+
+SI = System(
+    ShownUnit("N", 1, ShownUnit("kN", 1e3), 5000),
+    ShownUnit("N·m", 1, ShownUnit("kN·m", 1e3), 5000),
+    ShownUnit("g·mm", 1e-6, ShownUnit("kg·m", 1), 1e6),
+    ShownUnit("kg", 1),
+    ShownUnit("mm", 1e-3),
+    ShownUnit("cm³", 1e-6, ShownUnit("litres", 1e-3), 10_000),
+    pressure=ShownUnit("Pa", 1, ShownUnit("bar", 1e5), 0),
+    stress=ShownUnit("Pa", 1, ShownUnit("N/mm²", 1e6), 0),
+    energy=ShownUnit("J", 1, ShownUnit("kJ", 1e3, ShownUnit("MJ", 1e6), 5000), 5000),
+    power=ShownUnit("W", 1, ShownUnit("kW", 1e3), 0),
+    inertia=ShownUnit("kg·m²", 1),
+    heat=ShownUnit("W", 1, ShownUnit("kW", 1e3, ShownUnit("MW", 1e6), 5000), 5000),
+)
+_LBF_FT = units.POUND_FORCE * 12 * INCH
+_PSI = ShownUnit("psi", units.POUND_FORCE / INCH**2)
+_HP = ShownUnit("hp", 550 * _LBF_FT)
+IMPERIAL = System(
+    ShownUnit("lbf", units.POUND_FORCE),
+    ShownUnit("lbf·ft", _LBF_FT),
+    ShownUnit("oz·in", POUND / 16 * INCH),
+    ShownUnit("lb", POUND),
+    ShownUnit("in", INCH),
+    ShownUnit("in³", INCH**3),
+    pressure=_PSI,
+    stress=_PSI,
+    energy=ShownUnit("lbf·ft", _LBF_FT),
+    power=_HP,
+    inertia=ShownUnit("lb·in²", POUND * INCH**2),
+    heat=_HP,
+)
+SYSTEMS = {"si": SI, "imperial": IMPERIAL}
+
+
+def unit_of_name(name: str) -> ShownUnit:
+    """The unit of this name, which gives way to a larger one if it is that of force or moment."""
+    return next((unit for unit in (SI.force, SI.moment) if unit.name == name), ShownUnit(name, 1))
+
+
+def name_with_unit(name: str, unit: str) -> str:
+    """`operation.speed, rpm`: a column or an axis with its unit, if it has one."""
+    return f"{name}, {unit}" if unit else name

@@ -1,0 +1,194 @@
+"""The bobweight card: what a balancing shop hangs on each crank pin for rods and pistons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from ..core.records import HIDDEN, INLINE, Node, Polar
+from ..engine.build import Engine
+from ..engine.rods import Weighed
+from .planes import measure_direction
+
+DEFINITION = (
+    "bobweight of a crank pin = rotating mass + factor x reciprocating mass of the rods on that "
+    "pin; rotating: rod big ends, rod bearings, oil; reciprocating: pistons with rings, pins and "
+    "locks, rod small ends"
+)
+NO_THROW = (
+    "counts as 0, as crank.throw_mass is 0 or not given: with it the counterweights are heavier by "
+    "what the throw itself weighs at the crank radius"
+)
+WHOLE_PISTON = "piston complete"
+ROTATING = ("big end", "rod bearing", "oil")
+PISTON = (WHOLE_PISTON, "piston", "pin", "rings", "locks")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CardLine:
+    """One line of a bobweight card.
+
+    Attributes:
+        part: Name of the part, such as "rings".
+        rotates: Whether it turns with the pin, or else goes to and fro.
+        each_g: Mass for each rod on the pin, g.
+    """
+
+    part: str
+    rotates: bool
+    each_g: tuple[float, ...]
+
+    @property
+    def sum_g(self) -> float:
+        """Mass for all rods on the pin, g."""
+        return sum(self.each_g)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bobweight:
+    """The bobweight of one crank pin, in grams as on the card and the scales of a balancing shop.
+
+    Attributes:
+        throw: Number of the throw, from 1.
+        cylinders: Numbers of the cylinders whose rods are on the pin.
+        factor: Share of the reciprocating mass that counts.
+        piston_g: Pistons with rings, pins and locks.
+        small_end_g: Small ends of the rods.
+        big_end_g: Big ends of the rods.
+        rod_bearing_g: Rod bearings.
+        oil_g: Oil.
+        rotating_g: Sum of all that turns with the pin.
+        reciprocating_g: Sum of all that goes to and fro.
+        bobweight_g: Rotating mass plus factor times reciprocating mass.
+        throw_g: Mass of the throw itself at the crank radius, for the rods of this pin:
+            counterweights balance it as well as the bobweight.
+        lines: All parts that are weighed, in the order of the card.
+    """
+
+    throw: int
+    cylinders: tuple[int, ...]
+    factor: float
+    piston_g: float
+    small_end_g: float
+    big_end_g: float
+    rod_bearing_g: float
+    oil_g: float
+    rotating_g: float
+    reciprocating_g: float
+    bobweight_g: float
+    throw_g: float
+    lines: tuple[CardLine, ...]
+
+
+def fill_card(engine: Engine, factor: float) -> tuple[Bobweight, ...]:
+    """Return the bobweight of each crank pin for this share of the reciprocating mass."""
+    return tuple(_weigh(engine, rows, factor) for rows in engine.rows_by_pin)
+
+
+def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
+    masses = [engine.weighed[row] for row in rows]
+    lines = _list_lines(masses)
+
+    def total(*parts: str) -> float:
+        return sum(line.sum_g for line in lines if line.part in parts)
+
+    rotating, reciprocating = total(*ROTATING), total(*PISTON, "small end")
+    return Bobweight(
+        throw=masses[0].throw + 1,
+        cylinders=tuple(engine.numbers[row] for row in rows),
+        factor=factor,
+        piston_g=total(*PISTON),
+        small_end_g=total("small end"),
+        big_end_g=total("big end"),
+        rod_bearing_g=total("rod bearing"),
+        oil_g=total("oil"),
+        rotating_g=rotating,
+        reciprocating_g=reciprocating,
+        bobweight_g=rotating + factor * reciprocating,
+        throw_g=1e3 * sum(float(one.share) for one in masses),
+        lines=lines,
+    )
+
+
+def _list_lines(masses: list[Weighed]) -> tuple[CardLine, ...]:
+    """Return the parts of the rods on one pin; parts that none of them has are left out."""
+    rods = [
+        {
+            "big end": one.big_end,
+            "rod bearing": one.rod_bearing,
+            "oil": one.oil,
+            **{WHOLE_PISTON if key == "mass" else key: mass for key, mass in one.piston_parts},
+            "small end": one.small_end,
+        }
+        for one in masses
+    ]
+    return tuple(
+        CardLine(
+            part=part,
+            rotates=part in ROTATING,
+            each_g=tuple(1e3 * float(rod.get(part, 0.0)) for rod in rods),
+        )
+        for part in (*ROTATING, *PISTON, "small end")
+        if any(part in rod for rod in rods)
+    )
+
+
+class _FromPin(Polar):
+    """Mark of an unbalance: its angle counts from cylinder 1's pin, deg, in (-180, 180]."""
+
+    def split(self, value: complex) -> Node:
+        """Return size and angle."""
+        angle = measure_direction(value) if value else None
+        return {self.magnitude: abs(value), self.angle: angle}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneNeed:
+    """What a balance factor asks for in one plane of the crankshaft.
+
+    Attributes:
+        position_mm: Place of the plane along the crankshaft.
+        wanted: Counterweight for all pins, as far as this plane takes it, kg m.
+        present: Unbalance of the file's counterweights there, kg m.
+        missing: Unbalance that is still to be added, kg m.
+    """
+
+    position_mm: float
+    wanted: Annotated[complex, _FromPin("wanted_kg_m", "wanted_deg"), INLINE]
+    present: Annotated[complex, _FromPin("present_kg_m", "present_deg"), INLINE]
+    missing: Annotated[complex, _FromPin("missing_kg_m", "missing_deg"), INLINE]
+
+
+@dataclass(frozen=True, kw_only=True, order=True)
+class FactorPeaks:
+    """What an engine balanced by the shop's factor still shakes: largest values over a revolution,
+    of all orders.
+
+    Attributes:
+        factor: Balance factor.
+        peak_force_N: Largest force.
+        along_N: Largest component of the force along the axis of the first bank.
+        across_N: Largest component across it.
+        peak_moment_Nm: Largest moment.
+        bobweight_g: Bobweight of the first pin.
+        counterweight_kg_m: Largest weight that is missing.
+        by_moment: Whether the moment says which factor is best: the pins balance each other, so
+            that no factor changes much of the force.
+    """
+
+    factor: float
+    peak_force_N: float
+    along_N: float
+    across_N: float
+    peak_moment_Nm: float
+    bobweight_g: float
+    counterweight_kg_m: float
+    by_moment: Annotated[bool, HIDDEN]
+
+    @property
+    def cost(self) -> tuple[float, float]:
+        """Figures that are least at the best factor: the force, or else the moment; then the
+        other.
+        """
+        force, moment = round(self.peak_force_N, 6), round(self.peak_moment_Nm, 6)
+        return (moment, force) if self.by_moment else (force, moment)

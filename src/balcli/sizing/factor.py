@@ -1,0 +1,354 @@
+"""The scheme `factor`, as balancing shops do it: opposite each crank pin all rotating mass and a
+share of the reciprocating mass of the rods on it; less what the file's own counterweights do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.cylinders import DeviceKind
+from ..core.extrema import find_least
+from ..core.peaks import find_peak
+from ..core.phasors import EPS, Array, Complex, Phasors, unit
+from ..core.unbalance import share_by_lever
+from ..engine.build import Engine
+from ..engine.layout import MOMENTS_UNKNOWN
+from ..errors import BalcliError
+from ..forces.spectrum import compute_spectra, find_relevant_orders
+from ..limits import LARGEST_FACTOR
+from .bobweights import DEFINITION, NO_THROW, FactorPeaks, PlaneNeed, fill_card
+from .effects import LEFT, Slot
+from .fitting import Fitting
+from .options import SchemeOptions
+from .planes import SAME_PLACE, find_unbalance, read_planes
+from .remedy import Remedy, fit_devices
+
+_NEARLY = 0.05  # of one cylinder's: pistons of one engine, weighed, differ by less
+COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
+IN_SUM = (
+    "nothing is missing in sum; opposite which pin the counterweights of the file stand is not "
+    "known, as moments are not"
+)
+OF_ITSELF = "nothing is missing: what the pins carry balances itself in these planes"
+OWN_PLACES = (
+    "these planes are where the counterweights of the file stand; --planes throws asks what is "
+    "missing at every throw instead"
+)
+
+
+class _Pin(NamedTuple):
+    """What one crank pin carries: numbers of its cylinders; unbalance at crank angle 0 to be
+    balanced opposite it, with the throw, kg m; centre of these masses along z, m.
+    """
+
+    cylinders: tuple[int, ...]
+    unbalance: complex
+    z: float
+
+
+class _Planes(NamedTuple):
+    """Planes of counterweights: z, m, shape (planes,); what each wants, has and lacks at crank
+    angle 0, kg m, shape (3, planes); pins that share a plane, where each has its own.
+    """
+
+    z: Array
+    needs: Complex
+    sets: list[list[_Pin]]
+
+
+def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Fit counterweights by the factor asked for, 0.5 if none is, or by what was measured on a pin.
+
+    What the file's own counterweights do counts, and what is missing is fitted: in the planes asked
+    for, to which pins and weights are carried by the lever; by default where the file's own stand,
+    or opposite each pin if they stand in fewer than two places (of pins in one plane in sum).
+
+    Of several factors all peaks are listed, and the one that leaves the smallest peak force is
+    fitted, or moment, where the pins balance each other (`FactorPeaks.by_moment`).
+
+    Raises:
+        BalcliError: a factor that is no share, planes where moments are not known, or a crankshaft
+            that stands still.
+    """
+    if engine.rotary:
+        raise BalcliError(
+            "scheme factor: the cylinders turn and the crank pins stand still, with all that is "
+            "on them: there is no rotating mass to balance opposite a pin; counterweights or auto "
+            "can balance what is left"
+        )
+    planes, factors = _choose_planes(engine, options), _choose_factors(engine, options)
+    sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
+    best = min(sweep, key=lambda peaks: peaks.cost).factor
+    fitting, found = _fit_factor(engine, best, planes)
+    fitting = fitting.add_details(**_describe(engine, options, best))
+    own = bool(_find_counterweights(engine)[1].any())
+    from_pin = (complex(unit(-float(engine.first_axis_deg))) * found.needs).T.tolist()
+    needs = [
+        PlaneNeed(position_mm=1e3 * z, wanted=wanted, present=present, missing=missing)
+        for z, (wanted, present, missing) in zip(found.z.tolist(), from_pin, strict=True)
+    ]
+    unasked = options.planes is None and planes is not None
+    return fitting.remedy._replace(
+        note=_note(fitting, best, found.z, own=own, unasked=unasked),
+        card=fill_card(engine, best),
+        needs=tuple(needs) if own else (),
+        sweep=sweep if len(sweep) > 1 else (),
+    )
+
+
+def find_best_factor(
+    engine: Engine, options: SchemeOptions, sweep: Sequence[FactorPeaks]
+) -> FactorPeaks:
+    """Return the peaks at the best factor of all between those of a sweep, to 1e-4 of its step.
+
+    The peak of a force that grows evenly with the factor at each crank angle is a convex function
+    of it, and so is that of the moment: the best of all stands next to the best of the sweep.
+    """
+    planes = _choose_planes(engine, options)
+    k = min(range(len(sweep)), key=lambda k: sweep[k].cost)
+    low, high = sweep[max(k - 1, 0)].factor, sweep[min(k + 1, len(sweep) - 1)].factor
+    found = find_least(lambda f: find_factor_peaks(engine, f, planes).cost, low, high)
+    return min(sweep[k], find_factor_peaks(engine, found, planes), key=lambda peaks: peaks.cost)
+
+
+def _note(fitting: Fitting, factor: float, z: Array, *, own: bool, unasked: bool) -> str:
+    """Return a note; the file may have counterweights of its `own`, and planes may have been
+    chosen `unasked`, where these stand.
+    """
+    if _loses_moment(fitting.engine, factor, z):
+        return SAME_PLACE
+    if factor < 0:
+        return "a factor below 0: not even all rotating mass is balanced"
+    if factor > 1:
+        return "a factor above 1: more than all reciprocating mass on the pin is balanced"
+    if not fitting.remedy.devices:
+        complete = COMPLETE if fitting.engine.places_known else IN_SUM
+        return complete if own else OF_ITSELF
+    return OWN_PLACES if unasked else ""
+
+
+def _loses_moment(engine: Engine, factor: float, z: Array) -> bool:
+    """Return whether there is one plane alone, about which pins or weights elsewhere make a
+    moment.
+    """
+    if len(set(z)) != 1 or not engine.places_known:
+        return False
+    pins, (places, weights) = _list_pins(engine, factor), _find_counterweights(engine)
+    arms = np.array([*(pin.z for pin in pins), *places]) - z[0]
+    vectors = np.array([*(pin.unbalance for pin in pins), *weights])
+    return bool(abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)))
+
+
+def find_factor_peaks(
+    engine: Engine, factor: float, planes: tuple[float, ...] | None = None
+) -> FactorPeaks:
+    """Return what is left at steady speed when the crankshaft is balanced by this factor.
+
+    Args:
+        engine: Engine.
+        factor: Share of the reciprocating mass.
+        planes: Places of the counterweights along z, m; None: those of the pins.
+    """
+    fitting, _ = _fit_factor(engine, factor, planes)
+    new = fit_devices(fitting.engine, fitting.remedy)
+    force, moment = find_curve(new, "force"), find_curve(new, "moment")
+    along = complex(unit(float(engine.cylinders.axis_deg[0])))
+    weights = map(find_unbalance, fitting.remedy.counterweights)
+    return FactorPeaks(
+        factor=factor,
+        peak_force_N=find_peak(force).value,
+        along_N=_find_largest_component(force, along),
+        across_N=_find_largest_component(force, 1j * along),
+        peak_moment_Nm=find_peak(moment).value,
+        bobweight_g=fill_card(engine, factor)[0].bobweight_g,
+        counterweight_kg_m=max(weights, default=0.0),
+        by_moment=engine.places_known and _do_pins_balance(engine),
+    )
+
+
+def _do_pins_balance(engine: Engine) -> bool:
+    """Return whether what goes to and fro adds up to nearly nothing, taken at the crank pins: the
+    share of it that a factor adds to the counterweights is then a moment.
+    """
+    masses = np.array([float(weighed.reciprocating) for weighed in engine.weighed])
+    pins = unit(np.array([float(pin) for pin in engine.cylinders.pin_deg]))
+    return bool(abs(masses @ pins) < _NEARLY * masses.max())
+
+
+def find_curve(engine: Engine, quantity: str) -> Phasors:
+    """Return the free force or moment of all orders."""
+    return compute_spectra(engine, find_relevant_orders(engine), (quantity,))[quantity]
+
+
+def _find_largest_component(curve: Phasors, direction: complex) -> float:
+    """Return the largest component of a force along a direction (a unit vector), N."""
+    coefficients = curve.forward * direction.conjugate() + np.conj(curve.backward) * direction
+    component = Phasors.from_scalar(curve.orders, coefficients, curve.noise)
+    return find_peak(component.drop_noise()).value
+
+
+# ------------------------------------------------------------------ which factor, which planes
+def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
+    """Return the factors asked for, or the one that was measured."""
+    if options.measured is not None:
+        if options.factor is not None:
+            raise BalcliError(
+                "--factor and --measured say the same: what balances a pin stands for a factor; "
+                "give one of them"
+            )
+        return (find_measured_factor(engine, options.measured),)
+    factors = options.factor or (0.5,)
+    for factor in factors:
+        if not (math.isfinite(factor) and abs(factor) <= LARGEST_FACTOR):
+            meant = f"did you mean {factor:g}%? " if LARGEST_FACTOR < factor <= 100 else ""
+            raise BalcliError(
+                f"--factor {factor:g}: is no share of the reciprocating mass; {meant}give one such "
+                "as 0.5 or 51%, or a range such as 50%:54%:1%"
+            )
+    return factors
+
+
+def find_measured_factor(engine: Engine, measured: float) -> float:
+    """Return the factor of a crankshaft that is in balance with this mass (kg) on each bare pin, at
+    the crank radius, without rods: that mass stands for rotating + factor x reciprocating mass.
+
+    Raises:
+        BalcliError: nothing goes to and fro, or no crankshaft can have such a mass.
+    """
+    if measured < 0:
+        raise BalcliError(f"--measured {1e3 * measured:g} g: a mass on the pin is not negative")
+    card = fill_card(engine, 0.0)
+    reciprocating = sum(one.reciprocating_g for one in card)
+    rotating = sum(one.rotating_g for one in card)
+    if not reciprocating:
+        raise BalcliError("--measured: nothing goes to and fro in this engine: there is no factor")
+    factor = (1e3 * measured * len(card) - rotating) / reciprocating
+    if not abs(factor) <= LARGEST_FACTOR:
+        raise BalcliError(
+            f"--measured {1e3 * measured:g} g: would balance {factor:.3g} times the reciprocating "
+            f"mass; {rotating / len(card):.5g} g balance none of it on a pin, and "
+            f"{(rotating + reciprocating) / len(card):.5g} g all; is the unit right?"
+        )
+    return factor
+
+
+def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] | None:
+    """Return the planes asked for (z, m), ascending, each once; by default those of the file's own
+    counterweights if they stand in at least two; None: those of the pins.
+    """
+    if options.planes is None:
+        places = np.round(_find_counterweights(engine)[0], 12)  # decimals of one place: one
+        own = np.unique(places)
+        return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
+    if not engine.places_known:
+        raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")
+    return tuple(sorted(set(read_planes(engine, options))))
+
+
+def _describe(engine: Engine, options: SchemeOptions, factor: float) -> dict[str, Any]:
+    """Return the factor by both definitions, and what was measured."""
+    details: dict[str, Any] = {
+        "factor": factor,
+        "factor_of_one_cylinder": factor * len(engine.rows_by_pin[0]),
+        "definition": DEFINITION,
+    }
+    if not any(float(weighed.share) for weighed in engine.weighed):
+        details["throw"] = NO_THROW
+    if options.measured is not None:
+        details = {"measured_g": 1e3 * options.measured, **details}
+    return details
+
+
+def name_one_cylinder(engine: Engine) -> str:
+    """Return what a factor of one cylinder is a share of: any of them, or the mean of unequal
+    ones.
+    """
+    masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
+    return f"one cylinder's reciprocating mass{', in the mean' if len(masses) > 1 else ''}"
+
+
+# ------------------------------------------------------------------ what is wanted, what is there
+def _fit_factor(
+    engine: Engine, factor: float, planes: tuple[float, ...] | None
+) -> tuple[Fitting, _Planes]:
+    """Fit a weight in each plane for what is missing there."""
+    fitting = Fitting.start(engine, "factor", 1)
+    counted = "; what the counterweights of the file do is counted"
+    less = counted if _find_counterweights(engine)[1].any() else ""
+    taken = f"all rotating mass and {factor:.6g} of the reciprocating mass"
+    found = _find_needs(engine, factor, planes)
+    slots = [Slot("counterweight", 1, 1, z) for z in found.z.tolist()]
+    missing = found.needs[2].tolist()
+    if planes is not None:
+        reason = f"In these planes, carried to them by the lever: {taken} of every pin{less}"
+        return fitting.add(slots, missing, reason), found
+    for slot, unbalance, pins in zip(slots, missing, found.sets, strict=True):
+        numbers = [str(number) for pin in pins for number in pin.cylinders]
+        cylinders = f"cylinder{'s' * (len(numbers) > 1)} {', '.join(numbers)}"
+        where = "Opposite the pin" if len(pins) == 1 else "In the plane"
+        fitting = fitting.add([slot], [unbalance], f"{where} of {cylinders}: {taken}{less}")
+    return fitting, found
+
+
+def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> _Planes:
+    """Return what each plane wants, has and lacks. Without planes each pin has its own, or, where
+    the file has counterweights, all pins at one place, for nobody knows to which of them a weight
+    there belongs.
+    """
+    pins = _list_pins(engine, factor)
+    places, weights = _find_counterweights(engine)
+    sets: list[list[_Pin]] = []
+    if planes is None and weights.any():
+        sets = [[pin for pin in pins if pin.z == z] for z in dict.fromkeys(pin.z for pin in pins)]
+    elif planes is None:
+        sets = [[pin] for pin in pins]
+    z = np.array([members[0].z for members in sets] if planes is None else planes, float)
+    if not pins:
+        return _Planes(z[:0], np.zeros((3, 0), complex), [])
+    if planes is None:
+        of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
+    else:
+        of_pins = share_by_lever(np.array([pin.z for pin in pins]), z)
+    of_weights = np.zeros((len(z), len(places)))
+    if weights.any():
+        of_weights[np.argsort(z)] = share_by_lever(places, np.sort(z))
+    unbalances = np.array([pin.unbalance for pin in pins])
+    wanted, present = -(of_pins @ unbalances), of_weights @ weights
+    parts = np.abs(of_pins) @ np.abs(unbalances) + np.abs(of_weights) @ np.abs(weights)
+    needs = np.stack([wanted, present, wanted - present])
+    return _Planes(z, np.where(np.abs(needs) <= LEFT * parts, 0, needs), sets)
+
+
+def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
+    """Return places (m) and unbalances at crank angle 0 (kg m) of the file's counterweights."""
+    own = [device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT]
+    places = np.array([float(device.z) for device in own])
+    return places, np.array([complex(device.forward) for device in own], complex)
+
+
+def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
+    """Return what each crank pin carries; pins that carry nothing are left out."""
+    pins = []
+    for rows in engine.rows_by_pin:
+        weighed = [engine.weighed[row] for row in rows]
+        masses = np.array([float(w.rotating + w.share + factor * w.reciprocating) for w in weighed])
+        if total := float(masses.sum()):
+            pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
+            cylinders = tuple(engine.numbers[row] for row in rows)
+            z = _find_centre(masses, engine.cylinders.z[rows])
+            pins.append(_Pin(cylinders, total * float(engine.cylinders.radius) * pin, z))
+    return pins
+
+
+def _find_centre(masses: Array, places: Array) -> float:
+    """Return the centre along z of masses at these places, m; in thousandths of a nanometre where
+    that differs by rounding alone.
+    """
+    z = float(masses @ places) / float(masses.sum())
+    rounded = round(z, 12) + 0.0
+    rounding = len(places) * EPS * float(np.abs(places).max())
+    return rounded if abs(z - rounded) <= rounding else z

@@ -1,0 +1,202 @@
+"""What deviates from an engine file within tolerances: pistons, rods, throws, mounts, shafts and
+inertias, each by itself. A part is known by the figures of the file that vary with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import NamedTuple
+
+from ..engine.assembly import Assembly
+from ..engine.build import assemble, build
+from ..file.model import Counterweight, EngineFile, Shaft, Slider, label_table
+from ..file.torsion_tables import Part, find_stiffness
+
+THROW_MASS = "crank.throw_mass."  # with the throw's number; the file has one mass for all throws
+_ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}  # of the file, per SI
+OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # default tolerances of stiffness
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Largest deviations.
+
+    Attributes:
+        mass: Of piston, rod and throw masses, and of inertias, relative.
+        length: Of rod lengths, relative. What else the file gives for a longer rod stays: mass and
+            place of its centre of mass, or the masses of its ends.
+        angle_deg: Of throw angles.
+        stiffness: Of mounts or shafts, relative; None: OF_MOUNTS or OF_SHAFTS.
+    """
+
+    mass: float = 0.0
+    length: float = 0.0
+    angle_deg: float = 0.0
+    stiffness: float | None = None
+
+
+class Line(NamedTuple):
+    """How a figure of the file follows a deviation d: `value + slope d`, in the file's unit."""
+
+    value: float
+    slope: float
+
+
+class Source(NamedTuple):
+    """A part that deviates by itself.
+
+    Attributes:
+        name: Name in tables: `piston mass 3`, `stiffness left`.
+        tolerance: Largest deviation, relative or in degrees.
+        figures: What varies with it, by dotted name.
+        relative: Whether the deviation is relative; otherwise it is in degrees.
+    """
+
+    name: str
+    tolerance: float
+    figures: Mapping[str, Line]
+    relative: bool = True
+
+
+def _relative(name: str, tolerance: float, figures: Mapping[str, float]) -> Source:
+    """Return a source whose deviation scales all its figures."""
+    return Source(name, tolerance, {path: Line(value, value) for path, value in figures.items()})
+
+
+# ------------------------------------------------------------------ pistons, rods and throws
+def spell_out_throws(model: EngineFile) -> EngineFile:
+    """Return the file with an angle for every throw, as far as the firing order gives them."""
+    if model.crank.throws is not None:
+        return model
+    return model.with_table("crank", throws=tuple(assemble(model).throws_deg.values()))
+
+
+def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
+    """Yield masses of pistons, rods and throws, lengths of rods, and angles of throws.
+
+    Args:
+        model: As of `spell_out_throws`.
+        within: Tolerances of all of them.
+    """
+    parts = assemble(model)
+    yield from _list_masses(model, parts, within.mass)
+    for n in sorted(parts.numbers):
+        rod = parts.rod_place(n, n in parts.masters).rod
+        length = 1e3 * float(rod.length_for(parts.radius))
+        yield _relative(f"rod length {n}", within.length, {f"cylinder.{n}.rod_length": length})
+    for k, angle in parts.throws_deg.items():
+        lines = {f"crank.throws.{k + 1}": Line(float(angle), 1.0)}
+        numbers = [cell.number for cell in parts.plan.cells if cell.throw == k]
+        pins = {n: parts.own_of(n).throw_deg for n in numbers}
+        lines |= {
+            f"cylinder.{n}.throw": Line(float(pin), 1.0)
+            for n, pin in pins.items()
+            if pin is not None
+        }
+        lines |= _hold_devices(model) if 1 in pins else {}
+        yield Source(f"throw angle {k + 1}", within.angle_deg, lines, relative=False)
+
+
+def _list_masses(model: EngineFile, parts: Assembly, mass: float) -> Iterator[Source]:
+    """Yield the masses of pistons, rods and throws, as far as there are some."""
+    engine = build(model)
+    numbers = sorted(engine.numbers)
+    weighed = dict(zip(engine.numbers, engine.weighed, strict=True))
+    masses: dict[int, dict[str, float]] = {n: {} for n in numbers}
+    for n in numbers:
+        rod = parts.rod_place(n, n in parts.masters).rod
+        for key, unit in _ROD_UNITS.items():
+            if (given := getattr(rod, key)) is not None:
+                masses[n][f"cylinder.{n}.rod_{key}"] = unit * float(given)
+    if any(w.piston for w in weighed.values()):
+        for n in numbers:
+            figures = {f"cylinder.{n}.piston_mass": float(weighed[n].piston)}
+            yield _relative(f"piston mass {n}", mass, figures)
+    if any(value for figures in masses.values() for value in figures.values()):
+        for n in numbers:
+            yield _relative(f"rod mass {n}", mass, masses[n])
+    if model.crank.throw_mass and not model.layout.rotary:
+        for k in range(1, parts.plan.throws + 1):
+            figures = {f"{THROW_MASS}{k}": model.crank.throw_mass}
+            yield _relative(f"throw mass {k}", mass, figures)
+
+
+def _hold_devices(model: EngineFile) -> dict[str, Line]:
+    """Return the angles of the devices while cylinder 1's throw moves, at which all angles begin:
+    the devices stay with the other throws.
+    """
+    lines = {}
+    for path, table in model.tables():
+        if isinstance(table, (Counterweight, Shaft, Slider)):
+            turns = getattr(table, "ratio", getattr(table, "order", 1))
+            lines[f"{path}.angle"] = Line(table.angle, -float(turns))
+    return lines
+
+
+# ------------------------------------------------------------------ mounts, shafts and inertias
+def list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
+    """Yield the stiffness of every mount, along all its axes alike."""
+    tolerance = OF_MOUNTS if within.stiffness is None else within.stiffness
+    for number, mount in enumerate(model.mount, 1):
+        label = label_table(mount, number)
+        figures = {
+            f"mount.{label}.stiffness.{axis}": value
+            for axis, value in enumerate(mount.stiffness, 1)
+        }
+        yield _relative(f"stiffness {label}", tolerance, figures)
+
+
+def spell_out_shafting(model: EngineFile) -> EngineFile:
+    """Return the file with a stiffness and an inertia for every throw, and a stiffness for every
+    shaft that is given by its length.
+    """
+    torsion = model.torsion
+    if torsion is None:
+        return model
+    throws = len(build(model).throws_m)
+    stiffness, inertia = torsion.throw_stiffness or (), torsion.throw_inertia
+    return model.with_table(
+        "torsion",
+        throw_stiffness=stiffness * (throws - 1) if len(stiffness) == 1 else stiffness,
+        throw_inertia=inertia * throws if inertia and len(inertia) == 1 else inertia,
+        front=tuple(map(_stiffen, torsion.front)),
+        rear=tuple(map(_stiffen, torsion.rear)),
+    )
+
+
+def _stiffen(part: Part) -> Part:
+    return part.model_copy(update={"stiffness": find_stiffness(part), "length": None})
+
+
+def list_shafting(model: EngineFile, within: Tolerances) -> Iterator[Source]:
+    """Yield the stiffness of every shaft, the inertia of every node, and the mass of every piston.
+
+    Args:
+        model: As of `spell_out_shafting`.
+        within: Tolerances of stiffness and mass.
+    """
+    torsion, mass = model.torsion, within.mass
+    if torsion is None:
+        return
+    elastic = OF_SHAFTS if within.stiffness is None else within.stiffness
+    for k, value in enumerate(torsion.throw_stiffness or (), 1):
+        path = f"torsion.throw_stiffness.{k}"
+        yield _relative(f"stiffness throw {k}-{k + 1}", elastic, {path: value})
+    for k, value in enumerate(torsion.throw_inertia or (), 1):
+        yield _relative(f"inertia throw {k}", mass, {f"torsion.throw_inertia.{k}": value})
+    if not torsion.throw_inertia and model.crank.inertia is not None:
+        yield _relative("inertia crankshaft", mass, {"crank.inertia": model.crank.inertia})
+    for key, parts in (("front", torsion.front), ("rear", torsion.rear)):
+        for k, part in enumerate(parts, 1):
+            path = f"torsion.{key}.{k}"
+            if part.stiffness is not None and isfinite(part.stiffness):
+                figures = {f"{path}.stiffness": part.stiffness}
+                yield _relative(f"stiffness {part.name}", elastic, figures)
+            if part.inertia is not None:
+                yield _relative(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})
+    engine = build(model)
+    for number, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
+        figures = {f"cylinder.{number}.piston_mass": float(weighed.piston)}
+        yield _relative(f"piston mass {number}", mass, figures)

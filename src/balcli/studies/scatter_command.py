@@ -1,0 +1,186 @@
+"""`balcli scatter`
+
+Results of a Monte-Carlo run.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..core.records import to_document
+from ..file.toml import name_file
+from ..forces.kinds import DEFAULT_QUANTITIES
+from ..shell.file_names import text_format
+from ..shell.options import EnginePath, FormatOption, Output
+from ..shell.output import refuse_overwriting, show
+from ..shell.progress import exit_if_cut_short, reporting_until_stopped
+from ..show.csv import Rows
+from ..show.formats import Renderer
+from ..show.sheet import NAMELESS, Grid, Sheet, number, tell_assumed_speed
+from .quantity_names import tell_speeds
+
+if TYPE_CHECKING:
+    from ..show.units import System
+    from .scatter import Scatter
+
+
+SHOWN = 6  # sources of each quantity in a table
+BOUND = "bound: nominal and all changes added up, to first order: a variant may go a little beyond"
+_NORMAL = (
+    "; normal deviations exceed a tolerance, three times their standard deviation, in 1 of 370"
+)
+
+
+def document(result: Scatter) -> dict[str, Any]:
+    """Return `balcli.scatter/1`."""
+    return to_document(result)
+
+
+def rows(result: Scatter, _system: System) -> Rows:
+    """Return CSV: a quantity a line, in SI units."""
+    lines: list[dict[str, Any]] = [
+        {"quantity": name, **to_document(spread), "unit": result.units[name] or None}
+        for name, spread in result.quantities.items()
+    ]
+    header = [key for key in lines[0] if key != "sensitivity"]
+    return Rows(header, [[line[key] for key in header] for line in lines])
+
+
+def sheet(result: Scatter, system: System) -> Sheet:
+    """Return percentiles in SI units, and the tolerances that matter most."""
+    table = rows(result, system)
+    names = [", ".join(filter(None, (name, result.units[name]))) for name in result.quantities]
+    bound = BOUND + (_NORMAL if result.distribution == "normal" else "")
+    notes = (bound, tell_speeds(result.quantities), tell_assumed_speed(result.model))
+    spread = Grid(
+        f"Spread of {result.samples} {result.varied}",
+        tuple(table.header[:-1]),
+        tuple(
+            (name, *map(number, line[1:-1])) for name, line in zip(names, table.lines, strict=True)
+        ),
+        note=". ".join(filter(None, notes)),
+    )
+    causes = [
+        [f"{source}: {number(change, 3)}" for source, change in s.sensitivity.items()]
+        for s in result.quantities.values()
+    ]
+    shares = Grid(
+        "What each tolerance alone changes, most first",
+        ("quantity", *(f"{k}." for k in range(1, SHOWN + 1))),
+        tuple(
+            (name, *(texts + [""] * SHOWN)[:SHOWN])
+            for name, texts in zip(names, causes, strict=True)
+        ),
+        words=tuple(range(SHOWN + 1)),
+    )
+    return Sheet(result.model.name or NAMELESS, (spread, shares))
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+
+
+class Distribution(StrEnum):
+    """How figures deviate within their tolerances."""
+
+    UNIFORM = "uniform"
+    NORMAL = "normal"
+
+
+def scatter(
+    path: EnginePath,
+    mass: Annotated[
+        str,
+        typer.Option(
+            "--mass-scatter",
+            metavar="PERCENT",
+            help="Tolerance of every piston, rod and throw mass, and of inertias for torsion.",
+        ),
+    ] = "0.5%",
+    length: Annotated[
+        str,
+        typer.Option(
+            "--length-scatter",
+            metavar="PERCENT",
+            help="Tolerance of every rod length; what else the file says of the rods stays.",
+        ),
+    ] = "0%",
+    angle: Annotated[
+        str,
+        typer.Option(
+            "--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, as 0.2 deg."
+        ),
+    ] = "0",
+    stiffness: Annotated[
+        str | None,
+        typer.Option(
+            "--stiffness-scatter",
+            metavar="PERCENT",
+            show_default="15% of mounts, 5% of shafts",
+            help="Tolerance of the stiffness of every mount, or shaft, for their quantities.",
+        ),
+    ] = None,
+    samples: Annotated[
+        int | None,
+        typer.Option(
+            "--samples",
+            help="Number of random engines, 100000; of those computed one by one (torque over the "
+            "cycle, guides, mounts, torsion), 500.",
+            show_default=False,
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            "--seed", min=0, help="Of the random numbers, to repeat them.", show_default=False
+        ),
+    ] = None,
+    distribution: Annotated[
+        Distribution,
+        typer.Option(
+            "--distribution",
+            help=(
+                "uniform within the tolerances, or normal with a third of them as standard "
+                "deviation."
+            ),
+        ),
+    ] = Distribution.UNIFORM,
+    quantity: Annotated[
+        str | None,
+        typer.Option(
+            "--quantity",
+            "-q",
+            metavar="WHAT,...",
+            show_default=DEFAULT_QUANTITIES,
+            help="As force.1.major, couple.4.amplitude; of the cycle, as torque.max, fluctuation, "
+            "guide.6.H; of mounts, as mode.roll.Hz, mount.left.force; or of torsion, as "
+            "torsion.1.Hz, shaft.flywheel.torque.",
+        ),
+    ] = None,
+    form: FormatOption = None,
+    output: Output = None,
+) -> None:
+    """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which
+    tolerance matters most.
+
+    \b
+    Example:
+      balcli scatter i4.toml --mass-scatter 0.5% --seed 1
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output})
+    form = text_format(output, form)
+    from ..shell.inputs import read_engine, warn_of_unknown_moments
+    from .scatter import Drawing, Variants, read_tolerances
+
+    within = read_tolerances(mass, length, angle, stiffness)
+    _, model, engine = read_engine(path, asked=())
+    if quantity is None and not engine.places_known:
+        warn_of_unknown_moments(name_file(path))
+    variants = Variants(model, quantity, within)
+    count = variants.usual if samples is None else samples
+    with reporting_until_stopped("samples", count) as progress:
+        found = variants.draw(Drawing(count, seed, distribution.value, progress))
+    show([found], RENDERER, form, output)
+    exit_if_cut_short(progress, "the figures are of these")

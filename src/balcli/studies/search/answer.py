@@ -1,0 +1,375 @@
+"""Best arrangements of an engine: throws of the crank, firing order, or numbers of its file.
+
+`balcli.search`
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.phases import TURN
+from ...engine.build import Engine, build, check_engine, take_model, vary_engine
+from ...engine.layout import plan_cylinders
+from ...engine.parse import parse_dict
+from ...errors import BalcliError, InputError, check_type, wrong_type
+from ...file.fields import nearest
+from ...file.model import EngineFile
+from ...file.plain_tables import change_tables
+from ...forces.quantity import refuse_unknown
+from ...limits import MOST_FOUND
+from ...process import Tell, tell_nobody
+from ...shell.arguments import Words, check_count, check_mapping, join_names, tell_arguments
+from ...show.result import Result
+from ..parameters import Parameter, find_numbers, parse_parameter
+from ..quantities import choose_of_engine, refuse_unknown_of_chapters
+from .designs import (
+    PATHS,
+    Design,
+    Found,
+    Objective,
+    drop_mirror_images,
+    list_changes,
+    parse_objective,
+)
+from .evaluate import NumbersJudge, drop_firing_order, fires_evenly, rank_designs, rank_one_by_one
+from .firing_orders import find_slots, search_firing_order
+from .local import Box, Effort, find_local_optima
+from .throws import give_throws, list_throws, search_throws
+
+ARRANGED = ("throws", "firing_order")
+ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # deg
+NEAR_AN_END = 1e-4  # of a range
+_ROUNDING = 1e-13  # relative difference of equal objectives
+_GRID, _SPREAD = 720, 2048  # candidates of one number, of several
+_SLOW = 32  # candidates a number, where each takes a computation of its own
+
+
+class SearchRange(NamedTuple):
+    """A number that is searched over.
+
+    Attributes:
+        key: as the user names it.
+        number: its dotted name, its unit, and the ends of its range, ascending.
+    """
+
+    key: str
+    number: Parameter
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Least and largest value."""
+        return float(self.number.values.min()), float(self.number.values.max())
+
+
+@dataclass(frozen=True, repr=False)
+class Search(Result):
+    """The best arrangements of an engine file, best first.
+
+    Attributes:
+        model: the engine file.
+        over: what was arranged: `throws`, or numbers with commas between.
+        objective: the quantities, their weights and limits.
+        results: best first, each with its `design`, the value of its `objective` and its `figures`.
+        ranges: the numbers that were searched over.
+        constant: whether the numbers change nothing of the objective.
+        refused: values of the numbers that make no engine, and why; empty if all do.
+    """
+
+    model: EngineFile
+    over: str
+    objective: Objective
+    results: tuple[Found, ...]
+    ranges: tuple[SearchRange, ...] = ()
+    constant: bool = False
+    refused: str = ""
+
+    @property
+    def at_ends(self) -> tuple[str, ...]:
+        """Numbers of the file whose best value is an end of their range, beyond which there may be
+        a better one.
+        """
+        if self.constant:
+            return ()
+        numbers, best = find_numbers(self.model), self.results[0].design
+        named = []
+        for one in self.ranges:
+            if one.key in ANGLES:
+                continue
+            last = numbers[one.key].least, numbers[one.key].most
+            near = NEAR_AN_END * (one.ends[1] - one.ends[0])
+            if any(abs(best[one.key] - end) <= near for end in one.ends if end not in last):
+                named.append(one.key)
+        return tuple(named)
+
+    def find_unit(self, key: str) -> str:
+        """Return the unit of a number that was searched over; empty for anything else."""
+        return next((one.number.unit for one in self.ranges if one.key == key), "")
+
+    @property
+    def summary(self) -> str:
+        """Over what, and how many were found."""
+        found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
+        return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
+
+    def engine(self, rank: int = 1) -> Engine:
+        """Return the engine with the arrangement of this rank, the best being 1. A firing order
+        that its throws no longer fit is left out.
+
+        Raises:
+            IndexError: there are fewer arrangements.
+            TypeError: the rank is no whole number.
+        """
+        check_type("rank", rank, (int, np.integer), "give a whole number from 1")
+        if not 1 <= rank <= len(self.results):
+            raise IndexError(f"rank {rank}: there are {len(self.results)}, from 1")
+        return vary_engine(build(self.model), list_changes(self.results[rank - 1].design))
+
+
+def search_arrangements(
+    model: EngineFile,
+    over: str | Sequence[str],
+    objective: Objective,
+    count: int = 10,
+    even_firing: bool = False,
+    tell: Tell = tell_nobody,
+) -> Search:
+    """Return the best arrangements, mirror images and rotations once.
+
+    Args:
+        over: throws (permutes those of the file, or those that its firing order needs) or
+            firing_order (all even ones; cranks follow where the file gives no throws); or one or
+            several of bank_angle (of a vee), splay, and numbers of the file with their ranges,
+            `mount.left.loss=0.05:0.3`.
+        count: at most so many.
+        even_firing: only arrangements that can fire evenly.
+        tell: is told the share that is done; a search over throws or firing orders asks whether
+            that is enough.
+
+    Raises:
+        BalcliError: the engine has nothing to arrange, no arrangement keeps the limits, or a
+            moment is asked for and the file does not say where the throws stand.
+    """
+    wanted = [over] if isinstance(over, str) else list(over)
+    engine = build(model)
+    refuse_unknown(engine, choose_of_engine(objective.quantities))
+    refuse_unknown_of_chapters(model, objective.quantities)
+    ranges = read_ranges(model, wanted)
+    named = ", ".join(one.key for one in ranges) or wanted[0]
+    constant, refused = False, ""
+    if ranges:
+        candidates, constant, refused = _search_numbers(model, ranges, objective, even_firing, tell)
+    elif objective.is_sum_over_cylinders:
+        if named == "throws":
+            base = drop_firing_order(give_throws(model))
+            candidates = search_throws(base, objective, count, even_firing, tell)
+        else:
+            candidates = search_firing_order(model, objective)
+    else:
+        designs = _list_designs(model, named, even_firing)
+        base = drop_firing_order(model) if named == "throws" else model
+        candidates = rank_one_by_one(base, designs, objective, tell)
+    found = tuple(islice(drop_mirror_images(candidates, model), count))
+    if not found:
+        asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
+        words = named if "." in named else named.replace("_", " ")
+        raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
+    return Search(model, named, objective, found, ranges, constant, refused)
+
+
+# ------------------------------------------------------------------ throws and firing orders
+def _list_designs(model: EngineFile, what: str, even_firing: bool) -> Iterator[Design]:
+    """Yield what there is to arrange, for figures that take each arrangement by itself."""
+    if what == "firing_order":
+        slots, cranks = find_slots(model)
+        for throws in cranks.tolist():
+            for order in slots.find_orders(throws):
+                yield {"firing_order": [*order], "throws": throws}
+        return
+    free = drop_firing_order(model)
+    for design in list_throws(give_throws(model)):
+        changed = parse_dict(change_tables(free, list_changes(design)), free.folder)
+        if not even_firing or fires_evenly(build(changed), changed).all():
+            yield design
+
+
+# ------------------------------------------------------------------ numbers
+def read_ranges(model: EngineFile, over: Sequence[str]) -> tuple[SearchRange, ...]:
+    """Read the numbers that are searched over; none for throws and firing orders.
+
+    Raises:
+        BalcliError: an unknown name or a wrong range, what cannot be combined, a number twice.
+    """
+    arranged = [text for text in over if text in ARRANGED]
+    if arranged and len(over) == 1:
+        return ()
+    if arranged:
+        other = next((text for text in over if text != arranged[0]), arranged[0])
+        raise BalcliError(
+            f"--over {arranged[0]} goes with no other --over ({other}); several numbers can be "
+            "searched together"
+        )
+    ranges = tuple(_read_range(model, text) for text in over)
+    paths = [one.number.path for one in ranges]
+    if twice := [path for path in paths if paths.count(path) > 1]:
+        raise BalcliError(f"--over {twice[0]} is given twice; give one range")
+    return ranges
+
+
+def _read_range(model: EngineFile, text: str) -> SearchRange:
+    if text in ANGLES:
+        _check_angle(model, text)
+        return SearchRange(text, Parameter(PATHS[text], np.array(ANGLES[text]), "deg"))
+    path, is_number, ends = text.partition("=")
+    if not is_number:
+        known = (*ARRANGED, *ANGLES)
+        near = nearest(text, known)
+        meant = f"; did you mean {near}?" if near else ""
+        raise BalcliError(
+            f'--over "{text}": choose from {", ".join(known)}, or give a number of the file with '
+            f"its range, such as mount.left.loss=0.05:0.3{meant}"
+        )
+    if ends.count(":") != 1:
+        raise BalcliError(
+            f'--over "{text}": give the ends of a range, such as {path}=from:to; balcli sweep '
+            "takes steps and lists"
+        )
+    number = parse_parameter(f"{path}={ends.replace(':', ',')}", model)
+    return SearchRange(number.path, number)
+
+
+def _check_angle(model: EngineFile, key: str) -> None:
+    """Raise BalcliError if the engine has no such angle, or its crank follows from it."""
+    name = key.replace("_", " ")
+    one_bank = plan_cylinders(model.crank, model.layout).banks < 2
+    if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
+        raise BalcliError(
+            f"there is no {name} to look for: the engine is no vee (give layout.bank_angle)"
+        )
+    if model.crank.throws is None and model.layout.firing_order is not None:
+        raise BalcliError(
+            f"the crank follows from the firing order, which fits no other {name}: give "
+            "crank.throws, so that the crank stays as it is"
+        )
+
+
+def _search_numbers(
+    model: EngineFile,
+    ranges: Sequence[SearchRange],
+    objective: Objective,
+    even_firing: bool,
+    tell: Tell,
+) -> tuple[Iterator[Found], bool, str]:
+    """Return the local optima over some numbers, best first; whether the numbers change nothing;
+    and which values make no engine, and why.
+
+    Raises:
+        InputError: no values make an engine.
+    """
+    if model.gas is None and model.crank.throws is not None:
+        model = drop_firing_order(model)
+    ends = np.array([one.ends for one in ranges])
+    spans = ends[:, 1] - ends[:, 0]
+    angles = np.array([one.number.unit == "deg" for one in ranges])
+    box = Box(ends[:, 0], ends[:, 1], angles & (spans == TURN))
+    total = 1.0
+    paths = [one.number.path for one in ranges]
+    judge = NumbersJudge(model, paths, objective, even_firing, lambda n: tell(min(n / total, 1.0)))
+    effort = _choose_effort(box, objective, judge.alone)
+    if even_firing:  # candidates fire evenly to 1e-9 deg, a round angle may do so exactly
+        effort = replace(effort, as_good=1e-9)
+    total = effort.count_evaluations(box.size)
+    optima = find_local_optima(judge, box, effort)
+    refused = judge.refused
+    if not np.isfinite(optima.merits.excess).any() and refused is not None:
+        raise InputError(refused.problems)
+    designs = [
+        dict(zip((one.key for one in ranges), place, strict=True))
+        for place in optima.places.tolist()
+    ]
+    found = rank_designs(designs, judge.evaluate(optima.places), objective) if designs else iter(())
+    costs = optima.merits.cost
+    same = np.ptp(costs) <= _ROUNDING * np.abs(costs).max()
+    why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
+    return found, bool(same and spans.all() and not why), why
+
+
+def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
+    """Return how much is evaluated: less where each candidate takes a computation of its own."""
+    if alone:
+        return Effort(_SLOW, 3, 1e-10) if box.size == 1 else Effort(2 * _SLOW * box.size, 3, 1e-8)
+    if box.size > 1:
+        return Effort(_SPREAD, 24, 1e-15)
+    highest = max(q.order for q in choose_of_engine(objective.quantities))
+    return Effort(max(_GRID, 16 * (math.ceil(highest) + 1)), _GRID, 1e-13)
+
+
+@tell_arguments()
+def search(
+    engine: Engine,
+    over: Words,
+    minimise: Words | Mapping[str, float] | None = None,
+    *,
+    maximise: Words | Mapping[str, float] | None = None,
+    limits: Mapping[str, float] | None = None,
+    top: int = 10,
+    even_firing: bool = False,
+) -> Search:
+    """The best crank, firing order, bank angle, splay or values of any numbers of an engine;
+    mirror images and rotations once.
+
+    Args:
+        engine: as `load` makes it.
+        over: what to arrange: the throw angles of the file along the crank ("throws"), its
+            "firing_order", its "bank_angle" or the "splay" of its split pins; or any number of
+            the file and its range ("mount.left.loss=0.05:0.3"). A list of angles and numbers is
+            searched together.
+        minimise: the quantity that should be small (`moment.1.major`), several, which are added
+            up, or a dict of weights by quantity.
+        maximise: the quantity that should be large, likewise; exactly one of both is given.
+        limits: what quantities must stay below, N or N m.
+        top: how many to list, at most 1000.
+        even_firing: only what can fire at even intervals.
+
+    Returns:
+        The arrangements, best first: `result.results[0].design`, `.objective` and `.figures`;
+        `result.engine(1)` is the engine with the first.
+
+    Raises:
+        BalcliError: there is nothing to arrange, or nothing keeps the limits; unknown quantities.
+        TypeError: what is no engine, no names, no dict.
+
+    Example:
+        >>> search(engine, "throws", "moment.1.major").to_pandas()
+    """
+    model = take_model(check_engine("search", engine))
+    if not isinstance(over, (str, list, tuple)):
+        raise wrong_type("search", over, 'give what to arrange, such as "throws"')
+    texts = (join_names("search", over) or "").split(",")
+    given = {} if limits is None else limits
+    bounds = check_mapping("search", given, '{"moment.2.major": 100}')
+    check_type("even_firing", even_firing, bool, "give True or False")
+    kept = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
+    objective = parse_objective(
+        _join_goal(minimise), kept, maximise=_join_goal(maximise), with_gas=model.gas is not None
+    )
+    return search_arrangements(
+        model, texts, objective, check_count("top", top, most=MOST_FOUND), even_firing
+    )
+
+
+def _join_goal(goal: Words | Mapping[str, float] | None) -> str | None:
+    """Return quantities with their weights as the command line has them; None as it is."""
+    if isinstance(goal, Mapping):
+        return ",".join(f"{name}={weight!r}" for name, weight in _as_floats(goal).items())
+    return join_names("search", goal)
+
+
+def _as_floats(figures: Mapping[str, float]) -> dict[str, object]:
+    """Numbers of numpy as Python's, whose texts are digits."""
+    return {name: float(v) if hasattr(v, "dtype") else v for name, v in figures.items()}

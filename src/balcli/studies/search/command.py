@@ -1,0 +1,233 @@
+"""`balcli search`
+
+Results of a search.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ...errors import naming_file
+from ...file.toml import name_file, read_bytes
+from ...limits import MOST_FOUND
+from ...shell.file_names import require_ending, text_format
+from ...shell.options import EnginePath, FormatOption, Output
+from ...shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
+from ...shell.progress import exit_if_cut_short, reporting, reporting_until_stopped
+from ...shell.values import optional
+from ...show.csv import Columns, Rows
+from ...show.formats import Renderer
+from ...show.sheet import NAMELESS, Grid, Sheet, number, tell_assumed_speed
+from ...show.units import name_with_unit
+from ..quantity_names import tell_speeds
+
+if TYPE_CHECKING:
+    from ...file.model import EngineFile
+    from ...show.units import System
+    from .answer import Search
+    from .designs import Found
+
+
+def document(result: Search) -> dict[str, Any]:
+    """`balcli.search/1`."""
+    return {
+        "format": "balcli.search/1",
+        "engine": {"name": result.model.name},
+        "over": result.over,
+        "results": [
+            {**one.design, "objective": one.objective, "quantities": dict(one.figures)}
+            for one in result.results
+        ],
+    }
+
+
+def columns(result: Search) -> Columns:
+    """An arrangement a row: angles as numbers, throws and firing orders with hyphens between."""
+    first = result.results[0]
+    found: dict[str, Any] = {}
+    for key, value in first.design.items():
+        settings = [one.design[key] for one in result.results]
+        found[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
+    found["objective"] = [one.objective for one in result.results]
+    found |= {name: [one.figures[name] for one in result.results] for name in first.figures}
+    units = {q.name: q.unit for q in result.objective.quantities}
+    set_in = {key: unit for key in first.design if (unit := result.find_unit(key))}
+    return Columns(found, units | set_in)
+
+
+def rows(result: Search, _system: System) -> Rows:
+    """Return CSV: an arrangement a line, figures in SI units."""
+    found = columns(result).values
+    return Rows([*found], [*zip(*found.values(), strict=True)])
+
+
+def sheet(result: Search, _system: System) -> Sheet:
+    """Return the best arrangements, a row each, with figures in SI units. One quantity alone is its
+    own objective.
+    """
+    first = result.results[0]
+    units = {q.name: q.unit for q in result.objective.quantities}
+    heads = [
+        *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design),
+        *(["objective"] if _is_sum(result) else []),
+        *(name_with_unit(name, units[name]) for name in first.figures),
+    ]
+    grid = Grid(
+        f"Best {_in_words(result.over)}",
+        tuple(heads),
+        tuple(_cells(result, one) for one in result.results),
+        note=" ".join(_notes(result)),
+        words=tuple(range(len(first.design))),
+    )
+    return Sheet(result.model.name or NAMELESS, (grid,))
+
+
+def _in_words(over: str) -> str:
+    """`bank_angle` is a bank angle; the dotted name of a number stays as one types it."""
+    return over if "." in over else over.replace("_", " ")
+
+
+def _notes(result: Search) -> Iterator[str]:
+    if result.refused:
+        yield f"Not every value of the range makes an engine; with {result.refused}."
+    if result.constant:
+        done = "maximised" if result.objective.maximise else "minimised"
+        yield f"{result.over} changes nothing of what is {done}: it is the same at every value."
+    for key in result.at_ends:
+        yield (f"The best {key} is an end of the range that was searched: beyond it may be better.")
+    assumed = tell_assumed_speed(result.model)
+    if assumed and "operation.speed" not in result.over.split(", "):
+        yield assumed
+    if speeds := tell_speeds(q.name for q in result.objective.quantities):
+        yield speeds
+    added = list(dict.fromkeys(q.unit for q in result.objective.weights))
+    if len(added) > 1:
+        yield f"Objective: {' and '.join(added)} added as plain numbers; NAME=W weighs them."
+
+
+def _cells(result: Search, one: Found) -> tuple[str, ...]:
+    return (
+        *map(_setting, one.design.values()),
+        *([number(one.objective)] if _is_sum(result) else []),
+        *map(number, one.figures.values()),
+    )
+
+
+def _is_sum(result: Search) -> bool:
+    """Whether the objective is more than one of the figures."""
+    weights = list(result.objective.weights.values())
+    return weights != [1.0]
+
+
+def _setting(value: Any) -> str:
+    """A number, or several with hyphens between them."""
+    return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"
+
+
+def _exactly(value: float | list[float] | list[int]) -> str:
+    """The setting of one key in full precision."""
+    numbers = value if isinstance(value, list) else [value]
+    return "-".join(repr(number).removesuffix(".0") for number in numbers)
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows, columns=columns)
+
+
+def search(
+    path: EnginePath,
+    over: Annotated[
+        list[str],
+        optional(
+            "throws|firing_order|bank_angle|splay|NUMBER=FROM:TO",
+            "What to arrange: the file's throw angles along the crank (or those of its firing "
+            "order), the firing order, the angle of the vee, or of its split pins; or any number "
+            "of the file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles "
+            "are searched together.",
+            "--over",
+        ),
+    ],
+    minimise: Annotated[
+        str | None,
+        optional(
+            "WHAT[=WEIGHT],...",
+            "What should be small, such as moment.1.major,force.2.major=0.5; any quantity that "
+            "sweep has, such as shaft.flywheel.torque.",
+            "--minimise",
+            "--minimize",
+        ),
+    ] = None,
+    maximise: Annotated[
+        str | None,
+        optional(
+            "WHAT[=WEIGHT],...",
+            "What should be large, instead of --minimise.",
+            "--maximise",
+            "--maximize",
+        ),
+    ] = None,
+    limit: Annotated[
+        list[str] | None,
+        optional(
+            "WHAT<VALUE",
+            "What must stay below a value (N, N·m, Hz, Pa), such as 'moment.2.major<100'.",
+            "--limit",
+        ),
+    ] = None,
+    require: Annotated[
+        str,
+        optional("even-firing", "even-firing: only what can fire at even intervals.", "--require"),
+    ] = "",
+    top: Annotated[
+        int, typer.Option("--top", min=1, max=MOST_FOUND, help="How many to show.")
+    ] = 10,
+    form: FormatOption = None,
+    output: Output = None,
+    write: Annotated[
+        Path | None, optional("OUT.toml", "Write the engine file with the best one.", "--write")
+    ] = None,
+) -> None:
+    """The best crank, firing order, bank angle or splay, or values of any numbers; mirror images
+    and rotations once.
+
+    \b
+    Example:
+      balcli search v8.toml --over throws --minimise moment.1.major
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
+    form = text_format(output, form)
+    require_ending(write, ".toml", "--write")
+    from ...engine.parse import parse
+    from .answer import search_arrangements
+    from .designs import parse_objective, write_design
+
+    if require not in ("", "even-firing"):
+        message = f'"{require}": only even-firing can be required'
+        raise typer.BadParameter(message, param_hint="--require")
+    text, name = read_bytes(path), name_file(path)
+    model = parse(text, name)
+    with naming_file(name):
+        _doubt(model, over, name)
+    if write is not None:
+        refuse_leaving_files(text, path, write)
+    with_gas = model.gas is not None
+    goal = parse_objective(minimise, limit or (), maximise=maximise, with_gas=with_gas)
+    watching = reporting if any("=" in one for one in over) else reporting_until_stopped
+    with watching("arrangements") as progress, naming_file(name):
+        found = search_arrangements(model, over, goal, top, bool(require), progress)
+    show([found], RENDERER, form, output)
+    if write is not None:
+        write_file(write_design(text, found.results[0].design, name), write)
+    exit_if_cut_short(progress, "these are the best of them")
+
+
+def _doubt(model: EngineFile, over: list[str], name: str) -> None:
+    """Warn of what is unlikely in the file, except of what is arranged or varies."""
+    from ...engine.build import build
+    from ...shell.inputs import warn_each
+
+    varied = [text.partition("=")[0] for text in over]
+    warn_each((d for d in build(model).unlikely if not any(one in d for one in varied)), name)

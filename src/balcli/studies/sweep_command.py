@@ -1,0 +1,199 @@
+"""`balcli sweep`"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, nullcontext
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import BalcliError, naming_file, warn
+from ..forces.kinds import DEFAULT_QUANTITIES
+from ..limits import MOST_THREADS
+from ..process import count_cores
+from ..shell.file_names import (
+    VARIANTS,
+    Place,
+    VariantsFormat,
+    format_of,
+    format_option,
+    picture_form,
+    read_place,
+)
+from ..shell.options import EnginePath, ProgressAtOnce
+from ..shell.output import is_seen, refuse_overwriting, write_figure
+from ..shell.progress import reporting
+from ..shell.values import optional
+from .quantity_names import describe_names
+
+if TYPE_CHECKING:
+    from .sweep import Chunk, Share, Sweep
+
+
+def sweep(
+    path: EnginePath,
+    vary: Annotated[
+        list[str],
+        optional(
+            "NUMBER=VALUES",
+            "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step, "
+            "ends included) or crank.throws.2=90,180. Several span a grid, the last one fastest.",
+            "--vary",
+        ),
+    ],
+    quantity: Annotated[
+        str | None,
+        typer.Option(
+            "--quantity",
+            "-q",
+            metavar="WHAT,...",
+            show_default=DEFAULT_QUANTITIES,
+            help=f"Figures by name: {describe_names()}",
+        ),
+    ] = None,
+    form: Annotated[
+        VariantsFormat | None,
+        format_option(
+            VariantsFormat,
+            "How to write the variants; default: by the ending of -o (.csv, .json, .parquet, .txt, "
+            ".md), else a table in a terminal and csv in a pipe. Tables show 50 variants whole, of "
+            "more the first and the last.",
+        ),
+    ] = None,
+    output: Annotated[
+        Place | None,
+        optional(
+            "FILE|FOLDER/",
+            "Write into this file instead, its ending says the format; or into a folder, as "
+            "numbered Parquet files that threads or workers write; the same sweep again computes "
+            "those that are missing. - is standard output.",
+            "--output",
+            "-o",
+            parser=read_place,
+        ),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the earlier sweep that is in the folder.")
+    ] = False,
+    progress: ProgressAtOnce = False,
+    plot: Annotated[
+        Path | None,
+        optional(
+            "FILE",
+            "Also draw the quantities over one parameter (curves) or two (contours); "
+            ".svg, .png or .pdf.",
+            "--plot",
+        ),
+    ] = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            "--jobs",
+            "-j",
+            min=1,
+            max=MOST_THREADS,
+            show_default=False,
+            help="Threads that compute what takes more than a second; default: a core each.",
+        ),
+    ] = None,
+    dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.", "--dask")] = "",
+) -> None:
+    """Figures of many variants of an engine: numbers of its file over ranges, as a table, CSV, JSON
+    or Parquet.
+
+    Ctrl-C leaves an older file as it was; in a folder, the same sweep computes what is missing.
+
+    \b
+    Examples:
+      balcli sweep v8.toml --vary layout.stagger=0:30:10 -q moment.1.major
+      balcli sweep i4.toml --vary rod.ratio=0.24:0.32:0.01 -o ratios.csv --jobs 2
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
+    file, kind = _choose_target(output, form, plot)
+    if force and not (output and output.is_folder):
+        warn("--force is for a folder of parts (-o variants/); a file is replaced without it")
+    drawn = picture_form(plot, "--plot") if plot is not None else None
+    from .sweep import evaluate_chunks, join_chunks, read_sweep
+    from .sweep_show import check_drawable, make_sweep
+    from .sweep_write import write_blocks, write_sweep
+
+    job = read_sweep(path, vary, quantity)
+    _doubt(job, quantity)
+    if drawn is not None:
+        check_drawable(job)
+    shown = not is_seen(file) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
+    kept: list[Chunk] = []
+
+    def report(chunks: Iterable[Chunk]) -> Iterator[Chunk]:
+        done = 0
+        for chunk in chunks:
+            if drawn is not None:
+                kept.append(chunk)
+            yield chunk
+            done += len(chunk.values[0])
+            watch(done)
+
+    with reporting("variants", job.variants, progress, shown) as watch:
+        if output is not None and output.is_folder:
+            write_blocks(job, output.path, _sharing(jobs, dask), watch, force=force)
+        else:
+            with _sharing(jobs, dask) as share:
+                write_sweep(job, report(evaluate_chunks(job, share)), kind, file)
+    if plot is not None and drawn is not None:
+        write_figure(make_sweep(job, join_chunks(job, kept)), drawn, plot)
+
+
+def _doubt(job: Sweep, quantity: str | None) -> None:
+    """Say that moments are not known, where the usual quantities would have some, and what is
+    unlikely of the file, unless it varies.
+    """
+    from ..engine.numbering import doubt_firing
+    from ..file.doubts import find_suspicious
+    from ..shell.inputs import warn_each, warn_of_unknown_moments
+
+    if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
+        warn_of_unknown_moments(job.name)
+    with naming_file(job.name):
+        doubts = [*find_suspicious(job.file), *doubt_firing(job.file)]
+    varied = [p.path.rstrip(".0123456789") for p in job.parameters]
+    warn_each((d for d in doubts if not any(one in d for one in varied)), job.name)
+
+
+def _choose_target(
+    output: Place | None, form: VariantsFormat | None, plot: Path | None
+) -> tuple[Path | None, VariantsFormat]:
+    """Where to write the variants, None for standard output, and how.
+
+    Raises:
+        BalcliError: as of `format_of`; or for what does not go with a folder.
+    """
+    file = None if output is None else output.path
+    if output is None or not output.is_folder:
+        usual = VariantsFormat.TABLE if is_seen(file) else VariantsFormat.CSV
+        return file, format_of(file, form, VARIANTS, usual)
+    if form not in (None, VariantsFormat.PARQUET):
+        raise BalcliError(
+            f"--output {output.path}/: a folder takes Parquet files, but --format says {form}; "
+            "leave one of them out"
+        )
+    if plot is not None:
+        raise BalcliError(
+            f"--plot {plot}: figures that go into a folder are not kept for a picture; write one "
+            "file, or leave --plot out"
+        )
+    return file, VariantsFormat.PARQUET
+
+
+def _sharing(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
+    """Return what shares work among threads, or on a cluster, if an address of one is given."""
+    if dask:
+        from .sweep_write import connect_cluster
+
+        return connect_cluster(dask)
+    from .sweep import share_among_threads
+
+    threads = jobs or min(count_cores(), MOST_THREADS)
+    return nullcontext(partial(share_among_threads, threads=threads))

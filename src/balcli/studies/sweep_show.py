@@ -1,0 +1,202 @@
+"""Variants of a sweep: CSV and JSON in full precision, chunk by chunk as they are computed; a table
+of the first and the last; the columns of kept ones.
+
+Picture of a sweep: curves over one parameter, contours over two.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import cycle, product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.phasors import Array
+from ..errors import BalcliError
+from ..limits import MOST_PICTURE_VARIANTS
+from ..show import plot_style as style
+from ..show.csv import Columns, stamp
+from ..show.formats import Columnar
+from ..show.sheet import NAMELESS, Grid, Sheet, given, number, tell_assumed_speed
+from ..show.units import ShownUnit, name_with_unit, unit_of_name
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from .parameters import Parameter
+    from .sweep import Chunk, Sweep, Swept
+
+
+FIRST = 20  # rows of a table of many
+
+
+def _head(sweep: Sweep) -> dict[str, Any]:
+    return {
+        "format": "balcli.sweep/1",
+        "engine": {"name": sweep.file.name},
+        "columns": sweep.columns,
+    }
+
+
+def columns(result: Swept) -> Columns:
+    """Return a variant a row: its parameters and its figures."""
+    sweep = result.sweep
+    grids = np.meshgrid(*(p.values for p in sweep.parameters), indexing="ij")
+    every = (value.ravel() for value in (*grids, *result.values))
+    return Columns(dict(zip(sweep.columns, every, strict=True)), sweep.units)
+
+
+def document(result: Swept) -> dict[str, Any]:
+    """Return `balcli.sweep/1`: columns, and one row a variant."""
+    cells = np.column_stack([*columns(result).values.values()]).astype(object)
+    cells[cells != cells] = None
+    return {**_head(result.sweep), "rows": cells.tolist()}
+
+
+def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
+    """Yield a header, and one variant a line; what has no value (axis of a circle) is an empty
+    cell.
+    """
+    yield ",".join(sweep.columns) + "\n"
+    for chunk in chunks:
+        yield "\n".join(_lines(sweep, chunk, "")) + "\n"
+
+
+def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
+    """Yield `balcli.sweep/1` as text."""
+    yield json.dumps(stamp(_head(sweep)), ensure_ascii=False)[:-1] + ', "rows": ['
+    before = ""
+    for chunk in chunks:
+        yield before + ",\n".join(f"[{line}]" for line in _lines(sweep, chunk, "null"))
+        before = ",\n"
+    yield "]}\n"
+
+
+def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
+    """Return rows of a chunk, with commas; each value of a parameter is written out once."""
+    axes = [
+        _texts(p.values[cut], nothing) for p, cut in zip(sweep.parameters, chunk.box, strict=True)
+    ]
+    figures = (_texts(values, nothing) for values in chunk.values)
+    return map(",".join, zip(map(",".join, product(*axes)), *figures, strict=True))
+
+
+def _texts(values: Array, nothing: str) -> list[str]:
+    """Return the shortest texts that read back to the same numbers."""
+    texts = map(repr, values.tolist())
+    return [nothing if text == "nan" else text for text in texts]
+
+
+def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
+    """Return the table, each column in the unit that fits it.
+
+    Args:
+        sweep: What the variants are of.
+        figures: Parameters and quantities, shape (variants, columns).
+        left_out: Number of variants that are missing after the first FIRST.
+    """
+    largest = np.nanmax(np.abs(figures), axis=0, initial=0).tolist()
+    units = [
+        unit_of_name(name).fit(size)
+        for name, size in zip(sweep.units.values(), largest, strict=True)
+    ]
+    asked = len(sweep.parameters)  # whose columns hold what the user gave
+    rows = [
+        (*(given(value, 8) for value in row[:asked]), *map(number, row[asked:]))
+        for row in (figures / [unit.size for unit in units]).tolist()
+    ]
+    heads = map(name_with_unit, sweep.columns, (unit.name for unit in units))
+    notes = []
+    if left_out:
+        rows.insert(FIRST, ("…",) * len(sweep.columns))
+        whole = len(figures) + left_out
+        notes += [f"{whole} variants, of which {left_out} are not shown: -o X.csv writes all."]
+    if "operation.speed" not in sweep.columns and (assumed := tell_assumed_speed(sweep.file)):
+        notes += [assumed]
+    grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
+    return Sheet(f"{sweep.file.name or NAMELESS}: variants", (grid,))
+
+
+RENDERER = Columnar(document=document, columns=columns)
+
+
+LEVELS = 12
+
+
+def check_drawable(sweep: Sweep) -> None:
+    """See that there can be a picture, before anything is computed for it.
+
+    Raises:
+        BalcliError: more than two parameters, fewer than two values of one, or too many variants.
+    """
+    several = len(_varied_parameters(sweep))
+    if not 0 < several <= 2:
+        raise BalcliError(
+            f"a picture shows one or two parameters with several values each, not {several}"
+        )
+    if sweep.variants > MOST_PICTURE_VARIANTS:
+        raise BalcliError(
+            f"{sweep.variants} variants are too many for one picture; "
+            f"{MOST_PICTURE_VARIANTS} are allowed"
+        )
+
+
+def _varied_parameters(sweep: Sweep) -> list[Parameter]:
+    return [p for p in sweep.parameters if len(p) > 1]
+
+
+def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
+    """Return the picture of a sweep that `check_drawable` accepts.
+
+    Args:
+        values: each quantity on the whole grid.
+    """
+    several, shown = _varied_parameters(sweep), zip(sweep.quantities, values, strict=True)
+    name = style.fit_name(sweep.file.name)
+    if len(several) == 1:
+        names = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))
+        with style.open_figure(7, 1.2 + 3 * len(names)) as page:
+            places = page.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
+            for axes, unit in zip(places, names, strict=True):
+                _draw_curves(axes, several[0], sweep, values, unit)
+                axes.label_outer()
+            places[0].set_title(name)
+        return page
+    first, second = several
+    with style.open_figure(6 * len(values), 5.1) as page:
+        style.put_title(page, name)
+        places = page.subplots(1, len(values), squeeze=False)[0]
+        for axes, (quantity, value) in zip(places, shown, strict=True):
+            fit = _fit(quantity.unit, value)
+            filled = axes.contourf(second.values, first.values, value.squeeze() / fit.size, LEVELS)
+            page.colorbar(filled, ax=axes)
+            axes.set(
+                xlabel=name_with_unit(second.path, second.unit),
+                ylabel=name_with_unit(first.path, first.unit),
+                title=name_with_unit(quantity.name, fit.name),
+            )
+    return page
+
+
+def _draw_curves(
+    axes: Any, parameter: Parameter, sweep: Sweep, values: Sequence[Array], name: str
+) -> None:
+    """Draw the quantities of one unit, all in the one that fits the largest of them."""
+    shown = [
+        (quantity.name, value.ravel())
+        for quantity, value in zip(sweep.quantities, values, strict=True)
+        if quantity.unit == name
+    ]
+    unit = _fit(name, np.concatenate([value for _, value in shown]))
+    for (label, value), (line, colour) in zip(shown, cycle(style.MANY_LOOKS), strict=False):
+        axes.plot(parameter.values, value / unit.size, color=colour, linestyle=line, label=label)
+    axes.set(xlabel=name_with_unit(parameter.path, parameter.unit), ylabel=unit.name)
+    axes.ticklabel_format(axis="y", useOffset=False, style="plain")
+    axes.legend()
+
+
+def _fit(name: str, value: Array) -> ShownUnit:
+    """Return the unit for the largest of these values, which are in SI units of this name."""
+    return unit_of_name(name).fit(float(np.nan_to_num(abs(value)).max(initial=0)))

@@ -1,0 +1,300 @@
+"""Variants of a sweep, written as they are computed: to a stream, a text or a Parquet file.
+
+Variants of a sweep as a Parquet file, with its units.
+
+A sweep as a folder of numbered Parquet files, each written by the thread or worker that computes
+it.
+
+The folder holds a manifest that names the sweep. A block exists or not: it is written under a
+hidden name and renamed when it is whole. The same sweep into the same folder computes the missing
+blocks. Nothing but blocks and manifests is ever replaced or deleted.
+
+Sweeps on a dask cluster (extra `balcli[scale]`).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import re
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import CancelledError
+from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
+from functools import partial
+from itertools import chain, islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..core.phasors import Array
+from ..errors import BalcliError, tell_unwritable
+from ..files import replacing
+from ..limits import MOST_ROWS_READ
+from ..shell.file_names import VariantsFormat
+from ..shell.output import is_seen, standard_output
+from ..shell.progress import Progress
+from ..show.formats import Format, lay_out
+from ..show.sheet import Sheet
+from ..version import __version__
+from .sweep import (
+    Block,
+    Chunk,
+    Item,
+    Outcome,
+    Share,
+    Sweep,
+    divide_into_blocks,
+    evaluate_chunks,
+    run_in_order,
+    split_columns,
+)
+from .sweep_show import FIRST, make_sheet, sweep_csv, sweep_json
+
+NO_PYARROW = "a .parquet file needs pyarrow: install balcli[scale]"
+
+
+def write_sweep_parquet(sweep: Sweep, rows: Iterable[list[Array]], place: Path) -> None:
+    """Write variants as they come.
+
+    Args:
+        sweep: what they are of.
+        rows: some at a time, as columns: parameters and quantities.
+        place: of the file.
+
+    Raises:
+        BalcliError: pyarrow is missing.
+    """
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError:
+        raise BalcliError(NO_PYARROW) from None
+    schema = pyarrow.schema(
+        [
+            pyarrow.field(name, pyarrow.float64(), metadata={"unit": unit})
+            for name, unit in sweep.units.items()
+        ],
+        metadata={
+            "balcli.format": "balcli.sweep/1",
+            "balcli.version": __version__,
+            "balcli.engine": sweep.file.name,
+        },
+    )
+    with parquet.ParquetWriter(place, schema) as writer:
+        for columns in rows:
+            nulls = [pyarrow.array(column, from_pandas=True) for column in columns]  # for nan
+            writer.write_table(pyarrow.table(nulls, schema=schema))
+
+
+_LAST = 10  # rows of a table of many
+
+
+def write_sweep(
+    sweep: Sweep, chunks: Iterable[Chunk], kind: VariantsFormat, output: Path | None
+) -> None:
+    """Write all chunks as csv, json or parquet, or a table of them. A file takes its place when it
+    is whole.
+
+    Raises:
+        BalcliError: Parquet without a file, the file cannot be written, or pyarrow is missing.
+    """
+    if output is None and kind is VariantsFormat.PARQUET:
+        raise BalcliError("parquet is written into a file: name one with -o")
+    if output is None:
+        with standard_output() as stream:
+            stream.writelines(_make_text(sweep, chunks, kind, seen=is_seen(output)))
+        return
+    with replacing(output) as place:
+        if kind is VariantsFormat.PARQUET:
+            write_sweep_parquet(sweep, (split_columns(sweep, chunk) for chunk in chunks), place)
+        else:
+            with place.open("w", encoding="utf-8", newline="\n") as stream:
+                stream.writelines(_make_text(sweep, chunks, kind))
+
+
+def _make_text(
+    sweep: Sweep, chunks: Iterable[Chunk], kind: VariantsFormat, *, seen: bool = False
+) -> Iterator[str]:
+    waiting = iter(chunks)
+    # A variant that cannot be is reported before a heading is written.
+    whole = chain(list(islice(waiting, 1)), waiting)
+    if kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN):
+        return iter([lay_out([_make_table(sweep, whole)], Format(kind), seen=seen)])
+    return (sweep_json if kind is VariantsFormat.JSON else sweep_csv)(sweep, whole)
+
+
+def _make_table(sweep: Sweep, chunks: Iterable[Chunk]) -> Sheet:
+    """Return a table of all variants if there are few, else of the first and the last."""
+    first = last = np.empty((0, len(sweep.columns)))
+    for chunk in chunks:
+        rows = np.stack(split_columns(sweep, chunk), axis=1)
+        first = np.concatenate([first, rows[: MOST_ROWS_READ - len(first)]])
+        last = np.concatenate([last, rows])[-_LAST:]
+    if sweep.variants <= MOST_ROWS_READ:
+        return make_sheet(sweep, first, 0)
+    shown = np.concatenate([first[:FIRST], last])
+    return make_sheet(sweep, shown, sweep.variants - len(shown))
+
+
+ROWS_A_BLOCK = 1 << 20
+MANIFEST = "_balcli_sweep.json"  # readers of Parquet pass over names that begin with _
+_BLOCK = re.compile(r"part-\d{6,}\.parquet")
+# An unfinished block is called as `files.name_hidden` has it.
+_OURS = re.compile(rf"{_BLOCK.pattern}|\.{_BLOCK.pattern}\.[0-9a-f]+|{re.escape(MANIFEST)}")
+
+
+def write_blocks(
+    sweep: Sweep,
+    folder: Path,
+    sharing: AbstractContextManager[Share],
+    progress: Progress,
+    *,
+    force: bool,
+) -> None:
+    """Write all variants into a folder; blocks that an interrupted run of this sweep has left there
+    stay.
+
+    Args:
+        sharing: gives what shares work among threads or workers.
+        force: whether an earlier sweep in this folder is deleted first.
+
+    Raises:
+        BalcliError: the folder holds something else or another sweep, it cannot be written, or
+            pyarrow is missing.
+    """
+    try:
+        _claim(folder, _name_sweep(sweep), force)
+    except OSError as error:
+        raise tell_unwritable(folder, error) from None
+    done = 0
+    try:
+        with sharing as share:
+            blocks = divide_into_blocks(sweep, ROWS_A_BLOCK)
+            for variants in share(partial(_write_block, folder.absolute()), blocks):
+                done += variants
+                progress(done)
+    except BalcliError:
+        if not done:
+            _give_up(folder)
+        raise
+
+
+def _give_up(folder: Path) -> None:
+    """Delete the manifest, and the folder if it is empty then, where no block has been written."""
+    if not any(_BLOCK.fullmatch(path.name) for path in folder.iterdir()):
+        (folder / MANIFEST).unlink()
+        with suppress(OSError):
+            folder.rmdir()
+
+
+def _write_block(folder: Path, block: Block) -> int:
+    """Compute and write a block unless it is there; returns its number of variants."""
+    target = folder / f"part-{block.number:06}.parquet"
+    if not target.exists():
+        rows = (split_columns(block.sweep, chunk) for chunk in evaluate_chunks(block.sweep))
+        with replacing(target) as place:
+            write_sweep_parquet(block.sweep, rows, place)
+    return block.sweep.variants
+
+
+def _name_sweep(sweep: Sweep) -> str:
+    """Return the manifest: the same for the same engine, numbers, values and quantities."""
+    whole = repr((sweep.file, [(p.path, p.values.tobytes()) for p in sweep.parameters]))
+    content = {
+        "format": "balcli.sweep/1",
+        "version": __version__,
+        "engine": sweep.file.name,
+        "columns": sweep.columns,
+        "variants": sweep.variants,
+        "rows_a_block": ROWS_A_BLOCK,
+        "sha256": hashlib.sha256(whole.encode()).hexdigest(),
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def _claim(folder: Path, manifest: str, force: bool) -> None:
+    """Make the folder and its manifest, unless they are there.
+
+    Raises:
+        BalcliError: there is a file of this name, or the folder holds something else or another
+            sweep.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise BalcliError(f"{folder}/: is a file; choose another name for the folder")
+    folder.mkdir(exist_ok=True)
+    with suppress(FileNotFoundError):
+        if (folder / MANIFEST).read_bytes() == manifest.encode():
+            return
+    names = sorted(path.name for path in folder.iterdir())
+    strange = [name for name in names if not _OURS.fullmatch(name)]
+    if strange or (names and MANIFEST not in names):
+        raise BalcliError(
+            f"{folder}/: holds {(strange or names)[0]}, which is no part of a sweep; choose a "
+            "folder that is empty or not there"
+        )
+    if names and not force:
+        raise BalcliError(
+            f"{folder}/: holds another sweep; choose another folder, or --force to replace it"
+        )
+    for name in sorted(names, key=MANIFEST.__eq__):  # the manifest last: a run may be interrupted
+        (folder / name).unlink()
+    try:
+        with (folder / MANIFEST).open("x", encoding="utf-8") as stream:
+            stream.write(manifest)
+    except FileExistsError:  # another run was faster
+        raise BalcliError(f"{folder}/: another sweep is just beginning there") from None
+
+
+RETRIES = 3  # of what a worker has not finished
+AHEAD = 4  # tasks for each thread that may wait to be fetched
+
+
+@contextmanager
+def connect_cluster(address: str) -> Iterator[Share]:
+    """Yield what shares work among the workers of the scheduler at an address such as
+    tcp://host:8786, or of a cluster on this machine (`local`) that ends with it.
+
+    Raises:
+        BalcliError: dask is not installed, or no scheduler responds.
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise BalcliError("--dask needs dask: install balcli[scale]") from None
+    dask: Any = distributed
+    with ExitStack() as ends:
+        try:
+            if address == "local":
+                # Its workers, when it ends, complain of the scheduler's absence.
+                cluster = dask.LocalCluster(
+                    threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
+                )
+                client = ends.enter_context(dask.Client(ends.enter_context(cluster)))
+            else:
+                client = ends.enter_context(dask.Client(address, timeout=10))
+        except (OSError, ValueError, RuntimeError) as error:
+            raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
+        yield partial(run_on_cluster, client)
+
+
+def run_on_cluster(
+    client: Any, work: Callable[[Item], Outcome], items: Iterable[Item]
+) -> Iterator[Outcome]:
+    """Yield `work(item)` for each item, in their order, by the workers of a client's cluster.
+
+    Raises:
+        BalcliError: All workers are lost, again and again.
+    """
+    from distributed import KilledWorker  # an extra
+
+    submit = partial(client.submit, pure=False, retries=RETRIES)
+    ahead = AHEAD * max(sum(client.nthreads().values()), 1)
+    try:
+        yield from run_in_order(submit, work, items, ahead)
+    except (KilledWorker, CancelledError) as error:
+        raise BalcliError(
+            f"--dask: the cluster has lost its workers ({type(error).__name__}), and what they "
+            "computed; start it again, or leave --dask out"
+        ) from None

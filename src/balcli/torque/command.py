@@ -1,0 +1,210 @@
+"""`balcli torque`"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import BalcliError, warn
+from ..file.toml import name_file
+from ..limits import FLUCTUATION
+from ..shell.file_names import require_ending, text_format
+from ..shell.options import (
+    FormatOption,
+    Misfire,
+    Orders,
+    Output,
+    Speed,
+    UnitsOption,
+    parse_orders,
+    parse_speed,
+)
+from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
+from ..shell.values import optional, read_inertia
+from ..show.formats import Units
+
+if TYPE_CHECKING:
+    from .records import TorqueAnalysis
+
+
+_NOTE = "by balcli torque"
+EngineFile = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="FILE",
+        help="Engine file with [gas] (TOML); - reads standard input. Not with --curve.",
+        show_default=False,
+    ),
+]
+Fluctuation = Annotated[
+    str | None,
+    optional(
+        "1/200", "Also the inertia that keeps (highest - lowest)/mean speed to this; or 0.5%."
+    ),
+]
+Cylinder = Annotated[
+    int, typer.Option(metavar="N", help="Whose torque is shown beside the engine's.")
+]
+LoadsOption = Annotated[
+    str | None,
+    optional("pin,main", "Also loads of crank and knuckle pins, and of main bearings.", "--loads"),
+]
+Curve = Annotated[
+    Path | None,
+    optional(
+        "CSV", "A torque instead of an engine: angle_deg,torque_Nm; the last row closes the period."
+    ),
+]
+Load = Annotated[
+    Path | None,
+    optional(
+        "CSV", "With --curve: the torque that the load takes, likewise; default: the mean, evenly."
+    ),
+]
+Inertia = Annotated[
+    str | None, optional("KG_MM2", "With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'.")
+]
+Write = Annotated[
+    Path | None,
+    optional(
+        "OUT.toml", "Write the engine file with this uneven speed (speed_ripple) and misfires."
+    ),
+]
+
+
+def torque(
+    path: EngineFile = None,
+    fluctuation: Fluctuation = None,
+    cylinder: Cylinder = 1,
+    misfire: Misfire = None,
+    loads: LoadsOption = None,
+    curve: Curve = None,
+    load: Load = None,
+    inertia: Inertia = None,
+    write: Write = None,
+    speed: Speed = None,
+    orders: Orders = None,
+    form: FormatOption = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Torque of gas and inertia on the crank: by order and over the cycle, mean torque and power,
+    the uneven speed and the flywheel; or what a given torque curve does.
+
+    `balcli torque v8.toml --fluctuation 1/200` says which inertia keeps the speed to that. Where
+    the crank stalls with the inertia it has, that is an error, with the angle; all else is told.
+
+    \b
+    Examples:
+      balcli torque v8_wiebe.toml
+      balcli torque v8_wiebe.toml --fluctuation 2%
+    """
+    reads = [str(name) for name in (path, curve, load) if name is not None]
+    refuse_overwriting(reads=reads, writes={"--output": output, "--write": write})
+    form = text_format(output, form)
+    require_ending(write, ".toml", "--write")
+    if (path is None) == (curve is None):
+        raise BalcliError("give an engine file, or --curve with a torque")
+    if path is not None and path.lower().endswith(".csv"):
+        raise BalcliError(f"{path}: an engine file ends in .toml; is it a torque, for --curve?")
+    of_file = "--curve; that of an engine stands in its file: [crank] inertia, [flywheel]"
+    for option, misplaced, needs in (
+        ("--misfire", misfire and curve, "an engine file"),
+        ("--write", write and curve, "an engine file"),
+        ("--cylinder", cylinder != 1 and curve, "an engine file"),
+        ("--loads", loads and curve, "an engine file"),
+        ("--load", load and path, "--curve"),
+        ("--inertia", inertia and path, of_file),
+    ):
+        if misplaced:
+            raise BalcliError(f"{option} needs {needs}")
+    from ..shell.inputs import (
+        exit_on_errors,
+        named_by_file,
+        read_engine,
+        require_gas,
+        silence_cylinders,
+        warn_each,
+    )
+    from .show import RENDERER
+
+    rpm, asked, allowed = parse_speed(speed), parse_orders(orders), parse_fluctuation(fluctuation)
+    if curve is not None:
+        from .given_curve import analyze_curve, doubt_period, read_curve
+
+        own = None if inertia is None else read_inertia("--inertia", inertia, units)
+        given = read_curve(curve)
+        warn_each(doubt_period(given), str(curve))
+        taken = None if load is None else read_curve(load)
+        found = analyze_curve(
+            curve.stem,
+            given,
+            taken,
+            speed_rpm=rpm,
+            inertia=own,
+            fluctuation=allowed,
+            orders=asked,
+        )
+    else:
+        from .answer import analyze_torque_of_engine as analyze_torque
+
+        source = read_engine(path or "", rpm)
+        require_gas(source.engine, path or "")
+        engine = named_by_file(source.engine, path or "")
+        engine = silence_cylinders(engine, misfire or (), path or "")
+        found = analyze_torque(
+            engine, asked, cylinder=cylinder, fluctuation=allowed, loads=loads or ()
+        )
+        if found.loads is not None and found.loads.obstacle:
+            warn(f"{name_file(path or '')}: main bearings: {found.loads.obstacle}")
+        if write is not None:
+            write_uneven(path or "", source.text, found, write)
+    show([found], RENDERER, form, output, units)
+    if found.flywheel is not None and found.flywheel.stall and fluctuation is None:
+        exit_on_errors([f"{name_file(path or str(curve))}: {found.flywheel.stall}"])
+
+
+def parse_fluctuation(text: str | None) -> float | None:
+    """Return the share of `1/200`, `0.005` or `0.5%`.
+
+    Raises:
+        BalcliError: Anything else.
+    """
+    if text is None:
+        return None
+    above, _, below = text.strip().removesuffix("%").partition("/")
+    try:
+        return float(above) / float(below or 1) / (100 if text.strip().endswith("%") else 1)
+    except (ValueError, ZeroDivisionError):
+        raise BalcliError(f'--fluctuation "{text[:60]}": {FLUCTUATION}') from None
+
+
+def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:
+    """Write the engine file with its speed as uneven as the torque makes it, and without the gas of
+    the cylinders that misfire.
+
+    Raises:
+        BalcliError: The inertia is not known, or too small; the target cannot be written.
+    """
+    from ..file.edit import set_keys
+
+    refuse_leaving_files(source, path, target)
+    flywheel = result.flywheel
+    if flywheel is None or flywheel.fluctuation is None:
+        raise BalcliError(
+            f"--write: {flywheel.stall}"
+            if flywheel is not None and flywheel.stall
+            else "--write: the speed is not known; give inertia in [crank] or [flywheel], such as "
+            "[flywheel] and inertia = 250000"
+        )
+    lines = [
+        {"order": line.order, "amplitude": line.amplitude, "angle": line.angle_deg}
+        for line in flywheel.lines
+    ]
+    keys = {"speed": result.speed_rpm, "speed_ripple": lines}
+    text = set_keys(source.decode("utf-8-sig"), "operation", keys, _NOTE)
+    for number in result.no_gas_in or ():
+        text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
+    write_file(text, target)

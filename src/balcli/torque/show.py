@@ -1,0 +1,273 @@
+"""The torque on the crank, of an engine or of a given curve: for people, as JSON and as CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ..core.records import find_unit, list_figures, remove_unit
+from ..core.records import to_document as document
+from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
+from ..limits import MOST_HARMONICS_UNASKED
+from ..show.csv import Rows
+from ..show.engine_facts import list_silent, tell_speed, tell_strokes
+from ..show.figures import FigureRow, order_rows
+from ..show.formats import Renderer
+from ..show.sheet import (
+    NAMELESS,
+    UNKNOWN,
+    Facts,
+    Grid,
+    Sheet,
+    Text,
+    degrees,
+    given,
+    number,
+    order_name,
+    size_text,
+)
+from ..show.units import ShownUnit, System
+from .flywheel import Flywheel
+from .loads import CycleLoad
+from .records import Harmonic, TorqueAnalysis, write_whole
+
+__all__ = ["document", "rows", "sheet"]
+
+_NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
+_PARTS = ("torque", "energy", "flywheel", "loads", "orders")
+
+
+# ------------------------------------------------------------------ CSV
+def rows(result: TorqueAnalysis, system: System) -> Rows:
+    """Return a figure a line, as of `analyze`; cylinder 0 is the engine, an empty order the
+    cycle.
+    """
+    header = ("cylinder", "quantity", "order", "figure", "value", "unit")
+    return Rows(header, _list_rows(result, document(result), system))
+
+
+def _list_rows(
+    result: TorqueAnalysis, found: dict[str, Any], system: System
+) -> Iterator[FigureRow]:
+    # Torque by order of an engine is that of inertia here, as in `analyze`.
+    names = {kind.key: kind.name for kind in (TORQUE, GAS, TORQUE_TOTAL)}
+    places = [(0, found["orders"])]
+    if result.engine is None:
+        names[TORQUE_TOTAL.key] = TORQUE.name
+    else:
+        places.append((result.cylinder, [entry["one_cylinder"] for entry in found["orders"]]))
+    head = {key: value for key, value in found.items() if key not in ("format", *_PARTS)}
+    for key in {"no_gas_in", "no_burning_in"} & head.keys():
+        head[key] = " ".join(map(str, head[key]))
+    yield from _write("engine", head, system)
+    yield from _write(names[TORQUE_TOTAL.key], found["torque"], system)
+    yield from _write("energy", found["energy"], system)
+    yield from _write("flywheel", found.get("flywheel", {}), system)
+    for kind, loads in found.get("loads", {}).items():
+        for load in loads if kind != "obstacle" else ():
+            yield from _write(kind, load, system)
+        if kind == "obstacle":
+            yield FigureRow(0, "main", None, kind, loads, "")
+    for cylinder, entries in places:
+        for key, name in names.items():
+            for row, entry in zip(found["orders"], entries, strict=True):
+                if key in entry:
+                    yield from order_rows(name, row["order"], entry[key], system.moment, cylinder)
+
+
+def _write(quantity: str, part: Mapping[str, Any], system: System) -> Iterator[FigureRow]:
+    """Yield a line for every figure: pins by their cylinder, bearings by their number in place of
+    an order.
+    """
+    cylinder, order = part.get("cylinder", 0), part.get("bearing")
+    for name, value, _ in list_figures(part, ("cylinder", "bearing", "position_mm")):
+        unit = system.instead_of(find_unit(name))
+        name = name if unit.name in ("deg", "rpm") else remove_unit(name)
+        value = unit.of(value) if isinstance(value, float) else value
+        yield FigureRow(cylinder, quantity, order, name, value, unit.name)
+
+
+# ------------------------------------------------------------------ for people
+def sheet(result: TorqueAnalysis, system: System) -> Sheet:
+    """Return work, torque over the cycle, flywheel, and torque by order."""
+    name = result.name or NAMELESS
+    title = f"{name}: torque" if result.engine is None else f"{name}: torque on the crank"
+    parts: list[Grid | Facts | Text] = [Facts(tuple(_list_work(result, system)))]
+    parts.append(_describe_course(result, system))
+    if result.flywheel is not None:
+        parts.append(Facts(tuple(_list_flywheel(result, result.flywheel, system)), "Flywheel"))
+    elif result.engine is not None:
+        parts.append(Text("Flywheel", (_NO_INERTIA,)))
+    parts += _make_load_tables(result, system)
+    parts.append(_make_order_table(result, system))
+    return Sheet(title, tuple(parts))
+
+
+def tenths(angle_deg: float) -> str:
+    """Return an angle within a cycle, to a tenth of a degree."""
+    return f"{round(angle_deg, 6) + 0.0:.1f}"
+
+
+def _size(value: float, unit: ShownUnit) -> str:
+    """Return what `size_text` does, with as many digits as most figures."""
+    return size_text(value, unit, None)
+
+
+def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, str]]:
+    kinds, period = {"": 1.0}, f"{write_whole(result.cycle_deg)} deg"
+    if (engine := result.engine) is None:
+        yield "period", period
+        if result.speed_rpm is not None:
+            yield "speed", f"{given(result.speed_rpm)} rpm"
+    else:
+        yield "cycle", f"{tell_strokes(engine)}, {period}"
+        yield "speed", tell_speed(engine, steady=True)
+        kinds = {" indicated": 1.0}
+        if engine.mechanical_efficiency is not None:
+            kinds[" brake"] = engine.mechanical_efficiency
+        imep = result.imep_Pa or 0.0
+        each = (_size(imep * share, system.pressure) + kind for kind, share in kinds.items())
+        yield "mean pressure", ", ".join(each)
+    if result.max_pressure_Pa is not None:
+        at = degrees(result.max_pressure_deg or 0.0)
+        yield (
+            "largest pressure",
+            f"{_size(result.max_pressure_Pa, system.pressure)}, {at} deg after firing",
+        )
+    if engine is not None:
+        yield from list_silent(engine.silent)
+    yield "mean torque", _tell_each(result.mean_torque_Nm, system.moment, kinds)
+    if result.power_W is not None:
+        yield "power", _tell_each(result.power_W, system.power, kinds)
+    if result.load_Nm is not None:
+        mean, rest = (_size(size, system.moment) for size in result.load_Nm)
+        yield "load", f"{mean} in the mean" + (f", and {rest} evenly" if result.load_Nm[1] else "")
+
+
+def _tell_each(value: float, unit: ShownUnit, kinds: Mapping[str, float]) -> str:
+    """Return a figure, and the share of it that each kind is, such as " brake"."""
+    of_all = unit.fit(value)
+    sizes = ((number(of_all.of(share * value)), kind) for kind, share in kinds.items())
+    return ", ".join(f"{size} {of_all.name}{kind}" for size, kind in sizes)
+
+
+def _describe_course(result: TorqueAnalysis, system: System) -> Facts:
+    torque, energy = result.torque, result.energy
+    unit = system.moment.fit(max(abs(torque.min_Nm), abs(torque.max_Nm)))
+    large, small = (number(unit.of(value)) for value in (torque.max_Nm, torque.min_Nm))
+    surplus, start, end = energy.surplus_J, tenths(energy.from_deg), tenths(energy.to_deg)
+    pairs = (
+        ("largest", f"{large} {unit.name} at {tenths(torque.max_deg)} deg"),
+        ("smallest", f"{small} {unit.name} at {tenths(torque.min_deg)} deg"),
+        ("reversals", str(torque.reversals)),
+        ("work of a cycle", _size(energy.work_J, system.energy)),
+        ("surplus", f"{_size(surplus, system.energy)} from {start} to {end} deg"),
+    )
+    return Facts(pairs, "Torque over the cycle")
+
+
+def _list_flywheel(
+    result: TorqueAnalysis, wheel: Flywheel, system: System
+) -> Iterator[tuple[str, str]]:
+    unit, moving = system.inertia, wheel.moving_parts_kg_m2
+    if wheel.inertia_kg_m2 is not None:
+        parts = f", of it moving parts {number(unit.of(moving))}" if moving else ""
+        yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
+    if wheel.fluctuation is not None:
+        both = (wheel.fluctuation, wheel.fluctuation_small or 0.0)
+        exact, small = (f"{number(100 * share, 4)} %" for share in both)
+        one_in = f"1/{number(1 / wheel.fluctuation, 4)}" if wheel.fluctuation else "0"
+        yield "fluctuation", f"{exact} ({one_in}); {small} by the rule for small ones"
+        low = (wheel.speed_min_rpm or 0.0, wheel.speed_min_deg)
+        high = (wheel.speed_max_rpm or 0.0, wheel.speed_max_deg)
+        ends = (f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in (low, high))
+        yield "speed", " to ".join(ends)
+    if wheel.stall:
+        yield "speed", wheel.stall
+    if (needed := wheel.needed_kg_m2) is not None:
+        told = f"{_size(needed, unit)} in all"
+        crank = None if result.engine is None else result.engine.crank_inertia
+        crank = 0.0 if result.engine is not None and result.engine.rotary else crank
+        rest = needed - moving - float(crank or 0.0)
+        if moving and rest <= 0:
+            told += ", which is there without a flywheel"
+        elif moving:
+            place = "crankshaft and flywheel" if crank is None else "the flywheel"
+            told += f", {number(unit.of(rest))} of it in {place}"
+        yield "needed", told
+
+
+def _make_load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid | Text]:
+    if (loads := result.loads) is None:
+        return
+    for title, word, each in (
+        ("Crank pins", "cylinder", loads.pin),
+        ("Knuckle pins", "cylinder", loads.knuckle),
+        ("Main bearings", "bearing", loads.main),
+    ):
+        if each:
+            yield _make_load_table(title, word, each, system)
+    if loads.obstacle:
+        yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
+
+
+def _make_load_table(title: str, word: str, loads: Sequence[CycleLoad], system: System) -> Grid:
+    unit = system.force.fit(max(load.max_N for load in loads))
+    pressures = [load.pressure_Pa for load in loads if load.pressure_Pa is not None]
+    pressed = len(pressures) == len(loads)
+    stress = system.stress.fit(max(pressures, default=0.0))
+
+    def row(load: CycleLoad) -> Iterator[str]:
+        yield str(getattr(load, word))
+        yield number(unit.of(load.max_N))
+        yield tenths(load.max_deg)
+        yield number(unit.of(load.mean_N))
+        if load.pressure_Pa is not None and pressed:
+            yield number(stress.of(load.pressure_Pa), 4)
+
+    heads = [word, f"largest, {unit.name}", "at, deg", f"mean, {unit.name}"]
+    heads += [stress.name] if pressed else []
+    note = (
+        "Half-way between neighbouring throws and as far outside the end ones; the shaft counts "
+        "as cut in each."
+    )
+    rows = tuple(tuple(row(load)) for load in loads)
+    return Grid(title, tuple(heads), rows, note if word == "bearing" else "")
+
+
+def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
+    """Return a table of the orders in which the engine or the one cylinder has something."""
+    orders, is_engine = result.orders, result.engine is not None
+    keys = ("gas_torque_Nm", "inertia_torque_Nm", "torque_Nm")[0 if is_engine else 2 :]
+    lines: list[list[Harmonic]] = [[getattr(o.torques, key) for key in keys] for o in orders]
+    many = len(orders) == MOST_HARMONICS_UNASKED
+    heads, note = ["torque", "peak, deg"], "--orders asks for higher ones." if many else ""
+    if is_engine:
+        last = f"gas of {result.cylinder}"
+        heads = ["gas", "at, deg", "inertia", "at, deg", "total", "at, deg", last]
+        note = f"The last column is what the gas of cylinder {result.cylinder} does alone."
+        for line, order in zip(lines, orders, strict=True):
+            line.append(getattr(order.one_cylinder, keys[0]))
+    largest = max((harmonic.amplitude for line in lines for harmonic in line), default=0.0)
+    unit = system.moment.fit(largest)
+
+    def size(harmonic: Harmonic, n: float, digits: int) -> str:
+        return number(unit.of(harmonic.amplitude if n else harmonic.cos), digits)
+
+    def cells(n: float, line: list[Harmonic]) -> Iterator[str]:
+        yield order_name(n) if is_engine else f"{n:g}"
+        for harmonic in line[: len(keys)]:
+            yield size(harmonic, n, 5)
+            peak = UNKNOWN if harmonic.peak_deg is None else degrees(harmonic.peak_deg)
+            yield peak if harmonic.amplitude else ""
+        yield from (size(harmonic, n, 4) for harmonic in line[len(keys) :])
+
+    shown = [
+        tuple(cells(order.order, line))
+        for order, line in zip(orders, lines, strict=True)
+        if not is_engine or not all(harmonic.balanced for harmonic in line)
+    ]
+    return Grid(f"Torque by order, {unit.name}", ("order", *heads), tuple(shown), note)
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -1,0 +1,395 @@
+"""One question about torsional vibration, one complete answer.
+
+`balcli.analyze_torsion`
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import NoneType
+from typing import Annotated, Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.phasors import Array
+from ..core.records import HIDDEN
+from ..core.vibration import Real
+from ..engine.build import Engine, take_model
+from ..engine.load import build_tables
+from ..errors import BalcliError, check_type
+from ..file.fields import printable
+from ..file.plain_tables import take_tables
+from ..process import Tell, tell_nobody
+from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
+from ..show.result import Result
+from .dampers import DamperAsked, SizedDamper, size_damper
+from .load import Source, make_chain_source, make_source
+from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
+from .response import TorsionResponse, find_barred, find_response
+from .system import TorsionalSystem
+from .tables import describes_chain, read_chain_tables
+
+BEYOND = 1.5  # times the file's own speed to which criticals are listed: engines overspeed
+BREAKING = 1000e6  # Pa of vibratory stress: the best steel yields below
+ASTOUNDING = 45.0  # deg: engines have fractions of a degree, on soft couplings some
+WIDE_SWING = 20.0  # deg; on a circle its frequency is 0.8 % low there, by swing^2/16
+_ASTRAY = 1e-3  # of the largest angle: so far from the mode's shape a table is rounding errors
+
+
+class HolzerAsked(NamedTuple):
+    """Frequency at which Holzer's table is wanted: that of a mode by its number, or rad/s."""
+
+    mode: int | None
+    omega: float = 0.0
+
+
+class TorsionQuestion(NamedTuple):
+    """What is asked.
+
+    Attributes:
+        speeds_rpm: (speeds,) rising, at which the response is wanted; None: none is.
+        orders: Which of those that excite; None: all.
+        holzer: Tables that are wanted.
+        damper: Damper that is to be sized; the answer is then about the system that has it.
+    """
+
+    speeds_rpm: Real | None = None
+    orders: Real | None = None
+    holzer: tuple[HolzerAsked, ...] = ()
+    damper: DamperAsked | None = None
+
+
+def ask(
+    speeds_rpm: Real | None = None,
+    orders: Real | None = None,
+    holzer: Iterable[HolzerAsked] = (),
+    damper: str | None = None,
+    damper_at: str | None = None,
+    damper_inertia: float | None = None,
+) -> TorsionQuestion:
+    """Return the question of `balcli torsion` and `analyze_torsion`.
+
+    Args:
+        speeds_rpm: (speeds,) rising, at which the response is wanted.
+        orders: (orders,) that excite; None: all.
+        holzer: Tables that are wanted.
+        damper: Kind of damper that is to be sized.
+        damper_at: Name of what carries it.
+        damper_inertia: Inertia of its ring or pendulums, kg m2.
+
+    Raises:
+        BalcliError: more of a damper than its kind, without this or without speeds.
+    """
+    wanted = None
+    if damper is not None:
+        wanted = DamperAsked(damper, damper_at, damper_inertia)
+        if speeds_rpm is None:
+            raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
+    elif damper_at is not None or damper_inertia is not None:
+        option = "--damper-inertia" if damper_at is None else "--damper-at"
+        raise BalcliError(f"{option}: give the kind of damper, with --damper")
+    return TorsionQuestion(speeds_rpm, orders, tuple(holzer), wanted)
+
+
+@dataclass(frozen=True)
+class ChainNode:
+    """Inertia of the chain.
+
+    Attributes:
+        name: Name of the node.
+        inertia_kg_m2: Moment of inertia.
+        gear: Speed relative to that of the crankshaft or the first node.
+    """
+
+    name: str
+    inertia_kg_m2: float
+    gear: float
+
+
+@dataclass(frozen=True)
+class ChainJoint:
+    """Shaft between two nodes.
+
+    Attributes:
+        name: Name of the shaft.
+        stiffness_Nm_per_rad: Torsional stiffness; null if it is rigid.
+    """
+
+    name: str
+    stiffness_Nm_per_rad: float
+
+
+@dataclass(frozen=True)
+class HolzerRow:
+    """One inertia of Holzer's table.
+
+    Attributes:
+        node: Name of the node.
+        inertia_kg_m2: Moment of inertia.
+        angle: Angle of the node, relative to the first.
+        torque_Nm: Torque of its inertia for 1 rad of the first node.
+        sum_Nm: Torque of all inertias up to this node, which its shaft onward carries.
+        stiffness_Nm_per_rad: Stiffness of this shaft; null if it is rigid, 0 of the last node.
+        twist: Twist of this shaft.
+    """
+
+    node: str
+    inertia_kg_m2: float
+    angle: float
+    torque_Nm: float
+    sum_Nm: float
+    stiffness_Nm_per_rad: float
+    twist: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class HolzerTable:
+    """Holzer's table.
+
+    Attributes:
+        mode: Number of the mode; left out for a trial frequency.
+        frequency_Hz: Frequency.
+        rows: One row a node.
+        residual_Nm: Torque that is left at the last node.
+        end: Node at which the table ends.
+    """
+
+    mode: int | None = None
+    frequency_Hz: float
+    rows: tuple[HolzerRow, ...]
+    residual_Nm: float
+    end: Annotated[int, HIDDEN]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class TorsionAnalysis(Result):
+    """Torsional vibration of a chain of inertias and shafts.
+
+    Attributes:
+        format: Name and version of the document.
+        name: Name of the engine or chain; null if the file gives none.
+        no_gas_in: Cylinders without gas; left out if there are none.
+        no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
+        nodes: Inertias, front to rear.
+        shafts: Shafts.
+        modes: Modes in which shafts twist, lowest first.
+        criticals: Critical speeds, those with most work first: in the range of speeds, else to one
+            and a half times the file's own speed, if it gives one. Left out without an excitation.
+        holzer: Holzer's tables; left out if none was asked for.
+        response: Forced vibration; left out without speeds.
+        damper: Damper that was sized; the system has it. Left out if none was asked for.
+        barred_rpm: First and last speed of each range in which a limit is passed; left out without
+            a limit or without speeds.
+        system: What was analyzed.
+    """
+
+    format: Literal["balcli.torsion/1"] = "balcli.torsion/1"
+    name: str | None
+    no_gas_in: tuple[int, ...] | None = None
+    no_burning_in: tuple[int, ...] | None = None
+    nodes: tuple[ChainNode, ...]
+    shafts: tuple[ChainJoint, ...]
+    modes: tuple[NaturalMode, ...]
+    criticals: tuple[Critical, ...] | None = None
+    holzer: tuple[HolzerTable, ...] | None = None
+    response: TorsionResponse | None = None
+    damper: SizedDamper | None = None
+    barred_rpm: tuple[tuple[float, float], ...] | None = None
+    system: Annotated[TorsionalSystem, HIDDEN]
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is unlikely of the response, in words: swings beyond what is computed here, a stress
+        that breaks the shaft.
+        """
+        return () if self.response is None else tuple(_find_doubts(self.system, self.response))
+
+    @property
+    def summary(self) -> str:
+        """Name, and the natural frequencies."""
+        modes = ", ".join(f"{mode.frequency_Hz:.4g}" for mode in self.modes[:6])
+        return f"of {self.name or 'a chain'}: modes at {modes} Hz"
+
+
+def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator[str]:
+    for each in response.pendulums or ():
+        wide = each.worst.half_swing_deg
+        if wide > WIDE_SWING:
+            yield (
+                f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
+                f"{each.worst.speed_rpm:.4g} rpm, computed as if that were small: at "
+                f"{WIDE_SWING:.0f} deg one on a circle is 0.8 % out of tune, farther out more; "
+                f"with {wide / WIDE_SWING:.2g} times their mass they would swing by about "
+                f"{WIDE_SWING:.0f} deg"
+            )
+    question = "is the damping (loss, damping) of all that twists right?"
+    hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
+    swing = response.free_end_worst
+    if hardest is not None and (stress := hardest.worst.stress_Pa or 0.0) > BREAKING:
+        yield (
+            f"{printable(hardest.name)} would bear {stress / 1e6:.4g} N/mm2 at "
+            f"{hardest.worst.speed_rpm:.5g} rpm, which no steel does; {question}"
+        )
+    elif swing.half_swing_deg > ASTOUNDING:
+        yield (
+            f"{printable(system.nodes[0])} would swing by {swing.half_swing_deg:.4g} deg at "
+            f"{swing.speed_rpm:.5g} rpm, which is too far for what is computed here, small swings; "
+            f"is an inertia missing, or the speed too low? {question.capitalize()}"
+        )
+
+
+def answer_question(
+    source: Source, question: TorsionQuestion, tell: Tell = tell_nobody
+) -> TorsionAnalysis:
+    """Return the answer about a chain or an engine.
+
+    Args:
+        source: File of the chain or engine.
+        question: What is asked.
+        tell: Called with the share of the work that is done.
+
+    Raises:
+        BalcliError: a response without excitation or through an undamped resonance; a mode that is
+            not there; Holzer's table of a chain with loops; a damper that nothing can carry.
+        InputError: what does not fit together in the file.
+    """
+    if question.damper is None or question.speeds_rpm is None:
+        return _analyze_system(source.system(), question, tell)
+    sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
+    fitted = source.system({sized.node: sized.damper})
+    found = _analyze_system(fitted, question)  # one response after dozens
+    for each in () if found.response is None else found.response.dampers or ():
+        if each.node == sized.node:
+            heat = each.worst
+            sized = replace(sized, heat_W=heat.heat_W, heat_rpm=heat.speed_rpm)
+    return replace(found, damper=sized)
+
+
+def _analyze_system(
+    system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
+) -> TorsionAnalysis:
+    """Return the answer about a system as it is."""
+    speeds, orders = question.speeds_rpm, question.orders
+    if speeds is not None:
+        system = system.driven_at(orders)
+    elif orders is not None and system.excitation is not None:
+        system = replace(system, excitation=system.excitation.only(orders))
+    modes, chain, excitation = find_natural_modes(system), system.chain, system.excitation
+    span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
+    response, barred = None, None
+    if speeds is not None:
+        span = float(speeds[0]), float(speeds[-1])
+        response = find_response(system, speeds, tell)
+        barred = find_barred(system, response)
+    return TorsionAnalysis(
+        name=system.name or None,
+        no_gas_in=system.silent.without_gas or None,
+        no_burning_in=system.silent.without_burning or None,
+        nodes=tuple(map(ChainNode, system.nodes, chain.inertia.tolist(), system.gears.tolist())),
+        shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
+        modes=modes,
+        criticals=None if excitation is None else find_criticals(excitation, modes, span),
+        holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
+        response=response,
+        barred_rpm=barred,
+        system=system,
+    )
+
+
+def _tabulate(
+    system: TorsionalSystem, modes: tuple[NaturalMode, ...], asked: HolzerAsked
+) -> HolzerTable:
+    """Return Holzer's table at a frequency."""
+    omega, chain = asked.omega, system.chain
+    if asked.mode is not None:
+        if asked.mode > len(modes):
+            count = f"{len(modes)} mode{'s' * (len(modes) != 1)}"
+            raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
+        omega = modes[asked.mode - 1].omega
+    # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
+    first, end = (system.last, 0) if chain.clamped[0] else (0, system.last)
+    try:
+        table = tabulate_holzer(chain, omega, first, end)
+    except ValueError as error:
+        raise system.refusal(f"--holzer: {error}") from None
+    if asked.mode is not None:
+        shape = modes[asked.mode - 1].shape
+        if np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
+            raise system.refusal(
+                f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
+                "hardly moves in it, or a branch swings by itself"
+            )
+    columns = (column.tolist() for column in (chain.inertia, *table[:5]))
+    rows = tuple(map(HolzerRow, system.nodes, *columns))
+    hertz = omega / (2 * np.pi)
+    left = table.residual
+    return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
+
+
+KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
+_UNNAMED = "chain file"  # in messages, a text or dict
+
+
+@tell_arguments(speeds="speeds_rpm")
+def analyze_torsion(
+    source: Engine | str | Path | Mapping[str, Any],
+    speeds_rpm: ArrayLike | None = None,
+    *,
+    orders: Iterable[float] | None = None,
+    damper: Literal["viscous", "rubber", "pendulum"] | None = None,
+    damper_at: str | None = None,
+    damper_inertia: float | None = None,
+) -> TorsionAnalysis:
+    """Torsional vibration of a crankshaft, or of any shafts: natural modes, critical speeds, and
+    vibratory torque and stress over a range of speeds.
+
+    Args:
+        source: an Engine whose file has [torsion]; or a chain of inertias and shafts: its path, its
+            text or a dict of its tables (or those of such an engine).
+        speeds_rpm: at which the forced vibration is wanted; default: modes and criticals alone.
+        orders: which of those that excite, multiples of 1/2; default: all of a chain, to 12 of an
+            engine.
+        damper: sized to make the largest stress over `speeds_rpm`, which have to be given, least;
+            the answer is then that with it.
+        damper_at: name of what carries it; default: the foremost part.
+        damper_inertia: of its ring, or of its pendulums about the axis, kg m2; default: that in the
+            file, or a usual share.
+
+    Returns:
+        `modes` (`frequency_Hz`, `shape`), `criticals` (`speed_rpm`, `order`, `mode`), `response`
+        (`shafts`, each with `half_peak_to_peak_Nm` and `stress_Pa` by speed, and `worst`, the
+        largest of the range), and `barred_rpm`: the attributes are the keys of the JSON.
+
+    Raises:
+        BalcliError: no [torsion]; orders or an inertia that cannot be; a response without
+            excitation or through an undamped resonance; a damper that nothing can carry.
+        InputError: every mistake of the file.
+        TypeError: the source is none of these; what is no number.
+
+    Example:
+        >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
+    """
+    check_type("damper", damper, (str, NoneType), 'give a kind of damper, such as "viscous"')
+    if damper not in (None, *KINDS_OF_DAMPERS):
+        raise BalcliError(f"damper {damper!r}: choose from {', '.join(KINDS_OF_DAMPERS)}")
+    asked = check_torsion_orders(orders)
+    inertia = check_inertia("damper_inertia", damper_inertia)
+    check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
+    speeds = check_speeds("analyze_torsion", speeds_rpm)
+    question = ask(speeds, asked, (), damper, damper_at, inertia)
+    return answer_question(_read_source(source, asked), question)
+
+
+def _read_source(source: Any, orders: Array | None) -> Source:
+    if isinstance(source, Engine):
+        return make_source(take_model(source), source, source.name, orders)
+    wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
+    tables, name = take_tables("analyze_torsion", source, wanted)
+    if describes_chain(tables):
+        name = name or _UNNAMED
+        return make_chain_source(read_chain_tables(tables, name), name)
+    engine = build_tables(tables, name)
+    return make_source(take_model(engine), engine, name or engine.name, orders)

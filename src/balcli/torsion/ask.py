@@ -1,0 +1,121 @@
+"""The request of `balcli torsion`, and its answer."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..core.vibration import Real
+from ..errors import BalcliError
+from ..file.units import Dimension, convert
+from ..limits import HIGHEST_TORSION_ORDER
+from ..shell.options import read_orders
+from ..shell.values import parse_speeds, read_inertia
+from ..show.formats import Units
+from ..show.units import SYSTEMS
+from .answer import HolzerAsked, TorsionQuestion, answer_question, ask
+from .load import load_source
+from .plot import make_torsion
+from .quantity import choose_torsion_speeds
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+_FREQUENCY = Dimension("rad/s", "a frequency", ("20 rad/s",))
+_HERTZ = re.compile(r"\s*([0-9.eE+-]+)\s*Hz\s*")
+
+
+def parse_half_orders(text: str | None) -> Real | None:
+    """Orders of `0.5-8` (in steps of a half), `1-8` (whole ones), `1,2.5,4`.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    if text is None:
+        return None
+    right = "give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or 1,2.5,4"
+    bounds = f"must rise, from above 0 to {HIGHEST_TORSION_ORDER} at most"
+    found = read_orders(text, right, bounds, 0.5, HIGHEST_TORSION_ORDER)
+    return np.array(sorted(set(found)), float)
+
+
+def _parse_trial(text: str) -> HolzerAsked:
+    """The number of a mode, or a trial frequency such as `20 rad/s`, `12 Hz` or `900 rpm`.
+
+    Raises:
+        BalcliError: anything else, with the text.
+    """
+    if re.fullmatch(r"[1-9]\d{0,5}", text.strip()):
+        return HolzerAsked(int(text))
+    right = 'give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"'
+    try:
+        hertz = _HERTZ.fullmatch(text)
+        turns = float(hertz[1]) * 2 * np.pi if hertz else convert(text, _FREQUENCY)
+    except ValueError:
+        raise BalcliError(f'--holzer "{text[:60]}": {right}') from None
+    if not 0 < turns < 1e12:
+        raise BalcliError(f'--holzer "{text[:60]}": {right}')
+    return HolzerAsked(None, turns)
+
+
+def parse_question(
+    speeds: str | None,
+    orders: str | None,
+    holzer: Sequence[str] = (),
+    damper: str | None = None,
+    damper_at: str | None = None,
+    damper_inertia: str | None = None,
+    units: Units = Units.SI,
+) -> TorsionQuestion:
+    """Return what the options of these names ask.
+
+    Raises:
+        BalcliError: one of them cannot be read, or belongs to another that is missing.
+    """
+    inertia = None
+    if damper_inertia is not None:
+        inertia = read_inertia("--damper-inertia", damper_inertia, units)
+    trials = map(_parse_trial, holzer)
+    exciting = parse_half_orders(orders)
+    return ask(parse_speeds(speeds), exciting, trials, damper, damper_at, inertia)
+
+
+def require_speeds(asked: TorsionQuestion, what: str) -> None:
+    """Refuse a picture over speed without a range of speeds.
+
+    Raises:
+        BalcliError: no range was given.
+    """
+    if asked.speeds_rpm is None and what in ("response", "waterfall"):
+        raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+
+
+def make_figures_of_torsion(
+    path: str,
+    pages: Sequence[str],
+    speeds: str | None,
+    orders: str | None,
+    units: Units,
+) -> list[Figure]:
+    """Return figures of the chain or engine at a path, one a page.
+
+    Args:
+        path: File; - for standard input.
+        pages: Names of the pictures.
+        speeds: Range, as typed; None: that of an engine's own speed.
+        orders: Orders that excite, as typed.
+        units: In which people read.
+    """
+    asked = parse_question(speeds, orders)
+    source = load_source(path, asked.orders)
+    over_speed = {"response", "waterfall"} & {*pages}
+    if over_speed and asked.speeds_rpm is None and source.engine is not None:
+        asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
+    for page in pages:
+        require_speeds(asked, page)
+    found = answer_question(source, asked)
+    return [make_torsion(found, page, SYSTEMS[units]) for page in pages]

@@ -1,0 +1,464 @@
+"""Nodes and shafts, as chain files and engine files describe them -> torsional system with its
+dampers fitted.
+
+A chain file -> torsional system in SI units; what hangs together wrongly is told by its path.
+
+[torsion] of an engine file and the engine -> torsional system: a node for each throw, with the
+mean inertia of what moves on it, and one for each part before and behind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.loads import find_inertia, find_needed_series
+from ..core.mechanisms.closed_form import select_cylinders
+from ..core.phases import RPM
+from ..core.vibration import Real
+from ..engine.build import Engine
+from ..errors import InputError, Problem
+from ..file.fields import counted, printable, shorten, suggest_nearest
+from ..file.model import EngineFile
+from ..file.torsion_tables import Damper, Part, Torsion, find_stiffness
+from ..forces.spectrum import compute_each_cylinder, list_gas_orders
+from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
+from .chain import (
+    SAME_RATIO,
+    Chain,
+    ChainShaft,
+    Damping,
+    find_pieces,
+    find_still,
+    join_chain,
+    rigid_motions,
+)
+from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, ViscousRing
+from .tables import ChainFile, Gear
+from .tables import ChainShaft as ShaftTable
+
+NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
+
+
+class PlannedNode(NamedTuple):
+    """A node: inertia in kg m2, damping in N m s/rad against ground, and the damper it has."""
+
+    name: str
+    inertia: float
+    damping: float = 0.0
+    damper: Damper | None = None
+
+
+class PlannedShaft(NamedTuple):
+    """A shaft between two nodes, with its loss factor, dashpot (N m s/rad) and diameters."""
+
+    name: str
+    shaft: ChainShaft
+    loss: float = 0.0
+    dashpot: float = 0.0
+    section: ShaftSection | None = None
+
+
+def assemble_system(
+    nodes: Sequence[PlannedNode],
+    shafts: Sequence[PlannedShaft],
+    limits: tuple[float | None, float | None],
+    clamped: Sequence[int] = (),
+    fitted: Mapping[str, Damper | None] = NO_DAMPERS,
+    **others: Any,
+) -> TorsionalSystem:
+    """Return the system; its rubber rings are nodes and shafts after all others.
+
+    Args:
+        nodes: Front to rear.
+        shafts: Between them.
+        limits: Stress (N/mm2) and half swing of the first node (deg) above which a speed is barred;
+            None: no limit.
+        clamped: Nodes that are held.
+        fitted: Dampers by the name of their node, in place of those that nodes have.
+        others: Further attributes of the system.
+    """
+    every, joined, rings, pendulums = list(nodes), list(shafts), [], []
+    for k, node in enumerate(nodes):
+        damper = fitted.get(node.name, node.damper)
+        if damper is None:
+            continue
+        inertia = (damper.inertia or 0.0) / 1e6
+        if damper.kind == "rubber":
+            name, rubber = f"{node.name} ring", ChainShaft(k, len(every), damper.stiffness or 0.0)
+            every.append(PlannedNode(name, inertia))
+            joined.append(PlannedShaft(name, rubber, damper.loss or 0.0))
+        elif damper.kind == "viscous":
+            rings.append(ViscousRing(k, inertia, damper.damping or 0.0))
+        else:
+            radius, length = (damper.radius or 0.0) / 1e3, (damper.length or 0.0) / 1e3
+            pendulums.append(Pendulums(k, damper.mass or 0.0, radius, length))
+    stress, angle = limits
+    return TorsionalSystem(
+        nodes=tuple(node.name for node in every),
+        shafts=tuple(each.name for each in joined),
+        chain=join_chain(
+            [node.inertia for node in every], [each.shaft for each in joined], clamped
+        ),
+        damping=Damping(
+            np.array([each.loss for each in joined]),
+            np.array([each.dashpot for each in joined]),
+            np.array([node.damping for node in every]),
+        ),
+        sections=tuple(each.section for each in joined),
+        rings=tuple(rings),
+        pendulums=tuple(pendulums),
+        limit_pa=None if stress is None else stress * 1e6,
+        angle_limit=None if angle is None else float(np.radians(angle)),
+        last=len(nodes) - 1,
+        **others,
+    )
+
+
+def find_section(diameter: float | None, bore: float | None) -> ShaftSection | None:
+    """Return a section in m, from a diameter and a bore in mm, where they are given."""
+    return None if diameter is None else ShaftSection(diameter / 1e3, (bore or 0.0) / 1e3)
+
+
+def build_chain(
+    file: ChainFile, name: str = "", fitted: Mapping[str, Damper | None] = NO_DAMPERS
+) -> TorsionalSystem:
+    """Return the system of a chain file.
+
+    Args:
+        file: What it says.
+        name: Name of the file, for messages.
+        fitted: Dampers of some nodes in place of those in the file.
+
+    Raises:
+        InputError: nodes that hang on nothing, gears that lock each other, nothing that can turn.
+    """
+    index = {node.name: k for k, node in enumerate(file.node)}
+    nodes = [
+        PlannedNode(node.name, (node.inertia or 0.0) / 1e6, node.damping, node.damper)
+        for node in file.node
+    ]
+    tables: list[ShaftTable | Gear] = [*file.shaft, *file.gear]
+    shafts = []
+    for label, each in zip(
+        _tell_apart([f"{each.from_}-{each.to}" for each in tables]), tables, strict=True
+    ):
+        start, end = index[each.from_], index[each.to]
+        if isinstance(each, Gear):
+            shafts.append(PlannedShaft(label, ChainShaft(start, end, np.inf, each.ratio)))
+            continue
+        loss, section = each.loss, find_section(each.diameter, each.bore)
+        shaft = ChainShaft(start, end, find_stiffness(each))
+        loss = file.loss if loss is None else loss
+        shafts.append(PlannedShaft(label, shaft, loss, each.damping, section))
+    clamped = [index[each] for each in file.fixed]
+    paths = [f"shaft.{k}" for k, _ in enumerate(file.shaft, 1)]
+    paths += [f"gear.{k}" for k, _ in enumerate(file.gear, 1)]
+    limited = file.angle_limit is not None
+    if problems := list(_find_faults(nodes, shafts, paths, clamped, limited)):
+        raise InputError(problems, name)
+    limits, excitation = (file.limit, file.angle_limit), _excite(file, index)
+    return assemble_system(
+        nodes,
+        shafts,
+        limits,
+        clamped,
+        fitted,
+        name=file.name or "",
+        excitation=excitation,
+        file=name,
+    )
+
+
+def _tell_apart(names: Sequence[str]) -> Iterator[str]:
+    """The names, those that come again with a number: `a-b`, `a-b (2)`."""
+    for k, name in enumerate(names):
+        before = names[:k].count(name)
+        yield f"{name} ({before + 1})" if before else name
+
+
+def _excite(file: ChainFile, index: dict[str, int]) -> Excitation | None:
+    if not file.excitation:
+        return None
+    orders = np.unique(np.array([each.order for each in file.excitation]))
+    sources = sorted({index[each.node] for each in file.excitation})
+    steady = np.zeros((len(orders), len(sources)), complex)
+    for each in file.excitation:
+        row, column = int(np.searchsorted(orders, each.order)), sources.index(index[each.node])
+        steady[row, column] += complex(each.cos, -each.sin)
+    return Excitation(orders, np.array(sources), steady, np.zeros_like(steady))
+
+
+def _find_faults(
+    nodes: Sequence[PlannedNode],
+    shafts: Sequence[PlannedShaft],
+    paths: Sequence[str],
+    clamped: Sequence[int],
+    limited: bool,
+) -> Iterator[Problem]:
+    """What hangs together wrongly; `paths`: of the shafts, gears among them, in the file;
+    `limited`: whether the angle of the first node is.
+    """
+    names = [node.name for node in nodes]
+    inertia = [node.inertia for node in nodes]
+    chain = join_chain(inertia, [each.shaft for each in shafts], clamped)
+    apart = np.unique(find_pieces(chain).first)[1:].tolist()
+    for node in apart:
+        text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"
+        yield Problem(f"node.{node + 1}", f"{text}; join them by a [[shaft]] or a [[gear]]")
+    meshes = find_pieces(chain, np.isinf(chain.stiffness))
+    for shaft in np.flatnonzero(np.isinf(chain.stiffness)).tolist():
+        if meshes.locked[chain.start[shaft]]:
+            yield Problem(paths[shaft], "is in a loop of gears whose ratios lock each other")
+            return
+    still = find_still(chain)
+    if np.all(still):
+        yield Problem("fixed", "clamps every node; leave one free")
+        return
+    yield from _find_loops(chain, paths)
+    if limited and still[0]:
+        how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
+        text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
+        yield Problem("angle_limit", f"{text} the node that may swing so far")
+    ringed = [n.damper is not None and n.damper.kind == "rubber" for n in nodes]
+    heavy, free = (chain.inertia > 0) | np.array(ringed), ~still
+    pieces = [motion != 0 for motion in rigid_motions(chain)] or [free]
+    for piece in [] if apart else pieces:
+        if not np.any(heavy[piece]):
+            node = int(np.argmax(piece))
+            yield Problem.of_missing(f"node.{node + 1}.inertia", "nothing that turns has any")
+
+
+def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
+    """Loops of meshes alone, in which nothing says what each carries; and of shafts, which a chain
+    that turns would wind up without end.
+    """
+    group = np.where(chain.clamped, -1, np.arange(len(chain.inertia)))
+    for mesh in np.flatnonzero(np.isinf(chain.stiffness)).tolist():
+        start, end = group[chain.start[mesh]], group[chain.end[mesh]]
+        if start == end:
+            text = "closes a loop of gears and rigid shafts, fixed nodes counted as one"
+            hint = "nothing says how they share the torque; leave it out, or give a stiffness"
+            yield Problem(paths[mesh], f"{text}: {hint}")
+        group[group == end] = start
+    pieces = find_pieces(chain)
+    if not pieces.locked[0] or np.any(chain.clamped):
+        return
+    ahead, behind = pieces.pace[chain.start] * chain.ratio, pieces.pace[chain.end]
+    shaft = int(np.argmax(np.abs(ahead - behind) > SAME_RATIO * np.abs(behind)))
+    text = f"closes a loop whose ratios contradict each other, {ahead[shaft]:.9g} one way round"
+    hint = "a chain that turns would wind up its shafts without end; give ratios with all digits"
+    yield Problem(paths[shaft], f"{text} and {behind[shaft]:.9g} the other: {hint}")
+
+
+class _Joint(NamedTuple):
+    """A part and the name of what it hangs on; `path` is its place in the file."""
+
+    path: str
+    part: Part
+    of: str
+
+
+def build_engine_system(
+    model: EngineFile,
+    engine: Engine,
+    excitation: Excitation,
+    name: str = "",
+    fitted: Mapping[str, Damper | None] = NO_DAMPERS,
+) -> TorsionalSystem:
+    """Return the system of an engine.
+
+    Args:
+        model: Its file, which has [torsion].
+        engine: Of this file.
+        excitation: By its cylinders, as of `excite_engine`.
+        name: Name of the file, for messages.
+        fitted: Dampers of some parts in place of those in the file.
+
+    Raises:
+        InputError: what does not fit together in [torsion], by its path.
+    """
+    torsion = model.torsion
+    if torsion is None:
+        hint = "write [torsion] with throw_stiffness and throw_inertia, and [[torsion.rear]]"
+        raise InputError([Problem.of_missing("torsion", hint)], name)
+    throws = [f"throw {k}" for k, _ in enumerate(engine.throws_m, 1)]
+    if problems := list(_find_misfits(torsion, model, engine, throws)):
+        raise InputError(problems, name)
+    nodes = [
+        *map(_plan_part, reversed(torsion.front)),
+        *_plan_throws(torsion, engine, throws),
+        *map(_plan_part, torsion.rear),
+    ]
+    front, joints = len(torsion.front), _join_parts(torsion, throws)
+    place, gears = {node.name: k for k, node in enumerate(nodes)}, _find_gears(joints, throws)
+    leading = []  # shaft of every part from what it hangs on, stiff in its own speed
+    for _, part, of in joints:
+        ratio = gears[part.name] / gears[of]
+        shaft = ChainShaft(place[of], place[part.name], find_stiffness(part), ratio)
+        loss, section = part.loss, find_section(part.diameter, part.bore)
+        loss = torsion.loss if loss is None else loss
+        leading.append(PlannedShaft(part.name, shaft, loss, part.damping, section))
+    section = find_section(torsion.throw_diameter, torsion.throw_bore)
+    stiffness = _each(torsion.throw_stiffness or (), len(throws) - 1)
+    between = [
+        PlannedShaft(label, ChainShaft(front + k, front + k + 1, each), torsion.loss, 0.0, section)
+        for k, (label, each) in enumerate(zip(_name_between(throws), stiffness, strict=True))
+    ]
+    own_speed = "speed" in model.operation.model_fields_set
+    return assemble_system(
+        nodes,
+        [*reversed(leading[:front]), *between, *leading[front:]],
+        (torsion.limit, torsion.angle_limit),
+        fitted=fitted,
+        name=engine.name,
+        excitation=excitation,
+        rated_rpm=model.operation.speed if own_speed else None,
+        reference=front,
+        silent=engine.silent,
+        file=name,
+    )
+
+
+def _plan_part(part: Part) -> PlannedNode:
+    return PlannedNode(part.name, (part.inertia or 0.0) / 1e6, part.node_damping, part.damper)
+
+
+def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
+    """Yield a node for each throw, with what runs on it and the damping of every cylinder."""
+    gear, on_throw = weigh_running_gear(engine), [weighed.throw for weighed in engine.weighed]
+    bare = _weigh_throws(torsion, engine, len(throws))
+    for throw, name in enumerate(throws):
+        here = np.equal(on_throw, throw)
+        inertia = bare[throw] + float(gear[here].sum())
+        yield PlannedNode(name, inertia, torsion.damping * int(here.sum()))
+
+
+def _name_between(throws: Sequence[str]) -> list[str]:
+    return [f"throw {k}-{k + 1}" for k in range(1, len(throws))]
+
+
+def _each(values: Sequence[float], count: int) -> list[float]:
+    """Return one value for each of so many, from one for all or a list."""
+    return list(values) * count if len(values) == 1 else list(values)
+
+
+def _join_parts(torsion: Torsion, throws: Sequence[str]) -> list[_Joint]:
+    """Return every part with what it hangs on: front parts first, each list outward."""
+    found = []
+    for key, parts, before in (
+        ("front", torsion.front, throws[0]),
+        ("rear", torsion.rear, throws[-1]),
+    ):
+        for k, part in enumerate(parts, 1):
+            found.append(_Joint(f"torsion.{key}.{k}", part, part.of or before))
+            before = part.name
+    return found
+
+
+def _find_gears(joints: Sequence[_Joint], throws: Sequence[str]) -> dict[str, float]:
+    """Return the speed over that of the crank of every node that hangs on it, by name."""
+    gears = dict.fromkeys(throws, 1.0)
+    for _ in joints:  # a part may hang on one that comes later in the file
+        before = len(gears)
+        for _, part, of in joints:
+            if of in gears:
+                gears[part.name] = gears[of] if part.gear is None else part.gear
+        if len(gears) == before:
+            break
+    return gears
+
+
+# ------------------------------------------------------------------ inertia and excitation
+def weigh_running_gear(engine: Engine) -> Real:
+    """Mean moment of inertia (cylinders,) in kg m2 of what each cylinder moves, without the throw:
+    `m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`.
+    """
+    c = engine.cylinders
+    mean_only = np.zeros(1)
+    series = find_needed_series(c, {"torque"}, uneven=False)
+    few, which = c.find_distinct_harmonics(mean_only, series)
+    moving = find_inertia(c, select_cylinders(few, which), 1.0).c[0].real
+    own = np.array([float(weighed.share) for weighed in engine.weighed])
+    turning = (c.rotating - own) * c.radius**2
+    return np.broadcast_to(moving, own.shape) + np.broadcast_to(turning, own.shape)
+
+
+def _weigh_throws(torsion: Torsion, engine: Engine, throws: int) -> Sequence[float]:
+    """Return the moment of inertia of the crankshaft at each throw, kg m2."""
+    if torsion.throw_inertia is not None:
+        return [each / 1e6 for each in _each(torsion.throw_inertia, throws)]
+    whole = 0.0 if engine.crank_inertia is None else float(engine.crank_inertia)
+    return [whole / throws] * throws
+
+
+def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
+    """Torque of every cylinder on the node of its throw: by inertia of what it moves, and by gas
+    where the engine has some.
+
+    Args:
+        orders: (orders,); None: to 12, with halves where gas has them, and as of
+            `list_gas_orders` that of firing.
+    """
+    front = 0 if model.torsion is None else len(model.torsion.front)
+    nodes = front + np.array([weighed.throw for weighed in engine.weighed])
+    engine = replace(engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
+    if orders is None and engine.gas is None:
+        orders = np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1)
+    elif orders is None:
+        orders = list_gas_orders(engine)
+        orders = orders[orders <= HIGHEST_TORSION_ORDER]
+    growing = compute_each_cylinder(engine, orders, ("torque",))["torque"].x
+    steady = np.zeros_like(growing)
+    if engine.gas is not None:
+        steady = compute_each_cylinder(engine, orders, ("gas",))["gas"].x
+    moves = np.any((growing != 0) | (steady != 0), axis=1)
+    return Excitation(orders[moves], nodes, steady[moves], growing[moves])
+
+
+# ------------------------------------------------------------------ what does not fit together
+def _find_misfits(
+    torsion: Torsion, model: EngineFile, engine: Engine, throws: Sequence[str]
+) -> Iterator[Problem]:
+    if engine.rotary:
+        yield Problem("torsion", "is for crankshafts that turn; that of a rotary stands still")
+        return
+    yield from _check_throws(torsion, model, len(throws))
+    joints = _join_parts(torsion, throws)
+    names = [*throws, *(joint.part.name for joint in joints)]
+    reserved = {*throws, *_name_between(throws)}
+    led = _find_gears([j if j.of in names else j._replace(of=throws[0]) for j in joints], throws)
+    for k, (path, part, of) in enumerate(joints, len(throws)):
+        if part.name in reserved:
+            yield Problem(f"{path}.name", f"{shorten(part.name)} is a name that throws have")
+        elif part.name in names[:k]:
+            yield Problem(f"{path}.name", f"{shorten(part.name)} is there twice; give each its own")
+        if of not in names:
+            listed = ", ".join(printable(each) for each in names[:8])
+            hint = suggest_nearest(of, names, f"there are {listed}")
+            yield Problem(f"{path}.of", f"{shorten(of)} is no part; {hint}")
+        elif part.name not in led:
+            text = f"{shorten(of)} does not lead to the crankshaft; name what the part hangs on"
+            yield Problem(f"{path}.of", text)
+
+
+def _check_throws(torsion: Torsion, model: EngineFile, throws: int) -> Iterator[Problem]:
+    places = throws - 1
+    if torsion.throw_stiffness is None and places:
+        hint = f"give that between neighbours of {counted(throws, 'throw')}, such as "
+        yield Problem.of_missing("torsion.throw_stiffness", f"{hint}throw_stiffness = 1.25e6")
+    for key, count in (("throw_stiffness", places), ("throw_inertia", throws)):
+        values = getattr(torsion, key)
+        if values is not None and len(values) not in (1, count):
+            yield Problem(
+                f"torsion.{key}",
+                f"has {counted(len(values), 'value')}, but {counted(throws, 'throw')} need "
+                f"{count}; give one for all, or a list of these",
+            )
+    if torsion.throw_inertia is None and model.crank.inertia is None:
+        hint = "give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
+        yield Problem.of_missing("torsion.throw_inertia", hint)

@@ -1,0 +1,206 @@
+"""Inertias on shafts and gears: what a torsional chain is, and how its nodes hang together.
+
+A chain is a tree of nodes joined by shafts. A shaft from one node to another twists by `ratio
+x_start - x_end`: its stiffness counts in the speed of its end, and a gear ratio other than 1 means
+a mesh at its start. A mesh alone is a shaft that is rigid (stiffness inf). Loops are allowed, where
+power is split.
+
+Torsional dampers as complex inertias: what the node that carries one feels of it.
+
+Each is a complex moment of inertia J (kg m2) that joins its node's own: the damper takes the torque
+`-w^2 J x` when the node turns by x. Where J has a negative imaginary part, it takes energy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.vibration import Complex, Indices, Real
+
+SAME_RATIO = 1e-9  # two ways round a loop of gears that differ by less turn alike
+
+
+class ChainShaft(NamedTuple):
+    """A shaft between two nodes (their indices), N m/rad in the speed of its end; inf: rigid."""
+
+    start: int
+    end: int
+    stiffness: float
+    ratio: float = 1.0
+
+
+class Pieces(NamedTuple):
+    """Nodes that turn together, piece by piece.
+
+    Attributes:
+        first: (nodes,) the first node of the piece that each belongs to.
+        pace: (nodes,) speed of each over that of this first node.
+        locked: (nodes,) whether a loop of the piece has ratios that contradict each other.
+    """
+
+    first: Indices
+    pace: Real
+    locked: NDArray[np.bool_]
+
+
+class Chain(NamedTuple):
+    """Nodes and shafts as arrays.
+
+    Attributes:
+        inertia: (nodes,) kg m2; 0: massless.
+        start, end: (shafts,) nodes that each shaft joins.
+        ratio: (shafts,) speed of the end over that of the start.
+        stiffness: (shafts,) N m/rad in the speed of the end; inf: a mesh of gears.
+        clamped: (nodes,) which are held.
+    """
+
+    inertia: Real
+    start: Indices
+    end: Indices
+    ratio: Real
+    stiffness: Real
+    clamped: NDArray[np.bool_]
+
+
+class Damping(NamedTuple):
+    """Where a chain loses energy, beside the dampers that are given as complex inertias.
+
+    Attributes:
+        loss: (shafts,) loss factors: stiffness k (1 + i loss).
+        dashpots: (shafts,) N m s/rad, parallel to each shaft.
+        nodes: (nodes,) N m s/rad, against ground.
+    """
+
+    loss: Real
+    dashpots: Real
+    nodes: Real
+
+
+class Branch(NamedTuple):
+    """A node that hangs on another by a shaft, which twists by `near x_child + far x_parent`."""
+
+    child: int
+    parent: int
+    shaft: int
+    near: float
+    far: float
+
+
+def join_chain(
+    inertia: ArrayLike, shafts: Iterable[ChainShaft], clamped: Sequence[int] = ()
+) -> Chain:
+    """Return the chain of nodes with these moments of inertia (kg m2, 0: massless), joined by
+    shafts, whether or not it can turn.
+    """
+    table = np.array(list(shafts), float).reshape(-1, len(ChainShaft._fields))
+    start, end = table[:, 0].astype(np.intp), table[:, 1].astype(np.intp)
+    j = np.asarray(inertia, float)
+    held = np.isin(np.arange(len(j)), clamped)
+    return Chain(j, start, end, table[:, 3], table[:, 2], held)
+
+
+def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces:
+    """Return which nodes hang together by some of the shafts (shafts,), or by all."""
+    joining = np.ones(len(chain.start), bool) if shafts is None else shafts
+    first, pace = np.full(len(chain.inertia), -1), np.ones(len(chain.inertia))
+    for node in range(len(first)):
+        if first[node] < 0:
+            first[node] = node
+            for child, parent, _, near, far in grow_branches(chain, [node], joining):
+                first[child], pace[child] = node, -far / near * pace[parent]
+    off = np.abs(pace[chain.end] - pace[chain.start] * chain.ratio)
+    torn = joining & (off > SAME_RATIO * np.abs(pace[chain.end]))
+    return Pieces(first, pace, np.isin(first, first[chain.start[torn]]))
+
+
+def find_still(chain: Chain) -> NDArray[np.bool_]:
+    """Which nodes (nodes,) stand still: clamped ones, and what meshes with these."""
+    meshes = find_pieces(chain, np.isinf(chain.stiffness))
+    return np.isin(meshes.first, meshes.first[chain.clamped])
+
+
+def rigid_motions(chain: Chain) -> Real:
+    """(count, nodes): the angles of nodes that turn together without twisting a shaft, 1 at the
+    first of them; one row for each piece that can.
+    """
+    pieces = find_pieces(chain, chain.stiffness > 0)
+    stopped = np.unique(pieces.first[chain.clamped | pieces.locked])
+    free = np.setdiff1d(pieces.first, stopped)
+    return np.where(pieces.first == free[:, None], pieces.pace, 0)
+
+
+def incidence(chain: Chain) -> Real:
+    """(shafts, nodes): twist of every shaft for a unit angle of each node."""
+    rows = np.zeros((len(chain.start), len(chain.inertia)))
+    each = np.arange(len(chain.start))
+    rows[each, chain.start] = chain.ratio
+    rows[each, chain.end] -= 1
+    return rows
+
+
+def follow_gears(chain: Chain) -> tuple[Real, Indices]:
+    """Every node's angle for a unit of each independent one (nodes, dof), and the nodes (dof,)
+    whose angles these are: of nodes joined by meshes the first; none of those at rest.
+    """
+    meshes = find_pieces(chain, np.isinf(chain.stiffness))
+    independent = np.unique(meshes.first[~find_still(chain)])
+    return np.where(meshes.first[:, None] == independent, meshes.pace[:, None], 0), independent
+
+
+def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_]) -> list[Branch]:
+    """Return the branches from these roots outward, along some of the shafts (shafts,)."""
+    joined: dict[int, list[Branch]] = {}
+    for shaft in np.flatnonzero(shafts).tolist():
+        start, end = int(chain.start[shaft]), int(chain.end[shaft])
+        ratio = float(chain.ratio[shaft])
+        joined.setdefault(start, []).append(Branch(end, start, shaft, -1.0, ratio))
+        joined.setdefault(end, []).append(Branch(start, end, shaft, ratio, -1.0))
+    reached, branches = list(roots), []
+    for parent in reached:
+        for branch in joined.get(parent, ()):
+            if branch.child not in reached:
+                branches.append(branch)
+                reached.append(branch.child)
+    return branches
+
+
+_TUNED = 1e-12  # a damper tuned closer than this holds its node as still as figures can say
+
+
+def viscous_inertia(inertia: float, damping: float, frequency: Real) -> Complex:
+    """Of a ring (kg m2) that a fluid drags along (N m s), at w rad/s: `J/(1 + i w J/c)`."""
+    return inertia / (1 + 1j * frequency * (inertia / damping))
+
+
+def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> Complex:
+    """Of a mass (kg) on a pendulum of a length L (m), hung up at a radius R (m), at an order of the
+    node's own speed, whatever that is: `m (R + L)^2/(1 - n^2 L/R)`. Tuned to n^2 = R/L, it holds
+    its node still.
+    """
+    return mass * (radius + length) ** 2 / _away_from_zero(1 - order**2 * (length / radius) + 0j)
+
+
+def pendulum_swing(radius: float, length: float, order: Real) -> Complex:
+    """Angle of such a pendulum against its node for each rad by which that swings, both small: `n^2
+    (1 + L/R)/(1 - n^2 L/R)`.
+    """
+    detuning = _away_from_zero(1 - order**2 * (length / radius) + 0j)
+    return np.asarray(order**2 * (1 + length / radius) / detuning, complex)
+
+
+def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> float:
+    """Damping c (N m s) of the viscous ring (kg m2) that makes the largest response least, of a
+    system of one degree of freedom with a natural frequency w (rad/s) and 1/ratio of its inertia:
+    `2 J w / sqrt(2 (1 + ratio) (2 + ratio))`; the response is then 1 + 2/ratio times the static one
+    (Den Hartog, Mechanical Vibrations, Houdaille damper).
+    """
+    return 2 * inertia * frequency / sqrt(2 * (1 + ratio) * (2 + ratio))
+
+
+def _away_from_zero(detuning: Complex) -> Complex:
+    return np.where(np.abs(detuning) < _TUNED, _TUNED, detuning)

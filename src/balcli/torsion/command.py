@@ -1,0 +1,143 @@
+"""`balcli torsion`"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import BalcliError
+from ..shell.file_names import picture_form, require_ending, text_format
+from ..shell.options import FormatOption, Misfire, Output, ProgressAtOnce, UnitsOption
+from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_figure, write_file
+from ..shell.values import optional
+from ..show.formats import Units
+
+
+class DamperKind(StrEnum):
+    """Kinds of dampers."""
+
+    VISCOUS = "viscous"
+    RUBBER = "rubber"
+    PENDULUM = "pendulum"
+
+
+class TorsionPicture(StrEnum):
+    """Which pictures are drawn."""
+
+    ALL = "all"
+    MODES = "modes"
+    CAMPBELL = "campbell"
+    RESPONSE = "response"
+    WATERFALL = "waterfall"
+
+
+def torsion(
+    path: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="Engine file with [torsion], or a chain of inertias and shafts (TOML); - reads "
+            "standard input.",
+            show_default=False,
+        ),
+    ],
+    speeds: Annotated[
+        str | None,
+        optional(
+            "A:B:STEP",
+            "Forced vibration at these speeds, rpm; or a list such as 1500,2000.",
+            "--speeds",
+            "--speed",
+        ),
+    ] = None,
+    orders: Annotated[
+        str | None,
+        optional(
+            "0.5-12|1,2.5",
+            "Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all of a chain, "
+            "to 12 of an engine.",
+        ),
+    ] = None,
+    holzer: Annotated[
+        list[str] | None,
+        optional(
+            "MODE|FREQUENCY",
+            'Holzer\'s table of a mode, or at "20 rad/s", "12 Hz"; may be given again.',
+        ),
+    ] = None,
+    misfire: Misfire = None,
+    damper: Annotated[
+        DamperKind | None,
+        typer.Option(
+            show_default=False,
+            help="Size a damper that makes the largest stress over --speeds least.",
+        ),
+    ] = None,
+    damper_at: Annotated[
+        str | None, optional("NAME", "What carries it; default: the foremost part.")
+    ] = None,
+    damper_inertia: Annotated[
+        str | None,
+        optional(
+            "KGMM2",
+            "Its ring, or its pendulums about the axis; default: that in the file, or a usual "
+            "share.",
+        ),
+    ] = None,
+    write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
+    plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
+    what: Annotated[
+        TorsionPicture, typer.Option(help="Which, with --plot; the last two take --speeds.")
+    ] = TorsionPicture.ALL,
+    progress: ProgressAtOnce = False,
+    units: UnitsOption = Units.SI,
+    form: FormatOption = None,
+    output: Output = None,
+) -> None:
+    """Torsional vibration of a crankshaft, or of any shafts: natural modes, critical speeds, Holzer
+    tables, vibratory torque and stress over a range of speeds, dampers, barred speeds.
+
+    `balcli new torsion chain.toml` writes a file to start from: nodes, shafts, gears, torques.
+
+    \b
+    Example:
+      balcli torsion i6_diesel.toml --speeds 600:2400:20
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output, "--write": write, "--plot": plot})
+    form = text_format(output, form)
+    drawn = None if plot is None else picture_form(plot, "--plot")
+    require_ending(write, ".toml", "--write")
+    from ..file.toml import name_file
+    from ..shell.inputs import warn_each
+    from ..shell.progress import reporting
+    from ..show.units import SYSTEMS
+    from .answer import answer_question
+    from .ask import parse_question, require_speeds
+    from .dampers import insert_damper
+    from .load import load_source
+    from .plot import make_torsion
+    from .show import RENDERER
+
+    asked = parse_question(speeds, orders, holzer or (), damper, damper_at, damper_inertia, units)
+    if write is not None and damper is None:
+        raise BalcliError("--write: give the kind of damper to write, with --damper")
+    if plot is None and what != "all":
+        raise BalcliError(f"--what {what}: give --plot and a file for the picture")
+    require_speeds(asked, what)
+    source = load_source(path, asked.orders, misfire or ())
+    warn_each(source.doubts, name_file(path))
+    with reporting("work", at_once=progress) as tell:
+        result = answer_question(source, asked, tell)
+    sized = result.damper
+    if sized is not None:
+        warn_each(sized.doubts or (), "--damper")
+    warn_each(result.doubts, name_file(path))
+    if write is not None and sized is not None:
+        refuse_leaving_files(source.text, path, write)
+        write_file(insert_damper(source.text, sized.node, sized.damper), write)
+    if plot is not None and drawn is not None:
+        write_figure(make_torsion(result, what, SYSTEMS[units]), drawn, plot)
+    show([result], RENDERER, form, output, units)

@@ -1,0 +1,406 @@
+"""A damper sized on the whole system: from the optimum of a system with one degree of freedom to
+the one that makes the largest stress over a range of speeds least.
+
+Oil begins with Houdaille's damping, rubber with Den Hartog's tuning, pendulums with the order
+itself; then the damping, stiffness or length is searched about this start.
+
+A damper written into the text of the file that was sized, comments and all.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import count
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+from pydantic import ValidationError
+
+from ..core.extrema import ROUNDS, find_least
+from ..core.phases import RPM
+from ..core.records import HIDDEN
+from ..core.vibration import Real
+from ..errors import BalcliError
+from ..file.edit import set_keys
+from ..file.fields import printable
+from ..file.messages import describe_finding
+from ..file.torsion_tables import Damper
+from ..process import Tell, tell_nobody
+from .chain import best_viscous_damping
+from .load import Source
+from .modes import NaturalMode, find_natural_modes
+from .motion import move, stress_by_torque
+from .response import count_columns, find_largest
+from .system import TorsionalSystem
+
+# Figures of a damper: key in JSON, and how many of the file's units are one SI unit.
+DAMPER_KEYS = {
+    "inertia": ("inertia_kg_m2", 1e6),
+    "damping": ("damping_Nms_per_rad", 1.0),
+    "stiffness": ("stiffness_Nm_per_rad", 1.0),
+    "loss": ("loss", 1.0),
+    "mass": ("mass_kg", 1.0),
+    "radius": ("radius_m", 1e3),
+    "length": ("length_m", 1e3),
+}
+RUBBER_LOSS = 0.15  # usual for damper rubber
+_FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
+_WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
+# of the mode's inertia at the node, where nothing says how heavy a damper is
+_SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
+_PLACES = 13  # looked at over the range before the best is approached
+_RESPONSES = _PLACES + 2 + ROUNDS + 2  # of one valley; the last of the best damper, and of none
+_END = 0.99  # of the range: a best one farther out is at its end
+_HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
+_HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
+_LOSS = 0.01  # of shafts, where nothing damps a resonance: modes are compared with it
+_MOVES = 2.0  # times the whole inertia: with more at a node in a mode it hardly moves there
+
+
+class DamperAsked(NamedTuple):
+    """What is to be sized.
+
+    Attributes:
+        kind: viscous, rubber or pendulum.
+        node: Name of what carries it; None: the first that can.
+        inertia: Inertia of ring or pendulums, kg m2; None: that of the file's damper there, or a
+            usual share of the mode's.
+    """
+
+    kind: str
+    node: str | None = None
+    inertia: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizedDamper:
+    """Damper that was sized, and the largest stress (or torque) without and with it.
+
+    Attributes:
+        node: Name of what carries it.
+        kind: Kind of damper.
+        inertia_kg_m2: Moment of inertia of the ring.
+        damping_Nms_per_rad: Damping of the oil film.
+        stiffness_Nm_per_rad: Stiffness of the rubber.
+        loss: Loss factor of the rubber.
+        mass_kg: Mass of all pendulums.
+        radius_m: Radius at which pendulums hang.
+        length_m: Length of a pendulum.
+        mode: Number of the mode that it was tuned to.
+        before_Pa: Largest stress without a damper there; null if it has no bound.
+        after_Pa: Largest stress with it.
+        before_Nm: Largest torque without a damper there, where no shaft has a diameter; null if it
+            has no bound.
+        after_Nm: Largest torque with it, where no shaft has a diameter.
+        heat_W: Largest power that it turns to heat.
+        heat_rpm: Speed at which it does.
+        doubts: What is unlikely of it, in words; left out if nothing is.
+        damper: The damper as a file describes it.
+        start: Its figure that was sized (damping, stiffness or length), as the optimum of a system
+            with one degree of freedom has it, in the file's unit.
+        measure: What was made least: stress, or torque where no shaft has a diameter.
+        before: Largest stress (Pa) or torque (N m) without a damper there; inf: without bound.
+        after: Largest stress (Pa) or torque (N m) with it.
+    """
+
+    node: str
+    kind: str
+    inertia_kg_m2: float | None = None
+    damping_Nms_per_rad: float | None = None
+    stiffness_Nm_per_rad: float | None = None
+    loss: float | None = None
+    mass_kg: float | None = None
+    radius_m: float | None = None
+    length_m: float | None = None
+    mode: int
+    before_Pa: float | None = None
+    after_Pa: float | None = None
+    before_Nm: float | None = None
+    after_Nm: float | None = None
+    heat_W: float
+    heat_rpm: float
+    doubts: tuple[str, ...] | None = None
+    damper: Annotated[Damper, HIDDEN]
+    start: Annotated[float, HIDDEN]
+    measure: Annotated[str, HIDDEN]
+    before: Annotated[float, HIDDEN]
+    after: Annotated[float, HIDDEN]
+
+    @property
+    def figure(self) -> str:
+        """Name of the figure that was sized."""
+        return _FIGURE[self.kind]
+
+
+def size_damper(
+    source: Source,
+    asked: DamperAsked,
+    speeds: Real,
+    orders: Real | None = None,
+    tell: Tell = tell_nobody,
+) -> SizedDamper:
+    """Return the damper that makes the largest stress of all shafts over speeds least.
+
+    Args:
+        source: File of the chain or engine.
+        asked: What is to be sized.
+        speeds: (speeds,) rising, rpm.
+        orders: Which of those that excite; None: all.
+        tell: Called with the share of the work that is done.
+
+    Raises:
+        BalcliError: nothing can carry it, or nothing excites the system.
+    """
+    node, own = _find_carrier(source.dampers(), asked.node)
+
+    def build(damper: Damper | None) -> TorsionalSystem:
+        return source.system({node: damper}).driven_at(orders)
+
+    bare = build(None)
+    by_torque = np.ones(len(bare.shafts))
+    if any(bare.sections):
+        by_torque = np.nan_to_num(stress_by_torque(bare))
+    weights = dict(zip(bare.shafts, by_torque.tolist(), strict=True))
+    place = bare.nodes.index(node)
+    mode, order = _find_mode_to_damp(bare, speeds, weights, place)
+    own = own if own is not None and own.kind == asked.kind else None
+    first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
+    figure = _FIGURE[asked.kind]
+    start, width = float(getattr(first, figure)), math.log(_WIDTH[asked.kind])
+    tried = count(1)
+
+    def resize(logarithm: float) -> Damper:
+        return first.model_copy(update={figure: start * math.exp(logarithm)})
+
+    def judge(damper: Damper | None) -> float:
+        """Return the largest stress or torque of the shafts there without it; inf: no bound."""
+        tell(min(next(tried) / _RESPONSES, 1.0))
+        try:
+            return _find_hardest(build(damper), speeds, weights)[2]
+        except BalcliError:
+            return math.inf
+
+    farther = _minimise(lambda logarithm: judge(resize(logarithm)), width)
+    best = float(f"{start * math.exp(farther):.6g}")
+    damper = first.model_copy(update={figure: best})
+    measure, unit = ("stress", "Pa") if any(bare.sections) else ("torque", "Nm")
+    before, after = judge(None), judge(damper)
+    figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
+    for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
+        name, size = DAMPER_KEYS[key]
+        figures[name] = value / size
+    found = SizedDamper(
+        node=node,
+        kind=damper.kind,
+        mode=mode.number,
+        heat_W=0.0,  # until the whole system is computed
+        heat_rpm=float(speeds[0]),
+        damper=damper,
+        start=start,
+        measure=measure,
+        before=before,
+        after=after,
+        **figures,
+    )
+    doubts = _doubt(found, bare, given=own is not None or asked.inertia is not None)
+    return replace(found, doubts=tuple(doubts) or None)
+
+
+def _find_carrier(
+    carriers: Mapping[str, Damper | None], asked: str | None
+) -> tuple[str, Damper | None]:
+    """Return the name of the node that is to carry the damper, and the damper it has."""
+    name = next(iter(carriers), None) if asked is None else asked
+    if name is None:
+        raise BalcliError("--damper: nothing can carry one; give a part in [[torsion.front]]")
+    if name not in carriers:
+        raise BalcliError(
+            f'--damper-at "{printable(name)}": cannot carry a damper; what can is '
+            f"{', '.join(printable(each) for each in carriers)}"
+        )
+    return name, carriers[name]
+
+
+def _find_hardest(
+    system: TorsionalSystem, speeds: Real, weights: Mapping[str, float]
+) -> tuple[int, float, float]:
+    """Return the shaft with the largest stress or torque of a range, at which speed (rpm), and how
+    large it is.
+
+    Args:
+        system: With an excitation.
+        speeds: (speeds,) rising, rpm.
+        weights: Factor of the torque of each shaft by its name; others are not looked at.
+    """
+    columns = np.zeros(count_columns(system))
+    columns[: len(system.shafts)] = [weights.get(name, 0.0) for name in system.shafts]
+    largest = find_largest(system, speeds, columns, together=True)
+    worst = int(largest.value.argmax())
+    return worst, float(largest.rpm[worst]), float(largest.value[worst])
+
+
+def _minimise(judge: Callable[[float], float], width: float) -> float:
+    """Return where a function is least within a width either way: by golden section in every
+    valley that a few places show.
+    """
+    places = np.linspace(-width, width, _PLACES).tolist()
+    values = np.array([judge(place) for place in places])
+    around = np.concatenate([[np.inf], values, [np.inf]])
+    bottoms = np.flatnonzero((values < around[:-2]) & (values <= around[2:])).tolist()
+    found = [
+        find_least(judge, places[max(k - 1, 0)], places[min(k + 1, _PLACES - 1)]) for k in bottoms
+    ]
+    return min(found, key=judge, default=-width)
+
+
+# ------------------------------------------------------------------ where the search begins
+def _find_mode_to_damp(
+    system: TorsionalSystem, speeds: Real, weights: Mapping[str, float], node: int
+) -> tuple[NaturalMode, float]:
+    """Return the mode that a damper at a node is for, and the order that drives it: of the modes in
+    which the node moves the one nearest in frequency to the largest order in the largest stress of
+    the range. By work alone that of a soft coupling would be it, which hardly twists the
+    crankshaft.
+    """
+    modes = find_natural_modes(system)
+    if not modes:
+        raise BalcliError("--damper: the system has no mode that could be damped")
+    try:
+        worst, rpm, _ = _find_hardest(system, speeds, weights)
+    except BalcliError:  # nothing damps a resonance
+        loss = np.maximum(system.damping.loss, _LOSS)
+        system = replace(system, damping=system.damping._replace(loss=loss))
+        worst, rpm, _ = _find_hardest(system, speeds, weights)
+    by_order = np.abs(move(system, np.array([rpm])).torque[:, 0, worst])
+    order = float(system.require_excitation().orders[by_order.argmax()])
+    whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
+    heavy = [_find_inertia_in(mode, system, node) for mode in modes]
+    moving = [mode for mode, own in zip(modes, heavy, strict=True) if own <= _MOVES * whole]
+    best = moving or [modes[int(np.argmin(heavy))]]
+    return min(best, key=lambda mode: abs(math.log(mode.omega / (order * rpm * RPM)))), order
+
+
+def _find_inertia_in(mode: NaturalMode, system: TorsionalSystem, node: int) -> float:
+    """Return what vibrates in a mode, as if all of it were at a node, kg m2; inf where that is
+    still.
+    """
+    moved = mode.shape[node] ** 2
+    return float(np.sum(system.chain.inertia * mode.shape**2)) / moved if moved else math.inf
+
+
+def _propose(
+    asked: DamperAsked,
+    own: Damper | None,
+    system: TorsionalSystem,
+    node: int,
+    mode: NaturalMode,
+    order: float,
+    crank_radius: float | None,
+) -> Damper:
+    """Return a damper of the inertia that is wanted, tuned as the optimum of a system with one
+    degree of freedom. Pendulums hang where the file says, else as far out as the crank pins (m).
+
+    Raises:
+        BalcliError: what is to carry it stands still in the mode; nothing says where pendulums
+            hang; no damper has such figures.
+    """
+    if mode.shape[node] == 0:
+        raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
+    there = _find_inertia_in(mode, system, node)
+    given = {} if own is None else own.model_dump(exclude_none=True)
+    usual = given["inertia"] / 1e6 if "inertia" in given else None
+    inertia = asked.inertia or usual or float(f"{_SHARE[asked.kind] * there:.4g}")
+    figures: dict[str, Any] = {"kind": asked.kind, "inertia": float(f"{inertia * 1e6:.12g}")}
+    if asked.kind == "viscous":
+        figures["damping"] = best_viscous_damping(inertia, inertia / there, mode.omega)
+    elif asked.kind == "rubber":
+        figures["stiffness"] = inertia * (mode.omega / (1 + inertia / there)) ** 2
+        figures["loss"] = given.get("loss", RUBBER_LOSS)
+    else:
+        radius = given["radius"] / 1e3 if "radius" in given else crank_radius
+        if radius is None:
+            raise BalcliError(
+                "--damper pendulum: a chain has no crank that says how far out pendulums hang: "
+                f"give {printable(system.nodes[node])} one, such as damper = "
+                '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
+            )
+        length = radius * (system.gears[node] / order) ** 2
+        mass = float(f"{inertia / (radius + length) ** 2:.4g}")
+        if asked.inertia is None:
+            mass = given.get("mass", mass)
+        figures = {"kind": asked.kind, "mass": mass, "radius": radius * 1e3, "length": length * 1e3}
+    try:
+        return Damper.model_validate(figures)
+    except ValidationError as error:
+        wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
+        raise BalcliError(
+            f"--damper {asked.kind}: the best there cannot be: {wrong.path}: {wrong.message}; are "
+            "inertias and stiffnesses of the system in the right units?"
+        ) from None
+
+
+# ------------------------------------------------------------------ doubts
+def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterator[str]:
+    """Yield what is unlikely of a damper; `given`: its size was not proposed here."""
+    node, inertia = printable(found.node), found.inertia_kg_m2
+    if inertia is None:  # of pendulums, as they hang
+        inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2
+    carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
+    whole, width = float(np.sum(bare.chain.inertia)), _WIDTH[found.kind]
+    sized = float(getattr(found.damper, found.figure))
+    units = "(on the command line bare numbers are kg mm2)"
+    if found.after > _HARDLY * found.before:
+        does = "raises" if found.after > found.before else "hardly lowers"
+        yield (
+            f"a {found.kind} damper of {inertia:.4g} kg m2 at {node} {does} the largest "
+            f"{found.measure}; the whole system has {whole:.4g} kg m2. Is it of the right size "
+            f"{units}, and in the right place?"
+        )
+    elif given and inertia > whole:
+        yield (
+            f"the damper has {inertia:.4g} kg m2, more than the whole system ({whole:.4g} kg m2); "
+            f"is it of the right size {units}?"
+        )
+    elif not given and inertia > _HEAVY * carrier > 0:
+        yield (
+            f"the damper that is proposed has {inertia:.4g} kg m2, {inertia / carrier:.3g} times "
+            f"as much as {node}, which carries it ({carrier:.4g} kg m2): give what there is room "
+            f'for, such as --damper-inertia "{float(f"{carrier:.2g}"):.12g} kg m^2"'
+        )
+    elif abs(math.log(sized / found.start)) > _END * math.log(width):
+        yield (
+            f"the best {found.figure} is at the end of what is looked at, {1 / width:.2g} to "
+            f"{width:g} times that of mode {found.mode} by itself"
+        )
+
+
+def insert_damper(text: bytes, name: str, damper: Damper) -> str:
+    """Return the text of a chain or engine file with this damper on the node or part of that name.
+
+    Args:
+        text: of the file, UTF-8.
+        name: of the node or part, which the file has.
+        damper: what it gets, in place of an older one.
+    """
+    old = text.decode("utf-8-sig")
+    table = _find_table(tomllib.loads(old), name)
+    return set_keys(old, table, {"damper": damper.model_dump(exclude_none=True)}, "by balcli")
+
+
+def _find_table(data: Mapping[str, Any], name: str) -> str:
+    """Return the dotted name of the table of a node or part, such as `torsion.rear.2`."""
+    torsion = data.get("torsion", {})
+    lists = {
+        "node": data.get("node", []),
+        "torsion.front": torsion.get("front", []),
+        "torsion.rear": torsion.get("rear", []),
+    }
+    return next(
+        f"{key}.{number}"
+        for key, tables in lists.items()
+        for number, table in enumerate(tables, 1)
+        if table.get("name") == name
+    )

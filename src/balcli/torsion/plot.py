@@ -1,0 +1,226 @@
+"""Pictures of torsional vibration: shapes of modes, Campbell diagram, torque over speed, and its
+orders one behind the other (waterfall).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import cycle
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.vibration import Real
+from ..errors import BalcliError
+from ..show.plot_style import (
+    BLUE,
+    FAINT,
+    INK,
+    MANY_LOOKS,
+    RED,
+    SOFT,
+    fit_name,
+    open_figure,
+    put_legend_above,
+    put_title,
+)
+from ..show.sheet import number, order_name
+from ..show.units import SI, System
+from .answer import TorsionAnalysis
+from .response import TorsionResponse
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+_MOST_MODES = 4  # whose shapes are drawn: more lie on one another
+_MOST_SHAFTS = 8  # whose torque is drawn: the largest
+_WIDEST = 0.9  # of an order in a waterfall, over the gap between orders: none covers another
+_MOST_ORDERS = 12  # that are named in a Campbell diagram
+_WORTH = 1e-3  # share of work from which a critical is drawn
+
+
+def make_torsion(
+    result: TorsionAnalysis, what: str, system: System = SI, *, titled: bool = True
+) -> Figure:
+    """Return a page of pictures; `what` is "all" or one of `OF_TORSION`.
+
+    Raises:
+        BalcliError: there is no shaft whose torque could be drawn.
+    """
+    if what == "waterfall" and not result.shafts:
+        raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
+    parts = list(_choose_parts(result, what, system))
+    columns = 2 if what == "all" else 1
+    rows = -(-len(parts) // columns)
+    with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3) as fig:
+        for place, draw in enumerate(parts, 1):
+            draw(fig.add_subplot(rows, columns, place))
+        name = fit_name(result.name or "") or "shafts without a name"
+        if titled:
+            put_title(fig, f"{name}: torsion")
+        return fig
+
+
+def _choose_parts(
+    result: TorsionAnalysis, what: str, system: System
+) -> Iterator[Callable[[Axes], None]]:
+    """Yield a function for each picture of a page, as far as its figures were computed."""
+    response, shafts = result.response, result.system.shafts
+    if what in ("all", "modes"):
+        yield lambda ax: _draw_modes(ax, result)
+    if what in ("all", "campbell"):
+        yield lambda ax: _draw_campbell(ax, result)
+    if response is not None and what in ("all", "response") and shafts:
+        yield lambda ax: _draw_torque(ax, result, response, system)
+    if response is not None and what == "response":
+        yield lambda ax: _draw_swing(ax, result, response)
+    if response is not None and what in ("all", "waterfall") and shafts:
+        yield lambda ax: _draw_waterfall(ax, result, response, system)
+
+
+def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
+    """Draw the angle of each node, joined along the shafts; a mesh of gears is dotted."""
+    chain, names = result.system.chain, result.system.nodes
+    for mode, (line, colour) in zip(result.modes[:_MOST_MODES], MANY_LOOKS, strict=False):
+        for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
+            style: Any = (0, (1, 2)) if np.isinf(stiffness) else line
+            angles = mode.shape[[start, end]]
+            ax.plot([start, end], angles, color=colour, linestyle=style, linewidth=1.4)
+        label = f"{mode.number}: {number(mode.frequency_Hz, 4)} Hz"
+        ax.plot(range(len(names)), mode.shape, "o", color=colour, markersize=3, zorder=3)
+        ax.plot([], [], line, color=colour, linewidth=1.4, marker="o", markersize=3, label=label)
+    ax.axhline(0, color=SOFT, linewidth=0.8)
+    ax.set_xticks(range(len(names)), [fit_name(name, 14) for name in names])
+    ax.tick_params(axis="x", labelrotation=90 if len(names) > 5 else 0)
+    ax.set_ylim(-1.1, 1.1)
+    if result.modes:
+        put_legend_above(ax)
+    ax.set_title("Shapes of modes: angle of each node")
+
+
+def _find_span(result: TorsionAnalysis) -> float:
+    """Return the highest speed of a Campbell diagram, rpm."""
+    if result.response is not None:
+        return float(result.response.speeds_rpm[-1])
+    worth = [each.speed_rpm for each in result.criticals or () if each.work_share > 0.02]
+    first = result.modes[0].frequency_Hz * 60 if result.modes else 1000.0
+    return 1.1 * min(max(worth, default=first), 2 * first)
+
+
+def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
+    """Draw natural frequencies over speed, a ray for each order, a dot for each critical."""
+    top = _find_span(result)
+    drawn = [c for c in result.criticals or () if c.work_share > _WORTH and c.speed_rpm <= top]
+    modes = {mode.number: mode for mode in result.modes}
+    highest = max((modes[c.mode].frequency_Hz for c in drawn), default=0.0)
+    first = result.modes[0].frequency_Hz if result.modes else 1.0
+    ceiling = 1.25 * max(highest, first)
+    for mode in result.modes:
+        if mode.frequency_Hz < ceiling:
+            ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
+            label = f"{number(mode.frequency_Hz, 4)} Hz"
+            ax.text(0.01 * top, mode.frequency_Hz, label, va="bottom", fontsize=7)
+    excitation = result.system.excitation
+    orders = [] if excitation is None else sorted({c.order for c in drawn}) or excitation.orders
+    named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))
+    for order in orders:
+        end = min(top, 60 * ceiling / order)
+        ax.plot([0, end], [0, order * end / 60], color=FAINT, linewidth=0.9, zorder=1)
+        if order in named[:_MOST_ORDERS]:
+            ax.text(end, order * end / 60, order_name(order), fontsize=7, color=SOFT)
+    most = max((critical.work for critical in drawn), default=1.0)
+    for critical in drawn:
+        size = 12 + 240 * critical.work / most
+        height = modes[critical.mode].frequency_Hz
+        ax.scatter([critical.speed_rpm], [height], s=size, color=RED, alpha=0.7, zorder=3)
+    ax.set(xlim=(0, 1.03 * top), ylim=(0, ceiling), xlabel="rpm", ylabel="Hz")
+    ax.set_title("Campbell diagram: orders, and criticals by work")
+    _shade_barred(ax, result)
+
+
+def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
+    for low, high in result.barred_rpm or ():
+        ax.axvspan(low, high, color=RED, alpha=0.12, linewidth=0)
+
+
+def _draw_torque(
+    ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
+) -> None:
+    """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
+    with a diameter where the file limits it. Each curve includes its peak between the speeds.
+    """
+    limit, sections = result.system.limit_pa, result.system.sections
+    by_stress = any(sections) and limit is not None
+    curves = []  # shaft, by speed, largest
+    for shaft, section in zip(response.shafts, sections, strict=True):
+        torque, peak = shaft.half_peak_to_peak_Nm, shaft.worst.half_peak_to_peak_Nm
+        if not by_stress:
+            curves.append((shaft, torque, peak))
+        elif section is not None:
+            by_torque = section.stress_by_torque
+            curves.append((shaft, torque * by_torque, peak * by_torque))
+    least = sorted((peak for _, _, peak in curves), reverse=True)[:_MOST_SHAFTS][-1]
+    unit = (system.stress if by_stress else system.moment).fit(max(peak for _, _, peak in curves))
+    shown = [each for each in curves if each[2] >= least]
+    for (shaft, swings, peak), (line, colour) in zip(shown, cycle(MANY_LOOKS)):
+        rpm, swing = _put_in(response.speeds_rpm, swings, shaft.worst.speed_rpm, peak)
+        ax.plot(rpm, swing / unit.size, line, color=colour, label=fit_name(shaft.name, 22))
+    if by_stress and limit is not None:
+        ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
+    _finish(ax, response, unit.name)
+    ax.set_title("Vibratory stress" if by_stress else "Vibratory torque", pad=30)
+    put_legend_above(ax)
+    _shade_barred(ax, result)
+
+
+def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
+    """Draw the half swing of the first node, and its largest orders."""
+    worst, speeds = response.free_end_worst, response.speeds_rpm
+    rpm, swing = _put_in(speeds, response.free_end_deg, worst.speed_rpm, worst.half_swing_deg)
+    _, swings = _put_in(speeds, response.swings_deg, worst.speed_rpm, response.worst_swings_deg)
+    ax.plot(rpm, swing, color=INK, label="added up in time")
+    largest = np.argsort(-swings.max(axis=1), kind="stable")[:5]
+    for k, (line, colour) in zip(sorted(largest), MANY_LOOKS, strict=False):
+        label = f"order {order_name(float(response.orders[k]))}"
+        ax.plot(rpm, swings[k], line, color=colour, linewidth=1, label=label)
+    _finish(ax, response, "deg")
+    ax.set_title(f"Half swing of {fit_name(result.system.nodes[0], 30)}", pad=30)
+    put_legend_above(ax, 3)
+    _shade_barred(ax, result)
+
+
+def _put_in(rpm: Real, values: Real, peak_rpm: float, peak: Real | float) -> tuple[Real, Real]:
+    """Return speeds and values (..., speeds) with a peak inserted."""
+    k = int(np.searchsorted(rpm, peak_rpm))
+    return np.insert(rpm, k, peak_rpm), np.insert(values, k, peak, axis=-1)
+
+
+def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
+    ax.set_xlim(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]) + 1e-9)
+    ax.set_ylim(bottom=0)
+    ax.set(xlabel="rpm", ylabel=f"± {unit}")
+
+
+def _draw_waterfall(
+    ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
+) -> None:
+    """Draw each order of the largest torque of a shaft as a stream up the speeds."""
+    shaft = max(response.shafts, key=lambda each: each.worst.half_peak_to_peak_Nm)
+    worst = [each.amplitude_Nm for each in shaft.worst.orders]
+    speeds = response.speeds_rpm
+    rpm, amplitudes = _put_in(speeds, shaft.amplitudes_Nm, shaft.worst.speed_rpm, np.array(worst))
+    gap = float(np.diff(response.orders).min()) if len(response.orders) > 1 else 1.0
+    half = _WIDEST * gap / 2 / (float(amplitudes.max()) or 1.0)
+    for order, sizes in zip(response.orders, amplitudes, strict=True):
+        left, right = order - half * sizes, order + half * sizes
+        ax.axvline(order, color=FAINT, linewidth=0.5, zorder=0)
+        ax.fill_betweenx(rpm, left, right, color=BLUE, linewidth=0.4)
+    ax.set(xlabel="order", ylabel="rpm")
+    ax.grid(visible=False, axis="x")
+    ax.set_xlim(0, float(response.orders[-1]) + gap)
+    unit = system.moment.fit(float(amplitudes.max()))
+    largest = f"{number(unit.of(float(amplitudes.max())), 3)} {unit.name}"
+    name = fit_name(shaft.name, 22)
+    ax.set_title(f"Torque of {name} by order: width, at most {largest}")

@@ -1,0 +1,422 @@
+"""Torsional vibration for people (modes, criticals, Holzer's tables, forced vibration over speed, a
+damper that was sized) and for programs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..core.records import Figure, Node, list_figures, list_series, remove_unit, to_document
+from ..show.csv import Rows, name_cell
+from ..show.engine_facts import list_silent
+from ..show.formats import Renderer
+from ..show.sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
+from ..show.units import SI, ShownUnit, System
+from .answer import BEYOND, HolzerTable, TorsionAnalysis
+from .dampers import DAMPER_KEYS, SizedDamper
+from .response import ShaftResponse, TorsionResponse
+from .system import Excitation, TorsionalSystem
+
+_MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
+_MOST_CRITICALS = 12  # shown: those that do most work
+_MOST_BARE = 8  # shafts without a diameter that are named
+_MOST_ORDERS = 3  # of a shaft's torque, named with it
+_HEADER = ("part", "number", "speed_rpm", "order", "name", "figure", "value", "unit")
+
+
+# ------------------------------------------------------------------ for programs
+def document(result: TorsionAnalysis) -> Node:
+    """Return `balcli.torsion/1`, SI units."""
+    return to_document(result)
+
+
+def rows(result: TorsionAnalysis, system: System) -> Rows:
+    """Return the same figures as CSV, one a row."""
+    lines, units = _list_lines(to_document(result)), _choose_units(system)
+    return Rows(_HEADER, lines if system == SI else (_convert(line, units) for line in lines))
+
+
+def _choose_units(system: System) -> dict[str, ShownUnit]:
+    """Return what people read in place of SI units of CSV."""
+    return {
+        "kg m2": system.inertia,
+        "N m s/rad": system.torsional_damping,
+        "N m/rad": system.torsional_stiffness,
+        "kg": system.mass,
+        "m": system.length,
+        "Pa": system.stress,
+        "N m": system.moment,
+        "W": system.heat,
+    }
+
+
+def _convert(line: tuple[Any, ...], units: dict[str, ShownUnit]) -> tuple[Any, ...]:
+    """Return a row in the units of people who do not read SI."""
+    *where, value, name = line
+    if name not in units or value is None:
+        return line
+    return (*where, units[name].of(value) + 0.0, units[name].name)
+
+
+def _put(
+    part: str,
+    figures: Iterable[Figure],
+    name: str = "",
+    *,
+    number: int | None = None,
+    speed: float | None = None,
+    order: float | None = None,
+) -> Iterator[tuple[Any, ...]]:
+    """Yield lines of CSV: what stands before figures, and these."""
+    for each in figures:
+        called = remove_unit(each.name)
+        yield part, number, speed, order, name_cell(name), called, each.value, each.unit
+
+
+def _list_lines(found: Node) -> Iterator[tuple[Any, ...]]:
+    """Yield the lines of CSV in their order."""
+    for key in ("no_gas_in", "no_burning_in"):
+        if key in found:
+            yield from _put("engine", [Figure(key, " ".join(map(str, found[key])), "")])
+    for part in ("node", "shaft"):
+        for each in found[f"{part}s"]:
+            yield from _put(part, list_figures(each, ("name",)), each["name"])
+    for k, mode in enumerate(found["modes"], 1):
+        yield from _put("mode", list_figures(mode), number=k)
+        for node, angle in zip(found["nodes"], mode["shape"], strict=True):
+            yield from _put("mode", [Figure("angle", angle, "")], node["name"], number=k)
+    for each in found.get("criticals", ()):
+        figures = list_figures(each, ("mode", "order", "speed_rpm"))
+        where = {"number": each["mode"], "speed": each["speed_rpm"], "order": each["order"]}
+        yield from _put("critical", figures, **where)
+    yield from _list_extras(found)
+
+
+def _list_extras(found: Node) -> Iterator[tuple[Any, ...]]:
+    """Yield the lines of what was asked besides modes and criticals."""
+    for k, table in enumerate(found.get("holzer", ()), 1):
+        *frequency, residual = list_figures(table, ("mode", "rows"))
+        yield from _put("holzer", frequency, number=k)
+        for row in table["rows"]:
+            yield from _put("holzer", list_figures(row, ("node",)), row["node"], number=k)
+        yield from _put("holzer", [residual], number=k)
+    if damper := found.get("damper"):
+        yield from _put("damper", list_figures(damper, ("node", "kind")), damper["node"])
+    if response := found.get("response"):
+        yield from _list_response(response)
+        yield from _list_worst(response)
+    for k, ends in enumerate(found.get("barred_rpm", ()), 1):
+        pairs = zip(("from", "to"), ends, strict=True)
+        yield from _put("barred", [Figure(key, end, "rpm") for key, end in pairs], number=k)
+
+
+def _list_response(response: Node) -> Iterator[tuple[Any, ...]]:
+    """Yield the lines at every speed."""
+    for s, speed in enumerate(response["speeds_rpm"]):
+        for shaft in response["shafts"]:
+            yield from _put("response", list_series(shaft, s), shaft["name"], speed=speed)
+        swing = Figure("free_end", response["free_end_deg"][s], "deg")
+        yield from _put("response", [swing], speed=speed)
+        for each in response.get("dampers", ()):
+            yield from _put("response", list_series(each, s), each["node"], speed=speed)
+        for each in response.get("pendulums", ()):
+            swing = Figure("pendulums", each["half_swing_deg"][s], "deg")
+            yield from _put("response", [swing], each["node"], speed=speed)
+
+
+def _list_worst(response: Node) -> Iterator[tuple[Any, ...]]:
+    """Yield the lines of the largest values over all speeds."""
+    for shaft in response["shafts"]:
+        worst, name, speed = shaft["worst"], shaft["name"], shaft["worst"]["speed_rpm"]
+        yield from _put("worst", list_figures(worst, ("speed_rpm", "orders")), name, speed=speed)
+        for each in worst["orders"]:
+            figures = list_figures(each, ("order",))
+            yield from _put("worst", figures, name, speed=speed, order=each["order"])
+    for each in response.get("dampers", ()):
+        heat, speed = list_figures(each["worst"], ("speed_rpm",)), each["worst"]["speed_rpm"]
+        yield from _put("worst", heat, each["node"], speed=speed)
+    swings = [("pendulums", each["node"], each["worst"]) for each in response.get("pendulums", ())]
+    for key, name, worst in (*swings, ("free_end", "", response["free_end_worst"])):
+        swing = Figure(key, worst["half_swing_deg"], "deg")
+        yield from _put("worst", [swing], name, speed=worst["speed_rpm"])
+
+
+# ------------------------------------------------------------------ for people
+def sheet(result: TorsionAnalysis, system: System) -> Sheet:
+    """Return modes first, then what was asked."""
+    parts: list[Grid | Facts | Text] = []
+    if silent := list_silent(result.system.silent):
+        parts.append(Facts(tuple(silent)))
+    if result.damper is not None:
+        parts.append(_show_damper(result.damper, system))
+    parts += [_show_modes(result), _show_shapes(result, system)]
+    excitation = result.system.excitation
+    if result.modes and excitation is not None and len(excitation.orders):
+        parts.append(_show_criticals(result, excitation))
+    parts += [_show_holzer(result, table, system) for table in result.holzer or ()]
+    if result.response is not None:
+        parts.append(_show_response(result, result.response, system))
+        if limits := tuple(_judge_limits(result, system)):
+            parts.append(Facts(limits, "Limits"))
+    return Sheet(f"{_name(result)}: torsion", tuple(parts))
+
+
+def _name(result: TorsionAnalysis) -> str:
+    return result.name or "shafts without a name"
+
+
+_DAMPER_LABELS = {
+    "inertia": "ring",
+    "damping": "damping",
+    "stiffness": "stiffness",
+    "loss": "loss factor",
+    "mass": "pendulums, in all",
+    "radius": "hung up at a radius of",
+    "length": "length to the centre of mass",
+}
+_RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
+
+
+def _show_damper(sized: SizedDamper, system: System) -> Facts:
+    """Return what to make, and what it does."""
+    kind = system.stress if sized.measure == "stress" else system.moment
+    unit = kind.fit(max(filter(math.isfinite, (sized.before, sized.after))))
+    units = _choose_units(system)
+    units["kg m2"] = _RING if system == SI else system.inertia
+    pairs = [("on", sized.node)]
+    for key, (name, size) in DAMPER_KEYS.items():
+        if (value := getattr(sized, name)) is None:
+            continue
+        (figure,) = list_figures({name: value})
+        shown = units.get(figure.unit, ShownUnit("", 1)).fit(value)
+        text = size_text(value, shown, 6).rstrip()
+        if key == sized.figure:
+            alone = number(shown.of(sized.start / size))
+            text += f" (best for mode {sized.mode} alone: {alone})"
+        pairs.append((_DAMPER_LABELS[key], text))
+    for when, size in (("none there", sized.before), ("it", sized.after)):
+        text = f"±{number(unit.of(size))} {unit.name}" if math.isfinite(size) else "without bound"
+        pairs.append((f"largest {sized.measure} with {when}", text))
+    if sized.heat_W:
+        heat = size_text(sized.heat_W, system.heat)
+        pairs.append(("heat", f"up to {heat}, at {number(sized.heat_rpm)} rpm"))
+    return Facts(tuple(pairs), f"Sized: a {sized.kind} damper")
+
+
+def _show_modes(result: TorsionAnalysis) -> Grid | Text:
+    if not result.modes:
+        return Text("Natural modes", ("None: nothing has inertia that could swing on a shaft.",))
+    rows = tuple(
+        (
+            str(mode.number),
+            number(mode.frequency_Hz, 6),
+            number(mode.frequency_Hz * 60, 6),
+            str(mode.nodes),
+            ", ".join([*mode.node_in, *(f"at {name}" for name in mode.node_at)]) or "–",
+        )
+        for mode in result.modes
+    )
+    note = "Node in: the shafts whose ends turn against each other."
+    if left_out := _list_left_out(result.system):
+        note += f" Without {left_out}."
+    heads = ("mode", "Hz", "1/min", "nodes", "node in")
+    return Grid("Natural modes", heads, rows, note, words=(0, 4))
+
+
+def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
+    shown = result.modes[:_MOST_MODES]
+    geared = any(node.gear != 1 for node in result.nodes)
+    heads = ["node", system.inertia.name, *["gear"] * geared]
+    heads += [f"mode {mode.number}" for mode in shown]
+    rows = []
+    for k, node in enumerate(result.nodes):
+        inertia = system.inertia.of(node.inertia_kg_m2)
+        cells = [node.name, number(inertia) if inertia else "–", *[number(node.gear)] * geared]
+        rows.append((*cells, *(f"{round(float(mode.shape[k]), 4) + 0.0:.4f}" for mode in shown)))
+    note = "Angle of each node by itself, the largest 1."
+    if left := len(result.modes) - len(shown):
+        note += f" JSON has {left} mode{'s' * (left > 1)} more."
+    return Grid("Inertias and shapes", tuple(heads), tuple(rows), note)
+
+
+def _show_criticals(result: TorsionAnalysis, excitation: Excitation) -> Grid | Text:
+    span = "" if result.response is None else f", {_name_span(result.response.speeds_rpm)}"
+    title, scope = f"Critical speeds{span}", _name_scope(result, excitation)
+    criticals = result.criticals or ()
+    if not criticals:
+        return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
+    rows = tuple(
+        (
+            str(each.mode),
+            order_name(each.order),
+            number(each.speed_rpm),
+            number(each.phase_sum, 4),
+            f"{each.work_share:.1%}",
+        )
+        for each in criticals[:_MOST_CRITICALS]
+    )
+    note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
+    if len(criticals) > len(rows):
+        note += f" JSON has {len(criticals) - len(rows)} more."
+    return Grid(title, ("mode", "order", "rpm", "phase sum", "share"), rows, note)
+
+
+def _name_scope(result: TorsionAnalysis, excitation: Excitation) -> str:
+    """Return which orders, speeds, dampers and torques critical speeds are of."""
+    rated, several = result.system.rated_rpm, "s to" * (len(excitation.orders) > 1)
+    note = f"Of order{several} {order_name(float(excitation.orders.max()))}."
+    if left_out := _list_left_out(result.system):
+        note += f" Without {left_out}, which shift them."
+    if result.response is not None:
+        return note
+    note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
+    return note + _name_gas(excitation)
+
+
+def _list_left_out(system: TorsionalSystem) -> str:
+    """Return the dampers that modes and criticals are without."""
+    dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
+    return " and ".join(dampers)
+
+
+def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
+    inertia, stiffness = system.inertia, system.torsional_stiffness
+    torques, angles = [row.torque_Nm for row in table.rows], [row.angle for row in table.rows]
+    largest = max(abs(each) for row in table.rows for each in (row.torque_Nm, row.sum_Nm))
+    unit = system.moment.fit(largest)
+    rows = tuple(
+        (
+            row.node,
+            number(inertia.of(row.inertia_kg_m2)),
+            number(_settle(row.angle, angles), 6),
+            number(unit.of(_settle(row.torque_Nm, torques))),
+            number(unit.of(_settle(row.sum_Nm, torques))),
+            _show_stiffness(stiffness.of(row.stiffness_Nm_per_rad)),
+            number(row.twist, 4) if row.stiffness_Nm_per_rad else "–",
+        )
+        for row in table.rows
+    )
+    what, omega = f"mode {table.mode}" if table.mode else "trial", 2 * np.pi * table.frequency_Hz
+    title = f"Holzer's table, {what}: {number(omega, 7)} rad/s; torques in {unit.name}"
+    left = f"{size_text(_settle(table.residual_Nm, torques), system.moment, 5)}."
+    if result.system.chain.clamped[table.end]:
+        end = table.rows[table.end]
+        angle = number(_settle(end.angle, angles), 6)
+        left = f"the angle of {end.node}, which is fixed, {angle}."
+    heads = ("angle", "J ω² angle", "sum", f"k, {stiffness.name}", "twist")
+    return Grid(
+        title, ("node", f"J, {inertia.name}", *heads), rows, f"Left over at the end: {left}"
+    )
+
+
+def _show_stiffness(value: float) -> str:
+    return "rigid" if math.isinf(value) else number(value) if value else "–"
+
+
+def _settle(value: float, others: Sequence[float]) -> float:
+    """Return an angle or torque, 0 where it is what rounding left over of others."""
+    return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
+
+
+def _show_response(
+    result: TorsionAnalysis, response: TorsionResponse, system: System
+) -> Grid | Text:
+    span, swings = _name_span(response.speeds_rpm), _describe_swings(result, response)
+    if not response.shafts:
+        return Text(f"Vibration, {span}", (swings,))
+    unit = system.moment.fit(max(shaft.worst.sum_of_amplitudes_Nm for shaft in response.shafts))
+    stress, stressed = system.stress.fit(0.0), any(result.system.sections)
+    rows = []
+    for shaft in response.shafts:
+        worst = shaft.worst
+        cells = [
+            shaft.name,
+            number(unit.of(worst.half_peak_to_peak_Nm)),
+            number(worst.speed_rpm),
+            number(unit.of(worst.sum_of_amplitudes_Nm)),
+        ]
+        if stressed:
+            cells.append(
+                number(stress.of(math.nan if worst.stress_Pa is None else worst.stress_Pa), 4)
+            )
+        rows.append((*cells, _name_orders(shaft, unit)))
+    heads = ["shaft", f"± {unit.name}", "at rpm", f"sum, {unit.name}"]
+    heads += [*[stress.name] * stressed, "largest orders"]
+    note = (
+        "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
+        f"do not peak together. {swings}"
+    )
+    if excitation := result.system.excitation:
+        note += _name_gas(excitation, " Gas as in the file at every speed.")
+    for damper in response.dampers or ():
+        note += (
+            f" The damper of {damper.node} turns up to "
+            f"{size_text(damper.worst.heat_W, system.heat)} to heat, at "
+            f"{number(damper.worst.speed_rpm)} rpm."
+        )
+    words = (0, len(heads) - 1)
+    return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
+
+
+def _name_span(ends: Sequence[float] | np.ndarray[Any, Any]) -> str:
+    low, high = number(float(ends[0])), number(float(ends[-1]))
+    return f"{low} rpm" if ends[0] == ends[-1] else f"{low} to {high} rpm"
+
+
+def _name_gas(excitation: Excitation, where_counted: str = "") -> str:
+    """Return how far the gas of an engine counts; nothing of a chain."""
+    if not excitation.growing.any():
+        return ""
+    alone = " Of inertia alone: the torque of the gas is not in this."
+    return where_counted if excitation.steady.any() else alone
+
+
+def _describe_swings(result: TorsionAnalysis, response: TorsionResponse) -> str:
+    """Return the largest swing of the first node and of pendulums, and where."""
+    parts = [(result.system.nodes[0], "swings", response.free_end_worst)]
+    for each in response.pendulums or ():
+        parts.append((f"The pendulums of {each.node}", "swing", each.worst))
+    return " ".join(
+        f"{name} {verb} by ±{number(worst.half_swing_deg, 4)} deg at {number(worst.speed_rpm)} rpm."
+        for name, verb, worst in parts
+    )
+
+
+def _name_orders(shaft: ShaftResponse, unit: ShownUnit) -> str:
+    """Return the largest orders of a shaft's torque with their amplitudes in this unit."""
+    falling = sorted(shaft.worst.orders, key=lambda each: -each.amplitude_Nm)
+    return ", ".join(
+        f"{order_name(each.order)}: {number(unit.of(each.amplitude_Nm), 3)}"
+        for each in falling[:_MOST_ORDERS]
+        if each.amplitude_Nm > 1e-3 * falling[0].amplitude_Nm
+    )
+
+
+def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str, str]]:
+    """Yield the limits of the file, and which speeds pass them."""
+    system, limits, bare = result.system, [], []
+    if system.limit_pa is not None:
+        limits.append(size_text(system.limit_pa, units.stress, None))
+        each = zip(system.shafts, system.sections, system.chain.stiffness, strict=True)
+        rings = system.nodes[system.last + 1 :]  # rubber has no section
+        bare = [s for s, section, k in each if not section and math.isfinite(k) and s not in rings]
+    if system.angle_limit is not None:
+        limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.nodes[0]}")
+    if limits:
+        yield "limit", " and ".join(limits)
+    if result.barred_rpm is not None:
+        text = ", ".join(map(_name_span, result.barred_rpm)) or "none in this range"
+        own = system.rated_rpm or 0.0
+        if any(low <= own <= high for low, high in result.barred_rpm):
+            text += f"; the file's own speed, {number(own)} rpm, is barred"
+        yield "barred speeds", text
+    if bare:
+        named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
+        yield "not judged", f"{named}: no diameter, so that no stress is known"
+
+
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

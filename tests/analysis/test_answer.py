@@ -1,0 +1,253 @@
+"""Analysis: which orders are shown, what is computed, what balanced means; over all engines of
+engines/.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from support.engines import alone, build_text, engine
+from support.gas_engines import FOUR, WIEBE
+from support.paths import ENGINE_FILES, ENGINES
+
+from balcli.analysis.answer import QUANTITIES, Analysis, analyze
+from balcli.engine.build import Engine, build
+from balcli.engine.parse import read
+from balcli.errors import BalcliError
+from balcli.forces.kinds import KINDS
+from balcli.forces.spectrum import SHOWN, compute_spectra, find_relevant_orders
+from balcli.forces.textbook import find_textbook_units
+from balcli.limits import HIGHEST_ORDER
+
+NAMES = [file.relative_to(ENGINES).with_suffix("").as_posix() for file in ENGINE_FILES]
+STEADY = ("force", "moment", "couple", "torque", "roll", "peak")
+
+
+@lru_cache
+def example(name: str) -> Engine:
+    return build(read(ENGINES / f"{name}.toml"))
+
+
+@lru_cache
+def analysed(name: str) -> Analysis:
+    return analyze(example(name), only=STEADY)
+
+
+# ------------------------------------------------------------------ orders
+@pytest.mark.parametrize("name", NAMES)
+def test_orders_shown_by_default(name):
+    """1 and 2, and each in which some quantity exceeds 1e-6 of its own largest order; no other."""
+    shown = set(analysed(name).orders)
+    everything = compute_spectra(example(name), find_relevant_orders(example(name)))
+    due = {1.0, 2.0}
+    for _, phasors in everything.items():
+        due |= set(everything.orders[phasors.major > SHOWN * phasors.major.max()])
+    assert shown == due
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_orders_do_not_depend_on_those_shown_with_them(name):
+    """Within their rounding bounds."""
+    default = analysed(name)
+    asked = analyze(example(name), default.orders[::-1], only=STEADY)
+    single = analyze(example(name), [2], only=KINDS)
+    many = analyze(example(name), range(1, 300), only=KINDS)
+    for kind, phasors in default.spectra.items():
+        for other in (asked, single, many):
+            common = np.intersect1d(default.orders, other.orders)
+            here, there = phasors.select_orders(common), other.spectra[kind.name].select_orders(common)
+            assert np.all(np.abs(here.vectors - there.vectors) <= here.noise + there.noise), kind.name
+    assert asked.force == pytest.approx(default.force, rel=1e-12, abs=1e-9)
+    assert asked.moment == pytest.approx(default.moment, rel=1e-12, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_nothing_beyond_the_relevant_orders(name):
+    """What lies above them is below the rounding error of the largest order."""
+    highest = find_relevant_orders(example(name))[-1]
+    beyond = np.arange(highest + 1, highest + 17)
+    for q, phasors in compute_spectra(example(name), beyond).items():
+        assert phasors.major.max() <= 1e-12 * analysed(name).spectra[q.name].major.max(), q
+
+
+def test_under_uneven_speed_orders_begin_at_0():
+    uneven = engine(operation={"speed_ripple": [{"order": 2, "amplitude": 0.05}]})
+    assert list(analyze(uneven, only=["force"]).orders[:3]) == [0, 1, 2]
+
+
+@pytest.mark.parametrize("orders", [[1, 2, 3], [5], [0, 1], range(1, 9)])
+def test_exactly_the_orders_asked_for_are_shown(orders):
+    assert list(analyze(example("i4"), orders).orders) == list(orders)
+    assert list(analyze(example("i4"), [*orders, *orders]).orders) == list(orders)
+
+
+@pytest.mark.parametrize(
+    ("orders", "told"), [([-1], "-1"), ([HIGHEST_ORDER + 1], "4097"), ([], "none"), ([1.25], "1.25")]
+)
+def test_orders_that_cannot_be(orders, told):
+    with pytest.raises(BalcliError) as caught:
+        analyze(example("i4"), orders)
+    assert str(caught.value) == f"orders must be multiples of 1/2 from 0 to 4096, not {told}"
+
+
+# ------------------------------------------------------------------ balanced, and not swallowed
+BALANCED = {
+    "boxer6": {"force": [1, 2, 3, 4, 6], "moment": [1, 2]},
+    "i4": {"force": [1, 3], "moment": [1, 2]},
+    "i6": {"force": [1, 2, 3, 4], "moment": [1, 2, 3, 4, 6]},
+    "i3": {"force": [1, 2, 4]},
+    "i5": {"force": [1, 2, 4, 6, 8]},
+    "v8_crossplane": {"force": [1, 2, 6], "moment": [2]},
+    "v8_flatplane": {"force": [1], "moment": [1]},
+    "v12_60": {"force": [1, 2, 4], "moment": [1, 2, 4]},
+    "v16": {"force": [1, 2, 6], "moment": [1, 2]},
+    "radial5": {"moment": [1, 2, 4, 6]},
+    "radial7": {"force": [2, 4]},
+    "radial9": {"force": [2, 4, 6]},
+    "twin270": {"force": [2]},
+    "flat12": {"force": [1, 2, 4], "moment": [1, 2, 4]},
+}
+
+
+@pytest.mark.parametrize("name", BALANCED)
+def test_a_balanced_order_is_exactly_zero(name):
+    for q, orders in BALANCED[name].items():
+        phasors = analyze(example(name), orders, only=[q]).spectra[q]
+        assert phasors.balanced.all(), (q, orders)
+        assert np.array_equal(phasors.major, np.zeros(len(orders)))
+
+
+@pytest.mark.parametrize(
+    ("name", "order", "factor"),
+    [
+        ("v8_crossplane", 8, 4 * np.sqrt(2)),
+        ("i4", 8, 4),
+        ("i4", 14, 4),
+        ("i6", 12, 6),
+        ("v12_60", 12, 12 * np.cos(np.pi / 6)),
+        ("radial9", 10, 4.5),
+        ("single", 20, 1),
+    ],
+)
+def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
+    """Eighth orders are 1e-6 to 1e-4 of the first; A_20 is 1e-16."""
+    e = example(name)
+    units = find_textbook_units(e, np.array([float(order)]))
+    found = analyze(e, [order], only=["force"]).spectra.force
+    assert not found.balanced[0]
+    assert found.major[0] == pytest.approx(factor * units.force * units.ratios[0], rel=1e-10)
+
+
+def test_a_high_order_beside_it_swallows_no_small_one():
+    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by
+    themselves.
+    """
+    everything, few = (
+        analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force for last in (4096, 40)
+    )
+    assert np.array_equal(everything.forward[:40], few.forward)
+    assert np.array_equal(few.balanced, [n % 2 == 1 and n > 1 for n in range(1, 41)])
+
+
+def test_each_vector_is_settled_for_itself():
+    """The first-order moment of a cross-plane V8 turns with the crank and has no backward part at
+    all.
+    """
+    moment = analysed("v8_crossplane").spectra.moment
+    assert moment.backward[0] == 0
+    assert abs(moment.forward[0]) > 100
+
+
+# ------------------------------------------------------------------ only what is asked for
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_only_one_quantity(quantity):
+    result = analyze(example("vr6"), only=[quantity])
+    there = {kind.name for kind, _ in result.spectra.items()}
+    assert there == {quantity} & set(KINDS)
+    assert (result.force is not None) == (result.moment is not None) == (quantity == "peak")
+    assert (result.sizing is not None) == (quantity == "sizing")
+    if quantity in KINDS:
+        whole = analysed("vr6").spectra.select_orders(result.orders)[quantity]
+        assert np.array_equal(result.spectra[quantity].forward, whole.forward)
+
+
+def test_gas_near_the_lock_is_computed_for_the_orders_that_are_shown():
+    """Of the tens of thousands that peaks need there is no end."""
+    locked = (FOUR + WIEBE).replace("length = 150", "ratio = 0.999999").replace("inertia = 2600", "")
+    fired = analyze(build_text(locked))
+    few = analyze(build_text(locked), [2, 4, 8])
+    for order, torque in zip((2, 4, 8), few.spectra.gas.major, strict=True):
+        at = fired.orders.tolist().index(order)
+        assert fired.spectra.gas.major[at] == pytest.approx(torque, rel=1e-9)
+    peakless = analyze(build_text(locked), only="gas").spectra.gas
+    assert peakless.major.max() == pytest.approx(fired.spectra.gas.major.max(), rel=1e-12)
+    motored = analyze(build_text(locked.replace(WIEBE, "")))
+    assert few.force.value == fired.force.value == motored.force.value
+
+
+def test_an_unknown_quantity():
+    with pytest.raises(BalcliError) as caught:
+        analyze(example("i4"), only=["force", "weight", "noise"])
+    assert str(caught.value) == (
+        "there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
+        "peak, sizing, gas, inner, guide"
+    )
+    with pytest.raises(BalcliError, match='there is no quantity "": choose'):
+        analyze(example("i4"), only=["force", ""])
+
+
+def test_all_but_sizing_by_default():
+    result = analyze(example("vr6"))
+    assert [kind.name for kind, _ in result.spectra.items()] == list(KINDS)
+    assert None not in (result.force, result.moment)
+    assert result.sizing is None
+    assert result.cylinders == ()
+
+
+# ------------------------------------------------------------------ parts and peaks
+@pytest.mark.parametrize("name", ["v5", "vr6", "i4_shafts", "v8_crossplane", "radial5", "boxer4"])
+def test_cylinders_and_devices_sum_to_the_engine(name):
+    e = example(name)
+    result = analyze(e, range(1, 9), only=KINDS, by_cylinder=True)
+    assert [n for n, _ in result.cylinders] == sorted(e.numbers)
+    nothing = np.zeros_like(e.cylinders.reciprocating)
+    still = replace(e, cylinders=replace(e.cylinders, reciprocating=nothing, rotating=nothing, couple=nothing))
+    parts = [compute_spectra(still, result.orders), *(share for _, share in result.cylinders)]
+    for q, whole in result.spectra.items():
+        scale = sum(part[q.name].major.max() for part in parts)
+        for way in ("forward", "backward"):
+            total = sum(getattr(part[q.name], way) for part in parts)
+            assert np.abs(total - getattr(whole, way)).max() <= 1e-14 * scale, q
+
+
+def test_one_cylinder_alone_has_no_devices_and_no_other_mass():
+    single = alone(example("i4_shafts"), 3)
+    assert single.devices == ()
+    assert np.count_nonzero(single.cylinders.reciprocating) == 1
+    assert single.numbers[int(np.flatnonzero(single.cylinders.reciprocating)[0])] == 3
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_peaks_are_those_of_the_whole_curve(name):
+    """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders
+    are shown.
+    """
+    e, theta = example(name), np.linspace(0, 2 * np.pi, 2881)
+    whole = compute_spectra(e, find_relevant_orders(e), ("force", "moment"))
+    for q in ("force", "moment"):
+        found, phasors = getattr(analysed(name), q), getattr(whole, q)
+        samples = np.abs(phasors.values(theta))
+        assert samples.max() * (1 - 1e-14) <= found.value <= samples.max() * (1 + 1e-3) + 1e-300, q
+        assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=1e-13, abs=1e-300)
+    assert analyze(e, [3], only=["peak"]).force == analysed(name).force
+
+
+def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
+    """(1 + lambda) m r w^2, exactly: -s'' at psi = 0."""
+    e = engine(operation={"speed": 600})
+    found = analyze(e, only=["peak"]).force
+    assert found.value == pytest.approx(1.25 * 1 * 0.05 * (20 * np.pi) ** 2, rel=1e-14)
+    assert np.cos(found.theta) == pytest.approx(1, abs=1e-12)

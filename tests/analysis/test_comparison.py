@@ -1,0 +1,95 @@
+"""Engines side by side."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from support.commands import ask_json, run_here
+from support.engines import GOOD, build_text, changed
+from support.gas_engines import WIEBE
+
+from balcli.analysis.comparison import compare_engines
+from balcli.errors import BalcliError
+
+
+def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
+    slow, fast = build_text(GOOD), build_text(changed(("speed = 3000", "speed = 6000")))
+    lines = {(line.kind.name, line.order): line for line in compare_engines([slow, fast], ["slow", "fast"]).figures}
+    assert lines["force", 2].ratios == pytest.approx((1, 4))
+    assert lines["force", None].ratios == pytest.approx((1, 4))
+    assert lines["force", 1].values == (0, 0)
+    assert math.isnan(lines["force", 1].ratios[1])
+
+
+@pytest.mark.parametrize(
+    ("second", "rpm", "told"),
+    [
+        ("speed = 3000", 3000, "speed  3000 rpm"),
+        ("speed = 6000.5", 6000.5, "speeds  3000 rpm; 6000.5 rpm"),
+        ("", 1000, "speeds  3000 rpm; 1000 rpm, assumed: the file gives none"),
+    ],
+)
+def test_at_which_speeds_engines_are_compared_is_told(tmp_path, second: str, rpm: float, told: str) -> None:
+    """Ratios of engines at different speeds are mostly those of their speeds."""
+    files = tmp_path / "one.toml", tmp_path / "other.toml"
+    for file, speed in zip(files, ("speed = 3000", second), strict=True):
+        file.write_text(changed(("speed = 3000", speed)), encoding="utf-8")
+    assert told in run_here("compare", *files).out.splitlines()
+    document = ask_json("compare", *files)
+    assert document["speeds_rpm"] == [3000, rpm]
+
+
+def test_orders_of_every_engine_are_shown() -> None:
+    six = build_text(changed(("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", "")))
+    lines = {
+        (line.kind.name, line.order): line
+        for line in compare_engines([build_text(GOOD), six], ["4", "6"], only=["force"]).figures
+    }
+    assert {order for _, order in lines} >= {1, 2, 4, 6}
+    assert lines["force", 6].values[1] > 0
+    assert {quantity for quantity, _ in lines} == {"force"}
+
+
+def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
+    """Unless all engines have gas, what is compared is that of inertia."""
+    bare, fired = build_text(GOOD), build_text(GOOD + WIEBE)
+    several = compare_engines([fired, bare], ["fired", "bare"], [0.5, 1, 2], ["guide"])
+    lines = {(line.kind.name, line.order): line for line in several.figures}
+    assert lines["guide_h", 2].ratios == (1, 1)
+    assert lines["guide_x", 0.5].values == (0, 0)
+    assert lines["guide_h", 2].kind.label == "H-type guide moment of inertia alone"
+    both = compare_engines([fired, fired], ["fired", "again"], [0.5, 1, 2], ["guide"])
+    lines = {(line.kind.name, line.order): line for line in both.figures}
+    assert lines["guide_x", 0.5].values[0] > 0
+    assert lines["guide_h", 2].kind.label == "H-type guide moment"
+
+
+def test_one_engine_is_refused() -> None:
+    with pytest.raises(BalcliError, match="compare needs at least two engine files"):
+        compare_engines([build_text(GOOD)], ["one"])
+
+
+def test_inner_guide_and_sizing_stand_side_by_side() -> None:
+    from balcli.analysis.answer import analyze
+
+    engines = [build_text(GOOD), build_text(changed(("stroke = 90", "stroke = 80")))]
+    found = compare_engines(engines, ["a", "b"], None, ["inner", "guide", "sizing"])
+    lines = {(line.kind.name, line.order): line.values for line in found.figures}
+    alone = [analyze(engine, [2], ["inner", "guide", "sizing"]) for engine in engines]
+    bending = tuple(float(one.inner.bending.phasors.major[0].max()) for one in alone)
+    assert lines["bending", 2] == pytest.approx(bending, rel=1e-12)
+    assert lines["guide_h", 2] == pytest.approx([float(one.guide.h.major[0]) for one in alone])
+    left = [one.sizing.after.force.value for one in alone]
+    assert lines["force with devices", None] == pytest.approx(left)
+    assert {"shear", "bearing", "guide_x", "moment with devices"} <= {name for name, _ in lines}
+
+
+def test_orders_that_are_asked_for_are_there_balanced_or_not() -> None:
+    """In-line fours have no odd order of any force, moment or torque of inertia."""
+    four = build_text(GOOD)
+    kinds = ["force", "moment", "couple", "torque", "roll"]
+    asked = compare_engines([four, four], ["one", "other"], orders=[7], only=kinds).figures
+    assert [(line.kind.name, line.order, line.values) for line in asked] == [(kind, 7, (0, 0)) for kind in kinds]
+    unasked = compare_engines([four, four], ["one", "other"], only=kinds, whole=True).figures
+    assert 7 not in {line.order for line in unasked}

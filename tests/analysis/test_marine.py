@@ -1,0 +1,129 @@
+"""The marine sheet against motion sampled over a revolution: no series, no phasor of ours."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.engines import build_text
+from support.paths import ENGINES, write
+
+from balcli.analysis.speeds import find_marine_sheet
+from balcli.core.records import remove_unit
+
+RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
+THROWS = (0.0, 240.0, 120.0, 30.0)
+MARINE = Path(__file__).parents[2] / "engines/marine/marine6.toml"
+TEXT = f"""
+[crank]
+stroke = {2e3 * RADIUS}
+throws = {list(THROWS)}
+spacing = {1e3 * SPACING}
+throw_mass = 500
+[rod]
+length = {1e3 * ROD}
+small_end = 0
+big_end = 0
+[piston]
+mass = {MASS}
+[operation]
+speed = 100
+[layout]
+strokes = 2
+"""
+RPM = (80.0, 110.0)
+Z = SPACING * (np.arange(4) - 1.5)
+SAMPLES = 4096
+
+
+def amplitude(values: np.ndarray, order: int) -> float:
+    return float(2 * abs(np.fft.rfft(values)[order]) / SAMPLES)
+
+
+def sampled(rpm: float) -> dict[str, np.ndarray]:
+    """Forces along x and y, their moments, couples of the guides and torque, by crank angle."""
+    turn = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
+    omega = rpm * np.pi / 30
+    theta = turn + np.radians(THROWS)[:, None]
+    sine = RADIUS / ROD * np.sin(theta)
+    travel = RADIUS * np.cos(theta) + ROD * np.sqrt(1 - sine**2)
+    waves = np.fft.fftfreq(SAMPLES, 1 / SAMPLES)
+    speed, acceleration = (np.fft.ifft((1j * waves) ** k * np.fft.fft(travel)).real for k in (1, 2))
+    rotating = 500 * RADIUS * omega**2
+    along_x = -MASS * omega**2 * acceleration + rotating * np.cos(theta)
+    along_y = rotating * np.sin(theta)
+    torque = -MASS * omega**2 * acceleration * speed
+    return {
+        "force_v": along_x.sum(axis=0),
+        "force_h": along_y.sum(axis=0),
+        "moment_v": Z @ along_x,
+        "moment_h": Z @ along_y,
+        "guide_h": torque.sum(axis=0),
+        "guide_x": Z @ torque / ROD,
+        "torque": torque.sum(axis=0),
+    }
+
+
+def test_every_column_is_that_of_the_motion() -> None:
+    found = find_marine_sheet(build_text(TEXT), RPM, [1, 2, 3, 4])
+    for i, rpm in enumerate(RPM):
+        for name, curve in sampled(rpm).items():
+            (values,) = (figure for key, figure in found.figures.items() if remove_unit(key) == name)
+            largest = max(amplitude(curve, n) for n in (1, 2, 3, 4))
+            for k in range(4):
+                expected = pytest.approx(amplitude(curve, k + 1), abs=1e-9 * largest, rel=1e-9)
+                assert values[i, k] == expected, (name, rpm, k + 1)
+
+
+def test_the_guide_height_divides_x_alone() -> None:
+    engine = build_text(TEXT)
+    usual, given = (find_marine_sheet(engine, (), [1, 2], height) for height in (None, 3.0))
+    assert given.figures["guide_x_Nm"] == pytest.approx(usual.figures["guide_x_Nm"] * ROD / 3.0, rel=1e-12)
+    assert given.figures["guide_h_Nm"] == pytest.approx(usual.figures["guide_h_Nm"], rel=1e-12)
+
+
+def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
+    file = write(tmp_path / "nowhere.toml", TEXT.replace(f"spacing = {1e3 * SPACING}", ""))
+    status, out, err = balcli("analyze", file, "--format", "marine", "-o", tmp_path / "s.json")
+    assert (status, out) == (0, "")
+    assert err == (
+        f"warning: {file}: moments are not known, because crank.spacing is missing: give it (or "
+        "crank.positions); 0 says that all throws stand in one plane\n"
+    )
+    entry = json.loads((tmp_path / "s.json").read_text())["speeds"][0]["orders"][0]
+    assert entry["force_v_N"] > 0
+    assert entry["moment_v_Nm"] is None
+    assert entry["guide_x_Nm"] is None
+
+
+@pytest.mark.parametrize(
+    ("engine", "includes"), [("i4.toml", "inertia, without gas"), ("i4_wiebe.toml", "inertia and gas")]
+)
+def test_json_says_whether_gas_is_in_it(balcli, engine, includes) -> None:
+    given = ("analyze", ENGINES / engine, "--format", "marine", "--format", "json")
+    assert json.loads(balcli(*given)[1])["includes"] == includes
+
+
+def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
+    file, sheet = tmp_path / "four.toml", tmp_path / "s.csv"
+    file.write_text(TEXT)
+    given = ("--speed", "80,110", "--orders", "1,2", "--format", "marine", "-o", sheet)
+    assert balcli("analyze", file, *given) == (0, "", "")
+    head, *lines = sheet.read_text().splitlines()
+    assert head == (
+        "engine,speed_rpm,order,force_v_N,force_h_N,moment_v_Nm,moment_h_Nm,guide_h_Nm,guide_x_Nm,torque_Nm"
+    )
+    assert [line.split(",")[1:3] for line in lines] == [["80.0", "1"], ["80.0", "2"], ["110.0", "1"], ["110.0", "2"]]
+
+
+def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli):
+    """As `gas = 0` in the file does."""
+    text = MARINE.read_text(encoding="utf-8")
+    sheet = ("--format", "marine", "--format", "csv")
+    found = balcli("analyze", MARINE, *sheet, "--misfire", "3").out
+    assert found == balcli("analyze", "-", *sheet, stdin=f"{text}\n[cylinder.3]\ngas = 0\n").out
+    assert found != balcli("analyze", MARINE, *sheet).out
+    told = balcli("analyze", MARINE, "--format", "marine", "--misfire", "3").out
+    assert "\nno gas in  3\n" in told

@@ -1,0 +1,210 @@
+"""What analyze shows only where it is asked for: inner moments, guide-force moments; and strokes of
+articulated cylinders.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from io import StringIO
+from types import SimpleNamespace
+
+import pytest
+from support.cases import cases
+from support.engines import GOOD, RADIAL, build_text, inline_engine, rotary_engine
+from support.paths import ENGINES
+
+from balcli.analysis import show as analysis
+from balcli.analysis import show as analysis_document
+from balcli.analysis.answer import QUANTITIES, analyze
+from balcli.errors import BalcliError
+from balcli.shell.options import parse_parts
+from balcli.show.formats import Format, render
+from balcli.show.sheet import IN_BRIEF, Facts, Grid, View
+from balcli.show.units import SYSTEMS
+
+RENDERER = SimpleNamespace(sheet=analysis.sheet, document=analysis_document.document, rows=analysis_document.rows)
+
+
+def rendered(form, subject, system="si", **options):
+    return render([analyze(subject, **options)], RENDERER, form, SYSTEMS[system])
+
+
+def document(subject, **options):
+    return json.loads(rendered(Format.JSON, subject, **options))
+
+
+def shown(subject, **options):
+    return rendered(Format.MARKDOWN, subject, **options)
+
+
+def test_inner_as_json():
+    found = document(inline_engine([0, 180, 180, 0]), only=["inner"], orders=[1, 2])["inner"]
+    assert [section["position_mm"] for section in found["sections"]] == pytest.approx([-150, -50, 50, 150])
+    assert found["sections"][1]["shear_N"]["orders"][0]["balanced"]
+    assert found["largest_bending_Nm"] == max(section["bending_Nm"]["peak"] for section in found["sections"])
+    assert [bearing["position_mm"] for bearing in found["bearings"]] == pytest.approx([-200, -100, 0, 100, 200])
+
+
+def test_without_bearings_bending_ends_with_the_free_moment_about_the_last_place():
+    """An engine of two throws in phase has a free force, and so another moment about its middle."""
+    about_middle = inline_engine([0, 0])
+    about_last = inline_engine([0, 0], more="[frame]\nreference = [0, 0, 50]\n")
+    told = shown(about_middle, only=["inner"])
+    assert "at the last place is the free moment of all these loads about it" in told
+    last = document(about_middle, only=["inner"])["inner"]["sections"][-1]
+    assert last["position_mm"] == pytest.approx(50)
+    assert last["bending_Nm"]["peak"] == pytest.approx(analyze(about_last).moment.value)
+    assert analyze(about_middle).moment.value == pytest.approx(0, abs=1e-6)
+
+
+def test_guide_as_json():
+    found = document(inline_engine([0, 180]), only=["guide"], orders=[1, 2])["guide"]
+    assert found["includes"] == "inertia, without gas"
+    assert found["height_m"] == pytest.approx([0.16, 0.16])
+    assert [entry["order"] for entry in found["orders"]] == [1, 2]
+    assert not found["orders"][0]["x_Nm"]["balanced"]
+    assert "x_Nm" not in document(inline_engine([0]), only=["guide"], orders=[1])["guide"]["orders"][0]
+
+
+def test_strokes_as_json():
+    found = document(build_text(RADIAL), only=["force"])["travel"]
+    assert [entry["cylinder"] for entry in found] == [1, 2, 3, 4, 5, 6, 7]
+    assert found[0]["stroke_m"] == pytest.approx(0.12)
+    assert found[2]["stroke_m"] > 0.1204
+    assert found[2]["top_deg"] == pytest.approx(-found[5]["top_deg"])
+
+
+def rows(subject, system="si", **options):
+    text = rendered(Format.CSV, subject, system, **options)
+    return {
+        (r["cylinder"], r["quantity"], r["order"], r["figure"]): (r["value"], r["unit"])
+        for r in csv.DictReader(StringIO(text))
+    }
+
+
+def test_inner_and_guide_as_rows():
+    """Every figure of the JSON, places numbered, with their positions."""
+    subject = inline_engine([0, 180, 180, 0])
+    found, wanted = (
+        rows(subject, only=["inner", "guide"], orders=[1, 2]),
+        document(subject, only=["inner", "guide"], orders=[1, 2]),
+    )
+    section, bearing = wanted["inner"]["sections"][1], wanted["inner"]["bearings"][4]
+    assert found["0", "shear 2", "", "position"] == (str(section["position_mm"]), "mm")
+    assert found["0", "shear 2", "", "peak"] == (str(section["shear_N"]["peak"]), "N")
+    assert found["0", "bending 2", "1", "major"] == (str(section["bending_Nm"]["orders"][0]["major"]), "N·m")
+    assert found["0", "bearing 5", "2", "x_amplitude"] == (str(bearing["load_N"]["orders"][1]["x"]["amplitude"]), "N")
+    assert ("0", "shear 5", "", "peak") not in found
+    h = wanted["guide"]["orders"][1]["h_Nm"]
+    assert found["0", "guide_h", "2", "sin"] == (str(h["sin"]), "N·m")
+    assert found["0", "guide_x", "1", "balanced"] == ("true", "")
+    assert not [key for key in rows(inline_engine([0]), only=["guide"], orders=[1]) if key[1] == "guide_x"]
+
+
+def test_strokes_and_reasons_as_rows():
+    subject = build_text(RADIAL)
+    found = rows(subject, "imperial", only=["force"], orders=[1], reasons=True)
+    value, unit = found["1", "travel", "", "stroke"]
+    assert (float(value), unit) == (pytest.approx(0.12 / 0.0254), "in")
+    assert float(found["3", "travel", "", "top_deg"][0]) == pytest.approx(
+        -float(found["6", "travel", "", "top_deg"][0])
+    )
+    (reason,) = document(subject, only=["force"], orders=[1], reasons=True)["why"]["reasons"]
+    assert found["0", "force", "1", "why"] == (reason["verdict"], "")
+    assert found["0", "force", "1", "why_size"] == (str(reason["size"]), "of one cylinder")
+
+
+WIDE = [0, 72, 144, 216, 288]
+
+
+def parts(subject, view=IN_BRIEF, **options):
+    """Titles of a sheet's parts, and the first cells of its first table."""
+    found = analysis.sheet(analyze(subject, only=QUANTITIES, **options), SYSTEMS["si"], view).parts
+    first = next((part for part in found if isinstance(part, Grid)), None)
+    return [part.title.split(":")[0] for part in found], [row[0] for row in (() if first is None else first.rows)]
+
+
+BRIEF = [
+    "",
+    "Verdict",
+    "Largest by order, and its parts that turn with the crank and against it",
+    "Largest over a revolution",
+    "Sizing",
+]
+
+
+def test_in_brief_the_verdict_comes_first_and_only_orders_that_matter():
+    assert parts(inline_engine(WIDE)) == (BRIEF, ["1", "2", "4"])
+    every = View(every_order=True)
+    assert parts(inline_engine(WIDE), every, orders=[4, 6]) == (BRIEF, ["4", "6"])
+    assert "10" in parts(inline_engine(WIDE), View(whole=True))[1]
+
+
+def test_a_mean_turns_neither_way():
+    """Under uneven speed a throw pulls longest where it is fastest; that force stands still."""
+    ripple = "speed_ripple = [{ order = 1, amplitude = 0.1 }]\n"
+    text = GOOD.replace("throws = [0, 180, 180, 0]", "throws = [0]").replace("[1, 3, 4, 2]", "[1]")
+    found = analyze(build_text(text + ripple))
+    assert found.spectra.force.forward[0] != 0
+    brief = next(p for p in analysis.sheet(found, SYSTEMS["si"]).parts if isinstance(p, Grid))
+    assert brief.rows[0][0] == "0"
+    assert brief.rows[0][2:4] == ("–", "–")
+    whole = analysis.sheet(found, SYSTEMS["si"], View(whole=True)).parts
+    table = next(p for p in whole if p.title.startswith("Free force by order"))
+    assert table.rows[0][2:] == ("–",) * 4
+
+
+@cases("show/analysis", "only_picks_parts")
+def test_only_picks_parts(words, titles):
+    chosen, named = parse_parts(words)
+    found = analysis.sheet(analyze(inline_engine([0, 180]), only=chosen), SYSTEMS["si"], View(parts=named))
+    assert [p.title for p in found.parts if p.title or isinstance(p, Facts)] == titles
+
+
+def test_a_rotary_engine_from_end_to_end():
+    subject = rotary_engine("radial = 9")
+    assert document(subject, reasons=True)["orders"][0]["force_N"]["balanced"]
+    assert "balanced by symmetry of the layout" in shown(subject, reasons=True)
+
+
+def test_an_unknown_quantity_is_refused_with_those_there_are():
+    with pytest.raises(BalcliError) as caught:
+        analyze(inline_engine([0]), only=["bending"])
+    assert str(caught.value) == (
+        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, sizing, gas, inner, guide"
+    )
+
+
+# ------------------------------------------------------------------ one throw, pins split, rods apart
+
+
+def test_orders_without_a_part_of_roll_do_not_make_it_balanced(balcli):
+    """The roll of an in-line four has the orders 2, 4, 6 and on."""
+    four = ENGINES / "i4.toml"
+    odd = balcli("analyze", four, "--orders", "3,7").out
+    assert re.search(r"roll C − T +balanced in the orders shown\n", odd)
+    assert "Verdict\nThe orders shown: free of force and moment.\n" in odd
+    high = balcli("analyze", four, "--orders", "10").out
+    assert re.search(r"roll C − T +negligible \(0\.0026 N·m\) in the orders shown\n", high)
+    assert "order 2: 1355, 4: 65.75" in balcli("analyze", four, "--orders", "2-4").out
+    assert "in the orders shown" not in balcli("analyze", ENGINES / "i4.toml").out
+
+
+@pytest.mark.parametrize("command", [("analyze",), ("analyze", "--only", "gas")])
+def test_the_mean_roll_is_minus_the_mean_torque(balcli, command):
+    """C - T, and no couple has a mean."""
+    shown = balcli(*command, ENGINES / "i4_wiebe.toml", "--orders", "0,2").out
+    table = shown.partition("About the crank axis with gas")[2]
+    figures = re.findall(r"-?[\d.]+", re.search(r"^0 +(.+)$", table, re.MULTILINE)[1])
+    torque, roll = (float(figure) for figure in figures[-2:])
+    assert roll == -torque < 0
+
+
+@pytest.mark.parametrize("more", [(), ("--all",)])
+def test_orders_that_are_asked_for_are_shown_balanced_or_not(balcli, more):
+    given = ("--only", "textbook", "--orders", "1-6", *more)
+    table = balcli("analyze", ENGINES / "i5.toml", *given).out.partition("Free moment in")[2]
+    assert re.findall(r"^(\d) +", table, re.MULTILINE) == list("123456")
+    assert "Free moment by order" not in table

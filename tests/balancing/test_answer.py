@@ -1,0 +1,294 @@
+"""`balcli balance`: what it prints, what it refuses, and the workshop's figures."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from support.cases import cases
+from support.commands import ask_csv, refusal, run_here
+from support.engines import GOOD, SINGLE, build_text, changed
+from support.paths import write
+
+from balcli.balancing.answer import balance_engine as balance
+from balcli.core.unbalance import STEEL, find_drill_depth
+from balcli.errors import BalcliError
+from balcli.file.model import Counterweight, Slider
+from balcli.sizing.options import SCHEMES, SchemeOptions
+from balcli.sizing.remedy import Remedy
+from balcli.sizing.workshop import Practical, Tools, find_practical
+
+
+@pytest.fixture
+def file(tmp_path) -> Path:
+    return write(tmp_path / "engine.toml", GOOD)
+
+
+def run(*arguments: object, text: str | None = None):
+    return run_here("balance", *arguments, stdin=text or "")
+
+
+def document(*arguments: object, text: str | None = None) -> dict:
+    result = run(*arguments, "--format", "json", text=text)
+    assert result.status == 0, result.err
+    return json.loads(result.out)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.stress
+def test_every_scheme_and_format(scheme):
+    for form in ("table", "csv", "markdown", "json"):
+        result = run("-", "--scheme", scheme, "--format", form, text=SINGLE)
+        assert result.status == 0, result.err
+        assert result.out.strip()
+
+
+def test_json_has_devices_reasons_and_both_analyses(file):
+    doc = document(file, "--scheme", "two-shaft", "--at=-40,60", "--order", "2")
+    assert list(doc) == [
+        "format",
+        "version",
+        "scheme",
+        "order",
+        "counterweights",
+        "shafts",
+        "sliders",
+        "reasons",
+        "practical",
+        "details",
+        "before",
+        "after",
+    ]
+    assert [s["ratio"] for s in doc["shafts"]] == [-2, 2]
+    assert doc["shafts"][0]["at_mm"] == [-40, 60]
+    assert doc["shafts"][1]["at_mm"] == pytest.approx([-40, -60])
+    second = {
+        state: next(o for o in doc[state]["orders"] if o["order"] == 2)["force_N"] for state in ("before", "after")
+    }
+    assert second["before"]["balanced"] is False
+    assert second["after"]["balanced"] is True
+
+
+def test_csv_has_one_figure_a_line(file):
+    rows = ask_csv("balance", file)
+    devices = {(r["part"], r["figure"]): r["value"] for r in rows if r["part"].startswith("shaft")}
+    assert devices["shaft 1", "ratio"] == "2"
+    assert {r["part"] for r in rows} == {"shaft 1", "shaft 2", "before", "after"}
+    assert devices["shaft 2", "speed_rpm"] == "6000.0"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_imperial_units_reach_reasons_and_notes(file, scheme):
+    """Grams stand on the bobweight card in either system, as on the scales of a shop."""
+    for form in ("table", "markdown"):
+        for text in (GOOD, SINGLE, changed(("throws = [0, 180, 180, 0]", "throws = [0, 0, 0, 0]"))):
+            options = ("--scheme", scheme, "--units", "imperial", "--format", form)
+            told = run("-", *options, text=text.partition("firing_order")[0]).out
+            assert not re.search(r"\d (N|kN|N·m|kN·m|kg|mm|kg·m|g·mm)\b", told)
+
+
+def test_imperial_units(file):
+    assert "oz·in" in run(file, "--units", "imperial").out
+
+
+def test_written_file_reads_back(file, tmp_path):
+    doc = document(file, "--scheme", "auto", "--write", tmp_path / "out.toml")
+    result = run_here("analyze", tmp_path / "out.toml", "--format", "json")
+    again = json.loads(result.out)
+    same = {o["order"]: o for o in again["orders"]}
+    assert again["peak"] == doc["after"]["peak"]
+    assert all(same[o["order"]] == o for o in doc["after"]["orders"] if o["order"] in same)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "speed", "line"),
+    [
+        ("auto", 4500, "speed = 4500.0    # as balanced by balcli\n"),
+        ("auto", 3000, "speed = 3000\n"),
+        ("auto", None, "speed = 3000\n"),
+    ],
+)
+def test_what_is_written_runs_at_the_speed_that_was_asked_for(file, tmp_path, scheme, speed, line):
+    """So that it reads back to exactly `after`."""
+    out = tmp_path / "out.toml"
+    asked = [] if speed is None else ["--speed", speed]
+    after = document(file, "--scheme", scheme, "--write", out, *asked)["after"]
+    assert f"[operation]\n{line}" in out.read_text()
+    assert document(out, "--scheme", "factor", "--factor", "0")["before"]["peak"] == after["peak"]
+
+
+def test_standard_input_can_be_written(tmp_path):
+    document("-", "--write", tmp_path / "out.toml", text=GOOD)
+    assert (tmp_path / "out.toml").read_text().startswith(GOOD)
+
+
+@cases("analysis/balance", "refusals")
+def test_refusals(file, options, told):
+    assert told in refusal("balance", file, *options)
+
+
+def test_a_rotary_engine_has_no_factor(tmp_path):
+    file = write(
+        tmp_path / "rotary.toml",
+        GOOD.replace("throws = [0, 180, 180, 0]\n", "").replace(
+            "firing_order = [1, 3, 4, 2]", "radial = 5\nrotary = true"
+        ),
+    )
+    assert "the cylinders turn and the crank pins stand still" in refusal("balance", file, "--scheme", "factor")
+
+
+def test_weights_of_a_rotary_engine_stand_on_its_cylinders(tmp_path, file):
+    path = write(
+        tmp_path / "rotary.toml",
+        SINGLE.replace("strokes = 4", "radial = 5\nrotary = true") + "[cylinder.2]\npiston_mass = 0.6\n",
+    )
+    told = "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis"
+    assert told in run(path).out
+    assert "Counterweights stand" not in run(file).out
+
+
+def test_the_engine_file_itself_is_never_written(file):
+    assert "choose another name" in refusal("balance", file, "--write", file)
+    assert file.read_text() == GOOD
+
+
+def test_a_folder_that_is_not_there(file, tmp_path):
+    assert "not_there" in refusal("balance", file, "--write", tmp_path / "not_there" / "x.toml")
+
+
+# ------------------------------------------------------------------ the workshop
+def engine():
+    return build_text(SINGLE)
+
+
+def test_practical_figures_follow_from_their_definitions():
+    result = balance(engine(), "single-shaft", SchemeOptions(), tools=Tools(radius=0.06, disc=0.05))
+    weight, shaft = result.practical
+    omega = engine().omega
+    assert weight.mass_kg == pytest.approx(weight.unbalance_kg_m / 0.06)
+    assert shaft.force_N == pytest.approx(shaft.unbalance_kg_m * omega**2)
+    assert (weight.force_N, weight.speed_rpm) == (pytest.approx(weight.unbalance_kg_m * omega**2), engine().speed_rpm)
+    assert shaft.speed_rpm == engine().speed_rpm
+    # half disc: mass pi R^2/2 t density, centroid at 4R/(3 pi)
+    assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness_mm / 1e3 * 4 * 0.05 / (3 * math.pi) == pytest.approx(
+        weight.unbalance_kg_m
+    )
+
+
+def test_shafts_turn_at_their_ratio():
+    found = balance(engine(), "four-shaft").practical
+    assert sorted(p.speed_rpm for p in found) == [3000, 3000, 6000, 6000]
+
+
+def test_given_thickness_sets_the_radius():
+    remedy = balance(engine()).remedy
+    for p in find_practical(engine(), remedy, Tools(thickness=0.03)):
+        assert p.disc_thickness_mm == 30
+        assert STEEL * 0.03 * 2 / 3 * (p.disc_radius_mm / 1e3) ** 3 == pytest.approx(p.unbalance_kg_m)
+    assert find_practical(engine(), Remedy("auto"), Tools()) == ()
+
+
+def test_drill_depth_removes_the_unbalance():
+    """Radial hole from the rim: the integral of density times area times radius over its depth."""
+    depth = find_drill_depth(1e-3, 0.08, 0.012)
+    area = math.pi / 4 * 0.012**2
+    assert STEEL * area * (0.08**2 - (0.08 - depth) ** 2) / 2 == pytest.approx(1e-3, rel=1e-13)
+    assert math.isnan(find_drill_depth(1.0, 0.08, 0.012))
+    assert find_drill_depth(0.0, 0.08, 0.012) == 0
+
+
+@pytest.mark.parametrize("name", ["radius", "thickness", "disc", "drill"])
+@pytest.mark.parametrize("length", [0.0, -1e-3, math.inf, math.nan])
+def test_lengths_of_tools_are_positive(name, length):
+    with pytest.raises(BalcliError, match=rf"^--{name}: .* mm; give figures above 0$"):
+        find_practical(engine(), Remedy(""), Tools(**{name: length}))
+
+
+def test_a_hole_ends_at_the_axis():
+    """Drilled from the rim to the axis, `rim^2/2` times area and density is removed: that much, and
+    no more.
+    """
+    most = STEEL * math.pi / 4 * 0.01**2 * 0.05**2 / 2
+    assert find_drill_depth(most * (1 - 1e-14), 0.05, 0.01) == pytest.approx(0.05, rel=1e-6)
+    assert math.isnan(find_drill_depth(most * (1 + 1e-14), 0.05, 0.01))
+
+
+def test_sliders_move_at_their_order():
+    """n times the crank's speed, n^2 times the force."""
+    remedy = Remedy("", devices=(Slider(order=3, unbalance=1e6, direction=0, angle=0),))
+    (figures,) = find_practical(engine(), remedy, Tools(radius=0.5, drill=1.0))
+    assert (figures.mass_kg, figures.speed_rpm) == (2, 9000)
+    assert figures.force_N == pytest.approx((9000 * math.pi / 30) ** 2, rel=1e-14)
+    assert figures.holes is None  # it does not turn: no side of it is heavy
+
+
+# ------------------------------------------------------------------ holes
+def plan_holes(grams_mm: float, **tools: float) -> Practical:
+    weight = Remedy("", devices=(Counterweight(unbalance=grams_mm, angle=150, position=0),))
+    (figures,) = find_practical(engine(), weight, Tools(radius=0.08, **tools))
+    assert figures.holes is not None
+    return figures
+
+
+def removed(holes: Practical, drill: float, density: float) -> float:
+    """g mm of all holes, each in thin slices, summed from the rim inwards."""
+    slices = 20_000
+    step = holes.drill_depth_mm / 1e3 / slices
+    radii = [0.08 - (k + 0.5) * step for k in range(slices)]
+    return holes.holes * density * math.pi / 4 * drill**2 * step * sum(radii) * 1e6
+
+
+def test_a_hole_stands_opposite_to_the_weight_and_removes_it():
+    holes = plan_holes(6000, drill=0.02)
+    assert (holes.holes, holes.hole_angle_deg) == (1, -30)
+    assert removed(holes, 0.02, STEEL) == pytest.approx(6000, rel=1e-9)
+
+
+def test_as_many_holes_as_the_depth_asks_for():
+    holes = plan_holes(20_000, drill=0.02, max_depth=0.05)
+    assert holes.holes == 3
+    assert removed(holes, 0.02, STEEL) == pytest.approx(20_000, rel=1e-9)
+    assert holes.drill_depth_mm <= 50
+    assert removed(replace(holes, holes=2, drill_depth_mm=50), 0.02, STEEL) < 20_000
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 50])
+def test_holes_to_the_last_digit_of_their_depth(count):
+    """So much as these holes remove at full depth asks for no further one."""
+    most = STEEL * math.pi / 4 * 0.02**2 * (0.08**2 - 0.05**2) / 2 * 1e6
+    for slip in (-1e-14, 0, 1e-14):
+        holes = plan_holes(count * most * (1 + slip), drill=0.02, max_depth=0.03)
+        assert holes.holes == count
+        assert holes.drill_depth_mm == pytest.approx(30, rel=1e-9)
+
+
+def test_one_hole_deeper_than_the_radius_becomes_several():
+    """To the axis a hole removes rim^2/2; a tenth more needs two."""
+    holes = plan_holes(STEEL * math.pi / 4 * 0.02**2 * 0.08**2 / 2 * 1.1 * 1e6, drill=0.02)
+    assert holes.holes == 2
+
+
+def test_a_slug_adds_what_it_is_heavier_than_steel_on_its_own_side():
+    holes = plan_holes(20_000, drill=0.02, slug=17_000.0)
+    assert holes.hole_angle_deg == 150
+    assert removed(holes, 0.02, 17_000 - STEEL) == pytest.approx(20_000, rel=1e-9)
+
+
+def test_more_holes_than_any_counterweight_has_room_for():
+    for drill in (1e-4, 1e-170):
+        holes = plan_holes(20_000, drill=drill)
+        assert holes.holes > 50
+        assert math.isnan(holes.drill_depth_mm)
+    out = run("-", "--drill", "0.1", text=SINGLE).out
+    assert "more than 50" in out
+    assert "One hole would be deeper than the radius." in out
+
+
+@cases("analysis/balance", "what_holes_cannot_be")
+def test_what_holes_cannot_be(file, options, told):
+    assert refusal("balance", file, *options) == told

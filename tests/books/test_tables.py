@@ -1,0 +1,272 @@
+"""The registry of printed tables: form, the rule for errata, ranges, and the command."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from decimal import ROUND_HALF_UP, Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from support.commands import refusal, run_here
+
+from balcli.books.answer import NAMES, recompute, select_tables
+from balcli.books.recomputed import Explanation, Table, deviates, parse_crank_ratios, parse_range
+from balcli.core.mechanisms import slidercrank as sc
+from balcli.errors import BalcliError
+
+ERRATA = {  # printed figures that are not the exact ones rounded
+    "tsinghua-1-1": 1,
+    "tsinghua-1-2": 6,
+    "tsinghua-1-3": 6,
+    "tsinghua-1-4": 6,
+    "tsinghua-1-5": 0,
+    "tsinghua-1-6": 10,
+    "liu-1": 4,
+    "liu-2": 0,
+    "liu-3": 58,
+    "wang-1": 19,
+    "kvasnikov-1": 2,
+    "kvasnikov-2": 3,
+    "liang-examples": 4,
+    "torque-examples": 3,
+    "series": 3,
+    "layouts": 0,
+}
+
+
+def run(*arguments):
+    return run_here("tables", *arguments)
+
+
+def document(*arguments):
+    return json.loads(run(*arguments, "--format", "json").out)
+
+
+# ---------------------------------------------------------------- form
+@pytest.mark.parametrize("name", NAMES)
+def test_rows_and_print_have_one_shape(name):
+    table = recompute(name)
+    assert len(set(table.columns)) == len(table.columns)
+    assert {len(row) for row in (*table.exact, *table.printed)} == {len(table.columns)}
+    assert len(table.exact) == len(table.printed)
+    assert table.source
+    assert table.title
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_numbers_of_errata(name):
+    assert len(recompute(name).errata) == ERRATA[name]
+
+
+@pytest.mark.parametrize("name", [n for n in NAMES if n not in ("series", "layouts")])
+def test_errata_are_the_figures_that_rounding_does_not_give(name):
+    """The rule once more, from the values and texts alone."""
+    table, wrong = recompute(name), set()
+    for i, (row, words) in enumerate(zip(table.exact, table.printed, strict=True)):
+        for column, value, text in zip(table.columns, row, words, strict=True):
+            if isinstance(value, float) and text is not None and "/" not in text:
+                printed = Decimal(text)
+                digits = Decimal(1).scaleb(printed.as_tuple().exponent)
+                if Decimal(repr(value)).quantize(digits, ROUND_HALF_UP) != printed:
+                    wrong.add((i, column))
+    assert {(e.row, e.column) for e in table.errata} == wrong
+
+
+# ---------------------------------------------------------------- the rule
+@pytest.mark.parametrize(
+    ("value", "text", "wrong"),
+    [
+        (0.12345, "0.1235", False),  # halves away from zero, as written in decimal
+        (-0.12345, "-.1235", False),
+        (0.12344, "0.1235", True),
+        (2.0, "2", False),
+        (0.0, "-0.0000", False),
+        (1 / 3, "1/3", False),
+        (1 / 3, "2/3", True),
+        ("15/128", "5/128", True),
+        ("15/128", "30/256", False),
+        ("12~15", "12~15", False),
+        ("gasoline", "diesel", False),  # words are no figures
+    ],
+)
+def test_when_a_printed_figure_deviates(value, text, wrong):
+    assert deviates(value, text) is wrong
+
+
+@pytest.mark.parametrize(
+    ("exact", "text", "kind"),
+    [
+        (0.33657, ".3363", "misprint"),
+        (0.43125061, ".4312", "last digit, truncated"),
+        (1.5398, "1.539", "last digit, truncated"),
+        (0.77264, ".7725", "last digit"),
+        (2.75, "2.57", "misprint, digits transposed"),
+        (0.706, "1.412", "doubled by mistake"),
+        (0.7069, "1.413", "doubled by mistake, truncated"),
+        (0.5295, "1.095", "doubled by mistake, digits transposed"),
+    ],
+)
+def test_kinds(exact, text, kind):
+    """An explanation counts only where it leads to the printed figure."""
+    doubled = Explanation("doubled by mistake", ((None, 2 * exact),))
+    table = Table("t", "", "", ("a", "b"), (("row", exact),), (("row", text),), (doubled,))
+    assert [e.kind for e in table.errata] == [kind]
+
+
+def test_an_explanation_that_says_the_same_as_the_exact_value_is_none():
+    same = Explanation("nothing", ((0.7071,),))
+    assert [e.kind for e in Table("t", "", "", ("a",), ((0.7071,),), (("0.706",),), (same,)).errata] == ["last digit"]
+
+
+# ---------------------------------------------------------------- other ranges
+def test_ranges_include_both_ends():
+    assert parse_range("0.20:0.40:0.1", "--angle") == ("0.2", "0.3", "0.4")
+    assert parse_range("0:180:60", "--angle") == ("0", "60", "120", "180")
+    assert parse_range("0.24,1/3,0.24", "--angle") == ("0.24", "1/3")
+    assert len(parse_crank_ratios("0.20:0.40:0.01")) == 21
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "1:2:3:4", "a:b", "0:1:0", "1:0:0.1", "0:1e9:1e-9", "nan", "1/0", "0:1:", "1e400", "1e999999999", "3e9"],
+)
+def test_bad_ranges(text):
+    with pytest.raises(BalcliError, match=r"^--angle '.*' is no range: give START:STOP:STEP \(0.20:0.40:0.01\) or"):
+        parse_range(text, "--angle")
+
+
+@pytest.mark.parametrize(
+    ("name", "function"),
+    [("tsinghua-1-2", sc.displacement), ("tsinghua-1-3", sc.velocity), ("tsinghua-1-6", sc.acceleration)],
+)
+def test_other_angles_and_ratios(name, function):
+    """The print stands beside the exact values wherever it has the angle and the ratio, and only
+    there.
+    """
+    table = recompute(name, lam="0.3,0.35", angle="70,71.5")
+    place = table.columns.index("0.35")
+    assert table.exact[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-14)
+    assert table.printed[0][place - 1] is not None
+    assert table.printed[0][place] is table.printed[1][place - 1] is None
+
+
+def test_the_acceleration_goes_on_to_180_degrees():
+    table = recompute("tsinghua-1-6", angle="0:180:5")
+    assert len(table.exact) == 37
+    assert len(table.errata) == ERRATA["tsinghua-1-6"]
+    assert table.exact[-1][table.columns.index("0.32")] == pytest.approx(-(1 - 0.32), rel=1e-14)
+    assert table.printed[-1] == (None,) * len(table.columns)
+
+
+def test_series_to_a_higher_power():
+    """Leading coefficient of A_16: binomial series, (16)^2 (-1)^9 binom(16, 8)/(15 2^31)."""
+    from math import comb
+
+    table = recompute("series", power=15)
+    leading = [row[3] for row in table.exact if row[:3] == ("acceleration A_n (r w^2)", 16, 15)]
+    assert leading == [str(Fraction(-(16**2) * comb(16, 8), 15 * 2**31))]
+
+
+def test_all_133_printed_coefficients_are_compared():
+    assert sum(words[3] is not None for words in recompute("series").printed) == 133
+
+
+# ---------------------------------------------------------------- the command
+def test_list_of_tables():
+    result = run()
+    assert result.status == 0
+    for name in NAMES:
+        assert name in result.out
+    assert {t["name"]: t["errata"] for t in document()} == ERRATA
+
+
+def test_words_are_folded_in_a_pipe_and_figures_are_not():
+    listed = run().out
+    assert max(map(len, listed.splitlines())) <= 80
+    printed = ((t["title"], t["source"].partition(", Table ")[0]) for t in document())
+    words = {word for texts in printed for text in texts for word in text.split()}
+    assert words <= set(listed.split())
+    figures = run("layouts", "--digits", "4").out.splitlines()
+    assert len([line for line in figures if line.startswith("i4 ")]) == 1
+    assert max(map(len, figures)) > 200
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("form", ["table", "json", "csv", "markdown"])
+def test_every_table_in_every_format(name, form):
+    result = run(name, "--format", form)
+    assert result.status == 0
+    assert result.out.strip()
+    assert "nan" not in result.out.split()
+
+
+def test_csv_is_in_full_precision():
+    rows = list(csv.reader(io.StringIO(run("tsinghua-1-2", "--format", "csv").out)))
+    assert float(rows[4][rows[0].index("0.29")]) == sc.displacement(np.radians(15), 0.29)
+
+
+def test_deviating_figures_are_marked_and_counted():
+    text = run("tsinghua-1-2").out
+    assert ".4313 ≠ .4312" in text
+    assert "6 of 370 printed figures deviate (exact ≠ printed)" in text
+
+
+def test_digits():
+    assert "0.4312506086" in run("tsinghua-1-2", "--digits", "10").out
+    first = next(line for line in run("tsinghua-1-2", "--digits", "2").out.splitlines() if line.startswith("0 "))
+    assert first.split() == ["0", *["0.00"] * 9, "360"]  # printed .0000; whole angles stay whole
+    beyond = run("tsinghua-1-6", "--angle", "90,105", "--lambda", "0.25", "--digits", "2").out
+    assert beyond.splitlines()[-2].split() == ["105", "-0.48", "255"]  # nor does a row not printed
+
+
+@pytest.mark.parametrize("given", ["0,25", "3.5", "0.9:1.1:0.1"])
+def test_a_lambda_that_cannot_be_is_told_what_it_would_be(given):
+    message = refusal("tables", "tsinghua-1-2", "--lambda", given)
+    assert message.endswith("turns only with 0 < lambda < 1; give crank radius over rod length, such as 0.25 or 1/3.5")
+
+
+def test_errata_of_one_table_and_of_all():
+    assert [e["name"] for e in document("kvasnikov-1", "--errata")] == ["kvasnikov-1"] * 2
+    assert len(document("--errata")) == sum(ERRATA.values())
+    assert "cos 45° taken as 0.706" in run("liu-3", "--errata").out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("tsinghua-1-9",), "no table 'tsinghua-1-9'; the nearest name is 'tsinghua-1-6'"),
+        (("colour",), "no table 'colour'. Tables: tsinghua-1-1, "),
+        (("liu-1", "--angle", "0:90:5"), "--angle: table liu-1 takes no other range"),
+        (("kvasnikov-1", "--angle", "0:90:5"), "--angle: table kvasnikov-1 takes --lambda"),
+        (("--angle", "0:90:5"), "--angle: name the table that it is for (tsinghua-1-2, tsinghua-1-3, tsinghua-1-6)"),
+        (
+            ("tsinghua-1-2", "--angle", "0:180:0.01", "--lambda", "0.2:0.4:0.01"),
+            "18001 angles of 21 crank ratios are 378021 figures, and at most 100000 are tabulated",
+        ),
+    ],
+)
+def test_wrong_names_and_options_are_refused(arguments, message):
+    assert refusal("tables", *arguments).startswith(message)
+
+
+def test_select_without_a_name_gives_all():
+    assert tuple(t.name for t in select_tables(None)) == NAMES
+
+
+def test_layouts_at_a_glance():
+    """The same by either command; figures are the handbook's."""
+    out = run_here("layouts").out
+    assert out == run("layouts").out
+    (five,) = (line.split() for line in out.splitlines() if line.startswith("in-line five"))
+    assert five[2:] == ["0", "0", "0.449", "4.98", "144"]
+    (twin,) = (line.split() for line in out.splitlines() if line.startswith("90-degree V-twin"))
+    assert twin[-5:] == ["1", "1.414", "0", "0", "270/450"]
+    # Yamaha's cross-plane four fires after 270, 180, 90 and 180 degrees
+    cross = next(line for line in out.splitlines() if line.startswith("in-line four, cross"))
+    assert cross.split()[-1] == "90/180/270"
+    single = next(line for line in out.splitlines() if line.startswith("single"))
+    assert single.split()[-1] == "720"  # every other turn, and in no order
+    assert run_here("layouts", "--format", "json").out == run("layouts", "--format", "json").out

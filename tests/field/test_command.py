@@ -1,0 +1,323 @@
+"""`balcli field`: every format says the same figures; files to start from, the schema, pictures and
+exit statuses.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import tomllib
+
+import pytest
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
+from support.paths import write
+from support.rotors import three_runs
+
+from balcli.field.tables import parse_runs
+from balcli.file.examples import template
+
+SHOP = """
+name = "fan"
+unit = "um"
+weights = "with"
+radius = [200, 200]
+places = [12, [0, 90]]
+drill = [4, 4]
+deepest = [20, 20]
+grade = 6.3
+mass = 120
+speed = 3000
+"""
+
+
+@pytest.fixture
+def runs(tmp_path):
+    return write(tmp_path / "runs.toml", three_runs(SHOP))
+
+
+def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
+    out = ask("field", runs)
+    assert "a weight at 30 deg stands 30 deg on from the 0 mark, going the way the rotor turns." in out
+    assert re.search(r"^front +1\.979 +123\.8 +200 +395\.9 +86%$", out, re.MULTILINE)
+    assert re.search(r"^front +\d+ of 12 ", out, re.MULTILINE)
+    assert re.search(r"^sensor 1 +170 +112\.0 +0 +–$", out, re.MULTILINE)
+
+
+def test_where_one_hole_is_not_enough_it_says_how_there_are_more(tmp_path):
+    path = tmp_path / "runs.toml"
+    shop = "radius = [200, 200]\ndrill = [4, 4]\ndeepest = [10, 10]\n"
+    path.write_text(three_runs(shop), encoding="utf-8")
+    hint = "For more than one hole in a plane give places, such as places = [24, 24]."
+    assert hint in run_here("field", path).out
+    path.write_text(three_runs(shop + "places = [24, 24]\n"), encoding="utf-8")
+    out = run_here("field", path).out
+    assert hint not in out
+    assert "All readings are cancelled." in out
+
+
+def test_a_hole_is_told_by_what_it_does_at_the_rim(tmp_path):
+    """It said that each hole removes its weight: here 38 g are drilled out to do what 30 g do."""
+    path = tmp_path / "runs.toml"
+    text = (
+        'planes = ["rim"]\nradius = [100]\ndrill = [12]\n'
+        '[[run]]\nreadings = ["30 @ 0"]\n'
+        '[[run]]\nreadings = ["20 @ 0"]\nweights = { rim = "10 @ 0" }\n'
+    )
+    path.write_text(text, encoding="utf-8")
+    (plane,) = ask_json("field", path)["corrections"]
+    (hole,) = plane["pieces"]
+    grams = 7.85e-3 * math.pi / 4 * 12**2 * hole["depth_mm"]
+    assert grams * (100 - hole["depth_mm"] / 2) == pytest.approx(30 * 100)
+    assert round(grams) == 38
+    out = run_here("field", path).out
+    assert "Each does as much as this weight at the rim; its steel, further in, weighs more." in out
+    path.write_text('weight_unit = "g mm"\n' + text, encoding="utf-8")
+    assert "Each removes this unbalance." in run_here("field", path).out
+
+
+def test_holes_on_top_of_a_correction_are_new_ones(runs):
+    """How deep it was drilled before, and where, no run says."""
+    told = "Depths are of new holes: those drilled before are not in the file."
+    assert told not in run_here("field", runs).out
+    text = runs.read_text() + (
+        '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\nreadings = ["9 @ 40", "6 @ 310"]\n'
+    )
+    runs.write_text(text)
+    assert told in run_here("field", runs).out
+    placed = text.replace("drill = [4, 4]\ndeepest = [20, 20]\n", "")
+    runs.write_text(placed)
+    assert told not in run_here("field", runs).out
+    carried = "The limit is for these alone: what a place carries already is not in the file."
+    assert carried not in run_here("field", runs).out
+    runs.write_text("most = [9, 9]\n" + placed)
+    assert carried in run_here("field", runs).out
+
+
+def test_a_shop_that_works_in_inches_reads_inches(runs):
+    """Radius, unbalance, drill, depth and what is permitted; weights and readings stay."""
+    metric, inches = (run_here("field", runs, *more).out for more in ((), ("--units", "imperial")))
+    ounce_inch = 28.349523125 * 25.4  # g mm
+    found = re.search(r"^front +1.979 +123.8 +7.874 +([\d.]+) +86%$", inches, re.MULTILINE)
+    assert float(found[1]) == pytest.approx(395.9 / ounce_inch, rel=2e-4)
+    depth = re.search(r"^front +\d+ of 12 .* 4 +([\d.]+)$", metric, re.MULTILINE)
+    small = re.search(r"^front +\d+ of 12 .* 0.15748 +([\d.]+)$", inches, re.MULTILINE)
+    assert float(small[1]) == pytest.approx(float(depth[1]) / 25.4, rel=6e-3)
+    permitted = 120e3 * 6.3 / (100 * 3.14159265) / 2 / ounce_inch
+    assert re.search(rf"^front +{permitted:.4g} ", inches, re.MULTILINE)
+    assert "264.555 lb at 3000 rpm" in inches
+    said = [run_here("field", runs, "-f", "csv", *more).out for more in ((), ("--units=imperial",))]
+    assert said[0] == said[1]
+
+
+def test_a_grade_may_be_written_with_its_letter(runs):
+    plain = run_here("field", runs).out
+    for grade in ('"G6.3"', '"G 6.3"', '"g6.3"'):
+        runs.write_text(three_runs(SHOP.replace("grade = 6.3", f"grade = {grade}")))
+        assert run_here("field", runs).out == plain
+    runs.write_text(three_runs(SHOP.replace("grade = 6.3", 'grade = "G0"')))
+    assert "grade: 0 is not above 0" in refusal("field", runs)
+
+
+@pytest.mark.parametrize("minimise", ["squares", "max"])
+def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
+    """No form says that readings are cancelled; all have what is left, and what would be best."""
+    path = write(tmp_path / "runs.toml", three_runs('name = "fan"\nplaces = [[0, 40, 80], "free"]'))
+    out = run_here("field", path, "--minimise", minimise).out
+    assert "All readings are cancelled" not in out
+    assert re.search(r"^front +– +– +–$", out, re.MULTILINE)
+    assert "Without its limit, front would take 1.979 g at 236.2 deg." in " ".join(out.split())
+    said = ask_json("field", path, "--minimise", minimise)
+    front, rear = said["corrections"]
+    assert (front["weight"], front["pieces"], front["at_limit"]) == (0, [], True)
+    assert front["wanted"]["weight"] == pytest.approx(1.979467642, rel=1e-9)
+    assert ("wanted" in rear, rear["at_limit"]) == (False, False)
+    largest = max(reading["amplitude"] for reading in said["residual"])
+    assert largest == pytest.approx(said["largest"], rel=1e-12)
+    assert largest > 100
+    assert f"{largest:.4g}" in out
+    assert f"{largest:.4g}" in run_here("field", path, "--minimise", minimise, "-f", "markdown").out
+    lines = ask_csv("field", path)
+    figures = {(r["part"], r["name"], r["figure"]): r["value"] for r in lines}
+    assert figures["correction", "front", "at_limit"] == "true"
+    assert float(figures["details", "", "largest"]) > 100
+    picture = tmp_path / "polar.svg"
+    assert run_here("field", path, "--plot", picture).status == 0
+    assert "wanted: 1.98 at 236.2 deg" in picture.read_text(encoding="utf-8")
+
+
+def test_senses_are_said_the_other_way_round_too():
+    assert (
+        "30 deg on from the 0 mark, going against the way the rotor turns."
+        in run_here("field", "-", stdin=three_runs('weights = "against"')).out
+    )
+
+
+def test_json_is_what_it_promises(runs):
+    said = ask_json("field", runs)
+    assert said["format"] == "balcli.field/1"
+    front, rear = said["corrections"]
+    assert (front["plane"], front["weight"]) == ("front", pytest.approx(1.979467642, rel=1e-9))
+    assert front["angle_deg"] == pytest.approx(360 - 236.1703733, rel=1e-9)
+    assert front["pieces"][0].keys() == {"weight", "angle_deg", "place", "depth_mm"}
+    assert rear["at_limit"] is False
+    assert [piece["place"] for piece in rear["pieces"]] == [1, 2]
+    assert said["influence"][0][0] == {
+        "amplitude": pytest.approx(78.43258624, rel=1e-9),
+        "phase_deg": pytest.approx(58.37900733, rel=1e-9),
+    }
+    assert said["residual"] == [{"amplitude": 0, "phase_deg": None}] * 2
+    assert said["permitted"]["unbalance_g_mm"] == pytest.approx(2406.42, rel=1e-5)
+    assert said["permitted"]["reached"] is True
+    assert "bound" not in said
+    best = ask_json("field", runs, "--minimise", "max")
+    assert best["bound"] == 0
+
+
+def test_csv_has_every_figure_of_json(runs):
+    said = ask_json("field", runs)
+    lines = ask_csv("field", runs)
+    found = {(r["part"], r["name"], r["figure"]): (r["value"], r["unit"]) for r in lines}
+    front = said["corrections"][0]
+    assert found["correction", "front", "weight"] == (str(front["weight"]), "g")
+    depth = front["pieces"][1]["depth_mm"]
+    assert found["correction", "front", "pieces.2.depth_mm"] == (str(depth), "mm")
+    assert found["before", "sensor 2", "phase_deg"] == (str(said["before"][1]["phase_deg"]), "deg")
+    assert found["permitted", "rear", "reached"] == ("true", "")
+    assert found["influence", "sensor 1 by rear", "amplitude"][0] == str(said["influence"][0][1]["amplitude"])
+
+
+def test_a_trim_is_shown_beside_the_total(tmp_path):
+    path = tmp_path / "runs.toml"
+    last = '[[run]]\nname = "in"\nweights = { front = "2 @ 236", rear = "1 @ 122" }\nreadings = ["9 @ 40", "6 @ 310"]'
+    path.write_text(three_runs(last=last), encoding="utf-8")
+    out = run_here("field", path, "-f", "markdown").out
+    assert "add now, g" in out
+    assert "on top of what was on in 'in'" in out
+    said = ask_json("field", path)
+    assert said["trimmed"] == "in"
+    assert said["corrections"][0]["add"]["weight"] < 1
+
+
+@pytest.mark.parametrize("head", ["", 'weights = "with"'], ids=["one sense", "opposite senses"])
+def test_what_stays_on_in_a_plane_left_out_is_told(tmp_path, head):
+    """The readings of the last run are with it, and so is all that is computed from them."""
+    path = tmp_path / "runs.toml"
+    last = '[[run]]\nname = "in"\nweights = { front = "2 @ 236", rear = "1 @ 122" }\nreadings = ["9 @ 40", "6 @ 310"]'
+    path.write_text(three_runs(head, last=last), encoding="utf-8")
+    told = "Left out: rear. What was on in 'in' stays on in rear: 1 g at 122.0 deg."
+    assert told in run_here("field", path, "--without", "rear").out
+    path.write_text(three_runs(head), encoding="utf-8")
+    assert "stays on" not in run_here("field", path, "--without", "rear").out
+
+
+def test_check(runs, tmp_path):
+    assert run_here("field", runs, "--check").status == 0
+    status, out, _ = run_here("field", "-", "--check", stdin=three_runs(SHOP).replace("6.3", "0.4"))
+    assert status == 1
+    assert "not reached" in out
+    plain = write(tmp_path / "plain.toml", three_runs())
+    assert refusal("field", plain, "--check") == (
+        f"{plain}: --check needs a grade, such as grade = 6.3, and mass and speed"
+    )
+
+
+@pytest.mark.parametrize("form", ["svg", "png", "pdf"])
+def test_picture(runs, tmp_path, form):
+    picture = tmp_path / f"polar.{form}"
+    assert run_here("field", runs, "--plot", picture).status == 0
+    begin = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}[form]
+    content = picture.read_bytes()
+    assert content.startswith(begin)
+    if form == "svg":
+        for words in ("phases count against rotation", "angles count with rotation", "sensor 1: 170"):
+            assert words.encode() in content
+
+
+def test_pictures_have_no_other_form(runs, tmp_path):
+    message = refusal("field", runs, "--plot", tmp_path / "x.gif")
+    assert "give a name that ends in .svg, .png or .pdf" in message
+    assert "stays as it is" in refusal("field", runs, "-o", runs)
+
+
+def test_mistakes_of_the_file_and_standard_input(runs, tmp_path):
+    text = runs.read_text(encoding="utf-8")
+    assert run_here("field", "-", stdin=text).out == run_here("field", runs).out
+    assert refusal("field", tmp_path / "none.toml").endswith("none.toml: no such file")
+    bad = text.replace("53 @ 78", "53")
+    assert refusal("field", "-", stdin=bad).startswith("standard input: run.1.readings: the 2nd value")
+
+
+def test_doubts_are_warnings(tmp_path):
+    path = write(tmp_path / "runs.toml", three_runs().replace("235 @ 94", "171 @ 112").replace("58 @ 68", "53 @ 78"))
+    status, _, err = run_here("field", path)
+    assert status == 0
+    assert err.startswith(f"warning: {path}: the trial weight in front changes no reading")
+
+
+# ------------------------------------------------------------------ to start from
+OPTION = re.compile(r"^# *(\[\[run\]\]|[a-z_]+ *= .*)", re.MULTILINE)
+
+
+def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_path):
+    path = tmp_path / "runs.toml"
+    assert run_here("new", "field", path) == (0, "", "")
+    ask("field", path)
+    text = template("field")
+    assert path.read_text(encoding="utf-8") == text
+    keys = tomllib.loads(OPTION.sub(r"\1", text).replace("speed  = 2900", ""))
+    assert len(keys["run"]) == 4
+    assert {"places", "drill", "deepest", "most", "shares", "reading_weights"} <= keys.keys()
+    everything = OPTION.sub(r"\1", text).replace("speed  = 2900", "").replace("keep_trial = true", "")
+    assert parse_runs(everything).run[3].name == "correction in"
+
+
+def test_the_starting_file_is_short_enough_for_a_screen():
+    assert max(map(len, template("field").splitlines())) <= 130
+
+
+def test_the_schema_names_every_key():
+    described = json.loads(run_here("schema", "field").out)
+    assert described["title"] == "balcli file of runs"
+    example = tomllib.loads(template("field"))
+    assert set(example) <= set(described["properties"])
+    assert all(key.get("description") for key in described["properties"].values())
+    assert described["required"] == ["planes", "run"]
+    assert json.loads(run_here("schema").out)["title"] == "balcli engine file"
+
+
+def test_the_library_offers_it(runs):
+    import balcli
+
+    result = balcli.balance_rotor(runs, "max")
+    assert isinstance(result, balcli.FieldBalance)
+    assert result.corrections[0].weight == pytest.approx(balcli.balance_rotor(runs).corrections[0].weight)
+    text = runs.read_text(encoding="utf-8")
+    for source in (text, str(runs), tomllib.loads(text)):
+        assert balcli.balance_rotor(source, "max").corrections == result.corrections
+
+
+def test_readings_at_several_speeds_are_of_no_one_run():
+    """A correction was tried at 1500 rpm alone: at 3000 rpm the rotor was last read as found."""
+    text = 'planes = ["disc"]\n'
+    for speed, scale in ((1500, 1), (3000, 4)):
+        text += f"""
+            [[run]]
+            speed = {speed}
+            readings = ["{5 * scale} @ 0"]
+            [[run]]
+            speed = {speed}
+            readings = ["{7 * scale} @ 0"]
+            weights = {{ disc = "2 @ 0" }}
+            """
+    text += """
+        [[run]]
+        name = "trim"
+        speed = 1500
+        readings = ["1 @ 0"]
+        weights = { disc = "4 @ 180" }
+        """
+    out = run_here("field", "-", stdin=text).out
+    assert re.search(r"\nreading +as found +at, deg +last read +at, deg +after", out)
+    assert re.search(r"\nsensor 1, 3000 rpm +20 +0\.0 +20 +0\.0 +0 ", out)
+    assert re.search(r"\ndisc +5 +180\.0 +1 +180\.0 ", out), "add now, on top of 4 at 180"

@@ -1,0 +1,71 @@
+"""The shipped examples: all are listed, each is the file of the repository, and a wheel has
+them.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tomllib
+import zipfile
+
+import pytest
+from support.commands import run_command
+from support.paths import ENGINE_FILES, ENGINES, ROOT
+
+from balcli.errors import BalcliError
+from balcli.file import examples
+
+
+def test_every_engine_is_listed_with_its_lesson():
+    lines = run_command("engines").stdout.splitlines()
+    listed = {line.split("  ")[0]: line.split("  ")[-1].strip() for line in lines if "  " in line}
+    lessons = {file.stem: file.read_text(encoding="utf-8").splitlines()[0] for file in ENGINE_FILES}
+    assert len(lessons) == len(ENGINE_FILES), "two engines of one name"
+    assert {name: f"# {lesson}" for name, lesson in listed.items()} == lessons
+    assert max(map(len, lines)) <= 80
+
+
+@pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
+def test_every_engine_says_where_its_figures_come_from(path):
+    """And which are assumed, or that all are."""
+    source = tomllib.loads(path.read_text(encoding="utf-8"))["source"]
+    assert re.search("assumed|made up|own figures", source), source
+
+
+def test_a_copy_is_the_file(tmp_path):
+    original = (ENGINES / "v8_crossplane.toml").read_text(encoding="utf-8")
+    assert run_command("engines", "v8_crossplane").stdout == original
+    target = tmp_path / "mine.toml"
+    assert run_command("engines", "v8_crossplane", target).returncode == 0
+    assert target.read_text(encoding="utf-8") == original
+    again = run_command("engines", "i4", target)
+    assert (again.returncode, again.stderr) == (
+        2,
+        f"balcli: {target}: already exists; choose another name, or --force to overwrite it\n",
+    )
+    assert run_command("engines", "i4", target, "--force").returncode == 0
+    assert target.read_text(encoding="utf-8") == examples.text("i4")
+
+
+@pytest.mark.parametrize("name", ["v8crossplane", "../engines/i4", "expected"])
+def test_unknown_names(name):
+    with pytest.raises(BalcliError, match=f'^there is no example "{name}": balcli engines lists them'):
+        examples.text(name)
+
+
+@pytest.mark.stress
+def test_a_wheel_has_the_examples_and_the_page(tmp_path):
+    pytest.importorskip("hatchling", reason="hatchling, which builds the wheel, is not installed")
+    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)]
+    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
+    (wheel,) = tmp_path.glob("*.whl")
+    with zipfile.ZipFile(wheel) as content:
+        inside = content.namelist()
+        shipped = {f"balcli/engines/{p.relative_to(ENGINES).as_posix()}" for p in ENGINE_FILES}
+        assert shipped <= set(inside)
+        assert {f"balcli/report/assets/report.{end}" for end in ("html", "css", "js")} <= set(inside)
+        content.extractall(tmp_path / "installed")
+    listed = run_command("engines", env={"PYTHONPATH": str(tmp_path / "installed")}).stdout
+    assert listed == run_command("engines").stdout

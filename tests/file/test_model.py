@@ -1,0 +1,126 @@
+"""The tables of an engine file: values in the file's units, contradictions refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from types import CodeType
+
+import pytest
+from pydantic import ValidationError
+from support.cases import cases
+from support.engines import GOOD, changed, mistakes_in
+
+from balcli.engine.parse import parse
+from balcli.file import model
+from balcli.file.messages import import_lists, import_tables
+from balcli.file.model import ArticulatedRod
+from balcli.file.torsion_tables import Damper, Part
+from balcli.torsion.tables import ChainShaft
+
+
+def test_defaults():
+    engine = parse("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n")
+    assert engine.operation.speed == 1000.0
+    assert engine.crank.throws is engine.crank.positions is engine.crank.spacing is None
+    assert (engine.crank.throw_mass, engine.crank.splay, engine.piston.offset, engine.layout.stagger) == (0.0,) * 4
+    assert (engine.layout.rods, engine.layout.strokes) == ("shared", 4)
+    assert engine.frame.reference is engine.articulation is None
+    assert (engine.bobweight.rod_bearing, engine.bobweight.oil) == (0, 0)
+    assert (engine.cylinder, engine.counterweight, engine.shaft, engine.slider) == ({}, (), (), ())
+
+
+def test_values_are_numbers_in_the_files_units():
+    engine = parse(
+        changed(
+            ("stroke = 90", 'stroke = "3.5 in"'),
+            ("[0, 180, 180, 0]", '[0, "1/2 turn", "180 deg", 0]'),
+            ("mass = 0.6", 'mass = "600 g"'),
+            ("speed = 3000", 'speed = "50 turn/s"'),
+        )
+    )
+    assert engine.crank.stroke == 88.9
+    assert engine.crank.throws == (0.0, 180.0, 180.0, 0.0)
+    assert engine.rod.mass == 0.6
+    assert engine.operation.speed == 3000.0
+    assert all(type(angle) is float for angle in engine.crank.throws)
+
+
+def test_devices_and_cylinders():
+    engine = parse(
+        GOOD
+        + """
+[cylinder.3]
+piston_mass = 0.502
+rod_pendulum = { pivot = "big_end", period = 0.6 }
+[[counterweight]]
+mass = 0.5
+radius = "40 mm"
+[[shaft]]
+ratio = -2.0
+unbalance = "0.009 kg m"
+at = [-40, "60 mm"]
+[[shaft]]
+ratio = 1
+unbalance = -3
+[[slider]]
+order = 2
+unbalance = 9000
+direction = 90
+"""
+    )
+    assert engine.cylinder[3].piston_mass == 0.502
+    assert engine.cylinder[3].rod_pendulum == model.Pendulum(pivot="big_end", period=0.6)
+    assert (engine.counterweight[0].mass, engine.counterweight[0].radius) == (0.5, 40.0)
+    assert (engine.shaft[0].ratio, type(engine.shaft[0].ratio)) == (-2, int)
+    assert (engine.shaft[0].unbalance, engine.shaft[0].at) == (9000.0, (-40.0, 60.0))
+    assert (engine.shaft[1].unbalance, engine.shaft[1].at) == (-3.0, (0.0, 0.0))
+    assert engine.slider[0].direction == 90.0
+
+
+def test_articulation():
+    engine = parse(
+        changed(
+            ("throws = [0, 180, 180, 0]", "throws = [0]"),
+            ("firing_order = [1, 3, 4, 2]", "radial = 5"),
+            more="""
+[articulation]
+knuckle_radius = 40
+rod = { length = 120, mass = 0.4, cg = 60 }
+""",
+        )
+    )
+    assert engine.articulation is not None
+    assert (engine.articulation.master, engine.articulation.knuckle_angles) == (1, None)
+    assert engine.articulation.rod == ArticulatedRod(length=120, mass=0.4, cg=60)
+
+
+@cases("file/model", "unusual_but_allowed")
+def test_unusual_but_allowed(text):
+    assert parse(text).name == "in-line four"
+
+
+@cases("file/model", "contradictions", GOOD=GOOD)
+def test_contradictions(text, message):
+    assert mistakes_in(text) == message
+
+
+def test_models_check_without_a_file_too():
+    with pytest.raises(ValidationError, match="has length and ratio; give either length or ratio"):
+        model.Rod(length=160, ratio=0.28)
+    with pytest.raises(ValidationError, match="frozen"):
+        parse(GOOD).crank.stroke = 80.0
+
+
+TABLES = (*import_tables().values(), *import_lists().values(), *(ArticulatedRod, Part, ChainShaft, Damper))
+
+
+@pytest.mark.parametrize(("table", "rule"), [(table, rule) for table in TABLES for rule in table.rules])
+def test_rules_name_the_keys_that_they_read(table, rule):
+    def read(code: CodeType) -> Iterator[str]:
+        for name in code.co_names:
+            own = vars(table).get(name)
+            yield from read(own.fget.__code__) if isinstance(own, property) else (name,)
+        for inner in code.co_consts:
+            yield from read(inner) if isinstance(inner, CodeType) else ()
+
+    assert rule.needs == set(read(rule.check.__code__)) & table.model_fields.keys()

@@ -1,0 +1,266 @@
+"""What people type by mistake, and what balcli makes of it: understood, or answered with the right
+word.
+"""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+from support.commands import refusal, run_here
+from support.engines import GOOD, changed
+from support.gas_engines import PETROL_FOUR
+from support.paths import write
+
+from balcli import load
+from balcli.engine.parse import parse
+from balcli.errors import InputError
+from balcli.file.doubts import find_suspicious
+from balcli.file.units import LENGTH, SPEED, convert
+
+NOT_TOML = "is not valid TOML: "
+
+
+def told(*changes, args=()):
+    return run_here("analyze", "-", "--only", "verdict", *args, stdin=changed(*changes))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "answer"),
+    [
+        ("stroke = 90", "stroke = 3.00 in", 'stroke = 3.00 in: a value with a unit stands in quotes: stroke = "3.00 in"'),
+        ("stroke = 90", 'stroke = 3.400"', 'a value with a unit stands in quotes: stroke = "3.400 in"'),
+        ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma"),
+        ("throws = [0, 180, 180, 0]", "throws = 0, 90", "a list stands in brackets, with commas: throws = [0, 90]"),
+        ("throws = [0, 180, 180, 0]", "throws = [0; -180] # deg", ": throws = [0, -180]"),
+        ("throws = [0, 180, 180, 0]", "throws = 0 240 120", ": throws = [0, 240, 120]"),
+        ("firing_order = [1, 3, 4, 2]", "firing_order = 1-3-4-2", ": firing_order = [1, 3, 4, 2]"),
+        ("stroke = 90", "stroke 90", " (at line 3, column 8): stroke 90"),
+        ("stroke = 90", "stroke = 90;", ": stroke = 90;"),
+        ("[rod]", "[rod", ": [rod"),
+        ("[rod]", "[crank]", ": [crank]"),
+    ],
+)  # fmt: skip
+def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(old, new, answer):
+    err = told((old, new)).err
+    assert NOT_TOML in err
+    assert err.endswith(f"{answer}\n")
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("firing_order = [1, 3, 4, 2]", 'firing_order = "1-3-4-2"'),
+        ("firing_order = [1, 3, 4, 2]", 'firing_order = "1, 3, 4, 2"'),
+        ("stroke = 90", 'stroke = "90 MM"'),
+    ],
+)
+def test_what_can_mean_one_thing_only_is_understood(old, new):
+    assert told((old, new)) == told((old, old))
+
+
+def test_units_in_capitals_and_the_mark_of_inches():
+    assert convert("6000 RPM", SPEED) == 6000
+    assert convert('3.5"', LENGTH) == convert("3.5 ″", LENGTH) == convert("3.5 in", LENGTH)
+    with pytest.raises(ValueError, match="is not a number followed by a unit"):
+        convert('"', LENGTH)
+
+
+def test_an_example_of_a_list_is_of_its_key():
+    err = told(("firing_order = [1, 3, 4, 2]", "firing_order = 5")).err
+    assert err.endswith("5 is not a list; write it in square brackets, such as [1, 3, 4, 2]\n")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "meant"),
+    [
+        ("[rod]", "[conrod]", "conrod: unknown key in an engine file; did you mean rod?"),
+        ("stroke = 90", "stroke = 90\npin_offset = 30", "unknown key in [crank]; did you mean splay?"),
+        ("[operation]", '[cylinder.3]\npiston = "520 g"', "[cylinder]; did you mean piston_mass?"),
+        ("[layout]", "[layout]\nbank = 90", "unknown key in [layout]; did you mean bank_angle?"),
+        ("[operation]", "[operation]\nrpm = 9000", "unknown key in [operation]; did you mean speed?"),
+    ],
+)  # fmt: skip
+def test_other_words_for_a_key_lead_to_it(old, new, meant):
+    text = changed() if old in GOOD else f"{GOOD}\n[operation]\n"
+    assert meant in run_here("analyze", "-", stdin=text.replace(old, new, 1)).err
+
+
+COUNT = "the number of cylinders follows from throws and banks; give every throw its angle, such as"
+WIEBE = {"cycle": "wiebe", "compression_ratio": 10, "imep": 9}
+
+
+@pytest.mark.parametrize(
+    ("keys", "answer"),
+    [
+        ({"layout": {"cylinders": 7}}, f"layout.cylinders: unknown key in [layout]; {COUNT}"),
+        ({"cylinders": 4}, f"cylinders: unknown key in an engine file; {COUNT}"),
+        ({"cylinder": 4}, f"cylinder: does not name a cylinder; {COUNT}"),
+        ({"cylinder": {"bore": 80}}, "cylinder.bore: does not name a cylinder; bore belongs to [piston]"),
+        ({"engine": {"cylinders": 4}}, f"engine.cylinders: there is no table [engine]; {COUNT}"),
+        ({"engine": {"bore": 80}}, "engine.bore: there is no table [engine]; bore belongs to [piston]"),
+        ({"engine": {"rpm": 80}}, "engine.rpm: there is no table [engine]; speed belongs to [operation]"),
+        ({"foo": {"bar": 1}}, "foo.bar: there is no table [foo]"),
+        ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, twice the crank radius"),
+        ({"cylinder": {"2": {"bore": 65}}}, "cylinder.2.bore: unknown key in [cylinder]; bore belongs to [piston]"),
+        ({"crank": {"strokes": 4}}, "crank.strokes: unknown key in [crank]; strokes belongs to [layout]"),
+        ({"gas": {"file": "p.csv"}}, "gas.file: unknown key in [gas]; did you mean indicator?"),
+        ({"crank": {"phase": [0, 180]}}, "crank.phase: unknown key in [crank]; did you mean throws?"),
+        ({"shaft": [{"ratio": 2, "unbalance": 9, "phase": 3}]}, "shaft.1.phase: unknown key in [shaft]; did you mean angle?"),
+        ({"bore": 80}, "bore: unknown key in an engine file; bore belongs to [piston]"),
+        ({"mass": 80}, "mass: unknown key in an engine file; mass belongs to [rod] or [piston]"),
+        ({"rpm": 3000}, "rpm: unknown key in an engine file; speed belongs to [operation]"),
+        ({"lambda": 0.3}, "lambda: unknown key in an engine file; ratio belongs to [rod]"),
+        ({"rod": {"lambda": 0.3}}, "rod.lambda: unknown key in [rod]; did you mean ratio?"),
+        ({"rod": {"name": "x"}}, "rod.name: unknown key in [rod]; name stands at the head of the file, above all tables"),
+        ({"piston": {"weight": 1}}, "piston.weight: unknown key in [piston]; did you mean mass?"),
+        ({"layout": {"angle": 60}}, "layout.angle: unknown key in [layout]; did you mean bank_angle?"),
+        ({"layout": {"stroke": 90}}, "layout.stroke: unknown key in [layout]; stroke belongs to [crank]"),
+        ({"gas": WIEBE | {"powder": 3}}, "gas.powder: unknown key in [gas]; it has indicator, zero,"),
+        ({"torsion": {"flywheel": {"inertia": 3}}}, "torsion.flywheel: flywheel is a table of its own, not one within [torsion]"),
+        ({"crank": {"flywheel": {"inertia": 3}}}, "crank.flywheel: flywheel is a table of its own, not one within [crank]; write [flywheel]"),
+        ({"crank": {"flywheel": 3}}, "crank.flywheel: unknown key in [crank]; it has stroke,"),
+        ({"torsion": {"J": 1}}, "torsion.J: unknown key in [torsion]; did you mean throw_inertia?"),
+        ({"torsion": {"rear": [{"name": "disc", "stiffness": 1, "J": 1}]}}, "torsion.rear.1.J: unknown key in [torsion.rear]; did you mean inertia?"),
+        ({"crank": {"rod": {"length": 3}}}, "crank.rod: rod is a table of its own, not one within [crank]; write [rod] and its keys below it"),
+        ({"engine": {"rod": {"length": 3}}}, "engine.rod: rod is a table of its own, not one within [engine]; write [rod] and its keys below it"),
+        ({"operation": {"mount": {"loss": 3}}}, "operation.mount: mount is a table of its own, not one within [operation]; write [[mount]] and"),
+        ({"operation": {"cylinder": {"loss": 3}}}, "operation.cylinder: cylinder is a table of its own, not one within [operation]; write [cylinder.3] and"),
+        ({"piston": {"gas": 3}}, "piston.gas: unknown key in [piston]; it has bore,"),
+        ({"gas": [WIEBE]}, "gas: stands once, in single brackets: [gas]"),
+        ({"cylinder": [{"gas": 0}]}, "cylinder: has a table for each that differs, such as [cylinder.3]"),
+        ({"operation": {"speed_ripple": 0.02}}, "operation.speed_ripple: 0.02 is no table; write [[operation.speed_ripple]] in double brackets"),
+    ],
+)  # fmt: skip
+def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer):
+    tables = tomllib.loads(GOOD)
+    for name, value in keys.items():
+        tables[name] = tables.get(name, {}) | value if isinstance(value, dict) else value
+    with pytest.raises(InputError) as error:
+        load(tables)
+    assert str(error.value).partition(": ")[2].startswith(answer)
+
+
+def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ford.toml").write_text(GOOD)
+    assert refusal("analyze", "ford") == ("ford: no such file; ford.toml is there: did you mean it?")
+    (tmp_path / "sub").mkdir()
+    for name, near in (("frod.toml", "ford.toml"), ("sub/../ford.tml", "sub/../ford.toml")):
+        assert refusal("analyze", name) == (f"{name}: no such file; {near} is there: did you mean it?")
+    assert refusal("torque", "--curve", "ford.csv") == "ford.csv: no such file"
+    for name in ("i3", "engines/i3.toml"):
+        assert refusal("analyze", name) == (f"{name}: no such file; i3 is an example: balcli engines i3 i3.toml")
+    assert run_here("check", "i3").err.endswith("i3 is an example: balcli engines i3 i3.toml\n")
+    assert refusal("analyze", "i3.csv") == "i3.csv: no such file"
+    err = run_here("analyze", "ford.toml", "--only", "force", "moment").err
+    assert "--only force,moment" in err
+    assert "among the examples: balcli engines i4" in run_here("new", "i4").err
+    assert (
+        "scheme auto has no --at; add --scheme with single-shaft or two-shaft"
+        in run_here("balance", "ford.toml", "--at", "1,2").err
+    )
+    slow = run_here("analyze", "ford.toml", "--rpm", "900", "--only", "force")
+    assert slow == run_here("analyze", "ford.toml", "--speed", "900", "--only", "forces")
+    assert "such as -o X.svg" in run_here("plot", "ford.toml").err
+    assert run_here("analyze", "ford.toml", "--units", "SI").status == 0
+
+
+def test_a_crosshead_engine_is_ordinary():
+    slow = parse(
+        "[crank]\nstroke = 2000\n[rod]\nlength = 2214\nmass = 1600\ncg = 800\n"
+        "[piston]\nbore = 500\nmass = 4800\n[layout]\nstrokes = 2\n[operation]\nspeed = 124\n"
+    )
+    assert find_suspicious(slow) == []
+
+
+def test_the_head_says_two_or_four_strokes_where_the_file_does(tmp_path):
+    for old, new, word in (
+        ("stroke = 90", "stroke = 90", "four-stroke"),
+        ("[layout]", "[layout]\nstrokes = 2", "two-stroke"),
+    ):
+        file = write(tmp_path / "strokes.toml", changed((old, new), ("throws = [0, 180, 180, 0]", "")))
+        assert f"deg, {word}\n" in run_here("analyze", file).out
+    file.write_text(changed(("firing_order = [1, 3, 4, 2]", "")))
+    assert "stroke\n" not in run_here("analyze", file).out
+    file.write_text(changed(("firing_order = [1, 3, 4, 2]", "strokes = 4")))
+    assert "cycle      four-stroke\n" in run_here("analyze", file).out
+
+
+def test_short_names_of_numbers_are_understood_where_one_number_has_them(tmp_path):
+    file = write(tmp_path / "i4.toml", GOOD)
+
+    def swept(name):
+        return run_here("sweep", file, "--vary", f"{name}=80,90", "-q", "force.2.major")
+
+    for name, path in (("rpm", "operation.speed"), ("speed", "operation.speed"), ("stroke", "crank.stroke")):
+        assert swept(name).out == swept(path).out
+        assert swept(path).out.startswith(f"{path},force.2.major\n")
+    assert run_here("sweep", file, "--vary", "offset=0,3").out.startswith("piston.offset,")
+    assert swept("mass").err.endswith("did you mean rod.mass or piston.mass?\n")
+
+
+def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("i4.toml").write_text(GOOD)
+    told = run_here("compare", "i4.toml", "i4.toml", "--only", "verdict").err
+    assert told == (
+        "balcli: --only verdict: is of one engine; balcli analyze i4.toml i4.toml --only verdict shows each\n"
+    )
+    told = run_here("tables", "kvasnikov").err
+    assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1, kvasnikov-2: name one\n"
+
+
+def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
+    file = write(tmp_path / "i4.toml", GOOD)
+    search = ("search", file, "--minimise", "force.2.major", "--over")
+    assert "The best rod.length is an end of the range" in run_here(*search, "rod.length=140:180").out
+    search = ("search", file, "--minimise", "force.1.major", "--over")
+    inside = run_here(*search, "crank.throws.2=90:270").out
+    assert "180" in inside
+    assert "an end of the range" not in inside
+    file.write_text(PETROL_FOUR)
+    search = ("search", file, "--minimise", "gas.2.amplitude", "--over")
+    assert "an end of the range" not in run_here(*search, "cylinder.2.heat=0:300").out
+    assert "an end of the range" in run_here(*search, "cylinder.2.heat=1:300").out
+
+
+def test_a_search_says_that_a_number_changes_nothing(tmp_path):
+    """What turns with the crank has no second order."""
+    file = write(tmp_path / "i4.toml", GOOD)
+    search = ("search", file, "--over", "crank.throw_mass=0:6", "--minimise", "force.2.major")
+    told = run_here(*search).out
+    nothing = "changes nothing of what is minimised: it is the same at every value."
+    assert f"crank.throw_mass {nothing}" in told
+    assert "an end of the range" not in told
+    search = ("search", file, "--over", "crank.stroke=60:90", "--minimise", "force.2.major")
+    told = run_here(*search, "--limit", "force.2.major<3000").out
+    assert nothing not in told
+    search = ("search", file, "--over", "piston.mass=0.5:0.5", "--minimise", "force.2.major")
+    assert nothing not in run_here(*search).out, "of one value nobody knows"
+
+
+def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
+    """A firing order fits one splay alone: of a 60-degree V6 that fires evenly, -60."""
+    file = write(
+        tmp_path / "v6.toml",
+        changed(
+            ("throws = [0, 180, 180, 0]", "splay = -60"),
+            ("firing_order = [1, 3, 4, 2]", "firing_order = [1, 4, 2, 5, 3, 6]\nbank_angle = 60"),
+        ),
+    )
+    search = ("search", file, "--minimise", "moment.1.backward", "--over", "crank.splay=-80:80")
+    told = run_here(*search).out
+    assert "\n-60 " in told
+    assert "Not every value of the range makes an engine; with crank.splay = -80: layout.f" in told
+    assert "changes nothing" not in told
+
+
+def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
+    file = write(
+        tmp_path / "twin.toml",
+        changed(("throws = [0, 180, 180, 0]", "throws = [0, 90]"), ("firing_order = [1, 3, 4, 2]", "")),
+    )
+    near, far = (run_here("balance", file, "--scheme", "single-shaft", f"--at={at}").out for at in ("0,0", "-200,90"))
+    assert "The roll of order 1 grows by " in far
+    assert "single-shaft" in near
+    assert "grows by" not in near

@@ -1,0 +1,156 @@
+"""Figures of an engine on its mounts, over variants: each as if the file said so."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.cases import cases
+from support.commands import ask_csv, ask_json, refusal, run_here
+from support.mounts import ENGINE, block
+from support.paths import write
+
+POINT = '[[point]]\nname = "shift lever"\nat = [100, 0, 300]\n'
+TEXT = ENGINE + block("loss = 0.1") + POINT
+NAMED = TEXT.replace('name = "1"', 'name = "left"').replace('name = "3"', 'name = "rear one"')
+
+
+@pytest.fixture
+def four(tmp_path):
+    return write(tmp_path / "four.toml", NAMED)
+
+
+def sweep(path, *args):
+    rows = ask_csv("sweep", path, *args)
+    return [{key: float(value) for key, value in row.items()} for row in rows]
+
+
+def said_by(path, text):
+    path.write_text(text, encoding="utf-8")
+    return ask_json("mounts", path)
+
+
+def test_each_variant_is_the_file_that_says_so(four, tmp_path):
+    quantities = (
+        "mode.3.Hz,mode.roll.Hz,mode.roll.share,mode.2.damping,mount.left.force,"
+        "mount.rear_one.static,point.shift_lever.motion,force.2.major"
+    )
+    rows = sweep(four, "--vary", "mount.left.stiffness.3=300,500", "--vary", "body.mass=150,210", "-q", quantities)
+    assert len(rows) == 4
+    for row in rows:
+        stiffness, mass = row["mount.left.stiffness.3"], row["body.mass"]
+        text = NAMED.replace("[200, 150, 400]", f"[200, 150, {stiffness}]", 1)
+        said = said_by(tmp_path / "one.toml", text.replace("mass = 200", f"mass = {mass}"))
+        modes = said["modes"]
+        assert row["mode.3.Hz"] == pytest.approx(modes[2]["frequency_Hz"], rel=1e-12)
+        roll = max(modes, key=lambda mode: mode["energy_percent"]["rz"])
+        assert row["mode.roll.Hz"] == pytest.approx(roll["frequency_Hz"], rel=1e-12)
+        assert row["mode.roll.share"] == pytest.approx(roll["energy_percent"]["rz"], rel=1e-9)
+        assert row["mode.2.damping"] == pytest.approx(5, rel=1e-9)
+        mount, point = said["response"]["mounts"][0], said["response"]["points"][0]
+        assert row["mount.left.force"] == pytest.approx(mount["worst"]["force_N"], rel=1e-9)
+        assert row["point.shift_lever.motion"] == pytest.approx(point["worst"]["motion_mm"] / 1e3, rel=1e-9)
+        rest = np.linalg.norm(said["static"]["mounts"][2]["force_N"])
+        assert row["mount.rear_one.static"] == pytest.approx(rest, rel=1e-9)
+        assert row["force.2.major"] > 1000
+
+
+def test_figures_of_the_engine_vary_with_those_of_the_mounts(four, tmp_path):
+    rows = sweep(four, "--vary", "rod.length=130,180", "-q", "mount.left.force")
+    for row in rows:
+        text = NAMED.replace("length = 150", f"length = {row['rod.length']}")
+        said = said_by(tmp_path / "one.toml", text)
+        largest = said["response"]["mounts"][0]["worst"]["force_N"]
+        assert row["mount.left.force"] == pytest.approx(largest, rel=1e-9)
+
+
+WRONG = [
+    ("mode.7.Hz", "mode.7.Hz is no quantity: after mode comes its number from 1 to 6, or its motion"),
+    ("mode.3.hz", "mode.3.hz is no quantity: give mode.3.Hz or mode.3.share or mode.3.damping"),
+    ("mount.force", "mount.force is no quantity: give mount.left.force or mount.left.static"),
+    ("mount.lef.force", 'mount.lef.force: the file has no mount "lef"; did you mean left?'),
+    ("point.x.motion", 'point.x.motion: the file has no point "x"; there are shift_lever'),
+]
+
+
+@pytest.mark.parametrize(("quantity", "message"), WRONG)
+def test_what_is_no_quantity(four, quantity, message):
+    told = refusal("sweep", four, "--vary", "mount.left.loss=0.1,0.2", "-q", quantity)
+    told = told.removeprefix(f"{four}: ")
+    assert told.startswith(message)
+
+
+def test_variants_that_cannot_be_are_told_with_their_figures(four):
+    told = refusal("sweep", four, "--vary", "body.inertia.4=0,1e8", "-q", "mode.1.Hz")
+    assert told == (
+        f"{four}: body.inertia.4 = 1e+08: body: inertia xy is 1e+08; beside xx and yy it must be within 9.79796e+06"
+    )
+    told = refusal("sweep", four, "--vary", "mount.9.loss=0,1", "-q", "mode.1.Hz")
+    assert told.startswith("mount.9.loss: unknown parameter; did you mean")
+
+
+# ------------------------------------------------------------------ tolerances of mounts
+@pytest.mark.stress
+def test_stiffness_scatters():
+    """Up and down of the block is sqrt(sum k / m): by hand, with the same random numbers."""
+    said = ask_json(
+        "scatter", "-", "-q", "mode.z.Hz", "--samples", "400", "--seed", "7", "--stiffness-scatter", "10%", stdin=NAMED
+    )
+    found = said["quantities"]["mode.z.Hz"]
+    factors = 1 + 0.1 * (2 * np.random.default_rng(7).random((400, 4)) - 1)
+    own = np.sqrt(400e3 * factors.sum(axis=1) / 200) / (2 * np.pi)
+    assert found["nominal"] == pytest.approx(np.sqrt(8000) / (2 * np.pi), rel=1e-12)
+    assert found["mean"] == pytest.approx(own.mean(), rel=2e-3)
+    assert found["p95"] == pytest.approx(np.percentile(own, 95), rel=5e-3)
+    assert said["samples"] == 400
+    each = found["nominal"] * 0.1 / 8
+    assert list(found["sensitivity"]) == ["stiffness left", *list(found["sensitivity"])[1:]]
+    assert found["sensitivity"]["stiffness left"] == pytest.approx(each, rel=0.05)
+    assert found["bound"] == pytest.approx(found["nominal"] + 4 * each, rel=0.01)
+
+
+def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
+    told = refusal("scatter", four, "-q", "mode.1.Hz,force.2.major")
+    assert told.startswith("mode.1.Hz and force.2.major have tolerances of their own")
+    told = refusal("scatter", four, "-q", "mode.1.Hz", "--samples", "100000")
+    assert told == ("100000 samples: mode.1.Hz is computed one by one, from 1 to 20000 are allowed")
+    told = refusal("scatter", four, "-q", "mode.1.Hz", "--stiffness-scatter", "0%")
+    assert told == "nothing deviates; give a tolerance, such as --stiffness-scatter 15%"
+    told = refusal("scatter", four, "-q", "mount.lef.force", "--samples", "2")
+    assert told.startswith('mount.lef.force: the file has no mount "lef"')
+
+
+@pytest.mark.stress
+def test_normal_deviations_of_mounts(four):
+    args = ("-q", "mode.1.Hz,mount.left.force", "--samples", "20", "--seed", "1")
+    out = run_here("scatter", four, *args, "--distribution", "normal").out
+    assert "Spread of 20 sets of mounts" in out
+    assert "to first order" in out
+
+
+# ------------------------------------------------------------------ with gas
+LAYOUT = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
+GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
+
+
+@cases("mounts/quantity", "with_gas_every_figure_varies")
+def test_with_gas_every_figure_varies(path, old, new, tmp_path):
+    text = NAMED + LAYOUT + GAS
+    assert old in text
+    file = write(tmp_path / "four.toml", text)
+    value = 0.11 if path == "mount.left.loss" else 1.05 * float(old.split("=")[1])
+    first = float(old.split("=")[1])
+    (_, row) = sweep(file, "--vary", f"{path}={first},{value}", "-q", "mount.left.force")
+    said = said_by(tmp_path / "one.toml", text.replace(old, new.format(value), 1))
+    largest = said["response"]["mounts"][0]["worst"]["force_N"]
+    assert row["mount.left.force"] == pytest.approx(largest, rel=1e-12)
+
+
+def test_the_mean_torque_leans_on_the_mounts_whatever_else_is_asked(tmp_path):
+    """Of [gas], as `mounts` has the rest: beside a force of the running engine, and alone."""
+    file = write(tmp_path / "four.toml", NAMED + LAYOUT + GAS)
+    rest = said_by(file, NAMED + LAYOUT + GAS)["static"]["mounts"][0]["force_N"]
+    for asked in ("mount.left.static", "mount.left.static,mount.left.force"):
+        (row,) = sweep(file, "--vary", "mount.left.loss=0.1", "-q", asked)
+        assert row["mount.left.static"] == pytest.approx(np.linalg.norm(rest), rel=1e-12)
+    weight = said_by(file, NAMED)["static"]["mounts"][0]["force_N"]
+    assert np.linalg.norm(rest) > 1.005 * np.linalg.norm(weight)

@@ -1,0 +1,305 @@
+"""A rigid body on mounts: geometry, statics, modes and response against laws and 50 digits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support import high_precision
+from support.rigid_bodies import press_mounts, respond_body
+
+from balcli.core.peaks import find_longest, largest_of_ellipse
+from balcli.core.vibration import UndampedResonanceError, find_resonances, frequencies, modal_loss
+from balcli.mounts.rigid_body import (
+    Body,
+    Mounts,
+    apply_couplings,
+    carry_points,
+    complete_axes,
+    cross_matrix,
+    damping_matrix,
+    elastic_centre,
+    find_body_modes,
+    find_free_motions,
+    find_screw,
+    load_at_centre,
+    mass_matrix,
+    roll_axis,
+    settle_body,
+    share_energy,
+    stiffness_matrix,
+    turn_axes,
+)
+
+CENTRE = np.array([0.01, -0.02, 0.3])
+BODY = Body(150.0, CENTRE, np.array([[9.0, -0.8, 0.5], [-0.8, 4.0, 1.2], [0.5, 1.2, 8.0]]))
+
+
+def mounts_of(count, seed=1, loss=0.0, damping=0.0):
+    rng = np.random.default_rng(seed)
+    axes = [turn_axes(*rng.uniform(-1, 1, 3)) for _ in range(count)]
+    return Mounts(
+        rng.uniform(-0.5, 0.5, (count, 3)),
+        np.array(axes),
+        rng.uniform(1e5, 5e5, (count, 3)),
+        np.full((count, 3), loss),
+        np.full((count, 3), damping),
+    )
+
+
+def random_load(seed, *shape):
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=(*shape, 6)) + 1j * rng.normal(size=(*shape, 6))
+
+
+# ------------------------------------------------------------------ geometry
+def test_cross_products_as_matrices():
+    a, b = np.random.default_rng(1).normal(size=(2, 4, 3))
+    assert (cross_matrix(a) @ b[..., None])[..., 0] == pytest.approx(np.cross(a, b))
+
+
+def test_axes_from_two_or_from_angles():
+    given = complete_axes([0, 2, 0], [-3, 0, 0])
+    assert given == pytest.approx(np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]))
+    assert turn_axes(0, 0, np.pi / 2) == pytest.approx(given)
+    assert turn_axes(np.pi / 2, 0, 0) @ [0, 1, 0] == pytest.approx([0, 0, 1])
+    assert turn_axes(0, np.pi / 2, 0) @ [0, 0, 1] == pytest.approx([1, 0, 0])
+    one_by_one = turn_axes(0, 0, 0.3) @ turn_axes(0, 0.2, 0) @ turn_axes(0.1, 0, 0)
+    assert turn_axes(0.1, 0.2, 0.3) == pytest.approx(one_by_one)
+
+
+def test_points_move_with_the_body():
+    motion = np.array([1, 2, 3, 0.1, 0.2, 0.3])
+    point = CENTRE + np.eye(3)[0]
+    assert apply_couplings(carry_points([point], CENTRE), motion)[0] == pytest.approx([1, 2 + 0.3, 3 - 0.2])
+
+
+def test_forces_at_points_make_loads():
+    """The transposed matrix is force and moment about the centre."""
+    points = np.random.default_rng(2).normal(size=(3, 3))
+    forces = np.random.default_rng(3).normal(size=(3, 3))
+    load = np.einsum("pij,pi->j", carry_points(points, CENTRE), forces)
+    moments = np.cross(points - CENTRE, forces)
+    assert load == pytest.approx(np.concatenate([forces.sum(0), moments.sum(0)]))
+
+
+def test_a_load_moves_to_the_centre():
+    force, moment = np.array([[0, 0, 2.0]]), np.array([[1.0, 0, 0]])
+    load = load_at_centre(force, moment, [0, 3, 0], [0, 0, 0])
+    assert load == pytest.approx(np.array([[0, 0, 2, 1 + 6, 0, 0]]))
+
+
+# ------------------------------------------------------------------ free motions
+def test_a_body_on_three_mounts_is_held():
+    assert find_free_motions(BODY, mounts_of(3)).shape == (0, 6)
+
+
+def test_two_mounts_leave_a_turn_about_the_line_between_them():
+    mounts = mounts_of(2)
+    (motion,) = find_free_motions(BODY, mounts)
+    screw = find_screw(motion, CENTRE)
+    line = mounts.at[1] - mounts.at[0]
+    assert np.cross(screw.direction, line) == pytest.approx(np.zeros(3), abs=1e-12)
+    assert np.cross(screw.point - mounts.at[0], line) == pytest.approx(np.zeros(3), abs=1e-12)
+    assert (screw.point - CENTRE) @ line == pytest.approx(0, abs=1e-12)
+    assert screw.pitch == pytest.approx(0, abs=1e-12)
+    assert screw.direction[np.argmax(abs(screw.direction))] > 0
+
+
+def test_one_mount_leaves_three_turns_about_it():
+    mounts = mounts_of(1)
+    for motion in find_free_motions(BODY, mounts):
+        moved = apply_couplings(carry_points(mounts.at, CENTRE), motion)
+        assert moved == pytest.approx(np.zeros((1, 3)), abs=1e-12)
+    assert len(find_free_motions(BODY, mounts)) == 3
+
+
+def test_a_direction_without_stiffness_is_named_before_turns():
+    """Four upright springs leave two displacements and the turn about the upright axis."""
+    at = [[0.4, 0.3, 0], [0.4, -0.3, 0], [-0.4, 0.3, 0], [-0.4, -0.3, 0]]
+    upright = np.tile([0, 0, 1e5], (4, 1))
+    mounts = Mounts(np.array(at), np.tile(np.eye(3), (4, 1, 1)), upright, 0 * upright, 0 * upright)
+    body = BODY._replace(centre=np.zeros(3))
+    screws = [find_screw(motion, body.centre) for motion in find_free_motions(body, mounts)]
+    assert [screw.point is None for screw in screws] == [True, True, False]
+    assert [screw.direction[2] for screw in screws[:2]] == pytest.approx([0, 0], abs=1e-12)
+    assert screws[2].direction == pytest.approx([0, 0, 1], abs=1e-12)
+
+
+def test_without_any_stiffness_all_six_are_free():
+    assert len(find_free_motions(BODY, mounts_of(3)._replace(stiffness=np.zeros((3, 3))))) == 6
+
+
+def test_a_screw_with_pitch():
+    """Turning by 1 about z through (2, 0, 0), sliding by 5: the origin moves by (0, -2, 5)."""
+    screw = find_screw(np.array([0, -2, 5, 0, 0, 1.0]), np.zeros(3))
+    assert screw.direction == pytest.approx([0, 0, 1])
+    assert screw.point == pytest.approx([2, 0, 0])
+    assert screw.pitch == pytest.approx(5)
+
+
+# ------------------------------------------------------------------ modes
+@pytest.mark.parametrize("count", [3, 4, 6])
+def test_modes_against_50_digits(count):
+    mounts = mounts_of(count, count)
+    modes = find_body_modes(BODY, mounts)
+    values, turned = np.linalg.eigh(BODY.inertia)
+    assert BODY.inertia @ turned == pytest.approx(turned * values)
+    travel = np.swapaxes(mounts.axes, 1, 2) @ carry_points(mounts.at, CENTRE)
+    travel[..., 3:] = travel[..., 3:] @ turned
+    exact = high_precision.angular_frequencies(
+        travel.reshape(-1, 6), mounts.stiffness.ravel(), np.append([BODY.mass] * 3, values)
+    )
+    assert modes.omega == pytest.approx(exact, rel=1e-13)
+    mass = mass_matrix(BODY)
+    assert modes.shapes @ mass @ modes.shapes.T == pytest.approx(np.eye(6), abs=1e-12)
+    assert share_energy(modes, BODY).sum(axis=1) == pytest.approx(np.ones(6))
+
+
+def test_energy_shares_without_products_of_inertia_are_not_negative():
+    body = BODY._replace(inertia=np.diag([9.0, 4, 8]))
+    shares = share_energy(find_body_modes(body, mounts_of(4)), body)
+    assert np.all(shares >= 0)
+    assert shares.sum(axis=0) == pytest.approx(np.ones(6))
+
+
+def test_stiffness_is_energy():
+    mounts, motion = mounts_of(3), random_load(1)[:6].real
+    stretch = np.einsum("mji,mj->mi", mounts.axes, apply_couplings(carry_points(mounts.at, CENTRE), motion))
+    energy = np.sum(mounts.stiffness * stretch**2) / 2
+    assert motion @ stiffness_matrix(BODY, mounts).real @ motion / 2 == pytest.approx(energy)
+
+
+def test_roll_axis():
+    """A torque about the crankshaft turns a free body about it; in principal axes about itself."""
+    axis = roll_axis(BODY)
+    assert BODY.inertia @ axis == pytest.approx([0, 0, (BODY.inertia @ axis)[2]], abs=1e-14)
+    assert np.linalg.norm(axis) == pytest.approx(1)
+    plain = BODY._replace(inertia=np.diag([9.0, 4, 8]))
+    assert roll_axis(plain, [0, 1, 0]).tolist() == [0, 1, 0]
+
+
+# ------------------------------------------------------------------ elastic centre
+def test_elastic_centre_of_four_equal_mounts_is_their_middle():
+    at = CENTRE + np.array([[1, 2, -0.5], [1, -2, -0.5], [-1, 2, -0.5], [-1, -2, -0.5]])
+    axes, k = np.tile(np.eye(3), (4, 1, 1)), np.tile([1e5, 2e5, 3e5], (4, 1))
+    stiffness = stiffness_matrix(BODY, Mounts(at, axes, k, 0 * k, 0 * k)).real
+    centre = elastic_centre(stiffness, CENTRE)
+    assert centre.point == pytest.approx(CENTRE - [0, 0, 0.5])
+    assert centre.offset == pytest.approx(0, abs=1e-14)
+
+
+def test_elastic_centre_has_the_least_moments():
+    stiffness = stiffness_matrix(BODY, mounts_of(3)).real
+    centre = elastic_centre(stiffness, CENTRE)
+
+    def moments(point):
+        """About a point, of the forces of three displacements that take a unit force each."""
+        shift = np.linalg.inv(stiffness[:3, :3])
+        about_centre = (stiffness[3:, :3] @ shift).T
+        return about_centre - np.cross(point - CENTRE, np.eye(3))
+
+    least = np.sum(moments(centre.point) ** 2)
+    for off in np.vstack([np.eye(3), -np.eye(3)]) * 1e-4:
+        assert np.sum(moments(centre.point + off) ** 2) > least
+    assert centre.offset == pytest.approx(np.linalg.norm(moments(centre.point), 2))
+
+
+# ------------------------------------------------------------------ statics
+def test_statics_balance():
+    """Forces on the mounts carry the load, and no more."""
+    mounts, load = mounts_of(3), np.array([10.0, -1471, 5, 20, 30, -250])
+    settled = settle_body(BODY, mounts, load)
+    moments = np.cross(mounts.at - CENTRE, settled.forces)
+    carried = np.concatenate([settled.forces.sum(axis=0), moments.sum(axis=0)])
+    assert carried == pytest.approx(load)
+    own = np.einsum("mji,mj->mi", mounts.axes, settled.travel) * mounts.stiffness
+    assert np.einsum("mij,mj->mi", mounts.axes, own) == pytest.approx(settled.forces)
+    assert stiffness_matrix(BODY, mounts).real @ settled.motion == pytest.approx(load)
+
+
+# ------------------------------------------------------------------ response
+def test_response_against_50_digits():
+    mounts = mounts_of(3, loss=0.1, damping=40.0)
+    w = frequencies([0.5, 1, 6], [80.0, 300])
+    load = random_load(4, 3, 2)
+    response = respond_body(BODY, mounts, w, load)
+    for at in np.ndindex(3, 2):
+        k, c = stiffness_matrix(BODY, mounts), damping_matrix(BODY, mounts)
+        dynamic = k + 1j * w[at] * c - w[at] ** 2 * mass_matrix(BODY)
+        exact = high_precision.solve(high_precision.to_matrix(dynamic), high_precision.to_matrix(load[at][:, None]))
+        assert response.motion[at] == pytest.approx(exact, rel=1e-11)
+
+
+@pytest.mark.parametrize(("loss", "damping"), [(0.1, 0.0), (0.0, 50.0), (0.05, 20.0)])
+def test_forces_balance_and_power_too(loss, damping):
+    """Load = inertia + what the mounts carry; what the load feeds is what the mounts lose."""
+    mounts = mounts_of(4, 2, loss, damping)
+    w, load = np.array([30.0, 100, 400]), random_load(5, 3)
+    motion, forces = respond_body(BODY, mounts, w, load)
+    moments = np.cross(mounts.at - CENTRE, forces)
+    carried = np.concatenate([forces.sum(axis=1), moments.sum(axis=1)], axis=-1)
+    inertia = -(w[:, None] ** 2) * (motion @ mass_matrix(BODY))
+    assert carried + inertia == pytest.approx(load, abs=1e-11 * np.abs(inertia).max())
+    fed = w / 2 * np.sum(load * motion.conj(), axis=-1).imag
+    travel = apply_couplings(carry_points(mounts.at, CENTRE), motion)
+    lost = w / 2 * np.sum(forces * travel.conj(), axis=(1, 2)).imag
+    assert fed == pytest.approx(lost, rel=1e-9)
+    assert np.all(lost > 0)
+
+
+def test_stiff_mounts_pass_on_the_whole_load():
+    """The limit of stiff mounts: their forces sum to the free forces and moments."""
+    mounts = mounts_of(3)
+    stiff = mounts._replace(stiffness=1e12 * mounts.stiffness)
+    load = random_load(6, 2)
+    forces = respond_body(BODY, stiff, np.array([100.0, 200]), load).forces
+    moments = np.cross(mounts.at - CENTRE, forces).sum(axis=1)
+    carried = np.concatenate([forces.sum(axis=1), moments], axis=-1)
+    assert carried == pytest.approx(load, rel=1e-8)
+
+
+def test_soft_mounts_leave_a_free_body():
+    mounts = mounts_of(3)
+    soft = mounts._replace(stiffness=1e-12 * mounts.stiffness)
+    load, w = random_load(7), 100.0
+    motion = respond_body(BODY, soft, w, load).motion
+    assert -(w**2) * mass_matrix(BODY) @ motion == pytest.approx(load, rel=1e-8)
+
+
+def test_a_slow_load_is_a_static_one():
+    mounts, load = mounts_of(3), random_load(8).real
+    assert respond_body(BODY, mounts, 0.0, load).forces == pytest.approx(settle_body(BODY, mounts, load).forces)
+
+
+def test_one_speed_is_a_thousand():
+    mounts = mounts_of(3, loss=0.1)
+    orders, speeds = np.arange(1, 25) / 2, np.linspace(60, 600, 240)
+    load = random_load(9, 24, 1)
+    many = respond_body(BODY, mounts, frequencies(orders, speeds), load)
+    assert many.motion.shape == (24, 240, 6)
+    assert many.forces.shape == (24, 240, 3, 3)
+    one = respond_body(BODY, mounts, orders[3] * speeds[9], load[3, 0])
+    assert one.forces == pytest.approx(many.forces[3, 9], rel=1e-12)
+    assert largest_of_ellipse(many.forces).shape == (24, 240, 3)
+    assert find_longest(orders, many.forces).value.shape == (240, 3)
+    assert np.array_equal(press_mounts(BODY, mounts, frequencies(orders, speeds), many.motion), many.forces)
+
+
+def test_undamped_resonance_is_an_error_with_its_frequency():
+    mounts = mounts_of(3)
+    modes = find_body_modes(BODY, mounts)
+    with pytest.raises(UndampedResonanceError) as at:
+        respond_body(BODY, mounts, modes.omega[2:3], random_load(10, 1))
+    assert at.value.frequency == pytest.approx(modes.omega[2])
+
+
+def test_undamped_resonances_between_speeds_and_what_damping_does():
+    orders, speeds, load = np.array([1.0]), np.array([1.0, 500]), random_load(11)
+    counts = []
+    for loss in (0, 0.05):
+        mounts = mounts_of(3, loss=loss)
+        modes = find_body_modes(BODY, mounts)
+        lost = modal_loss(modes, stiffness_matrix(BODY, mounts), damping_matrix(BODY, mounts))
+        assert lost == pytest.approx(np.full(6, loss), abs=1e-15)
+        counts.append(len(find_resonances(modes, lost, orders, speeds, load)))
+    assert counts == [6, 0]

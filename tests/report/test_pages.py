@@ -1,0 +1,300 @@
+"""Pictures: every page of every form, the same bytes each time, names that look like markup, and
+values where they belong.
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from functools import cache
+from threading import Event, Thread
+from typing import get_args
+
+import numpy as np
+import pytest
+from support.commands import run_python
+from support.engines import GOOD, build_text, changed, inline_engine
+from support.gas_engines import FOUR as GAS_FOUR
+from support.gas_engines import WIEBE
+from support.pictures import draw_page
+
+from balcli.analysis.answer import QUANTITIES, analyze
+from balcli.analysis.plot import draw_vector_bars, visible_rows
+from balcli.balancing.answer import balance_engine as balance
+from balcli.core.phasors import Phasors
+from balcli.report.names import OF_GAS, PAGES
+from balcli.report.pages import PageSubject, draw_panel, make_page
+from balcli.report.study import Study
+from balcli.show import plot_style as style
+from balcli.show.plane import draw_locus
+from balcli.show.units import IMPERIAL, SI
+from balcli.torque.plot import compute_picture
+
+pytestmark = pytest.mark.slow
+
+HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
+ANALYSES = PAGES[:6]
+MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
+
+
+def engine(text: str = GOOD):
+    return build_text(text)
+
+
+@pytest.fixture(scope="module")
+def four():
+    return analyze(engine(), only=QUANTITIES)
+
+
+@pytest.fixture(scope="module")
+def drawn(four):
+    """The pages of the four, each drawn once: a function of the page and the form."""
+    return cache(lambda what, form: draw_page(PageSubject(Study(four)), what, form))
+
+
+@pytest.mark.parametrize("what", ANALYSES)
+def test_every_page_is_drawn(what, drawn):
+    assert drawn(what, "svg").startswith(MAGIC["svg"])
+
+
+@pytest.mark.stress
+@pytest.mark.parametrize("what", ANALYSES)
+def test_before_and_after(what, four):
+    found = balance(four.engine)
+    compared = ET.fromstring(draw_page(PageSubject(Study(found.after, found.before)), what, "svg"))
+    assert ("before" in " ".join(compared.itertext())) == (what != "orders")
+
+
+@pytest.mark.stress
+@pytest.mark.parametrize("form", get_args(style.Form))
+def test_the_same_picture_is_the_same_bytes(form, drawn, four):
+    assert drawn("all", form) == draw_page(PageSubject(Study(four)), "all", form)
+
+
+@pytest.mark.parametrize("form", get_args(style.Form))
+def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
+    subject = PageSubject(Study(replace(four, engine=replace(four.engine, name=HOSTILE))))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        data = draw_page(subject, "polar", form)
+    assert data.startswith(MAGIC[form])
+    if form == "svg":
+        root = ET.fromstring(data)
+        assert not [e for e in root.iter() if e.tag.endswith("script")]
+        told = " ".join(e.text or "" for e in root.iter() if e.tag.endswith("text"))
+        assert f"{style.fit_name(HOSTILE)},3000rpm".replace(" ", "") in told.replace(" ", "")
+
+
+def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
+    """A five has a free force of 1e-6 of one cylinder's, and a moment."""
+    five = analyze(inline_engine([0, 144, 216, 288, 72]))
+    root = ET.fromstring(draw_page(PageSubject(Study(five)), "polar", "svg"))
+    texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
+    assert [text for text in texts if text.startswith("Free force: negligible (")]
+    assert "moment along x, N·m" in texts
+    assert "force along x, N" not in texts
+
+
+def texts_of(svg: bytes) -> list[str]:
+    return [e.text or "" for e in ET.fromstring(svg).iter() if e.tag.endswith("text")]
+
+
+def test_orders_that_are_negligible_have_no_picture():
+    """Orders 10 of the force and 4 of the moment of a five; 1 and 2 of its moment are drawn."""
+    five = analyze(inline_engine([0, 144, 216, 288, 72]))
+    titles = [text for text in texts_of(draw_page(PageSubject(Study(five)), "orders", "svg")) if text]
+    assert [text for text in titles if ", order" in text] == [
+        "moment, order 1, at crank angle 36°",
+        "moment, order 2, at crank angle 18°",
+    ]
+    assert [text for text in titles if text.startswith("Free force: negligible (")]
+
+
+def test_what_is_nothing_is_said_and_not_drawn():
+    """A six is balanced in force and moment; about the crank it is not."""
+    six = analyze(inline_engine([0, 240, 120, 120, 240, 0]), only=QUANTITIES)
+    for what in ANALYSES:
+        found = texts_of(draw_page(PageSubject(Study(six)), what, "svg"))
+        assert [text for text in found if re.match("Free force: .*; Free moment: balanced$", text)]
+        assert "force, N" not in found
+
+
+def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
+    """Bars of half orders are those of the gas, whose quantities they show; a curve of some of its
+    orders would be no torque.
+    """
+    fired = analyze(build_text(GAS_FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"))
+    bars = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "spectrum", "about"))
+    assert {"inertia torque T", "gas torque", "total roll", "½"} <= set(bars)
+    assert "About the crank, with gas" in bars
+    curves = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "curves", "about"))
+    assert {"About the crank, of inertia alone", "couple C", "roll C − T", "360"} <= set(curves)
+    assert "720" not in curves
+
+
+def test_orders_that_are_always_shown_are_1_and_2():
+    orders = np.array([0.5, 1, 1.5, 2, 4])
+    vectors = np.array([0, 0, 0, 0, 1.0 + 0j])
+    assert visible_rows(Phasors.of(orders, vectors, vectors, np.zeros(5))) == [1, 3, 4]
+
+
+def test_crank_angles_do_not_lie_on_one_another(ax):
+    """Along a straight line that is run to and fro, two places of the tip are the same."""
+    ones = np.array([1.0 + 0j])
+    draw_locus(ax, Phasors.of(np.array([1.0]), ones, ones, np.zeros(1)), "force", SI.force)
+    places = np.array([text.get_position() for text in ax.texts if "°" in text.get_text()])
+    assert len(places) > 2
+    apart = np.abs(places[:, None] - places[None])
+    near = (apart[..., 0] < 0.1) & (apart[..., 1] < 0.05)
+    assert near.sum() == len(places)
+
+
+def test_nothing_global_is_left_changed():
+    import matplotlib
+
+    before = dict(matplotlib.rcParams)
+    with style.open_figure(2, 2) as figure:
+        figure.subplots()
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_threads_that_draw_leave_matplotlib_as_it_was():
+    """The second begins before the first has ended, and ends after it."""
+    import matplotlib
+
+    before = dict(matplotlib.rcParams)
+    second_is_in, first_is_out = Event(), Event()
+
+    def draw_second():
+        with style.open_figure(2, 2):
+            second_is_in.set()
+            first_is_out.wait()
+
+    second = Thread(target=draw_second)
+    with style.open_figure(2, 2):
+        second.start()
+        second_is_in.wait(0.2)
+    first_is_out.set()
+    second.join()
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_matplotlib_is_imported_for_pictures_only():
+    code = (
+        "import sys\nimport balcli.report.pages\nfrom balcli.render.plot import "
+        "style\nassert 'matplotlib' not in sys.modules\n"
+        "with style.open_figure(2, 2) as f: f.subplots(); style.save_figure(f, 'png')\nassert "
+        "'matplotlib.pyplot' not in sys.modules"
+    )
+    assert run_python("-c", code).returncode == 0
+
+
+# ------------------------------------------------------------------ what is drawn
+@pytest.fixture
+def ax():
+    with style.open_figure(3, 3) as figure:
+        yield figure.subplots()
+
+
+def test_locus_has_x_upwards(ax):
+    """One cylinder's rotating mass: m r omega^2 along the crank pin, up at crank angle 0, to the
+    right at 90 degrees.
+    """
+    one = analyze(
+        engine(
+            changed(
+                ("throws = [0, 180, 180, 0]", "throws = [0]"),
+                ("firing_order = [1, 3, 4, 2]", ""),
+                ("mass = 0.5", "mass = 0"),
+                ("mass = 0.6\ncg = 45\n", ""),
+                ("spacing = 100\n", ""),
+            )
+        )
+    )
+    draw_locus(ax, one.spectra.force, "force", SI.force)
+    right, up = next(line for line in ax.lines if len(line.get_xdata()) > 100).get_data()
+    force = 0.8 * 0.045 * (3000 * np.pi / 30) ** 2
+    assert (right[0], up[0]) == pytest.approx((0, force))
+    assert (right[90], up[90]) == pytest.approx((force, 0), abs=1e-9 * force)
+
+
+@pytest.mark.parametrize(("share", "marked"), [(0.5, True), (0.1, False), (0.01, False)])
+def test_a_small_locus_says_its_size_instead_of_crank_angles(ax, share, marked):
+    """Marks would lie on one another."""
+    before = Phasors.of(np.array([1.0]), np.array([100 + 0j]), np.zeros(1, complex), np.zeros(1))
+    after = replace(before, vectors=share * before.vectors)
+    draw_locus(ax, after, "force", SI.force, before)
+    texts = [text.get_text() for text in ax.texts]
+    assert ("60°" in texts) == marked
+    assert (f"at most {100 * share:g} N" in texts) != marked
+    widths = [max(x) - min(x) for x in (line.get_xdata() for line in ax.lines) if len(x) > 20]
+    drawn = any(width == pytest.approx(200 * share) for width in widths)
+    assert drawn
+
+
+def test_bars_are_both_vectors_and_add_up_to_the_largest_value(ax, four):
+    force = four.spectra.force
+    draw_vector_bars(ax, force, "force", SI.force)
+    rows = visible_rows(force)
+    heights = np.array([bar.get_height() for bar in ax.patches[: 2 * len(rows)]]).reshape(2, -1)
+    unit = 1e3 if force.major.max() >= 5000 else 1
+    assert heights.sum(axis=0) * unit == pytest.approx(force.major[rows])
+    assert heights[0] * unit == pytest.approx(np.abs(force.forward[rows]))
+
+
+def test_a_balanced_quantity_says_so(ax):
+    six = analyze(
+        engine(
+            changed(
+                ("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]"),
+                ("firing_order = [1, 3, 4, 2]", ""),
+            )
+        )
+    )
+    draw_locus(ax, six.spectra.moment, "moment", SI.moment)
+    assert "balanced" in [text.get_text() for text in ax.texts]
+
+
+@pytest.mark.parametrize(
+    ("unit", "largest", "name"),
+    [(SI.force, 4999, "N"), (SI.force, 5000, "kN"), (SI.moment, 1e6, "kN·m"), (IMPERIAL.force, 1e9, "lbf")],
+)
+def test_long_figures_get_a_larger_unit(unit, largest, name):
+    assert unit.fit(largest).name == name
+
+
+def test_in_a_page_colours_follow_it_and_ids_are_its_own(drawn):
+    text = style.inline_svg(drawn("polar", "svg"), "here")
+    assert text.startswith("<svg")
+    assert "var(--ink)" in text
+    assert not any(colour in text for colour in style.NAMES)
+    assert 'id="here-' in text
+    ET.fromstring(text)
+
+
+@pytest.mark.parametrize("share", [0, 0.5])
+def test_of_a_share_of_gas_its_pressure_is_drawn(share):
+    """Over that in the crankcase, 1 bar."""
+    weak = build_text(f"{GAS_FOUR}{WIEBE}[cylinder.1]\ngas = {share}\n")
+    drawn = compute_picture(weak, "p-v")
+    whole = compute_picture(build_text(GAS_FOUR + WIEBE), "p-v")
+    assert drawn.pressure == pytest.approx(1e5 + share * (whole.pressure - 1e5))
+
+
+@pytest.mark.parametrize("what", OF_GAS)
+def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    fired = build_text(GAS_FOUR + WIEBE)
+    study = Study(analyze(fired), gas=compute_picture(fired, what))
+    page = make_page(PageSubject(study), what)
+    style.save_figure(page, "png")
+    canvas = FigureCanvasAgg(page)
+    canvas.draw()
+    labels = [ax.xaxis.label for ax in page.axes] + [ax.yaxis.label for ax in page.axes]
+    for label in labels:
+        box = label.get_window_extent(canvas.get_renderer())
+        inside = box.x0 >= 0 and box.y0 >= 0 and box.x1 <= page.bbox.x1 and box.y1 <= page.bbox.y1
+        assert inside or not label.get_text(), label.get_text()

@@ -1,0 +1,188 @@
+"""Studies over the balance factor and the bank angle: what books say of them, and their
+pictures.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from support.engines import GOOD, build_text, changed
+from support.gas_engines import FOUR, WIEBE
+from support.pictures import draw_page
+
+from balcli.core.mechanisms import harmonics
+from balcli.errors import BalcliError
+from balcli.report.pages import PageSubject
+from balcli.report.study import compute_study, swing_banks
+from balcli.sizing.options import SchemeOptions
+
+pytestmark = pytest.mark.slow
+
+VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
+SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""))
+CROSS = changed(
+    ("throws = [0, 180, 180, 0]", "throws = [0, 90, 270, 180]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 90")
+)
+
+
+def engine(text):
+    return build_text(text)
+
+
+def test_flat_plane_vee_eight_over_its_bank_angle():
+    """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3
+    gamma/2) against it.
+    """
+    vee = engine(VEE)
+    banks = swing_banks(vee, 2)
+    c = vee.cylinders
+    ratio = float(harmonics.find_harmonics([2.0], c.lam, c.eps)["piston"].c[0, 0].real)
+    K = 4 * ratio * float(c.reciprocating[0] * c.radius) * vee.omega**2
+    gamma = np.radians(banks.angles_deg)
+    assert np.abs(banks.force.forward[0]) == pytest.approx(K * np.abs(np.cos(gamma / 2)), abs=1e-12 * K)
+    assert np.abs(banks.force.backward[0]) == pytest.approx(K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K)
+    assert banks.own_deg == 75
+
+
+def test_bars_about_the_crank_are_with_the_gas_where_there_is_some():
+    fired = compute_study(engine(FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"), "spectrum")
+    page = draw_page(PageSubject(fired), "spectrum", "svg")
+    texts = set(re.findall(r">([^<>]*)</text>", page.decode()))
+    assert {"About the crank, with gas", "gas torque", "total roll", "½"} <= texts
+    assert compute_study(engine(GOOD), "spectrum").now.spectra.gas is None
+    shafts = compute_study(engine(FOUR + WIEBE), "spectrum", scheme="two-shaft")
+    page = draw_page(PageSubject(shafts), "spectrum", "svg")
+    assert b"About the crank, with gas" in page
+
+
+def test_its_own_bank_angle_is_the_engine_as_it_is():
+    vee, found = engine(VEE), compute_study(engine(VEE), "bank")
+    at = int(np.flatnonzero(found.banks.angles_deg == 75)[0])
+    force = compute_study(vee, "all").now.spectra.force.select_orders([2])
+    assert found.banks.force.major[0, at] == pytest.approx(float(force.major[0]), rel=1e-12)
+    assert found.banks.order == 2
+
+
+def test_a_vee_of_free_cylinders_swings_as_one_of_two_banks():
+    """The same two cylinders on each throw, once by their banks and once each by its own axis."""
+    vee = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 75")
+    )
+    axes = "".join(f"[cylinder.{n}]\nbank = {-37.5 if n < 3 else 37.5}\n" for n in (1, 2, 3, 4))
+    free = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 120, 0, 120]\npositions = [-50, 50, -50, 50]"),
+        ("spacing = 100\nthrow_mass = 0.8", "throw_mass = 0.4"),
+        ("firing_order = [1, 3, 4, 2]", ""),
+        more=axes,
+    )
+    expected, found = (swing_banks(engine(text), 1) for text in (vee, free))
+    assert found.own_deg == expected.own_deg == 75
+    assert found.force.forward == pytest.approx(expected.force.forward, rel=1e-9)
+    assert found.force.backward == pytest.approx(expected.force.backward, rel=1e-9)
+
+
+def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
+    rows = compute_study(engine(CROSS), "factor").factors
+    best = min(rows, key=lambda row: row.moment)
+    assert [row.factor for row in rows] == pytest.approx(np.linspace(0, 1, 51))
+    assert best.factor == 0.5
+    assert best.moment < 1e-2 * rows[0].moment
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        (GOOD, "this engine has 1 bank$"),
+        (changed(("firing_order = [1, 3, 4, 2]", "banks = [-60, 0, 60]")), "this engine has 3 banks$"),
+    ],
+)
+def test_only_a_vee_has_a_bank_angle(text, reason):
+    with pytest.raises(BalcliError, match=reason):
+        compute_study(engine(text), "bank")
+
+
+@pytest.mark.stress
+@pytest.mark.parametrize(
+    ("what", "text"),
+    [("factor", CROSS), ("factor", GOOD), ("bank", VEE), ("bank", CROSS), ("inner", VEE), ("inner", SINGLE)],
+)
+def test_pictures_of_studies_are_the_same_each_time(what, text):
+    subject = PageSubject(compute_study(engine(text), what))
+    assert draw_page(subject, what, "svg") == draw_page(subject, what, "svg")
+
+
+def test_the_page_of_factors_tells_the_best_and_by_what():
+    """Pins of a cross-plane crank balance each other: a factor changes the moment alone."""
+    single = changed(("[0, 180, 180, 0]", "[0]"), ("firing_order = [1, 3, 4, 2]", ""))
+    for text, by in ((CROSS, r"moment [\d.]+ N·m"), (single, r"[\d.]+ k?N")):
+        page = draw_page(PageSubject(compute_study(engine(text), "factor")), "factor", "svg")
+        assert re.search(rf"best at 0\.\d+ \({by}\)", page.decode())
+
+
+def test_counterweights_unload_the_crankshaft_of_an_in_line_four():
+    """It is balanced outside, and yet bent; weights at every throw take most of that away."""
+    free = compute_study(engine(GOOD), "inner").bent[0]
+    now, before = compute_study(engine(GOOD), "inner", scheme="factor").bent
+    assert max(p.value for p in before.bending.peaks) == max(p.value for p in free.bending.peaks) > 100
+    assert max(p.value for p in now.bending.peaks) < 0.7 * max(p.value for p in before.bending.peaks)
+
+
+def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
+    """The force is that of piston and small end along the cylinder, less the factor's share of
+    their mass on the other side of the pin: a peak over a fine grid of both, by hand.
+    """
+    rows = compute_study(engine(SINGLE), "factor").factors
+    best = min(rows, key=lambda row: row.force)
+    r, rod, mass, omega = 0.045, 0.160, 0.5 + 0.6 * 45 / 160, 100 * np.pi
+    turn = np.radians(np.arange(0, 360, 0.05))
+    lean = np.sqrt(rod**2 - (r * np.sin(turn)) ** 2)
+    along = np.cos(turn) + r * np.cos(2 * turn) / lean + r**3 * np.sin(2 * turn) ** 2 / 4 / lean**3
+    factors = best.factor + np.arange(-0.005, 0.00501, 1e-4)
+    peaks = [np.abs(along - factor * np.exp(1j * turn)).max() for factor in factors]
+    assert factors[np.argmin(peaks)] == pytest.approx(best.factor, abs=1.5e-4)
+    assert best.force == pytest.approx(mass * r * omega**2 * min(peaks), rel=2e-4)
+    assert round(50 * best.factor, 3) % 1
+    assert [row.factor for row in rows] == sorted(row.factor for row in rows)
+
+
+def test_a_force_that_is_negligible_at_every_bank_angle_is_said():
+    """Two sixes side by side have no free force but of order 6, and that is small."""
+    text = changed(
+        ("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]"),
+        ("firing_order = [1, 3, 4, 2]", "bank_angle = 60"),
+        ("length = 160", "length = 240"),
+    )
+    drawn = draw_page(PageSubject(compute_study(engine(text), "bank")), "bank", "svg")
+    assert re.search(r"negligible \(\S+ N\), whatever the bank angle", drawn.decode())
+
+
+def test_a_scheme_compares_before_and_after():
+    found = compute_study(engine(GOOD), "all", scheme="two-shaft")
+    assert found.before.spectra.force.select_orders([2]).major[0] > 100
+    assert found.now.spectra.force.select_orders([2]).balanced[0]
+    with pytest.raises(BalcliError, match="there is no scheme 'tow-shaft'"):
+        compute_study(engine(GOOD), "all", scheme="tow-shaft")
+
+
+def test_a_study_of_the_engine_as_it_is_takes_no_scheme():
+    with pytest.raises(BalcliError, match="--what bank shows the engine as it is: leave --scheme"):
+        compute_study(engine(VEE), "bank", scheme="auto")
+
+
+def test_the_study_of_factors_takes_planes_alone():
+    """In the planes of the end throws the same unbalance of order 1 is left as at every throw."""
+    free, ends = (
+        compute_study(engine(CROSS), "factor", options=SchemeOptions(planes=planes)).factors
+        for planes in (None, "ends")
+    )
+    assert [row.moment for row in ends] == pytest.approx([row.moment for row in free], abs=1)
+    assert ends[0].counterweight > 1.02 * free[0].counterweight
+    for asked, reason in (
+        ({"scheme": "minimax"}, "--what factor is of the scheme factor: leave --scheme minimax out"),
+        ({"options": SchemeOptions(factor=(0.5,))}, "--what factor shows all factors: leave"),
+        ({"options": SchemeOptions(at=(0j,))}, "scheme factor has no --at"),
+    ):
+        with pytest.raises(BalcliError, match=reason):
+            compute_study(engine(CROSS), "factor", **asked)

@@ -1,0 +1,321 @@
+"""Commands as users give them, in this process: plot, report, bench, cluster and files of sweeps,
+and what the schemes refuse.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+import sys
+from contextlib import nullcontext
+from functools import partial
+from types import ModuleType
+
+import pytest
+from support.cases import cases
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
+from support.engines import GOOD, tables
+from support.paths import ENGINES, write
+
+from balcli import bench
+from balcli.bench import Bench, Ratio, Row
+from balcli.errors import BalcliError, InputError
+
+MEASURED = Bench(
+    rows=(
+        Row(task="A_2", method="closed form", seconds=2e-6, error=0.0),
+        Row(task="A_2", method="two-term formula", seconds=1e-6, error=3.2e-2),
+        Row(task="sweep", method="closed form", seconds=1e-7, error=1e-16),
+        Row(task="sweep", method="FFT", seconds=1e-5, error=1e-15),
+    ),
+    ratios=(Ratio(what="one to other", value=1.25),),
+)
+
+
+@pytest.fixture
+def four(tmp_path):
+    return write(tmp_path / "four.toml", GOOD)
+
+
+# ------------------------------------------------------------------ pictures and pages
+@pytest.mark.parametrize(("name", "beginning"), [("x.png", b"\x89PNG"), ("x.pdf", b"%PDF")])
+def test_plot_writes_the_form_that_the_name_says(balcli, tmp_path, name, beginning):
+    assert balcli(
+        "plot", ENGINES / "single.toml", "-o", tmp_path / name, "--what", "factor", "--units", "imperial"
+    ) == (0, "", "")
+    assert (tmp_path / name).read_bytes().startswith(beginning)
+
+
+def test_plot_compares_before_and_after(balcli, four, tmp_path):
+    assert balcli("plot", four, "-o", tmp_path / "x.svg", "--what", "spectrum", "--scheme", "two-shaft") == (0, "", "")
+    assert "before" in (tmp_path / "x.svg").read_text()
+
+
+@pytest.mark.parametrize("what", ["bank", "modes", "pressure"])
+@pytest.mark.parametrize("option", ["--scheme=factor", "--factor=51%", "--planes=ends"])
+def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what, option):
+    picture = tmp_path / "x.svg"
+    found = balcli("plot", ENGINES / "i6_diesel.toml", picture, "--what", what, option)
+    told = f"--what {what} shows the engine as it is: leave --scheme and its options out"
+    assert found == (2, "", f"balcli: {told}\n")
+    assert not picture.exists()
+
+
+@pytest.mark.parametrize("command", ["plot", "report", "mounts"])
+def test_options_of_schemes_are_judged_as_in_balance(balcli, tmp_path, command):
+    four, file = (ENGINES / "i4_mounts.toml", tmp_path / ("x.html" if command == "report" else "x.svg"))
+    where = ["--plot", file] if command == "mounts" else ["-o", file]
+    for options in (["--planes=nowhere"], ["--at=1,2"], ["--scheme=factor", "--factor=51"]):
+        status, _, wanted = balcli("balance", four, *options)
+        assert status == 2
+        told = balcli(command, four, *where, *options).err
+        assert wanted.removeprefix("balcli: ") in told
+        assert not file.exists()
+
+
+def test_a_report_is_the_engine_before_and_after(balcli, four, tmp_path):
+    assert balcli("report", four, "-o", tmp_path / "x.html", "--orders", "1,2", "--speed", "4500") == (0, "", "")
+    page = (tmp_path / "x.html").read_text(encoding="utf-8")
+    assert page.lower().startswith("<!doctype html>")
+    assert "in-line four" in page
+    assert "4500" in page
+
+
+def test_curves_as_json_have_an_angle_for_each_value(balcli, four):
+    status, out, _ = balcli("curves", four, "--format", "json")
+    found = json.loads(out)
+    assert status == 0
+    assert {len(curve) for curve in found["curves"].values()} == {len(found["crank_deg"])}
+
+
+# ------------------------------------------------------------------ bench
+@pytest.fixture
+def measured(monkeypatch):
+    monkeypatch.setattr(bench, "measure", lambda: MEASURED)
+
+
+@pytest.mark.usefixtures("measured")
+def test_bench_in_every_format(balcli, tmp_path):
+    table = ask("bench")
+    assert "two-term formula" in table
+    assert "3.2e-02" in table
+    assert table.count("rounding") == 3
+    assert "e-1" not in table
+    lines = ask_csv("bench")
+    assert lines[1] == {"task": "A_2", "method": "two-term formula", "seconds": "1e-06", "error": "0.032", "ratio": ""}
+    assert lines[-1]["ratio"] == "1.25"
+    assert ask_json("bench")["ratios"] == [{"what": "one to other", "value": 1.25}]
+    assert balcli("bench", "-o", tmp_path / "x.svg")[0] == 0
+    assert "two-term formula" in (tmp_path / "x.svg").read_text()
+
+
+def test_bench_times_each_case_by_the_variant_and_cold_starts_by_medians_of_pairs(monkeypatch):
+    """By a clock of ours: a busy machine disturbs some of the nine pairs, not their medians."""
+    case = bench.Case("task", "way", lambda: sum(range(1000)), 0.5, times=1000)
+    clock, started = [0.0], []
+
+    def start(argv, **_):
+        name = argv[2]
+        started.append(name)
+        clock[0] += {"balcli": 1.0, bench.LIBRARIES: 0.2}.get(name, 0.5) * (50 if len(started) in (4, 9, 12) else 1)
+
+    monkeypatch.setattr(bench, "list_cases", lambda: [case])
+    monkeypatch.setattr(bench, "time_run", lambda run: 8.0)
+    monkeypatch.setattr(bench.time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(bench.subprocess, "run", start)
+    found = bench.measure()
+    assert found.rows == (Row(task="task", method="way", seconds=0.008, error=0.5),)  # of one variant of a thousand
+    assert [ratio.value for ratio in found.ratios] == pytest.approx([5, 2])
+    assert started == ["balcli", bench.LIBRARIES] * 9 + ["balcli", bench.SMALLEST] * 9
+
+
+def test_the_quickest_of_several_runs_counts(monkeypatch):
+    class Timer:
+        def __init__(self, run):
+            pass
+
+        def timeit(self, number):
+            return 0.004
+
+        def repeat(self, times, number):
+            return [number * seconds for seconds in (0.007, 0.003, 0.9, 0.005, 0.004)][:times]
+
+    monkeypatch.setattr(bench.timeit, "Timer", Timer)
+    assert bench.time_run(lambda: None) == pytest.approx(0.003)
+
+
+# ------------------------------------------------------------------ sweeps: cluster, files,
+# progress
+SWEEP = ("--vary", "rod.ratio=0.2,0.25,0.3", "--quantity", "force.2.major")
+
+
+def dask(**names: object) -> ModuleType:
+    made = ModuleType("distributed")
+    vars(made).update(names)
+    return made
+
+
+def test_no_dask_no_cluster(balcli, four, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert balcli("sweep", four, *SWEEP, "--dask", "local") == (
+        2,
+        "",
+        "balcli: --dask needs dask: install balcli[scale]\n",
+    )
+
+
+def test_a_cluster_that_does_not_answer(monkeypatch):
+    from balcli.studies import sweep_write as cluster
+
+    def refuse(address: str, timeout: float) -> None:
+        raise OSError(f"nobody at {address}")
+
+    monkeypatch.setitem(sys.modules, "distributed", dask(Client=refuse))
+    with (
+        pytest.raises(BalcliError, match=r"--dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)"),
+        cluster.connect_cluster("tcp://host:1"),
+    ):
+        pass
+
+
+class KilledError(Exception):
+    """As distributed.KilledWorker."""
+
+
+class Lost:
+    """A client whose workers are all killed; what it is given is what a task brings with it."""
+
+    def __init__(self):
+        self.given = []
+
+    def nthreads(self):
+        return {"one": 1}
+
+    def submit(self, work, sweep, **options):
+        self.given += [(sweep, options["retries"] > 0)]
+        return self
+
+    def result(self):
+        raise KilledError("task")
+
+
+def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
+    from balcli.studies import sweep_write as cluster
+    from balcli.studies.sweep import evaluate_chunks, read_sweep
+
+    monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 1)
+    sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
+    with pytest.raises(BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"):
+        list(evaluate_chunks(sweep, partial(cluster.run_on_cluster, client)))
+    assert [(part.variants, again) for part, again in client.given] == [(1, True), (1, True)]
+    values = [part.parameters[0].values.tolist() for part, _ in client.given]
+    assert values == [[80], [90]]  # a task brings what it computes, and no more
+
+
+def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):
+    from balcli.studies import sweep_write as cluster
+
+    monkeypatch.setitem(
+        sys.modules,
+        "distributed",
+        dask(
+            LocalCluster=lambda **options: nullcontext("own"),
+            Client=lambda at, **options: nullcontext(f"client of {at}"),
+        ),
+    )
+    for address, found in (("local", "client of own"), ("tcp://host:1", "client of tcp://host:1")):
+        with cluster.connect_cluster(address) as share:
+            assert share.args == (found,)
+
+
+def test_no_pyarrow_no_parquet(balcli, four, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    status, _, err = balcli("sweep", four, *SWEEP, "-o", tmp_path / "x.parquet")
+    assert (status, err) == (2, "balcli: a .parquet file needs pyarrow: install balcli[scale]\n")
+    assert not (tmp_path / "x.parquet").exists()
+
+
+@pytest.mark.parametrize("vary", [("rod.ratio=0.2,0.3",), ("rod.ratio=0.2,0.3", "crank.stroke=80,90,100")])
+def test_pictures_of_one_and_two_parameters(balcli, four, tmp_path, vary):
+    options = [word for one in vary for word in ("--vary", one)]
+    status, *_ = balcli(
+        "sweep", four, *options, "--quantity", "force.2.major", "-o", tmp_path / "x.csv", "--plot", tmp_path / "x.svg"
+    )
+    assert status == 0
+    words = set(re.findall(r">([^<>]+)</text>", (tmp_path / "x.svg").read_text("utf-8")))
+    assert words >= {"force.2.major", "N"} if len(vary) == 1 else "force.2.major, N" in words
+
+
+def test_curves_of_one_picture_have_one_unit(balcli, tmp_path):
+    """A moment in kN·m would else lie below one in N·m that is smaller."""
+    picture = tmp_path / "x.svg"
+    asked = ["--vary", "layout.bank_angle=60:120:30", "--plot", picture, "-o", tmp_path / "x.csv"]
+    assert balcli("sweep", ENGINES / "v6_60.toml", *asked)[0] == 0
+    wanted = r">((?:force|moment)\.[^<]*|k?N(?:·m)?)<"
+    told = re.findall(wanted, picture.read_text(encoding="utf-8"))
+    assert told == [*("N", "force.1.major", "force.2.major"), *("kN·m", "moment.1.major", "moment.2.major")]
+
+
+def test_no_picture_of_three_parameters(four, tmp_path):
+    assert "a picture shows one or two parameters with several values each, not 3" in refusal(
+        "sweep", four, *SWEEP, "--vary", "crank.stroke=80,90", "--vary", "rod.cg=30,40", "--plot", tmp_path / "x.svg"
+    )
+
+
+def test_a_search_and_a_scatter_in_csv(four):
+    out = ask("search", four, "--over", "throws", "--minimise", "moment.1.major", "--format", "csv")
+    assert out.splitlines()[0] == "throws,objective,moment.1.major"
+    out = ask("scatter", four, "--mass-scatter", "1%", "--samples", "100", "-q", "force.1.major", "-f", "csv")
+    assert out.startswith("quantity,nominal,mean,")
+
+
+# ------------------------------------------------------------------ refusals, word for word
+@cases("shell/commands", "refusals_say_what_would_be_right")
+def test_refusals_say_what_would_be_right(command, engine, options, message):
+    assert message in refusal(command, ENGINES / f"{engine}.toml", *options.split())
+
+
+def test_a_minimax_weight_in_two_planes_leaves_the_moment_that_turns_with_the_crank_alone(balcli):
+    """The whole weight, and its moment about the middle of the engine 0: equal halves at equal
+    distance of a single.
+    """
+    status, out, _ = balcli(
+        "balance", ENGINES / "single.toml", "--scheme", "minimax", "--planes", "-50,50", "--format", "json"
+    )
+    alone = ask("balance", ENGINES / "single.toml", "--scheme", "minimax", "--format", "json")
+    assert status == 0
+    halves, (whole,) = (json.loads(text)["counterweights"] for text in (out, alone))
+    assert [h["unbalance_kg_m"] for h in halves] == pytest.approx([whole["unbalance_kg_m"] / 2] * 2, rel=1e-9)
+
+
+def test_mistakes_of_a_built_model_name_its_file():
+    import tomli_w
+
+    from balcli.engine.load import build_named
+    from balcli.engine.parse import parse
+
+    model = parse(tomli_w.dumps(tables(crank={"throws": [0, 180], "spacing": 100})))
+    broken = model.model_copy(update={"rod": model.rod.model_copy(update={"length": 40.0})})
+    with pytest.raises(InputError, match=r"^x\.toml: "):
+        build_named(broken, "x.toml")
+
+
+def test_devices_of_a_sizing_that_is_asked_for_in_csv():
+    """Those of its JSON, in the units of an engine file; without asking, CSV has none of them."""
+    three = ENGINES / "i3.toml"
+    asked = ("analyze", three, "--only", "sizing", "--format")
+    sizing = json.loads(run_here(*asked, "json").out)["sizing"]
+    header, *lines = csv.reader(run_here(*asked, "csv").out.splitlines())
+    figures = {(line[2], line[4]): float(line[5]) for line in lines}
+    assert header == ["engine", "cylinder", "quantity", "order", "figure", "value", "unit"]
+    assert {part for part, _ in figures} == {
+        *(f"counterweight {k + 1}" for k in range(len(sizing["counterweights"]))),
+        *(f"shaft {k + 1}" for k in range(len(sizing["shafts"]))),
+    }
+    for k, shaft in enumerate(sizing["shafts"], 1):
+        assert figures[f"shaft {k}", "ratio"] == shaft["ratio"]
+        assert figures[f"shaft {k}", "position"] == shaft["position_mm"]
+        assert figures[f"shaft {k}", "unbalance"] == pytest.approx(1e6 * shaft["unbalance_kg_m"])
+    assert "counterweight" not in run_here("analyze", three, "--format", "csv").out

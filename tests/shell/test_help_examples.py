@@ -1,0 +1,49 @@
+"""The examples in the help of every command run as they stand."""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+from support.commands import run_here
+from support.paths import ENGINES
+
+from balcli.cli import COMMANDS
+from balcli.file.examples import template
+
+FILES = {
+    **{f"{name}.toml": f"{name}.toml" for name in ("i4", "v8_wiebe", "i4_mounts", "i6_diesel")},
+    "v8.toml": "v8_crossplane.toml",
+    "twin.toml": "vtwin90.toml",
+    "s50.toml": "marine/marine6.toml",
+}
+
+
+def examples(command: str) -> list[str]:
+    lines = run_here(command, "--help").out.splitlines()
+    return [line.strip() for line in lines if line.strip().startswith("balcli ")]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_help_of_every_command_has_an_example(command: str) -> None:
+    text = run_here(command, "--help").out
+    assert "Example" in text
+    assert examples(command)
+    assert not {*"│╭─┃\x1b"} & {*text}, "help in a pipe is plain"
+
+
+# `bench` takes seconds; what else is left out has tests of its own
+@pytest.mark.parametrize("command", [name for name in COMMANDS if name not in ("bench", "balance")])
+@pytest.mark.stress
+def test_the_examples_run(command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name, source in FILES.items():
+        shutil.copy(ENGINES / source, name)
+    Path("runs.toml").write_text(template("field"), encoding="utf-8")
+    for line in examples(command):
+        if ".parquet" in line:
+            pytest.importorskip("pyarrow")
+        status, _, err = run_here(*shlex.split(line)[1:])
+        assert (line, status, err) == (line, 0, err)

@@ -1,0 +1,164 @@
+"""A file that does not say where its throws stand: their moments are not known, and nobody may take
+them for balanced.
+"""
+
+import csv
+import io
+import json
+import re
+
+import pytest
+from support.cases import cases
+from support.commands import ask
+from support.engines import changed
+from support.paths import write
+
+from balcli import analyze, load
+
+UNKNOWN = (
+    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
+    "that all throws stand in one plane"
+)
+FLAT_CRANK = ("throws = [0, 180, 180, 0]", "throws = [0, 180]")
+NO_ORDER = ("firing_order = [1, 3, 4, 2]", "")
+NO_SPACING = ("spacing = 100\n", "")
+
+
+@pytest.fixture
+def twin(tmp_path):
+    """A 180-degree twin, whose large moment the file leaves open."""
+    return write(tmp_path / "twin.toml", changed(FLAT_CRANK, NO_ORDER, NO_SPACING))
+
+
+def warning(file):
+    return f"warning: {file}: {UNKNOWN}\n"
+
+
+def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
+    status, out, err = balcli("analyze", twin, "--all")
+    assert (status, err) == (0, warning(twin))
+    moments = out.partition("Free moment by order")[2].partition("About the crank axis")[0]
+    assert [line.split() for line in moments.splitlines() if line[:1] in "12"][:2] == [
+        ["1", "–", "–", "–", "–", "–"],
+        ["2", "–", "–", "–", "–", "–"],
+    ]
+    assert "Free moment in textbook units" not in out
+    assert "moment  –" in out
+    told = " ".join(out.partition("\nVerdict\n")[2].split())
+    assert "First order: free of force. Second order: force of" in told
+    assert UNKNOWN[1:] in told
+    assert "free of moment" not in told
+    assert "no moment" not in told
+    assert "no free force of orders 1 and 2 (moments are not known)" in told
+    brief = balcli("analyze", twin)[1]
+    assert "moment – N" not in brief
+    assert re.search(r"^1 +balanced +– +– +–$", brief, re.MULTILINE)
+    assert "leave no free force (moments are not known) of orders 1 and 2" in brief
+
+
+def test_what_shafts_leave_of_the_roll_is_known_without_places(balcli, twin):
+    """Moments alone need them: the roll is about the crankshaft."""
+    told = balcli("balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80")[1]
+    document = balcli("balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80", "-f", "json")
+    details = json.loads(document[1])["details"]["order_2"]
+    assert re.search(r"^order 2 moment left +–$", told, re.MULTILINE)
+    for label in ("roll left", "roll before"):
+        value = details[f"{label.replace(' ', '_')}_Nm"]
+        assert re.search(rf"^order 2 {label} +{value:.5g} N·m$", told, re.MULTILINE)
+
+
+def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path):
+    said = write(tmp_path / "said.toml", twin.read_text().replace("[rod]", "spacing = 0\n[rod]"))
+    for command in ("analyze", "balance"):
+        status, out, err = balcli(command, said, "--format", "json")
+        assert (status, err) == (0, "")
+        known, found = json.loads(out), json.loads(balcli(command, twin, "--format", "json")[1])
+        assert "assumed" not in known
+        assert found == known | {"assumed": ["crank.spacing = 0"]}
+
+
+def test_csv_has_no_moments(balcli, twin):
+    for command in ("analyze", "balance"):
+        rows = list(csv.DictReader(io.StringIO(balcli(command, twin, "--format", "csv")[1])))
+        assert {"force", "roll"} <= {row["quantity"] for row in rows}
+        assert "moment" not in {row["quantity"] for row in rows}
+
+
+def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_path):
+    twin.write_text(twin.read_text() + "[cylinder.1]\nposition = -50\n[cylinder.2]\nposition = 50")
+    assert balcli("analyze", twin, "--only", "moment")[::2] == (0, "")
+    single = write(
+        tmp_path / "single.toml", changed(("throws = [0, 180, 180, 0]", "throws = [0]"), NO_ORDER, NO_SPACING)
+    )
+    assert balcli("analyze", single, "--only", "moment")[::2] == (0, "")
+
+
+@cases("shell/unknown_moments", "a_moment_by_name_is_an_error")
+def test_a_moment_by_name_is_an_error(balcli, twin, command, args, message):
+    asked = [arg.format(file=twin) for arg in args]
+    expected = f"balcli: {message.format(file=twin)}{UNKNOWN}\n"
+    assert balcli(command, twin, *asked) == (2, "", expected)
+
+
+def test_a_weight_in_one_plane_takes_the_whole_force(balcli, tmp_path):
+    """What moment it makes is not known, and lessens nothing."""
+    file = write(tmp_path / "skew.toml", changed((FLAT_CRANK[0], "throws = [0, 90]"), NO_ORDER, NO_SPACING))
+    out = balcli("balance", file, "--scheme", "counterweights", "--planes=20", "-f", "json")[1]
+    first = json.loads(out)["after"]["orders"][0]
+    assert first["force_N"]["forward"] == [0, 0]
+    shared = balcli("balance", file, "--scheme", "counterweights", "--planes=-100,20")
+    assert shared[:2] == (2, "")
+    assert shared[2].endswith(f"--planes: {UNKNOWN}\n")
+
+
+def test_forces_are_swept_and_a_spacing_that_is_varied_is_known(balcli, twin):
+    swept = balcli("sweep", twin, "--vary", "rod.length=150,160", "-q", "force.2.major")
+    assert swept[::2] == (0, "")
+    out = ask("sweep", twin, "--vary", "crank.spacing=80,100", "-q", "moment.1.major")
+    rows = [[float(cell) for cell in line.split(",")] for line in out.splitlines()[1:]]
+    assert rows[1][1] / rows[0][1] == pytest.approx(100 / 80)
+
+
+@pytest.mark.parametrize("command", [["sweep", "--vary", "rod.length=150,160"], ["scatter"]])
+def test_the_usual_quantities_are_those_that_are_known(balcli, twin, command):
+    name, *options = command
+    status, out, err = balcli(name, twin, *options, "--format", "csv")
+    assert (status, err) == (0, warning(twin))
+    assert "force.2.major" in out
+    assert "moment" not in out
+
+
+def test_curves_have_no_moments(balcli, twin):
+    status, out, err = balcli("curves", twin, "--step", "90")
+    assert (status, err) == (0, warning(twin))
+    assert out.splitlines()[0].split(",") == [
+        "crank_deg",
+        "force_x_N",
+        "force_y_N",
+        "couple_Nm",
+        "inertia_torque_Nm",
+        "roll_Nm",
+    ]
+    found = json.loads(balcli("curves", twin, "--format", "json")[1])
+    assert found["assumed"] == ["crank.spacing = 0"]
+    assert "moment_x_Nm" in found["curves"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", ["all", "polar", "orders", "spectrum", "curves", "factor"])
+def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
+    picture = tmp_path / "picture.svg"
+    assert balcli("plot", twin, "--what", what, "-o", picture)[::2] == (0, warning(twin))
+    text = picture.read_text(encoding="utf-8")
+    drawn = len(re.findall("not known:", text))
+    assert drawn == {"factor": 0}.get(what, 1)
+    if what == "factor":
+        assert "moment (dashed grey)" not in text
+
+
+def test_rows_in_python_have_no_figure_of_a_moment(twin):
+    """Nor a direction: the axis of a vector that is not known was 90 deg."""
+    row, *_ = analyze(load(twin)).rows()
+    moments = {name: value for name, value in row.items() if name.startswith("moment.")}
+    assert len(moments) == 5
+    assert set(moments.values()) == {None}

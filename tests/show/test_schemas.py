@@ -1,0 +1,194 @@
+"""JSON Schemas of results: what commands print keeps to them, and every key is described."""
+
+from __future__ import annotations
+
+import json
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+from support.commands import ask, refusal, run_here
+from support.gas_engines import WIEBE
+from support.paths import ENGINES
+
+from balcli import __version__
+from balcli.file.examples import template
+from balcli.show.formats import DOCUMENTS
+from balcli.show.schema import describe_document
+
+FILES = sorted(path for path in ENGINES.rglob("*.toml"))
+I4, V8, SINGLE = ENGINES / "i4.toml", ENGINES / "v8_wiebe.toml", ENGINES / "single.toml"
+TWO_BANKS = ENGINES / "vtwin90.toml"
+SPEEDS = ("--speeds", "1000:1100:50")
+CURVE = "angle_deg,torque_Nm\n0,0\n180,900\n360,-100\n540,300\n720,0\n"
+
+
+def close(node: Any) -> Any:
+    """A schema that allows no key which it does not describe."""
+    if isinstance(node, list):
+        return [close(item) for item in node]
+    if not isinstance(node, dict):
+        return node
+    closed = {key: close(value) for key, value in node.items()}
+    if closed.get("type") == "object" and "properties" in closed:
+        closed.setdefault("additionalProperties", False)
+    return closed
+
+
+@lru_cache
+def validator(name: str) -> Draft202012Validator:
+    schema = describe_document(name)
+    Draft202012Validator.check_schema(schema)
+    return Draft202012Validator(close(schema))
+
+
+def check(text: str) -> dict[str, Any]:
+    """Every document of a command's output; the last one."""
+    for line in text.splitlines() if text.count('"format"') > 1 else [text]:
+        document = json.loads(line)
+        assert [*document][:2] == ["format", "version"]
+        assert document["version"] == __version__
+        name = document["format"].removeprefix("balcli.").removesuffix("/1")
+        problems = [
+            f"{'.'.join(map(str, error.absolute_path))}: {error.message[:200]}"
+            for error in validator(name).iter_errors(document)
+        ]
+        assert problems == []
+    return document
+
+
+@pytest.mark.stress
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_the_analysis_and_the_balance_of_every_example(file: Path) -> None:
+    for command in (("analyze", file), ("balance", file)):
+        out = ask(*command, "-f", "json")
+        check(out)
+
+
+RESULTS = {
+    "why": ("analyze", I4, "--why", "--by", "cylinder", "--orders", "0-4"),
+    "inner": ("analyze", I4, "--only", "inner,guide"),
+    "inner with gas": ("analyze", V8, "--only", "inner,guide,gas", "--orders", "1,1.5,2"),
+    "offsets": ("analyze", ENGINES / "vr6.toml"),
+    "speeds": ("analyze", I4, "--speed", "1000:3000:1000"),
+    "marine": ("analyze", ENGINES / "marine/marine6.toml", "--format", "marine", "-o", "m.json"),
+    "no places": ("analyze", "-"),
+    "factor": (
+        "balance",
+        TWO_BANKS,
+        "--factor",
+        "51%",
+        "--planes",
+        "ends",
+        "--drill",
+        "19",
+        "--grade",
+        "6.3",
+        "--mass",
+        "12",
+    ),
+    "factors": ("balance", TWO_BANKS, "--factor", "50%:54%:1%", "--planes", "ends"),
+    "slider": ("balance", I4, "--scheme", "slider"),
+    "eccentric slider": ("balance", SINGLE, "--scheme", "eccentric-slider"),
+    "oldham": ("balance", SINGLE, "--scheme", "oldham"),
+    "compare": ("compare", I4, SINGLE, "--all"),
+    "sum": ("sum", I4, I4, "--phase", "90"),
+    "sum with gas": ("sum", V8, I4),
+    "layouts": ("layouts",),
+    "table": ("tables", "tsinghua-1-2"),
+    "series": ("tables", "series"),
+    "curves": ("curves", I4, "--step", "30"),
+    "curves of a cylinder": ("curves", V8, "--cylinder", "1", "--step", "30"),
+    "sweep": ("sweep", I4, "--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.axis"),
+    "throws": ("search", I4, "--over", "throws", "--minimise", "moment.1.major"),
+    "firing order": ("search", I4, "--over", "firing_order", "--minimise", "moment.1.major"),
+    "bank angle": ("search", TWO_BANKS, "--over", "bank_angle", "--minimise", "force.1.major"),
+    "a number": ("search", I4, "--over", "rod.ratio=0.2:0.3", "--minimise", "force.2.major"),
+    "numbers": ("numbers", V8),
+    "scatter": ("scatter", I4, "--samples", "50"),
+    "mounts": ("mounts", ENGINES / "i4_mounts.toml", I4, "--scheme", "auto", *SPEEDS),
+    "torsion": (
+        "torsion",
+        ENGINES / "i6_diesel.toml",
+        "--holzer",
+        "1",
+        "--holzer",
+        "12 Hz",
+        *SPEEDS,
+        "--damper",
+        "viscous",
+    ),
+    "rubber": ("torsion", ENGINES / "i6_diesel.toml", *SPEEDS, "--damper", "rubber"),
+    "pendulum": ("torsion", ENGINES / "i6_diesel.toml", *SPEEDS, "--damper", "pendulum"),
+    "torque": ("torque", V8, "--loads", "pin,main"),
+    "misfire": ("torque", V8, "--misfire", "1", "--fluctuation", "2%"),
+    "stall": ("torque", ENGINES / "i4_wiebe.toml", "--speed", "100", "--fluctuation", "2%"),
+    "bearings not known": ("torque", "-", "--loads", "pin,main"),
+    "given torque": ("torque", "--curve", "curve.csv", "--speed", "1000"),
+}
+NO_UNIT = """\
+planes = ["fan"]
+run = [{ readings = ["5 @ 0"] }, { readings = ["3 @ 0"], weights = { fan = "1 @ 180" } }]"""
+NO_PLACES = f"""\
+crank = {{ stroke = 90, throws = [0, 180] }}
+rod.length = 160
+piston = {{ bore = 80, mass = 0.5 }}
+layout.firing_order = [1, 2]
+operation.speed = 3000
+{WIEBE}"""
+
+
+@pytest.mark.parametrize("what", RESULTS)
+def test_what_every_command_prints_keeps_to_its_schema(
+    what: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("curve.csv").write_text(CURVE)
+    form = () if "-o" in RESULTS[what] else ("-f", "json")
+    status, out, err = run_here(*RESULTS[what], *form, stdin=NO_PLACES)
+    out = out or Path("m.json").read_text(encoding="utf-8")
+    assert (status, out != "") == (0, True), err
+    check(out)
+
+
+def test_field_and_a_chain_of_shafts() -> None:
+    assert check(run_here("field", "-", "-f", "json", stdin=template("field")).out)["corrections"]
+    assert check(run_here("field", "-", "-f", "json", stdin=NO_UNIT).out)["unit"] is None
+    assert check(run_here("torsion", "-", "-f", "json", stdin=template("torsion")).out)["modes"]
+
+
+def test_a_bench() -> None:
+    """Of a document as `bench` prints it: running it takes seconds."""
+    row = {"task": "a", "method": "b", "seconds": 1e-3, "error": 0.1}
+    ratios = [{"what": "a / b", "value": 2.0}]
+    check(json.dumps({"format": "balcli.bench/1", "version": __version__, "rows": [row], "ratios": ratios}))
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_the_command_prints_the_schema_with_its_address_and_units(name: str) -> None:
+    out = ask("schema", "--of", name)
+    schema = json.loads(out)
+    assert schema["$id"] == f"urn:balcli:schema:{name}:1"
+    assert schema["properties"]["format"]["const"] == f"balcli.{name}/1"
+    assert {"format", "version"} <= {*schema["required"]}
+    assert "additionalProperties" not in schema  # new keys may be added
+
+
+def test_units_come_from_the_names() -> None:
+    node = describe_document("torsion")["$defs"]
+    shown = {key: field.get("description", "") for part in node.values() for key, field in part["properties"].items()}
+    assert shown["inertia_kg_m2"].endswith("[kg·m²]")
+    assert shown["stiffness_Nm_per_rad"].endswith("[N·m/rad]")
+    assert "[" not in shown["node_in"]
+
+
+def test_a_result_that_there_is_not() -> None:
+    assert refusal("schema", "--of", "serach") == ("--of serach: there is no such result; did you mean search?")
+    assert refusal("schema", "--of", "zzz").startswith(
+        "--of zzz: there is no such result; there are analysis, balance, "
+    )
+    assert refusal("schema", "field", "--of", "field") == (
+        "--of field: is of a result; leave field out, which is a file"
+    )

@@ -1,0 +1,118 @@
+"""Plain text without rich is what rich prints where there is no terminal: the same lay-out, letter
+for letter.
+"""
+
+from __future__ import annotations
+
+from io import StringIO
+
+import pytest
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text as Line
+from support.cases import cases
+from support.paths import ENGINE_FILES, ENGINES
+
+from balcli import analyze, balance, load
+from balcli.analysis import comparison
+from balcli.analysis import show as analysis
+from balcli.analysis.comparison import compare_engines
+from balcli.balancing import show as balance_renderer
+from balcli.show.sheet import Facts, Grid, Sheet, Text, View
+from balcli.show.table import PROSE, count_places, fold, plain_text
+from balcli.show.units import SYSTEMS
+
+WIDE = 100_000
+
+
+def print_by_rich(sheets: list[Sheet]) -> str:
+    """The sheets as rich prints them into a file of unlimited width."""
+    buffer = StringIO()
+    console = Console(file=buffer, width=WIDE, highlight=False, emoji=False, markup=False, soft_wrap=True)
+    for sheet in sheets:
+        console.print(Line(sheet.title))
+        for part in sheet.parts:
+            console.print()
+            if part.title:
+                console.print(Line(part.title))
+            for piece in pieces_for_rich(part):
+                console.print(piece)
+        console.print()
+    return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
+
+
+def pieces_for_rich(part: Grid | Facts | Text) -> list:
+    match part:
+        case Grid():
+            return [grid_for_rich(part), *([Line(part.note)] if part.note else [])]
+        case Facts():
+            table = Table.grid(padding=(0, 2))
+            for name, value in part.pairs:
+                table.add_row(name, value)
+            return [table]
+        case Text():
+            return list(part.paragraphs)
+
+
+def grid_for_rich(grid: Grid) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 1), pad_edge=False, show_edge=False)
+    for k, name in enumerate(grid.columns):
+        left = k in grid.words
+        folded = {"overflow": "fold", "max_width": PROSE} if k and left else {"no_wrap": True}
+        table.add_column(name, justify="left" if left else "right", **folded)
+    for row in grid.rows:
+        table.add_row(*map(Line, row))
+    return table
+
+
+@pytest.mark.stress
+def test_analyses_are_as_rich_prints_them():
+    si = SYSTEMS["si"]
+    for file in ENGINE_FILES[::6]:  # some of every kind
+        result = analyze(load(file), by_cylinder=True, reasons=True)
+        sheets = [analysis.sheet(result, si, View(whole=whole)) for whole in (False, True)]
+        assert plain_text(sheets) == print_by_rich(sheets)
+
+
+def test_a_scheme_and_a_comparison_are_as_rich_prints_them():
+    si = SYSTEMS["si"]
+    engines = [load(ENGINES / f"{name}.toml") for name in ("single", "i4", "vr6")]
+    sheets = [
+        balance_renderer.sheet(balance(engines[0], "factor"), si),
+        comparison.sheet(compare_engines(engines, ["single", "i4", "vr6"]), si),
+    ]
+    assert plain_text(sheets) == print_by_rich(sheets)
+
+
+LETTERS = "a few words of different length, 七气缸 and e\u0301tude, μ − ω"
+LONG = "x" * 60 + " end"
+
+
+@cases("show/table", "any_grid_is_as_rich_prints_it", LETTERS=LETTERS, LONG=LONG)
+def test_any_grid_is_as_rich_prints_it(cells):
+    columns = ("no.", "what it is", "figure")
+    parts = (
+        Grid("Title of the grid", columns, tuple(cells), note="A note.", words=(0, 1)),
+        Grid("", columns, tuple(cells), words=()),
+        Facts((("μ", LETTERS), ("name of a fact", "1"), ("七", "2"))),
+        Text("Title", (LETTERS, LONG, "")),
+    )
+    sheets = [Sheet("七 cylinders", parts), Sheet("second", parts[:1])]
+    assert plain_text(sheets) == print_by_rich(sheets)
+
+
+def test_words_are_folded_between_blanks_and_long_ones_within():
+    assert fold("one two three", 7) == ["one two", "three"]
+    assert fold("one twothree four", 6) == ["one", "twothr", "ee", "four"]
+    assert fold("short", 5) == ["short"]
+
+
+def test_letters_take_the_places_they_have_in_a_terminal():
+    counted = [count_places(text) for text in ("abc", "a − ω", "七气缸", "e\u0301", "")]
+    assert counted == [3, 5, 6, 1, 0]
+
+
+def test_control_characters_command_nobody():
+    sheet = Sheet("a\x1b[31m", (Text("", ("b\u202e", "c\x9b")),))
+    assert plain_text([sheet]) == "a?[31m\n\nb?\nc?\n"

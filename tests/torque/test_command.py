@@ -1,0 +1,394 @@
+"""`balcli torque`: what it prints in every format, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+from support.cases import cases
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
+from support.gas_engines import FOUR, WIEBE
+from support.paths import write
+
+TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
+WHOLE = {"format", "version", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
+WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
+
+
+@pytest.fixture
+def four(tmp_path):
+    path = write(tmp_path / "four.toml", FOUR + WIEBE + "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n")
+    return str(path)
+
+
+@pytest.fixture
+def curve(tmp_path):
+    path = write(tmp_path / "press.csv", TORQUE)
+    return str(path)
+
+
+def test_json_has_what_the_file_allows(four):
+    found = ask_json("torque", four, "--fluctuation", "1/300")
+    assert set(found) == WHOLE | {"bmep_Pa", "flywheel"}
+    assert found["format"] == "balcli.torque/1"
+    assert found["imep_Pa"] == pytest.approx(9e5)
+    assert found["bmep_Pa"] == pytest.approx(7.2e5)
+    assert set(found["torque"]) == {"max_Nm", "max_deg", "min_Nm", "min_deg", "reversals"}
+    assert set(found["energy"]) == {"surplus_J", "from_deg", "to_deg", "work_J"}
+    assert set(found["flywheel"]) == {
+        *("inertia_kg_m2", "moving_parts_kg_m2", "fluctuation", "fluctuation_small"),
+        *("needed_kg_m2", "speed_max_rpm", "speed_min_rpm"),
+    }
+    assert [entry["order"] for entry in found["orders"]] == [n / 2 for n in range(1, 25)]
+    kinds = {"gas_torque_Nm", "inertia_torque_Nm", "torque_Nm"}
+    assert set(found["orders"][0]) == kinds | {"order", "one_cylinder"}
+    assert set(found["orders"][0]["one_cylinder"]) == kinds
+    assert found["orders"][0]["gas_torque_Nm"]["balanced"]
+
+
+def test_what_the_file_does_not_allow_is_left_out(four):
+    assert set(ask_json("torque", "-", stdin=FOUR + WIEBE)) == WHOLE
+
+
+def test_a_misfire_is_told_wherever_its_figures_are(four):
+    for command in ("torque", "analyze"):
+        asked = (command, four, "--misfire", "3")
+        assert ask_json(*asked)["no_gas_in"] == [3]
+        assert "no_gas_in" not in ask_json(command, four)
+    assert "no gas in" in run_here("analyze", four, "--misfire", "3", "--only", "gas").out
+
+
+def test_csv_lists_every_figure(four):
+    lines = ask("torque", four, "--format", "csv").splitlines()
+    assert lines[0] == "cylinder,quantity,order,figure,value,unit"
+    assert any(line.startswith("0,flywheel,,fluctuation,0.0") for line in lines)
+    assert any(line.startswith("1,gas,0.5,amplitude,") for line in lines)
+    assert any(line.startswith("0,torque_total,2,peak_deg,") for line in lines)
+    assert any(line.startswith("0,torque_total,,max,") for line in lines)
+    silent = ask("torque", four, "--misfire", "3", "--misfire", "1", "--format", "csv").splitlines()
+    assert "0,engine,,no_gas_in,1 3," in silent
+
+
+def test_what_is_written_turns_as_unevenly(four, tmp_path):
+    out = tmp_path / "uneven.toml"
+    ask("torque", four, "--write", out)
+    assert "order = 2, amplitude = 0.0" in out.read_text()
+    found = ask_json("analyze", out, "--only", "force")
+    assert found["orders"][0]["order"] == 0, "an uneven speed has a mean force"
+    again = ask_json("torque", out)
+    assert again == ask_json("torque", four), "torque is that of the mean speed"
+
+
+def test_what_a_crank_needs_that_stalls(four, tmp_path):
+    arguments = (four, "--speed", "100", "--fluctuation", "1/50")
+    assert "speed    the shaft stalls at" in ask("torque", *arguments)
+    found = ask_json("torque", *arguments)["flywheel"]
+    assert set(found) == {"inertia_kg_m2", "moving_parts_kg_m2", "needed_kg_m2", "stall"}
+    assert found["stall"].startswith("the shaft stalls at")
+    told = refusal("torque", *arguments, "--write", tmp_path / "out.toml")
+    assert told.startswith("--write: the shaft stalls at")
+
+
+def test_a_crank_that_stalls_is_an_error_with_the_angle_beside_all_else(four, curve):
+    for arguments in ((four, "--speed", "100"), ("--curve", curve, "--inertia", "1", "--speed", "9")):
+        status, out, err = run_here("torque", *arguments)
+        assert status == 2
+        assert "Torque over the cycle" in out
+        name = arguments[0] if arguments[0] == four else curve
+        stall = r"the shaft stalls at \d+\.\d°: with this inertia it needs a mean speed above \d+"
+        assert re.match(rf"balcli: {re.escape(str(name))}: {stall}", err)
+        status, out, _ = run_here("torque", *arguments, "--format", "json")
+        assert status == 2
+        assert json.loads(out)["flywheel"]["stall"] in err
+        assert run_here("torque", *arguments, "--fluctuation", "1/50")[::2] == (0, "")
+
+
+def test_a_curve_needs_no_engine(curve):
+    found = ask_json("torque", "--curve", curve)
+    assert set(found) == {"format", "version", "cycle_deg", "mean_torque_Nm", "torque", "orders", "energy"}
+    assert found["mean_torque_Nm"] == pytest.approx(250)
+    assert found["cycle_deg"] == 360
+    assert found["torque"]["max_Nm"] == 1000
+    assert found["energy"]["work_J"] == pytest.approx(250 * 2 * 3.141592653589793)
+    assert set(found["orders"][0]) == {"order", "torque_Nm"}
+    arguments = ("--curve", curve, "--speed", "300", "--inertia", "2e6", "--fluctuation", "1/100")
+    text = ask("torque", *arguments)
+    assert "Flywheel\ninertia      2 kg·m²" in text
+    metric = ask("torque", *arguments[:5], "2 kg m^2", *arguments[6:])
+    assert metric == text
+
+
+def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
+    (tmp_path / "t.csv").write_text("angle_deg,torque_Nm\n0,1\n300,5\n1080,1\n")
+    orders = ask_json("torque", "--curve", tmp_path / "t.csv")["orders"]
+    assert [entry["order"] for entry in orders[:3]] == pytest.approx([1 / 3, 2 / 3, 1])
+
+
+def test_the_load_takes_its_share(curve, tmp_path):
+    """A load that is the torque itself leaves nothing over."""
+    found = ask_json("torque", "--curve", curve, "--load", curve)
+    assert found["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
+    assert found["energy"]["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
+    other = write(tmp_path / "l.csv", "angle_deg,torque_Nm\n0,250\n720,250\n")
+    told = refusal("torque", "--curve", curve, "--load", other)
+    assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in told
+
+
+def test_a_curve_may_begin_at_any_angle(tmp_path):
+    """A triangle at 30 deg is there wherever its rows begin, and a load of it leaves nothing."""
+    rows = {"a.csv": "0,50\n30,80\n60,50\n360,50", "b.csv": "-90,50\n0,50\n30,80\n60,50\n270,50"}
+    paths = {name: tmp_path / name for name in rows}
+    for name, text in rows.items():
+        paths[name].write_text(f"angle_deg,torque_Nm\n{text}\n")
+    found = [ask_json("torque", "--curve", p) for p in paths.values()]
+    for one in found:
+        assert one["torque"]["max_deg"] == pytest.approx(30)
+        assert one["orders"][0]["torque_Nm"]["peak_deg"] == pytest.approx(30)
+        assert [one["energy"][key] for key in ("from_deg", "to_deg")] == pytest.approx(
+            [30 - 30 * (1 - 1 / 12), 30 + 30 * (1 - 1 / 12)]
+        )
+    both = ask_json("torque", "--curve", paths["a.csv"], "--load", paths["b.csv"])
+    assert both["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
+
+
+IN_OTHER_UNITS = {  # NIST SP 811 (2008), appendix B.8, but for the last: pound times square inch
+    "N": ("lbf", 4.4482216152605),
+    "N·m": ("lbf·ft", 1.3558179483314004),
+    "J": ("lbf·ft", 1.3558179483314004),
+    "Pa": ("psi", 6894.757293168361),
+    "W": ("hp", 745.6998715822702),
+    "kg·m²": ("lb·in²", 0.45359237 * 0.0254**2),
+}
+
+
+def test_imperial_figures_are_the_metric_ones_in_other_units(four):
+    """Pressure, power, work and inertia, too: in tables and CSV."""
+    bearings = "[bearing]\npin_diameter = 48\npin_width = 20\nmain_diameter = 60\nmain_width = 22\n"
+    with open(four, "a") as file:
+        file.write(bearings)
+    asked = (four, "--fluctuation", "1/300", "--loads", "pin,main")
+
+    def rows(*more):
+        return ask_csv("torque", *asked, *more)
+
+    units = set()
+    for si, imperial in zip(rows(), rows("--units", "imperial"), strict=True):
+        name, size = IN_OTHER_UNITS.get(si["unit"], (si["unit"], 1.0))
+        assert imperial | {"value": "", "unit": si["unit"]} == si | {"value": ""}
+        assert imperial["unit"] == name
+        if name != si["unit"]:
+            assert float(imperial["value"]) == pytest.approx(float(si["value"]) / size, rel=1e-14)
+            units.add(name)
+    assert units == {name for name, _ in IN_OTHER_UNITS.values()}
+    table = ask("torque", *asked, "--units", "imperial")
+    assert not re.search(r"\b(N|J|kJ|N·m|bar|kW|kg·m²|N/mm²)\b", table)
+    assert re.search(r"^mean pressure +130\.53 psi indicated, 104\.43 psi brake$", table, re.M)
+    metric = ask("torque", *asked)
+    assert re.search(r"^mean pressure +9 bar indicated, 7\.2 bar brake$", metric, re.M)
+
+
+@cases("shell/torque", "what_is_refused")
+def test_what_is_refused(four, curve, arguments, told):
+    assert told in refusal("torque", *(a.format(four=four, curve=curve) for a in arguments))
+
+
+@cases("shell/torque", "an_engine_without_gas_is_refused_by_its_file")
+def test_an_engine_without_gas_is_refused_by_its_file(command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bare.toml").write_text(f'name = "four"\n{FOUR}')
+    (tmp_path / "gas.toml").write_text(FOUR + WIEBE)
+    assert run_here(*command.split()) == (
+        2,
+        "",
+        "balcli: bare.toml: has no [gas]; give a diagram, a cycle or harmonics, such as "
+        'cycle = "wiebe", compression_ratio = 10.5, imep = 10\n',
+    )
+
+
+# ------------------------------------------------------------------ loads and curves
+def test_loads_are_told_when_they_are_asked_for(tmp_path):
+    path = tmp_path / "four.toml"
+    bearing = "[bearing]\npin_diameter = 48\npin_width = 20\n"
+    path.write_text(FOUR + WIEBE + bearing)
+    loads = ask_json("torque", path, "--loads", "pin,main")["loads"]
+    assert [pin["cylinder"] for pin in loads["pin"]] == [1, 2, 3, 4]
+    assert [main["bearing"] for main in loads["main"]] == [1, 2, 3, 4, 5]
+    for pin in loads["pin"]:
+        assert pin["pressure_Pa"] == pytest.approx(pin["max_N"] / 960e-6)
+    assert set(loads["main"][0]) == {"bearing", "position_mm", "max_N", "max_deg", "mean_N"}
+    text = ask("torque", path, "--loads", "pin")
+    assert "Crank pins\ncylinder   largest, kN   at, deg   mean, kN   N/mm²" in text
+    assert "Main bearings" not in text
+    rows = ask("torque", path, "--loads", "pin,main", "-f", "csv").splitlines()
+    assert any(row.startswith("2,pin,,max,") for row in rows)
+    assert any(row.startswith("0,main,3,mean,") for row in rows)
+    status, _, err = run_here("torque", path, "--loads", "wrist")
+    assert (status, err) == (2, "balcli: --loads: 'wrist'; choose from pin, main\n")
+
+
+def test_curves_of_a_cylinder_go_over_its_cycle(four):
+    out = ask("curves", four, "--cylinder", "3", "--step", "5", "-f", "json")
+    curves = json.loads(out)["curves"] if "curves" in json.loads(out) else json.loads(out)
+    names = {"pressure_Pa", "volume_m3", "gas_force_N", "side_thrust_N", "rod_force_N", "pin_x_N"}
+    assert names | {"pin_y_N", "torque_Nm"} <= set(curves)
+    assert len(curves["torque_Nm"]) == 144
+
+
+# ------------------------------------------------------------------ sweeps and pictures
+def test_curves_of_an_engine_have_the_gas_torque_over_the_cycle(four, tmp_path):
+    found = ask_json("curves", four, "--step", "4")
+    curves = found["curves"]
+    assert len(found["crank_deg"]) == 180
+    orders = ask_json("torque", four, "--orders", "0-80")["orders"]
+    for name in ("gas_torque_Nm", "inertia_torque_Nm", "torque_Nm"):
+        angle = np.radians(found["crank_deg"])
+        waves = [
+            entry[name]["cos"] * np.cos(entry["order"] * angle) + entry[name]["sin"] * np.sin(entry["order"] * angle)
+            for entry in orders
+        ]
+        size = np.abs(curves[name]).max()
+        assert sum(waves) == pytest.approx(curves[name], abs=5e-3 * size)
+    rolled = np.array(curves["couple_Nm"]) - curves["torque_Nm"]
+    assert curves["roll_total_Nm"] == pytest.approx(rolled, abs=1e-9 * np.abs(rolled).max())
+    bare = write(tmp_path / "bare.toml", FOUR)
+    assert "gas" not in run_here("curves", bare).out
+    assert len(run_here("curves", bare, "--step", "4").out.splitlines()) == 91
+
+
+def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
+    """Each variant as if the file said so."""
+    asked = "gas.1.5.amplitude,torque.2.amplitude,roll_total.2.cos,torque.mean,torque.max,fluctuation"
+    lines = run_here("sweep", four, "--vary", "gas.imep=6,9", "--vary", "cylinder.3.gas=0,1", "--quantity", asked)
+    assert lines.err == ""
+    header, *rows = lines.out.splitlines()
+    assert header == f"gas.imep,cylinder.3.gas,{asked}"
+    other = tmp_path / "other.toml"
+    with open(four) as file:
+        text = file.read().replace("imep = 9", "imep = 6") + "[cylinder.3]\ngas = 0\n"
+    other.write_text(text)
+    found = ask_json("torque", other, "--orders", "0.5-2")
+    by_order = {entry["order"]: entry for entry in found["orders"]}
+    row = [float(cell) for cell in rows[0].split(",")]
+    assert row[:2] == [6, 0]
+    assert row[2] == pytest.approx(by_order[1.5]["gas_torque_Nm"]["amplitude"], rel=1e-12)
+    assert row[3] == pytest.approx(by_order[2]["torque_Nm"]["amplitude"], rel=1e-12)
+    assert row[4] == pytest.approx(-by_order[2]["torque_Nm"]["cos"], rel=1e-9)
+    assert row[5] == pytest.approx(found["mean_torque_Nm"], rel=1e-12)
+    assert row[6] == pytest.approx(found["torque"]["max_Nm"], rel=1e-12)
+    assert row[7] == pytest.approx(found["flywheel"]["fluctuation"], rel=1e-9)
+
+
+def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
+    bare = write(tmp_path / "bare.toml", FOUR)
+    out = ask("sweep", bare, "--vary", "rod.length=140,150", "--quantity", "torque.2.amplitude")
+    assert out.startswith("rod.length,torque.2.amplitude")
+    refused = ("sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "gas.2.amplitude")
+    assert refusal(*refused) == "gas.2.amplitude: the engine file has no [gas]"
+
+
+@pytest.mark.stress
+@pytest.mark.parametrize("what", ["pressure", "p-v", "torque", "pin", "main"])
+def test_pictures_of_gas(four, tmp_path, what):
+    target = tmp_path / "x.svg"
+    ask("plot", four, "--what", what, "-o", target)
+    assert target.read_text().startswith("<?xml")
+
+
+# ------------------------------------------------------------------ other commands
+@pytest.mark.slow
+def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
+    """A diagram would be left behind, unless the other folder has it, too."""
+    (tmp_path / "far").mkdir()
+    rows = "\n".join(f"{angle},{5 if angle == 10 else 1}" for angle in range(0, 721, 10))
+    (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}\n")
+    path = tmp_path / "four.toml"
+    shaft = 'name = "flywheel"\ninertia = 9e6\nstiffness = 1e6\ndiameter = 60\n'
+    more = f"[torsion]\nthrow_stiffness = 1e6\nthrow_inertia = 3e4\n[[torsion.rear]]\n{shaft}"
+    turned = FOUR.replace("throws = [0, 180, 180, 0]\n", "")
+    wanted = '[gas]\nindicator = "p.csv"\n[flywheel]\ninertia = 9e6\n'
+    path.write_text(turned + wanted + more)
+    commands = (
+        ("torque",),
+        ("balance",),
+        ("torsion", "--damper", "viscous", "--speeds", "1000:2000:500", "--damper-inertia", "2e6"),
+        ("search", "--over", "firing_order", "--minimise", "force.1.major"),
+    )
+    for command, *options in commands:
+        far = tmp_path / "far" / "out.toml"
+        told = refusal(command, path, *options, "--write", far)
+        assert f'{far}: the engine file names "p.csv", which stands beside it in {tmp_path}' in told
+        assert f"or copy p.csv into {far.parent} first" in told
+        assert not far.exists()
+        near = tmp_path / f"{command}.toml"
+        status, _, err = run_here(command, path, *options, "--write", near)
+        assert (status, err) == (0, "")
+        assert run_here("torque", near).status == 0
+    (tmp_path / "far" / "p.csv").write_bytes((tmp_path / "p.csv").read_bytes())
+    for command, *options in commands:
+        copied = tmp_path / "far" / f"{command}.toml"
+        assert run_here(command, path, *options, "--write", copied).status == 0
+        assert run_here("torque", copied).status == 0
+
+
+@pytest.mark.parametrize("only", ["gas", "inner", "guide"])
+def test_engines_of_different_cycles_are_compared_by_the_orders_of_both(tmp_path, only):
+    """A misfire makes half orders, which a two-stroke engine does not have."""
+    four, two = tmp_path / "four.toml", tmp_path / "two.toml"
+    four.write_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
+    two.write_text(FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2") + WIEBE)
+    found = ask_json("compare", four, two, "--only", only)
+    halves = [line for line in found["figures"] if (line["order"] or 0) % 1]
+    assert halves
+    assert all(line["values"][0] > 0 and line["values"][1] == 0 for line in halves)
+
+
+def test_guide_moments_include_the_gas(four, tmp_path):
+    arguments = ("--only", "guide", "--orders", "0.5-4", "-f", "json")
+    found = json.loads(run_here("analyze", four, *arguments).out)["guide"]
+    assert found["includes"] == "inertia and gas"
+    roll = ask_json("analyze", four, "--orders", "2", "--only", "gas")
+    by_order = {entry["order"]: entry for entry in found["orders"]}
+    assert by_order[2]["h_Nm"]["amplitude"] == pytest.approx(roll["orders"][0]["roll_total_Nm"]["amplitude"], rel=1e-12)
+    assert by_order[0.5]["h_Nm"]["balanced"]
+    assert by_order[0.5]["x_Nm"]["amplitude"] > 1
+
+
+@cases("shell/torque", "curves_that_cannot_be")
+def test_curves_that_cannot_be(tmp_path, content, told):
+    path = write(tmp_path / "t.csv", content)
+    assert told in refusal("torque", "--curve", path)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param(
+            "angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n", id="semicolons part columns, and commas decimals"
+        ),
+        pytest.param("angle_deg\ttorque_Nm\n0\t1,5\n90,5\t-2,25\n360\t1.5\n", id="so do tabs"),
+        pytest.param(
+            "angle_deg,\t\ttorque_Nm\n0,\t\t1.5\n90.5,\t\t-2.25\n360,\t\t1.5\n", id="tabs after commas are room"
+        ),
+        pytest.param(
+            "angle_deg,torque_Nm\n0,1.5,first\n90.5,-2.25,,idle\n360,1.5,\n",
+            id="words without a heading count for nothing",
+        ),
+        pytest.param(
+            "angle_deg;torque_Nm\n0;1,5;7\n90,5;-2,25;8,5\n360;1,5;ok\n",
+            id="nor do numbers, where semicolons part columns",
+        ),
+    ],
+)
+def test_one_curve_in_other_words(tmp_path, text):
+    path = write(tmp_path / "t.csv", "angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
+    plain = ask("torque", "--curve", path)
+    path.write_text(text)
+    assert ask("torque", "--curve", path) == plain
+
+
+@cases("shell/torque", "quantities_that_are_none")
+def test_quantities_that_are_none(four, text, message):
+    err = run_here("sweep", four, "--vary", "gas.imep=6,9", "--quantity", text).err
+    assert err == f"balcli: {text} is no quantity: {message}\n"

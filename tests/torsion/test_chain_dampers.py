@@ -1,0 +1,99 @@
+"""Dampers as complex inertias, against the same dampers as nodes of the chain."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.chains import no_damping
+
+from balcli.torsion.chain import (
+    ChainShaft,
+    Damping,
+    best_viscous_damping,
+    join_chain,
+    pendulum_inertia,
+    pendulum_swing,
+    viscous_inertia,
+)
+from balcli.torsion.motion import respond_chain
+
+W = np.array([50.0, 300, 1000])
+LOAD = np.array([1.0, -2j, 0.5])
+CHAIN = join_chain([0.1, 0.2, 2], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5)])
+DAMPING = Damping(np.full(2, 0.02), np.zeros(2), np.zeros(3))
+
+
+def at_first_node(inertia):
+    attached = np.zeros((len(W), 3), complex)
+    attached[:, 0] = inertia
+    return respond_chain(CHAIN, DAMPING, W, LOAD, attached)
+
+
+def with_a_ring(inertia, stiffness, loss, dashpot):
+    """The same chain with the damper as a fourth node on a shaft of its own."""
+    chain = join_chain(
+        [0.1, 0.2, 2, inertia], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 3, stiffness)]
+    )
+    damping = Damping(np.array([0.02, 0.02, loss]), np.array([0, 0, dashpot]), np.zeros(4))
+    return respond_chain(chain, damping, W, np.append(LOAD, 0))
+
+
+def test_viscous_ring_is_a_node_on_a_dashpot():
+    found = at_first_node(viscous_inertia(0.05, 12.0, W))
+    expected = with_a_ring(0.05, 0, 0, 12.0)
+    assert found.angle == pytest.approx(expected.angle[:, :3], rel=1e-12)
+    assert found.torque == pytest.approx(expected.torque[:, :2], rel=1e-12)
+
+
+def test_limits_of_dampers():
+    """A ring that sticks is inertia, one that slips is none."""
+    assert viscous_inertia(0.05, 1e12, W) == pytest.approx(np.full(3, 0.05))
+    assert abs(viscous_inertia(0.05, 1e-12, W)) == pytest.approx(np.zeros(3), abs=1e-12)
+    assert pendulum_inertia(2.0, 0.1, 0.025, np.zeros(1)) == pytest.approx([2 * 0.125**2])
+
+
+def test_dampers_take_energy():
+    assert np.all(viscous_inertia(0.05, 12.0, W).imag < 0)
+
+
+def test_a_tuned_pendulum_holds_its_node_still():
+    """n^2 = R/L: at that order the node is at rest whatever the speed, and no other one is."""
+    order = np.array([2.0, 3.0, 4.0])
+    attached = np.zeros((3, 3), complex)
+    attached[:, 0] = pendulum_inertia(0.5, 0.09, 0.01, order)
+    angle = respond_chain(CHAIN, DAMPING, 40 * order, LOAD, attached).angle
+    assert abs(angle[1, 0]) < 1e-9 * abs(angle[0, 0])
+    assert abs(angle[2, 0]) > 1e-3 * abs(angle[0, 0])
+
+
+def test_a_pendulum_swings_as_its_equation_of_motion_says():
+    """For a point mass at R + L on a disc that turns at 1 + small: L y'' + R y = -(R + L) x'', y
+    the pendulum's angle against the disc.
+
+    With y = (R + L) n^2 x/(R - L n^2), the disc feels m (R + L) ((R + L) x'' + L y'').
+    """
+    mass, radius, length, order = 0.5, 0.08, 0.02, 1.5
+    y = (radius + length) * order**2 / (radius - length * order**2)
+    felt = mass * (radius + length) * (radius + length + length * y)
+    assert pendulum_inertia(mass, radius, length, np.array(order)) == pytest.approx(felt)
+    assert pendulum_swing(radius, length, np.array(order)) == pytest.approx(y)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.5, 1.0])
+def test_the_best_viscous_damper_magnifies_by_1_plus_2_over_its_ratio(ratio):
+    """Den Hartog, Houdaille damper: the highest peak at w^2 = 2/(2 + ratio), and with any other
+    damping it is higher.
+    """
+    chain = join_chain([1.0, 1.0], [ChainShaft(0, 1, 1.0)], clamped=[0])
+    w = np.append(np.linspace(0.05, 2, 4000), np.sqrt(2 / (2 + ratio)))
+
+    def peak(damping):
+        attached = np.zeros((len(w), 2), complex)
+        attached[:, 1] = viscous_inertia(ratio, damping, w)
+        return abs(respond_chain(chain, no_damping(chain), w, np.array([0, 1]), attached).angle[:, 1])
+
+    best = best_viscous_damping(ratio, ratio, 1.0)
+    assert peak(best).max() == pytest.approx(1 + 2 / ratio, rel=1e-9)
+    assert peak(best)[-1] == pytest.approx(1 + 2 / ratio, rel=1e-12)
+    assert peak(1.1 * best).max() > 1.001 * (1 + 2 / ratio)
+    assert peak(best / 1.1).max() > 1.001 * (1 + 2 / ratio)
