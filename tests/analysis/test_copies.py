@@ -24,7 +24,7 @@ from balcli.analysis.curves import compute_cylinder_curves, compute_engine_curve
 from balcli.balancing.answer import balance_knuckles
 from balcli.engine.parse import parse
 from balcli.forces.curves import divide_revolution
-from balcli.sizing.options import SCHEMES
+from balcli.sizing.schemes import SCHEMES
 
 ENGINES = Path(__file__).parents[2] / "engines"
 EVERYTHING = ["force", "moment", "couple", "torque", "roll", "peak", "sizing", "inner", "guide"]

@@ -13,7 +13,7 @@ from support.rotors import head, names, polar, random_rotor, run, table, three_r
 from balcli.core.unbalance import STEEL
 from balcli.errors import BalcliError
 from balcli.field.answer import find_corrections
-from balcli.field.tables import parse_runs
+from balcli.field.read import parse_runs
 
 RELATIVE = 1e-12
 

@@ -14,7 +14,7 @@ from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.paths import write
 from support.rotors import three_runs
 
-from balcli.field.tables import parse_runs
+from balcli.field.read import parse_runs
 from balcli.file.examples import template
 
 SHOP = """

@@ -6,7 +6,8 @@ import pytest
 from support.rotors import three_runs
 
 from balcli.errors import InputError
-from balcli.field.tables import make_polar, parse_runs
+from balcli.field.read import parse_runs
+from balcli.field.tables import make_polar
 
 
 def mistakes(text: str) -> list[str]:

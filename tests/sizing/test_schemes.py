@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 
-from balcli.sizing.options import MEANINGS, NAMES, SCHEMES
+from balcli.sizing.schemes import MEANINGS, NAMES, SCHEMES
 from balcli.sizing.sizing import SIZE
 
 

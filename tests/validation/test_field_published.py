@@ -12,7 +12,7 @@ import pytest
 from balcli.core.records import angle_deg
 from balcli.core.unbalance import find_permitted_unbalance
 from balcli.field.answer import find_corrections
-from balcli.field.tables import parse_runs
+from balcli.field.read import parse_runs
 
 EXAMPLE_6 = """
 planes = ["front", "rear"]

@@ -25,21 +25,10 @@ from ..show.figures import (
     order_entries,
     peak_entries,
 )
-from ..show.formats import Columnar
+from ..show.formats import Renderer
 from ..show.sheet import IN_BRIEF, NAMELESS, Facts, Grid, Sheet, Text, View, sentence
 from ..show.units import System
-from . import (
-    sections as crankshaft,
-)
-from . import (
-    sections as guide_moments,
-)
-from . import (
-    sections as strokes,
-)
-from . import (
-    sections as symmetry,
-)
+from . import sections
 from .answer import Analysis, Sizing
 from .devices_show import device_entries, device_grid, device_rows, number_devices
 from .order_tables import (
@@ -95,13 +84,13 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
     """What there is only of some engines, or where it was asked for."""
     if result.travel is not None and whole:
-        yield from strokes.lay_out_strokes(result.travel, result.engine.numbers, system)
+        yield from sections.lay_out_strokes(result.travel, result.engine.numbers, system)
     if result.inner is not None:
-        yield from crankshaft.sheet_parts(result.inner, system)
+        yield from sections.sheet_parts(result.inner, system)
     if result.guide is not None:
-        yield from guide_moments.lay_out_guide(result.guide, system)
+        yield from sections.lay_out_guide(result.guide, system)
     if result.why is not None:
-        yield from symmetry.lay_out_symmetry(result.why)
+        yield from sections.lay_out_symmetry(result.why)
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
@@ -210,17 +199,11 @@ def document(result: Analysis) -> dict[str, Any]:
             for number, spectra in result.cylinders
         ]
     if result.inner is not None:
-        from . import sections as crankshaft
-
-        found["inner"] = crankshaft.document(result.inner)
+        found["inner"] = sections.document(result.inner)
     if result.guide is not None:
-        from . import sections as guide_moments
-
-        found["guide"] = guide_moments.describe_guide(result.guide)
+        found["guide"] = sections.describe_guide(result.guide)
     if result.travel is not None:
-        from . import sections as strokes
-
-        found["travel"] = strokes.describe_strokes(result.travel, result.engine.numbers)
+        found["travel"] = sections.describe_strokes(result.travel, result.engine.numbers)
     if result.why is not None:
         found["why"] = to_document(result.why)
     return found
@@ -272,21 +255,13 @@ def _all_rows(result: Analysis, system: System, *, devices: bool) -> Iterator[Fi
             for figure, value, unit in device_rows(device, system):
                 yield FigureRow(0, part, None, figure, value, unit)
     if result.travel is not None:
-        from . import sections as strokes
-
-        yield from strokes.list_strokes(result.travel, result.engine.numbers, system)
+        yield from sections.list_strokes(result.travel, result.engine.numbers, system)
     if result.inner is not None:
-        from . import sections as crankshaft
-
-        yield from crankshaft.rows(result.inner, system)
+        yield from sections.rows(result.inner, system)
     if result.guide is not None:
-        from . import sections as guide_moments
-
-        yield from guide_moments.list_guide(result.guide, system)
+        yield from sections.list_guide(result.guide, system)
     if result.why is not None:
-        from . import sections as symmetry
-
-        yield from symmetry.list_symmetry(result.why)
+        yield from sections.list_symmetry(result.why)
 
 
-RENDERER = Columnar(document=document, columns=columns)
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows, columns=columns)

@@ -33,9 +33,10 @@ from ..file.model import EngineFile
 from ..forces.spectrum import merge_orders
 from ..shell.arguments import tell_arguments
 from ..show.result import Result
-from ..sizing.options import KNUCKLES, SchemeOptions
+from ..sizing.options import SchemeOptions
 from ..sizing.planes import FIELDS, DeviceTable, name_kind
 from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.schemes import KNUCKLES
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Tools, find_practical
 

@@ -31,7 +31,8 @@ from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show,
 from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme_options
 from ..shell.values import optional, read_length, read_mass, read_number
 from ..show.formats import Format, Units
-from ..sizing.options import KNUCKLES, MEANINGS, NAMES, SCHEMES, SchemeOptions
+from ..sizing.options import SchemeOptions
+from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
 
 if TYPE_CHECKING:
     from ..engine.build import Engine

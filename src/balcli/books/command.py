@@ -14,7 +14,6 @@ from ..shell.file_names import text_format
 from ..shell.options import FormatOption, Output
 from ..shell.output import show
 from ..shell.values import as_bare_angles, optional
-from .show import ERRATA, LAYOUTS, TABLE, TABLE_LIST
 
 
 def complete_tables(incomplete: str) -> list[str]:
@@ -86,6 +85,7 @@ def tables(
 
     from .answer import select_tables
     from .layouts import add_firing
+    from .show import ERRATA, LAYOUTS, RENDERER, TABLE_LIST
 
     if angle:
         angle = as_bare_angles("--angle", angle)
@@ -95,7 +95,7 @@ def tables(
     elif name and chosen[0].name == "layouts" and digits is None:
         show([add_firing(chosen[0])], LAYOUTS, form, output)
     elif name:
-        show([replace(chosen[0], digits=digits)], TABLE, form, output)
+        show([replace(chosen[0], digits=digits)], RENDERER, form, output)
     else:
         show([chosen], TABLE_LIST, form, output)
 
@@ -111,5 +111,6 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
     form = text_format(output, form)
     from .answer import recompute
     from .layouts import add_firing
+    from .show import LAYOUTS
 
     show([add_firing(recompute("layouts"))], LAYOUTS, form, output)

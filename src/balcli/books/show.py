@@ -112,7 +112,7 @@ def _round_as_printed(value: float, text: str) -> str:
     return f"+{shown}" if text.startswith("+") else shown
 
 
-TABLE = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
 
 
 COLUMNS = ("table", "row", "column", "printed", "exact", "kind")

@@ -55,26 +55,6 @@ def find_permitted_unbalance(grade: float, mass_kg: float, speed_rpm: float) -> 
     return 1e3 * mass_kg * grade / (speed_rpm * RPM)
 
 
-def share_by_lever(places: Array, planes: Array) -> Array:
-    """Share of each load that each plane takes, shape (planes, loads): the two planes on either
-    side of it share it, loads beyond the outermost plane hang on the last two (with shares below 0
-    and above 1); a single plane takes all of each.
-
-    Args:
-        places: of the loads, m, shape (loads,).
-        planes: m, shape (planes,), ascending, none twice.
-    """
-    if len(planes) == 1:
-        return np.ones((1, len(places)))
-    left = np.clip(np.searchsorted(planes, places, side="right") - 1, 0, len(planes) - 2)
-    right_share = (places - planes[left]) / (planes[left + 1] - planes[left])
-    shares = np.zeros((len(planes), len(places)))
-    loads = np.arange(len(places))
-    shares[left, loads] += 1 - right_share
-    shares[left + 1, loads] += right_share
-    return shares
-
-
 def find_ahead(z: Array, sections: Array) -> Array:
     """1 for places on the free-end side of each section, else 0, shape (sections, places)."""
     return (z <= sections[:, None]).astype(float)

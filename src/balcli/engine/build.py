@@ -176,7 +176,7 @@ class Engine:
     def _repr_html_(self) -> str:
         from importlib import import_module
 
-        return import_module("balcli.report.notebook").show_in_notebook(self)
+        return import_module("balcli.show.notebook").show_engine(self)
 
     @property
     def speed_assumed(self) -> bool:

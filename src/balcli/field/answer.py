@@ -40,7 +40,8 @@ from .influence import (
     fit_coefficients,
 )
 from .places import Piece, PlaneLimits
-from .tables import RunsFile, Sense, check_runs
+from .read import check_runs
+from .tables import RunsFile, Sense
 
 _NEARLY_DEPENDENT = 0.2  # own effect of a plane below which errors of reading grow much
 _SMALL_CHANGE = 0.1  # of the largest reading: a smaller change determines a plane badly

@@ -62,8 +62,8 @@ def field(
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from ..shell.inputs import warn_each
     from .answer import find_corrections
+    from .read import read_runs
     from .show import RENDERER
-    from .tables import read_runs
 
     file, name = read_runs(path), name_file(path)
     if check and file.grade is None:

@@ -16,7 +16,7 @@ from .values import optional, read_lengths, read_mass_on_scales, read_share
 
 def complete_schemes(incomplete: str) -> list[str]:
     """Return the balance schemes that begin with this text."""
-    from ..sizing.options import NAMES
+    from ..sizing.schemes import NAMES
 
     return [name for name in NAMES if name.startswith(incomplete)]
 

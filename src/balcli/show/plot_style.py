@@ -1,8 +1,6 @@
 """The style of all pictures, and the figures that are drawn in it.
 
 Nothing global is left changed, and no display is needed.
-
-Figures that keep our style, so that a notebook shows them as files have them.
 """
 
 from __future__ import annotations
@@ -12,6 +10,7 @@ import re
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 from textwrap import wrap
@@ -19,10 +18,9 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, Literal
 from unicodedata import east_asian_width
 
-from matplotlib.figure import Figure
-
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 Form = Literal["svg", "png", "pdf"]
@@ -44,11 +42,32 @@ _UNDATED: Any = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}
 _one_at_a_time = RLock()
 
 
+@cache
+def _find_figure_class() -> type[Figure]:
+    """Return the class of our figures; matplotlib is imported when the first one is drawn."""
+    from matplotlib.figure import Figure
+
+    class Picture(Figure):
+        """A figure without a window; files and notebooks show what is changed in it."""
+
+        def savefig(self, fname: Any, **kwargs: Any) -> None:
+            """Write the figure, as `matplotlib.figure.Figure.savefig` does."""
+            with in_our_style():
+                super().savefig(fname, **kwargs)
+
+        def _repr_png_(self) -> bytes:
+            buffer = BytesIO()
+            self.savefig(buffer, format="png", dpi=100)  # a column of a notebook
+            return buffer.getvalue()
+
+    return Picture
+
+
 @contextmanager
-def open_figure(width: float, height: float) -> Iterator[Picture]:
+def open_figure(width: float, height: float) -> Iterator[Figure]:
     """Open a figure of this size in inches; what is drawn within the context has our style."""
     with in_our_style():
-        yield Picture(figsize=(width, height), layout="constrained")
+        yield _find_figure_class()(figsize=(width, height), layout="constrained")
 
 
 @contextmanager
@@ -126,17 +145,3 @@ def put_legend_above(ax: Axes, columns: int = 4) -> None:
     """Put the legend between the axes and their title."""
     legend = ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
     legend.set_in_layout(False)  # a long legend must not narrow the axes
-
-
-class Picture(Figure):
-    """A matplotlib figure without a window; files and notebooks show what is changed in it."""
-
-    def savefig(self, fname: Any, **kwargs: Any) -> None:
-        """Write the figure, as `matplotlib.figure.Figure.savefig` does."""
-        with in_our_style():
-            super().savefig(fname, **kwargs)
-
-    def _repr_png_(self) -> bytes:
-        buffer = BytesIO()
-        self.savefig(buffer, format="png", dpi=100)  # a column of a notebook
-        return buffer.getvalue()

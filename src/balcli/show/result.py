@@ -1,10 +1,8 @@
-"""What every answer can do besides holding figures: tell in a line what it is, be shown in a
-notebook, become a dict, rows, a DataFrame, a Dataset or a Parquet file.
+"""What every answer can do besides holding figures: say in a line what it is, be shown in a
+notebook, become a dict, rows, a DataFrame or a Parquet file.
 
-How answers are shown is the business of `render`, which stands above them; it is imported when one
-is asked for.
-
-Answers for other libraries: documents, rows, and columns for pandas and Parquet.
+What shows a kind of answer stands in its chapter, above this module, and is imported when somebody
+asks for it (`RENDERERS`).
 """
 
 from __future__ import annotations
@@ -21,6 +19,8 @@ from ..files import replacing
 from ..version import __version__
 from .csv import Column, Columns, Rows, stamp
 from .formats import Columnar, Renderer
+from .notebook import html_text, outline
+from .sheet import Sheet
 from .units import SI
 
 if TYPE_CHECKING:
@@ -47,17 +47,20 @@ class Result:
 
     def _repr_html_(self) -> str:
         """What the command prints, for a notebook."""
-        return import_module("balcli.report.notebook").show_in_notebook(self)
+        renderer = find_renderer(self)
+        if isinstance(renderer, Renderer):
+            return html_text(renderer.sheet(self, SI), self.doubts)
+        return html_text(Sheet(repr(self)[1:-1], (outline(list_columns(self)),)), self.doubts)
 
     def to_dict(self) -> dict[str, Any]:
         """The document that the command writes as JSON (docs/json.md): its keys name SI units."""
-        return import_module("balcli.show.result").describe(self)
+        return describe(self)
 
     def rows(self) -> list[dict[str, Any]]:
         """One dict a row, all with the same keys: a DataFrame of any library takes them as they
         are. What has no value is None.
         """
-        return import_module("balcli.show.result").list_rows(self)
+        return list_rows(self)
 
     def to_pandas(self) -> pandas.DataFrame:
         """The rows as a DataFrame; units of columns are its `attrs["units"]`, as far as neither
@@ -66,7 +69,7 @@ class Result:
         Raises:
             BalcliError: pandas is not installed.
         """
-        return import_module("balcli.show.result").make_frame(self)
+        return make_frame(self)
 
     def to_parquet(self, path: str | Path) -> None:
         """Write the rows into a Parquet file; each column has its unit in the metadata.
@@ -74,7 +77,7 @@ class Result:
         Raises:
             BalcliError: pyarrow is not installed; the file cannot be written.
         """
-        import_module("balcli.show.result").write_parquet(self, path)
+        write_parquet(self, path)
 
 
 # Which module shows a kind of answer: its document, and its columns or the rows of its CSV.
@@ -86,9 +89,9 @@ RENDERERS = {
     "Curves": "analysis.curves",
     "FieldBalance": "field.show",
     "MountReport": "mounts.show",
-    "Scatter": "scatter",
+    "Scatter": "studies.scatter_command",
     "Search": "studies.search.command",
-    "Swept": "sweep",
+    "Swept": "studies.sweep_show",
     "Table": "books.show",
     "TorqueAnalysis": "torque.show",
     "TorsionAnalysis": "torsion.show",

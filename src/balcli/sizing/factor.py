@@ -12,9 +12,9 @@ import numpy as np
 
 from ..core.cylinders import DeviceKind
 from ..core.extrema import find_least
+from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
-from ..core.unbalance import share_by_lever
 from ..engine.build import Engine
 from ..engine.layout import MOMENTS_UNKNOWN
 from ..errors import BalcliError

@@ -14,38 +14,7 @@ from typing import Any, NamedTuple, cast
 from ..errors import BalcliError, wrong_type
 from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER
-
-SCHEMES: dict[str, tuple[str, ...]] = {
-    "auto": (),
-    "counterweights": ("order", "planes"),
-    "factor": ("factor", "measured", "planes"),
-    "minimax": ("planes", "position"),
-    "single-shaft": ("order", "at", "position", "planes"),
-    "two-shaft": ("order", "at", "position", "roll"),
-    "four-shaft": ("at", "position"),
-    "couple-shaft": ("order", "at", "planes"),
-    "slider": ("order", "at", "position"),
-    "eccentric-slider": (),
-    "oldham": (),
-}
-KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.results.knuckles)
-NAMES = (*SCHEMES, KNUCKLES)
-# What each does, in a line.
-MEANINGS = {
-    "auto": "orders 1 and 2: counterweights, then shafts as far as needed",
-    "counterweights": "rotating masses, and what of order 1 turns with the crank",
-    "factor": "the shop's balance factor, with the bobweight card",
-    "minimax": "the counterweight that leaves the smallest peak force",
-    "single-shaft": "one shaft against the crank, and counterweights for the rest",
-    "two-shaft": "two shafts turning against each other: force of one order",
-    "four-shaft": "two such pairs, for the forces of orders 1 and 2",
-    "couple-shaft": "shafts with two opposite eccentrics: moment of one order",
-    "slider": "reciprocating masses along the axes of one order's ellipse",
-    "eccentric-slider": "a pair of shafts of variable speed, for one cylinder",
-    "oldham": "an Oldham coupling for orders 1 and 2 of one cylinder",
-    KNUCKLES: "knuckle angles for even dead centres or strokes (articulated)",
-}
-
+from .schemes import KNUCKLES, NAMES, SCHEMES
 
 # Of each option with numbers: their kind, whether they have to be finite, and what is right.
 _NUMBERS: dict[str, tuple[type, bool, str]] = {

@@ -28,9 +28,9 @@ from ..show.result import Result
 from .dampers import DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
+from .read import describes_chain, read_chain_tables
 from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
-from .tables import describes_chain, read_chain_tables
 
 BEYOND = 1.5  # times the file's own speed to which criticals are listed: engines overspeed
 BREAKING = 1000e6  # Pa of vibratory stress: the best steel yields below

@@ -19,8 +19,9 @@ from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
 from ..forces.gas_torque import silence
 from .build import NO_DAMPERS, build_chain, build_engine_system, excite_engine
+from .read import describes_chain, read_chain_tables
 from .system import Excitation, TorsionalSystem
-from .tables import ChainFile, describes_chain, read_chain_tables
+from .tables import ChainFile
 
 _LIGHT = 1.0  # kg mm2: a steel disc of 10 mm across and 10 mm thick has 0.08
 _THIN = 1.0  # mm

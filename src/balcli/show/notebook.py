@@ -5,37 +5,19 @@ from __future__ import annotations
 from html import escape
 from itertools import repeat
 
-from ..analysis import show as analysis
-from ..analysis.answer import Analysis
 from ..engine.build import Engine
-from ..show.csv import Columns
-from ..show.engine_facts import engine_facts
-from ..show.formats import Renderer
-from ..show.result import Result, find_renderer, list_columns
-from ..show.sheet import NAMELESS, Facts, Grid, Sheet, Text, number
-from ..show.units import SI
+from .csv import Columns
+from .engine_facts import engine_facts
+from .sheet import NAMELESS, Facts, Grid, Sheet, Text, number
+from .units import SI
 
 ENDS = 5  # rows of a long table that are shown, at its head and at its foot
 
 
-def show_in_notebook(result: Engine | Result) -> str:
-    """An engine or an answer as a person reads it, in SI units, and what is doubtful of it."""
-    sheet = _make_sheet(result)
-    doubts = (Text("Doubtful", result.doubts),) if result.doubts else ()
-    return html_text(Sheet(sheet.title, (*sheet.parts, *doubts)))
-
-
-def _make_sheet(result: Engine | Result) -> Sheet:
-    if isinstance(result, Engine):
-        facts = engine_facts(result, SI, higher=False, whole=False)
-        return Sheet(result.name or NAMELESS, (facts,))
-    if isinstance(result, Analysis):
-        return analysis.sheet(result, SI)
-    renderer = find_renderer(result)
-    if isinstance(renderer, Renderer):
-        sheet: Sheet = renderer.sheet(result, SI)
-        return sheet
-    return Sheet(repr(result)[1:-1], (outline(list_columns(result)),))
+def show_engine(engine: Engine) -> str:
+    """Return an engine as a person reads it, in SI units, and what is doubtful of it."""
+    facts = engine_facts(engine, SI, higher=False, whole=False)
+    return html_text(Sheet(engine.name or NAMELESS, (facts,)), engine.doubts)
 
 
 def outline(columns: Columns) -> Grid:
@@ -52,9 +34,12 @@ def outline(columns: Columns) -> Grid:
     return Grid("", tuple(heads), tuple(rows), note=f"{length} rows", words=())
 
 
-def html_text(sheet: Sheet) -> str:
-    """Return a sheet as HTML: tables and paragraphs without style, but words stand left."""
-    blocks = "".join(map(_block, sheet.parts))
+def html_text(sheet: Sheet, doubts: tuple[str, ...] = ()) -> str:
+    """Return a sheet and doubts as HTML: tables and paragraphs without style, but words stand
+    left.
+    """
+    doubtful = (Text("Doubtful", doubts),) if doubts else ()
+    blocks = "".join(map(_block, (*sheet.parts, *doubtful)))
     return f"<div>\n<h4>{escape(sheet.title)}</h4>\n{blocks}</div>"
 
 

@@ -1,0 +1,91 @@
+"""A chain file: read and checked, every mistake at once by its path."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ..errors import Problem
+from ..file.fields import printable, shorten, suggest_nearest
+from ..file.messages import CHAIN
+from ..file.read import TableReader
+from ..limits import MOST_LIST_VALUES, MOST_TORSION_NODES
+from .tables import LISTS, ChainFile
+
+KEYS = ("node", "shaft", "gear", "excitation")
+
+
+# keys of these tables that name nodes
+_ENDS = {"shaft": ("from", "to"), "gear": ("from", "to"), "excitation": ("node",)}
+
+
+def describes_chain(data: Mapping[str, Any]) -> bool:
+    """Whether tables of a file are those of a chain, not of an engine."""
+    return any(key in data for key in KEYS) and not ({"crank", "piston", "rod"} & set(data))
+
+
+def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
+    """The chain that the tables of a file describe; `file` is its name in messages.
+
+    Raises:
+        InputError: with every mistake.
+    """
+    reader = TableReader(CHAIN.name)
+    head = {key: value for key, value in data.items() if key not in KEYS}
+    model = reader.read_table("", head | {"node": []}, ChainFile)
+    lists = {}
+    for key, table in zip(KEYS, LISTS, strict=True):
+        most = MOST_TORSION_NODES if key == "node" else MOST_LIST_VALUES
+        lists[key] = reader.read_list(key, data.get(key, []), table, most)
+    reader.problems += _find_misfits(data)
+    if reader.problems or model is None:
+        raise reader.refusal(file)
+    return model.model_copy(update=lists)
+
+
+def _find_misfits(data: Mapping[str, Any]) -> Iterator[Problem]:
+    """What the tables say against each other, as far as they can be read."""
+    nodes = _tables(data, "node")
+    if "node" not in data:
+        hint = 'write [[node]] for every inertia, such as name = "flywheel"'
+        yield Problem.of_missing("node", hint)
+        return
+    if data["node"] == []:
+        yield Problem("node", "is an empty list; a chain has at least one node")
+    names = [node.get("name") for _, node in nodes]
+    known = [name for name in names if isinstance(name, str)]
+    for k, node in nodes:
+        name = node.get("name")
+        if isinstance(name, str) and name in names[: k - 1]:
+            yield Problem(f"node.{k}.name", f"{shorten(name)} is there twice; give each its own")
+    for key, ends in _ENDS.items():
+        for k, table in _tables(data, key):
+            yield from _check_ends(f"{key}.{k}", table, ends, known)
+    fixed = data.get("fixed", ())
+    for name in fixed if isinstance(fixed, list) else ():
+        if isinstance(name, str) and name not in known:
+            yield Problem("fixed", _refuse_node(name, known))
+
+
+def _check_ends(
+    path: str, table: Mapping[str, Any], ends: Sequence[str], known: Sequence[str]
+) -> Iterator[Problem]:
+    named = [table.get(end) for end in ends]
+    for end, name in zip(ends, named, strict=True):
+        if isinstance(name, str) and name not in known:
+            yield Problem(f"{path}.{end}", _refuse_node(name, known))
+    if len(named) == 2 and isinstance(named[0], str) and named[0] == named[1]:
+        yield Problem(path, f"goes from {shorten(named[0])} to itself; it joins two nodes")
+
+
+def _refuse_node(name: str, known: Sequence[str]) -> str:
+    """Return what is wrong with a name that no node has."""
+    listed = ", ".join(printable(each) for each in dict.fromkeys(known[:8])) or "none"
+    return f"{shorten(name)} is no node; {suggest_nearest(name, known, f'there are {listed}')}"
+
+
+def _tables(data: Mapping[str, Any], key: str) -> list[tuple[int, Mapping[str, Any]]]:
+    """The tables of a list with their numbers, those that are tables."""
+    value = data.get(key)
+    items = enumerate(value, 1) if isinstance(value, list) else ()
+    return [(k, item) for k, item in items if isinstance(item, Mapping)]
