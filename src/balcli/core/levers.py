@@ -27,3 +27,18 @@ def share_by_lever(places: Array, planes: Array) -> Array:
     shares[left, loads] += 1 - right_share
     shares[left + 1, loads] += right_share
     return shares
+
+
+def find_ahead(z: Array, sections: Array) -> Array:
+    """1 for places on the free-end side of each section, else 0, shape (sections, places)."""
+    return (z <= sections[:, None]).astype(float)
+
+
+def find_arms(z: Array, sections: Array) -> Array:
+    """Arms of those on the free-end side about each section, m, shape (sections, places)."""
+    return find_ahead(z, sections) * (z - sections[:, None])
+
+
+def bound_arms(z: Array, sections: Array) -> Array:
+    """Sizes of what `find_arms` subtracts from one another, which bound the rounding of arms."""
+    return find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))

@@ -1,20 +1,12 @@
 """How deep a radial hole must be to remove a given unbalance, or to add it with a slug of heavier
 metal: the shop's arithmetic for counterweights and for rotors on a machine.
 
-Permitted residual unbalance by ISO 21940-11.
-
-Loads along a shaft: carried to given planes by the lever, which leaves their sum and moment as
-they are; and their arms about sections.
+And the permitted residual unbalance by ISO 21940-11.
 """
 
 from __future__ import annotations
 
 import math
-
-import numpy as np
-
-from .phases import RPM
-from .phasors import Array
 
 STEEL = 7850.0  # kg/m3, plain carbon steel
 # kg/m3, of slugs: heavy alloy of 90 % tungsten (ASTM B777, class 1), which shops also know as
@@ -52,19 +44,4 @@ def find_permitted_unbalance(grade: float, mass_kg: float, speed_rpm: float) -> 
         mass_kg: Mass of the rotor, kg.
         speed_rpm: Service speed, rpm.
     """
-    return 1e3 * mass_kg * grade / (speed_rpm * RPM)
-
-
-def find_ahead(z: Array, sections: Array) -> Array:
-    """1 for places on the free-end side of each section, else 0, shape (sections, places)."""
-    return (z <= sections[:, None]).astype(float)
-
-
-def find_arms(z: Array, sections: Array) -> Array:
-    """Arms of those on the free-end side about each section, m, shape (sections, places)."""
-    return find_ahead(z, sections) * (z - sections[:, None])
-
-
-def bound_arms(z: Array, sections: Array) -> Array:
-    """Sizes of what `find_arms` subtracts from one another, which bound the rounding of arms."""
-    return find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))
+    return 1e3 * mass_kg * grade / (speed_rpm * math.pi / 30)

@@ -25,11 +25,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.levers import share_by_lever
+from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import merged_breaks
-from ..core.unbalance import bound_arms, find_ahead, find_arms
 from ..core.vectors_over_cycle import Vectors, find_panels
 from ..engine.build import Engine
 from ..engine.figures import find_first_largest
