@@ -183,7 +183,7 @@ def test_threads_that_draw_leave_matplotlib_as_it_was():
 
 def test_matplotlib_is_imported_for_pictures_only():
     code = (
-        "import sys\nimport balcli.report.pages\nfrom balcli.render.plot import "
+        "import sys\nimport balcli.report.pages\nfrom balcli.show import plot_style as "
         "style\nassert 'matplotlib' not in sys.modules\n"
         "with style.open_figure(2, 2) as f: f.subplots(); style.save_figure(f, 'png')\nassert "
         "'matplotlib.pyplot' not in sys.modules"

@@ -85,10 +85,10 @@ def test_a_vee_of_free_cylinders_swings_as_one_of_two_banks():
 
 def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
     rows = compute_study(engine(CROSS), "factor").factors
-    best = min(rows, key=lambda row: row.moment)
+    best = min(rows, key=lambda row: row.peak_moment_Nm)
     assert [row.factor for row in rows] == pytest.approx(np.linspace(0, 1, 51))
     assert best.factor == 0.5
-    assert best.moment < 1e-2 * rows[0].moment
+    assert best.peak_moment_Nm < 1e-2 * rows[0].peak_moment_Nm
 
 
 @pytest.mark.parametrize(
@@ -134,7 +134,7 @@ def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
     their mass on the other side of the pin: a peak over a fine grid of both, by hand.
     """
     rows = compute_study(engine(SINGLE), "factor").factors
-    best = min(rows, key=lambda row: row.force)
+    best = min(rows, key=lambda row: row.peak_force_N)
     r, rod, mass, omega = 0.045, 0.160, 0.5 + 0.6 * 45 / 160, 100 * np.pi
     turn = np.radians(np.arange(0, 360, 0.05))
     lean = np.sqrt(rod**2 - (r * np.sin(turn)) ** 2)
@@ -142,7 +142,7 @@ def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
     factors = best.factor + np.arange(-0.005, 0.00501, 1e-4)
     peaks = [np.abs(along - factor * np.exp(1j * turn)).max() for factor in factors]
     assert factors[np.argmin(peaks)] == pytest.approx(best.factor, abs=1.5e-4)
-    assert best.force == pytest.approx(mass * r * omega**2 * min(peaks), rel=2e-4)
+    assert best.peak_force_N == pytest.approx(mass * r * omega**2 * min(peaks), rel=2e-4)
     assert round(50 * best.factor, 3) % 1
     assert [row.factor for row in rows] == sorted(row.factor for row in rows)
 
@@ -177,8 +177,8 @@ def test_the_study_of_factors_takes_planes_alone():
         compute_study(engine(CROSS), "factor", options=SchemeOptions(planes=planes)).factors
         for planes in (None, "ends")
     )
-    assert [row.moment for row in ends] == pytest.approx([row.moment for row in free], abs=1)
-    assert ends[0].counterweight > 1.02 * free[0].counterweight
+    assert [row.peak_moment_Nm for row in ends] == pytest.approx([row.peak_moment_Nm for row in free], abs=1)
+    assert ends[0].counterweight_kg_m > 1.02 * free[0].counterweight_kg_m
     for asked, reason in (
         ({"scheme": "minimax"}, "--what factor is of the scheme factor: leave --scheme minimax out"),
         ({"options": SchemeOptions(factor=(0.5,))}, "--what factor shows all factors: leave"),

@@ -192,7 +192,12 @@ def _find_tops(
     here[np.arange(len(parts)), samples.argmax(axis=1)] = True
     curve, at = np.nonzero(here)
     step = _TURN / samples.shape[1]
-    value, angle = _climb(harmonics, parts[curve], squared, step * at, step)
+    most = max(_AT_ONCE // parts[0].size, 1)  # tops at once
+    climbed = [
+        _climb(harmonics, parts[curve[k : k + most]], squared, step * at[k : k + most], step)
+        for k in range(0, len(curve), most)
+    ]
+    value, angle = np.concatenate(climbed, axis=1)
     angle = angle % _TURN
     return curve, value, np.where(angle > _TURN - _ZERO, 0.0, angle), samples[:, 0]
 

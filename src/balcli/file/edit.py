@@ -4,9 +4,12 @@ layout, other tables. tomlkit does the work; what it writes is read back before 
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from typing import Any
+
+_HEADER = re.compile(r"^[ \t]*\[{1,2}[ \t]*([\w.-]+)[ \t]*\]{1,2}[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
 def set_keys(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
@@ -34,14 +37,14 @@ def set_keys(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
         place[key] = value
         if value is None:
             del place[key]
-    try:
-        new = _edit(text.replace("\r\n", "\n"), table, changes, wanted, note)
-        right = tomllib.loads(new) == wanted
-    except (TOMLKitError, ValueError):
-        right = False
-    if not right:
-        return rewrite(wanted, f"its [{table}] is written in an unusual way")
-    return new.replace("\n", "\r\n") if "\r\n" in text else new
+    for edit in (_edit_section, _edit):
+        try:
+            new = edit(text.replace("\r\n", "\n"), table, changes, wanted, note)
+            if tomllib.loads(new) == wanted:
+                return new.replace("\n", "\r\n") if "\r\n" in text else new
+        except (TOMLKitError, ValueError):
+            continue
+    return rewrite(wanted, f"its [{table}] is written in an unusual way")
 
 
 def _open(data: Any, table: str) -> Any:
@@ -49,6 +52,25 @@ def _open(data: Any, table: str) -> Any:
     for name in table.split("."):
         data = data[int(name) - 1] if isinstance(data, list) else data.setdefault(name, {})
     return data
+
+
+def _edit_section(text: str, table: str, changes: Mapping[str, Any], wanted: Any, note: str) -> str:
+    """Return the text with these changes in the section of one table, all others byte for byte:
+    tomlkit puts lists of tables that stand between each other in another order.
+
+    Raises:
+        ValueError: The table has no section of its own.
+    """
+    path, _, number = table.rpartition(".")
+    name, place = (path, int(number)) if number.isdigit() and path != "cylinder" else (table, 1)
+    headers = list(_HEADER.finditer(text))
+    own = [k for k, header in enumerate(headers) if header[1] == name]
+    if len(own) < place:
+        raise ValueError(f"[{table}] has no section")
+    k = own[place - 1]
+    start, end = headers[k].start(), headers[k + 1].start() if k + 1 < len(headers) else len(text)
+    inner = f"{name}.1" if name != table else table
+    return text[:start] + _edit(text[start:end], inner, changes, wanted, note) + text[end:]
 
 
 def _edit(text: str, table: str, changes: Mapping[str, Any], wanted: Any, note: str) -> str:
