@@ -1,13 +1,4 @@
-"""`balcli new`
-
-`balcli engines`
-
-`balcli schema`
-
-`balcli check`
-
-`balcli bench`
-"""
+"""The commands `new`, `engines`, `schema`, `check` and `bench`."""
 
 from __future__ import annotations
 

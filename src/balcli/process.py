@@ -1,6 +1,5 @@
-"""Process: signals that end it, what it takes from its surroundings, and its cores.
-
-What long computations are given to tell how far they are.
+"""The process: signals that end it, what it takes from its surroundings, its cores, and what long
+computations are given to report how far they are.
 """
 
 from __future__ import annotations

@@ -1,10 +1,5 @@
-"""What `balcli analyze` does between its options and its output: files analysed at one speed, over
+"""What `balcli analyze` does between its options and its output: files analyzed at one speed, over
 several, or for the sheet of marine builders.
-
-Analyses of several engines, one after the other.
-
-What is for people takes a dozen modules that JSON and CSV do without, and these some that a sheet
-does without: each imports its own.
 """
 
 from __future__ import annotations

@@ -1,11 +1,4 @@
-"""`balcli analyze`
-
-`balcli compare`
-
-`balcli curves`: numbers over the crank angle.
-
-`balcli sum`
-"""
+"""The commands `analyze`, `compare`, `curves` and `sum`."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""Engines side by side.
-
-`balcli.compare`
-
-Engines side by side.
-"""
+"""Engines side by side: `compare`, its result, and how it is shown."""
 
 from __future__ import annotations
 

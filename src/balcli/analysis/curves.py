@@ -1,12 +1,5 @@
-"""Curves over the crank angle as a result.
-
-Curves over the crank angle of an engine with gas, and of one of its cylinders.
-
-Curves over the crank angle of an engine, or of one of its cylinders, with gas if it has some.
-
-`balcli.curves`
-
-Curves over the crank angle, in full precision.
+"""Curves over the crank angle of an engine, or of one of its cylinders, with gas if it has some:
+`curves`, its result, and how it is written.
 """
 
 from __future__ import annotations

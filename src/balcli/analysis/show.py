@@ -1,7 +1,4 @@
-"""What a person reads of the analysis of one engine.
-
-What a program reads of the analysis of one engine: JSON, and the same figures as CSV.
-"""
+"""The analysis of one engine: the sheet that a person reads, JSON, CSV and columns."""
 
 from __future__ import annotations
 

@@ -1,16 +1,9 @@
-"""One engine at several speeds.
+"""One engine at several speeds, and the sheet of builders of large engines.
 
-What builders of large engines state of an engine: external forces and moments by order, vertical
-and horizontal, guide-force moments and torque, at one speed or several.
-
+For people a table a kind, a speed a row; for programs the analyses themselves. The sheet has
+external forces and moments by order, vertical and horizontal, guide-force moments and torque.
 Vertical is along x, horizontal along y. A vertical force makes the moment about the y axis that is
 called vertical, too: M1V is My of order 1, M1H its Mx.
-
-One engine at several speeds: for people a table a kind, a speed a row; for programs the analyses
-themselves.
-
-The sheet of builders of large engines: external forces and moments, guide-force moments and
-torque by order, at one speed an order a row, at several a speed a row.
 """
 
 from __future__ import annotations

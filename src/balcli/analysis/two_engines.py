@@ -1,8 +1,5 @@
-"""Two engines on one frame, geared one to one (H, U, opposed-piston): phasors added.
-
-`balcli.combine`
-
-Two engines on one frame.
+"""Two engines on one frame, geared one to one (H, U, opposed-piston): phasors added, and how the
+sum is shown.
 """
 
 from __future__ import annotations

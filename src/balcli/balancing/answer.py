@@ -1,10 +1,5 @@
-"""Engine -> Balance: what a scheme fits, and the analyses without and with it.
-
-`balcli.balance`
-
-Knuckle angles that make strokes, or dead centres, of articulated rods even.
-
-A remedy written into the text of an engine file, which stays as it was, comments and all.
+"""Engine -> Balance: what a scheme fits, and the analyses without and with it; knuckle angles that
+make strokes or dead centers of articulated rods even; a remedy written into an engine file.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""`balcli balance`
-
-Options of `balance` alone, and what it does with them: the workshop's, grades, the card.
-"""
+"""The command `balance`: its options (the workshop's, grades, the card) and its output."""
 
 from __future__ import annotations
 

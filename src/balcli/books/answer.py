@@ -1,7 +1,4 @@
-"""Which tables there are, and what each may be asked.
-
-`balcli.tables`
-"""
+"""Which printed tables there are, and what each may be asked: `tables`."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""`balcli tables`: the printed coefficient tables, recomputed.
-
-`balcli layouts`: free forces and moments of common engines at a glance.
-"""
+"""The commands `tables` and `layouts`."""
 
 from __future__ import annotations
 

@@ -1,13 +1,8 @@
-"""One printed table, recomputed: laid out as the print is, each figure rounded to the printed
-digits or to as many as are asked for; where the print deviates it follows: `.4313 ≠ .4312`.
-JSON and CSV hold full precision.
+"""Printed tables as sheets, JSON and CSV.
 
-Printed figures that are not the exact ones rounded, of several tables.
-
-Which printed tables there are, and how many errata each has.
-
-The table of common layouts: for people orders 1 and 2, an engine a line; JSON and CSV as of any
-recomputed table.
+One table is laid out as the print is, each figure rounded to the printed digits or to as many as
+are asked for; where the print deviates it follows: `.4313 ≠ .4312`. JSON and CSV hold full
+precision. Besides: all errata, the list of tables, and the table of common layouts.
 """
 
 from __future__ import annotations

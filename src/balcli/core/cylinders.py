@@ -93,7 +93,7 @@ class Cylinders:
 
         Args:
             orders: whole, shape (orders,).
-            wanted: names of series (`fourier.SERIES`).
+            wanted: names of series (`closed_form.SERIES`).
         """
         kind = self.linkage or harmonics
         return kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)

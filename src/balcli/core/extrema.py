@@ -1,7 +1,5 @@
-"""Where functions of one number have their peaks, where one call for many places costs little more
-than one for a few.
-
-Where a function of one number is least.
+"""Peaks of functions of one number, where one call for many places costs little more than one for a
+few; and where such a function is least.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 # Few engines have rods on rods, turn, or say of gas: those that do import what it takes.
 
-# What a file without mistakes has that can be relied on (`enginefile.read.Draft`).
+# What a file without mistakes has that can be relied on (`file.read.Draft`).
 ALL_KEYS = frozenset(EngineFile.model_fields) | {
     f"{path}.{key}" for path, table in ONE_BY_ONE.items() for key in table.model_fields
 }
@@ -55,7 +55,7 @@ class Assembly:
         model: the file.
         varied: by dotted name, arrays of variants in place of some of its figures.
         rank: trailing axes of the engine, if more than `varied` has.
-        legible: keys of the file that can be relied on (`enginefile.read.Draft`). What needs others
+        legible: keys of the file that can be relied on (`file.read.Draft`). What needs others
             must not be asked for.
         known_gas: gas of the cylinders, if that is known; else the rules build it.
     """

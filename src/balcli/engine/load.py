@@ -1,12 +1,5 @@
-"""Engine file -> engine: read, checked against the rules, built; every mistake at once, each by its
-path in the file and with what would be right.
-
-`balcli.load_example`
-
-Which figures of an engine file the gas in its cylinders depends on: those of the mechanism, of
-when a cylinder fires, and of the gas itself; no masses, places along the crank, speed.
-
-Engines of one file of which some figures vary, one engine after the other.
+"""Engine file -> engine: `load` and `load_example`, and engines of one file of which some figures vary,
+one after the other.
 """
 
 from __future__ import annotations

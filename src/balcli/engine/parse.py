@@ -1,10 +1,9 @@
 """Text or tables of an engine file -> its checked model: every mistake at once, each by its path in
 the file and with what would be right.
 
-Rules for what fits together in an engine file; each yields its mistakes by path.
-
-A rule looks at an engine as far as it is put together, and names the tables that it needs. So the
-mistakes of a file of which some tables cannot be read are found by the same rules.
+`RULES` say what fits together across tables. A rule looks at an engine as far as it is put
+together, and names the tables that it needs. So the mistakes of a file of which some tables cannot
+be read are found by the same rules.
 """
 
 from __future__ import annotations

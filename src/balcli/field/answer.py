@@ -1,12 +1,9 @@
-"""Correction weights of a rotor, the readings that they leave, and whether its grade is reached.
+"""Correction weights of a rotor, the readings that they leave, whether its grade is reached, and what
+is doubtful of the runs: `balance_rotor`.
 
 The corrections x make the readings `|V + alpha x|` small: the sum of their squares, or the largest
 of them (`minimise`), where V are the readings from which balancing goes on and alpha the influence
 coefficients. Places and largest weights are constraints of that problem where they bind.
-
-Valid but suspicious runs and weights: each doubt with its value and a remedy.
-
-`balcli.balance_rotor`
 """
 
 from __future__ import annotations

@@ -2,8 +2,6 @@
 
 Readings keep the unit in which they were read, weights the unit of the file (`weight_unit`).
 Lengths are in mm, speeds in rpm, the mass of the rotor in kg, angles in degrees.
-
-A file of runs -> model: every mistake at once, by its path and with what would be right.
 """
 
 from __future__ import annotations

@@ -1,8 +1,5 @@
-"""Mistakes of an engine file in plain words: pydantic's findings translated.
-
-The three kinds of files, told apart by the keys at their head.
-
-Keys that no engine file has: what was probably meant, or what says it instead.
+"""Mistakes of an engine file in plain words: pydantic's findings translated, keys that no engine file
+has, and the kinds of files, told apart by the keys at their head.
 """
 
 from __future__ import annotations

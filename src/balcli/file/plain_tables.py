@@ -1,6 +1,5 @@
-"""An engine file as dicts, lists, numbers and texts: from what Python gives, and from a model.
-
-List the defaults that count where an engine file leaves keys out.
+"""An engine file as dicts, lists, numbers and texts, from what Python gives and from a model; and the
+defaults that count where it leaves keys out.
 """
 
 from __future__ import annotations

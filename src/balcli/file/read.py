@@ -1,6 +1,6 @@
 """Text of an engine file -> its tables, and every mistake that the text has, each by its path.
 
-What the tables say against each other is not looked at here: that takes an engine (`engine.rules`).
+What the tables say against each other is not looked at here: that takes an engine (`engine.parse`).
 
 The tables of a file, read one by one: every mistake by its path, with what would be right.
 """

@@ -1,7 +1,4 @@
-"""Engine file -> what its body does on its mounts: the answer of `balcli mounts`.
-
-`balcli.analyze_mounts`
-"""
+"""Engine file -> what its body does on its mounts: `analyze_mounts`."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""`balcli report`
-
-`balcli plot`
-"""
+"""The commands `report` and `plot`."""
 
 from __future__ import annotations
 

@@ -1,12 +1,6 @@
 """A page of its own: what the engine is and does, drawn, in tables, and in motion. Nothing in it is
-loaded from elsewhere.
-
-What the page needs to turn the mechanism and its vectors: plain figures in mm, deg and the
-reader's units, ready for JSON.
-
-What the page needs to rock the body on its mounts: plain figures in mm and rad.
-
-What the page needs to run torque and pressure with the crank, in the reader's units.
+loaded from elsewhere. The scripts of the page get plain figures: the mechanism and its vectors (mm,
+deg), the body on its mounts (mm, rad), torque and pressure over the cycle.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""`balcli.plot`
-
-Draw the pages of `balcli plot`, and write them.
-"""
+"""`plot` in Python, and the pages of `balcli plot`, drawn and written."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Rows under a header as CSV, in full precision.
-
-A document as JSON.
-"""
+"""Rows under a header as CSV in full precision, and documents as JSON."""
 
 from __future__ import annotations
 

@@ -1,8 +1,5 @@
-"""Parts that several documents have.
-
-`balcli.analysis/1`, `balcli.sum/1` and `balcli.balance/1`.
-
-Documents of many variants, of several engines, over the crank angle, and of tables.
+"""Types of the JSON documents that are not records yet: analysis, sum, balance, sweeps, searches,
+curves and tables.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Which formats there are, and how a result becomes text in each.
-
-Which documents there are, without what it takes to describe them.
-"""
+"""Which formats and documents there are, and how a result becomes text in each."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""A sheet: what a person reads, of which terminal, Markdown and HTML are made.
-
-How much of an analysis people are shown.
+"""A sheet: what a person reads, of which terminal, Markdown and HTML are made; and how much of an
+analysis it shows.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
-"""Sheets as plain text, for whoever reads them in no terminal: as wide as their figures are.
+"""Sheets as plain text and as Markdown.
 
-It is what rich would print there without colours, but importing rich takes longer than all else
-that a command does.
-
-A sheet as Markdown.
+Plain text is what rich would print without colours; importing rich takes longer than all else that
+a command does.
 """
 
 from __future__ import annotations

@@ -1,9 +1,4 @@
-"""What a user may ask of a scheme.
-
-The balance schemes by name, and which options each takes.
-
-Light enough for help, completion and messages; the functions stand in `balcli.sizing.sizing.SIZE`.
-"""
+"""What a user may ask of a scheme: options, checked once for command and Python."""
 
 from __future__ import annotations
 

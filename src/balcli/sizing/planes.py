@@ -1,7 +1,5 @@
-"""Where along the crank devices may stand.
-
-Devices as tables of the engine file (g mm, degrees, mm), made from SI: what is written is
-exactly what is analysed.
+"""Where along the crank devices may stand, and devices as tables of the engine file (g mm, degrees,
+mm), made from SI: what is written is exactly what is analyzed.
 """
 
 from __future__ import annotations

@@ -1,11 +1,8 @@
 """Sizing of counterweights, balancer shafts and sliders: every scheme is a choice of devices for
 one least squares.
 
-The default remedy: fewest weights and shafts that leave nothing free of orders 1 and 2.
-
-The scheme `counterweights`: weights on the crankshaft for all of order 1 that turns with it.
-
-The scheme `slider`: reciprocating masses for any order.
+Here: `auto`, the fewest weights and shafts that leave nothing free of orders 1 and 2;
+`counterweights`, for all of order 1 that turns with the crank; `slider`, for any order.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Numbers that can be varied and quantities that can be asked for, as a table, JSON and CSV.
-
-`balcli numbers`
-"""
+"""The command `numbers`: what can be varied, and what can be asked for."""
 
 from __future__ import annotations
 

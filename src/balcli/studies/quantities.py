@@ -1,8 +1,6 @@
-"""Quantities that a user asks for, by their names: of forces and moments (`force.2.major`), and of
-the chapters beyond (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`), whose modules are
-loaded when one of theirs is asked for.
-
-What can be varied of an engine file, and what can be asked of it, by their names.
+"""Quantities that a user asks for, and numbers that can be varied, by their names: of forces and
+moments (`force.2.major`), and of the chapters (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`,
+`guide.6.H`), whose modules are loaded when one of theirs is asked for.
 """
 
 from __future__ import annotations

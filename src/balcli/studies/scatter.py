@@ -1,7 +1,5 @@
 """Spread of quantities over random variants of an engine file, whose parts deviate within
-tolerances. Every variant is analyzed as `sweep` would.
-
-`balcli.scatter`
+tolerances: `scatter`. Every variant is analyzed as `sweep` would.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""`balcli scatter`
-
-Results of a Monte-Carlo run.
-"""
+"""The command `scatter`, and how its result is shown."""
 
 from __future__ import annotations
 

@@ -1,7 +1,5 @@
 """Variants of a sweep: CSV and JSON in full precision, chunk by chunk as they are computed; a table
-of the first and the last; the columns of kept ones.
-
-Picture of a sweep: curves over one parameter, contours over two.
+of the first and the last; the columns of kept ones; pictures over one parameter or two.
 """
 
 from __future__ import annotations

@@ -1,6 +1,5 @@
-"""Torque of an engine: by order and over the cycle, its means and extremes, and the flywheel.
-
-`balcli.analyze_torque`
+"""Torque of an engine: by order and over the cycle, its means and extremes, and the flywheel:
+`analyze_torque`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""One question about torsional vibration, one complete answer.
-
-`balcli.analyze_torsion`
-"""
+"""One question about torsional vibration, one complete answer: `analyze_torsion`."""
 
 from __future__ import annotations
 

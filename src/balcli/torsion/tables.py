@@ -2,8 +2,6 @@
 engine.
 
 Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own.
-
-A chain file -> model: every mistake at once, by its path and with what would be right.
 """
 
 from __future__ import annotations

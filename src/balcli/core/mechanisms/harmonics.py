@@ -83,7 +83,7 @@ def find_harmonics(
         orders: shape (orders,), not negative.
         lam, eps: crank radius and offset over rod length, shape (cylinders or 1, *trailing), with
             lam + |eps| < 1.
-        wanted: names of series (`fourier.SERIES`).
+        wanted: names of series (`closed_form.SERIES`).
     """
     few, which = find_distinct_harmonics(orders, lam, eps, wanted)
     return select_cylinders(few, which)
@@ -148,7 +148,7 @@ def sample_harmonics(
     Args:
         orders: shape (orders,).
         lam, eps: shape (mechanisms,).
-        wanted: names of series (`fourier.SERIES`).
+        wanted: names of series (`closed_form.SERIES`).
         highest: order for which the samples must be enough.
     """
     from .slidercrank import SliderCrank
@@ -197,7 +197,7 @@ def sample_mechanisms(
 
     Args:
         orders: shape (orders,).
-        wanted: names of series (`fourier.SERIES`).
+        wanted: names of series (`closed_form.SERIES`).
         move: the mechanisms in motion, by e^{i psi} of shape (samples, 1) and figures of shape
             (mechanisms,).
         figures: what distinguishes them, each of shape (mechanisms,).

@@ -89,7 +89,7 @@ class Linkage(ABC):
         Args:
             orders: whole, shape (orders,).
             lam, eps: shape (cylinders or 1, *trailing).
-            wanted: names of series (`fourier.SERIES`).
+            wanted: names of series (`closed_form.SERIES`).
         """
         few = find_distinct(*self.figures(lam, eps))
         highest = float(np.max(orders, initial=0))

@@ -1,6 +1,5 @@
-"""Best arrangements of an engine: throws of the crank, firing order, or numbers of its file.
-
-`balcli.search`
+"""Best arrangements of an engine: throws of the crank, firing order, or numbers of its file:
+`search`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""`balcli search`
-
-Results of a search.
-"""
+"""The command `search`, and how its result is shown."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""Arrangements of an engine that a search finds, and engine files with them.
-
-Objective of a search: a weighted sum of quantities to minimise or maximise, and limits.
+"""Arrangements that a search finds, engine files with them, and the objective: a weighted sum of
+quantities to minimise or maximise, and limits.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ class Found(NamedTuple):
 
 
 def list_changes(design: Design) -> dict[str, Any]:
-    """Return a design by dotted keys, as `engine.vary.vary_engine` takes them."""
+    """Return a design by dotted keys, as `Engine.vary` takes them."""
     changed = {PATHS.get(key, key): value for key, value in design.items()}
     return changed | ({"layout.firing_intervals": None} if "firing_order" in design else {})
 
