@@ -124,8 +124,8 @@ _SERIES = {
 
 
 def find_needed_series(cylinders: Cylinders, parts: Iterable[str], *, uneven: bool) -> set[str]:
-    """Names of the series of mechanisms (`closed_form.SERIES`) that these loads of the cylinders are
-    made of.
+    """Names of the series of mechanisms (`closed_form.SERIES`) that these loads of the cylinders
+    are made of.
 
     Args:
         parts: force, moment, couple or torque.

@@ -1,5 +1,5 @@
-"""Engine file -> engine: `load` and `load_example`, and engines of one file of which some figures vary,
-one after the other.
+"""Engine file -> engine: `load` and `load_example`, and engines of one file of which some figures
+vary, one after the other.
 """
 
 from __future__ import annotations

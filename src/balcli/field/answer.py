@@ -1,5 +1,5 @@
-"""Correction weights of a rotor, the readings that they leave, whether its grade is reached, and what
-is doubtful of the runs: `balance_rotor`.
+"""Correction weights of a rotor, the readings that they leave, whether its grade is reached, and
+what is doubtful of the runs: `balance_rotor`.
 
 The corrections x make the readings `|V + alpha x|` small: the sum of their squares, or the largest
 of them (`minimise`), where V are the readings from which balancing goes on and alpha the influence

@@ -1,5 +1,5 @@
-"""An engine file as dicts, lists, numbers and texts, from what Python gives and from a model; and the
-defaults that count where it leaves keys out.
+"""An engine file as dicts, lists, numbers and texts, from what Python gives and from a model; and
+the defaults that count where it leaves keys out.
 """
 
 from __future__ import annotations
