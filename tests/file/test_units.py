@@ -15,21 +15,9 @@ from balcli.file import units as unit_table
 from balcli.file.fields import STRING_PATTERN
 from balcli.file.units import (
     ANGLE,
-    DAMPING,
-    ENERGY,
     INERTIA,
     LENGTH,
-    MASS,
     PLAIN,
-    PRESSURE,
-    SPEED,
-    STIFFNESS,
-    STRESS,
-    TIME,
-    TORQUE,
-    TORSIONAL_DAMPING,
-    TORSIONAL_STIFFNESS,
-    UNBALANCE,
     convert,
     read_unit,
 )
@@ -37,19 +25,11 @@ from balcli.file.units import (
 A_LENGTH = 'a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'
 AN_ANGLE = 'an angle is wanted: a bare number in deg, or "30 deg" or "1.2 rad" or "1/7 turn"'
 A_MASS = 'a mass is wanted: a bare number in kg, or "650 g" or "0.8 lb"'
+NAMES = {name: unit for name, unit in vars(unit_table).items() if isinstance(unit, type(LENGTH))}
+NAMES |= {"AN_ANGLE": AN_ANGLE, "A_LENGTH": A_LENGTH, "A_MASS": A_MASS}
 
 
-@cases(
-    "file/units",
-    "common_units",
-    ANGLE=ANGLE,
-    INERTIA=INERTIA,
-    LENGTH=LENGTH,
-    MASS=MASS,
-    SPEED=SPEED,
-    TIME=TIME,
-    UNBALANCE=UNBALANCE,
-)
+@cases("file/units", "common_units", **NAMES)
 def test_common_units(text, dimension, expected):
     assert convert(text, dimension) == pytest.approx(expected, rel=1e-15)
 
@@ -64,24 +44,12 @@ def test_the_bare_unit_changes_nothing(value):
     assert convert(f"{value!r} mm", LENGTH) == value
 
 
-@cases("file/units", "rarer_units", ANGLE=ANGLE, INERTIA=INERTIA, LENGTH=LENGTH, MASS=MASS, UNBALANCE=UNBALANCE)
+@cases("file/units", "rarer_units", **NAMES)
 def test_rarer_units(text, dimension, expected):
     assert convert(text, dimension) == pytest.approx(expected, rel=1e-12)
 
 
-@cases(
-    "file/units",
-    "refusals",
-    ANGLE=ANGLE,
-    AN_ANGLE=AN_ANGLE,
-    A_LENGTH=A_LENGTH,
-    A_MASS=A_MASS,
-    LENGTH=LENGTH,
-    MASS=MASS,
-    PLAIN=PLAIN,
-    SPEED=SPEED,
-    TIME=TIME,
-)
+@cases("file/units", "refusals", **NAMES)
 def test_refusals(text, dimension, message):
     with pytest.raises(ValueError) as caught:  # noqa: PT011 - the whole text is compared
         convert(text, dimension)
@@ -193,23 +161,7 @@ def test_every_unit_is_among_them():
     assert set(unit_table.DEFINITIONS) <= set(dict(by_name(EXACT | PRINTED)))
 
 
-@cases(
-    "file/units",
-    "units_as_people_write_them",
-    ANGLE=ANGLE,
-    DAMPING=DAMPING,
-    ENERGY=ENERGY,
-    INERTIA=INERTIA,
-    LENGTH=LENGTH,
-    MASS=MASS,
-    PRESSURE=PRESSURE,
-    SPEED=SPEED,
-    STIFFNESS=STIFFNESS,
-    STRESS=STRESS,
-    TIME=TIME,
-    TORQUE=TORQUE,
-    UNBALANCE=UNBALANCE,
-)
+@cases("file/units", "units_as_people_write_them", **NAMES)
 def test_units_as_people_write_them(text, dimension, expected):
     assert convert(text, dimension) == pytest.approx(expected, rel=1e-14)
 
@@ -224,16 +176,7 @@ def test_no_name_has_two_meanings():
     assert set(unit_table.DEFINITIONS).isdisjoint(unit_table.AMBIGUOUS)
 
 
-@cases(
-    "file/units",
-    "pounds_are_a_force_where_only_that_fits",
-    INERTIA=INERTIA,
-    PRESSURE=PRESSURE,
-    STIFFNESS=STIFFNESS,
-    TORQUE=TORQUE,
-    TORSIONAL_DAMPING=TORSIONAL_DAMPING,
-    TORSIONAL_STIFFNESS=TORSIONAL_STIFFNESS,
-)
+@cases("file/units", "pounds_are_a_force_where_only_that_fits", **NAMES)
 def test_pounds_are_a_force_where_only_that_fits(pounds, force, dimension):
     """American drawings have lb for both."""
     assert convert(f"3 {pounds}", dimension) == convert(f"3 {force}", dimension)
@@ -243,18 +186,7 @@ def test_pounds_stay_a_mass_where_that_fits():
     assert convert("3 lb ft2", INERTIA) == pytest.approx(3 * 0.45359237 * 304.8**2, rel=1e-15)
 
 
-@cases(
-    "file/units",
-    "refusals_say_what_is_near",
-    ANGLE=ANGLE,
-    ENERGY=ENERGY,
-    LENGTH=LENGTH,
-    MASS=MASS,
-    PRESSURE=PRESSURE,
-    SPEED=SPEED,
-    TIME=TIME,
-    TORQUE=TORQUE,
-)
+@cases("file/units", "refusals_say_what_is_near", **NAMES)
 def test_refusals_say_what_is_near(text, dimension, begin):
     if begin is None:
         assert convert(text, dimension) == 50.8
