@@ -119,14 +119,6 @@ def test_bad_options_are_told_in_one_line(balcli, options, message):
     assert balcli("analyze", V8, *options) == (2, "", f"balcli: {message}\n")
 
 
-def test_mistakes_of_a_file(balcli, bad):
-    assert balcli("analyze", bad) == (
-        2,
-        "",
-        f"balcli: {bad}: crank.strok: unknown key in [crank]; did you mean stroke?\n",
-    )
-
-
 def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
     file = write(tmp_path / "heavy.toml", changed(("mass = 0.5", "mass = 65")))
     status, out, err = balcli("analyze", file, "--format", "json")

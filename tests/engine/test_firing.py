@@ -198,7 +198,7 @@ def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
     assert problem.message.startswith("cylinder 2 is not at top dead centre")
 
 
-# ------------------------------------------------------------------ a slip that fits all the same
+# ------------------------------------------------------------------ doubts
 
 
 @cases("engine/firing", "an_order_is_not_doubted_where_it_is_even_or_none_is")

@@ -13,7 +13,6 @@ from support.paths import write
 
 from balcli.core.cylinder_pressure import find_highest
 from balcli.engine.load import load
-from balcli.engine.parse import parse
 from balcli.errors import InputError
 
 TWO_STROKE = FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2")
@@ -227,15 +226,6 @@ def test_a_mistake_by_its_path(text, told):
 @cases("engine/gas", "mistakes_of_heat_of_a_cylinder", WIEBE=WIEBE)
 def test_mistakes_of_heat_of_a_cylinder(gas, own, told):
     assert problems(f"{FOUR}{gas}[cylinder.2]\n{own}\n")[0].startswith(told)
-
-
-def test_a_misfire_is_told_of_a_cylinder_that_there_is():
-    assert problems(FOUR + WIEBE + "[cylinder.7]\ngas = 0\n")[0].startswith("cylinder.7: there is")
-
-
-def test_a_file_without_gas_makes_no_gas():
-    assert parse(FOUR).gas is None
-    assert build_text(FOUR).gas is None
 
 
 THREE = RADIAL.replace("radial = 7", "radial = 3\nfiring_order = [1, 3, 2]").replace("[piston]", "[piston]\nbore = 120")

@@ -164,6 +164,3 @@ def test_what_no_file_can_describe_says_so():
         for ask in (one.to_dict, lambda one=one: one.vary({"rod.length": 150})):
             with pytest.raises(balcli.BalcliError, match="no engine file can say what this engine is"):
                 ask()
-
-
-# ------------------------------------------------------------------ in a line

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from support.cases import cases
 from support.engines import GOOD, changed
+from support.paths import ENGINE_FILES
 
 from balcli.engine.parse import parse
 from balcli.file import examples as new
@@ -66,14 +65,10 @@ def test_throws_side_by_side_are_no_slip(throws):
     assert find_suspicious(parse(changed(("[0, 180, 180, 0]", throws), FREE))) == []
 
 
-ENGINES = Path(__file__).parents[2] / "engines"
-
-
 def test_engines_of_the_project_are_of_usual_size():
     """Places of cylinders and masses at the crank pin: no engine of the folder is doubted."""
-    files = sorted(ENGINES.rglob("*.toml"))
-    assert len(files) > 60
-    doubts = {file.name: find_suspicious(parse(file.read_text("utf-8"))) for file in files}
+    assert len(ENGINE_FILES) > 60
+    doubts = {file.name: find_suspicious(parse(file.read_text("utf-8"))) for file in ENGINE_FILES}
     assert {name: told for name, told in doubts.items() if told} == {}
 
 
