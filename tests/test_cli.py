@@ -74,22 +74,7 @@ def usage(command: str, message: str) -> str:
     return f"Usage: {name} {form}\nTry '{name} -h' for help.\n\nError: {message}\n"
 
 
-@pytest.mark.parametrize(
-    ("args", "command", "message"),
-    [
-        (["frobnicate"], "", "No such command 'frobnicate'."),
-        (["anlyze"], "", "No such command 'anlyze'. Did you mean 'analyze'?"),
-        (["--frob"], "", "No such option: --frob"),
-        (["check", I4, "--json"], "check", "No such option: --json"),
-        (
-            ["analyze", V8, "-f", "latex"],
-            "analyze",
-            "Invalid value for '--format' / '-f': 'latex' is not one of 'table', 'json', 'csv', "
-            "'markdown', 'marine'; for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex).",
-        ),
-        (["analyze", V8, "--by", "bank"], "analyze", 'Invalid value for --by: "bank": only "cylinder" can be chosen'),
-    ],
-)
+@cases("cli", "wrong_usage_shows_how_a_command_is_used", I4=I4, V8=V8)
 def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message):
     status, out, err = balcli(*args)
     assert (status, out) == (2, "")
@@ -113,19 +98,7 @@ def test_an_option_given_twice_is_told_so(balcli, good):
     assert balcli("analyze", good, "-q", "-q")[::2] == (0, "")
 
 
-@pytest.mark.parametrize(
-    ("args", "told"),
-    [
-        (["analyze"], "FILE"),
-        (["analyze", V8, "--format", "xml"], "'xml' is not one of"),
-        (["analyze", V8, "--only"], "--only"),
-        (["new"], "KIND"),
-        (
-            ["search", V8, "--over", "throws", "--minimise", "force.1.major", "--require", "x"],
-            '"x": only even-firing can be required',
-        ),
-    ],
-)
+@cases("cli", "bad_usage_that_the_parser_words", V8=V8)
 def test_bad_usage_that_the_parser_words(balcli, args, told):
     """Its text changes with its version; what is needed to mend it stands in the last line."""
     status, out, err = balcli(*args)
@@ -144,14 +117,6 @@ def test_bad_input_is_told_in_one_line(balcli, args, message):
 @cases("cli", "bad_options_are_told_in_one_line", ROOT=ROOT)
 def test_bad_options_are_told_in_one_line(balcli, options, message):
     assert balcli("analyze", V8, *options) == (2, "", f"balcli: {message}\n")
-
-
-def test_mistakes_of_a_file(balcli, bad):
-    assert balcli("analyze", bad) == (
-        2,
-        "",
-        f"balcli: {bad}: crank.strok: unknown key in [crank]; did you mean stroke?\n",
-    )
 
 
 def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):

@@ -153,15 +153,6 @@ def test_weights_of_a_rotary_engine_stand_on_its_cylinders(tmp_path, file):
     assert "Counterweights stand" not in run(file).out
 
 
-def test_the_engine_file_itself_is_never_written(file):
-    assert "choose another name" in refusal("balance", file, "--write", file)
-    assert file.read_text() == GOOD
-
-
-def test_a_folder_that_is_not_there(file, tmp_path):
-    assert "not_there" in refusal("balance", file, "--write", tmp_path / "not_there" / "x.toml")
-
-
 # ------------------------------------------------------------------ the workshop
 def engine():
     return build_text(SINGLE)

@@ -10,6 +10,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import refusal, run_here
 
 from balcli.books.answer import NAMES, recompute, select_tables
@@ -76,39 +77,12 @@ def test_errata_are_the_figures_that_rounding_does_not_give(name):
 
 
 # ---------------------------------------------------------------- the rule
-@pytest.mark.parametrize(
-    ("value", "text", "wrong"),
-    [
-        (0.12345, "0.1235", False),  # halves away from zero, as written in decimal
-        (-0.12345, "-.1235", False),
-        (0.12344, "0.1235", True),
-        (2.0, "2", False),
-        (0.0, "-0.0000", False),
-        (1 / 3, "1/3", False),
-        (1 / 3, "2/3", True),
-        ("15/128", "5/128", True),
-        ("15/128", "30/256", False),
-        ("12~15", "12~15", False),
-        ("gasoline", "diesel", False),  # words are no figures
-    ],
-)
+@cases("books/tables", "when_a_printed_figure_deviates")
 def test_when_a_printed_figure_deviates(value, text, wrong):
     assert deviates(value, text) is wrong
 
 
-@pytest.mark.parametrize(
-    ("exact", "text", "kind"),
-    [
-        (0.33657, ".3363", "misprint"),
-        (0.43125061, ".4312", "last digit, truncated"),
-        (1.5398, "1.539", "last digit, truncated"),
-        (0.77264, ".7725", "last digit"),
-        (2.75, "2.57", "misprint, digits transposed"),
-        (0.706, "1.412", "doubled by mistake"),
-        (0.7069, "1.413", "doubled by mistake, truncated"),
-        (0.5295, "1.095", "doubled by mistake, digits transposed"),
-    ],
-)
+@cases("books/tables", "kinds")
 def test_kinds(exact, text, kind):
     """An explanation counts only where it leads to the printed figure."""
     doubled = Explanation("doubled by mistake", ((None, 2 * exact),))
@@ -234,20 +208,7 @@ def test_errata_of_one_table_and_of_all():
     assert "cos 45° taken as 0.706" in run("liu-3", "--errata").out
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("tsinghua-1-9",), "no table 'tsinghua-1-9'; the nearest name is 'tsinghua-1-6'"),
-        (("colour",), "no table 'colour'. Tables: tsinghua-1-1, "),
-        (("liu-1", "--angle", "0:90:5"), "--angle: table liu-1 takes no other range"),
-        (("kvasnikov-1", "--angle", "0:90:5"), "--angle: table kvasnikov-1 takes --lambda"),
-        (("--angle", "0:90:5"), "--angle: name the table that it is for (tsinghua-1-2, tsinghua-1-3, tsinghua-1-6)"),
-        (
-            ("tsinghua-1-2", "--angle", "0:180:0.01", "--lambda", "0.2:0.4:0.01"),
-            "18001 angles of 21 crank ratios are 378021 figures, and at most 100000 are tabulated",
-        ),
-    ],
-)
+@cases("books/tables", "wrong_names_and_options_are_refused")
 def test_wrong_names_and_options_are_refused(arguments, message):
     assert refusal("tables", *arguments).startswith(message)
 

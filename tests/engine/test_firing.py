@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from support.cases import cases
 from support.engines import engine, refused
 
 from balcli.engine.layout import check_firing, find_dead_centres, find_intervals
@@ -197,34 +198,10 @@ def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
     assert problem.message.startswith("cylinder 2 is not at top dead centre")
 
 
-# ------------------------------------------------------------------ a slip that fits all the same
+# ------------------------------------------------------------------ doubts
 
 
-@pytest.mark.parametrize(
-    "parts",
-    [
-        {  # split by 180 - 2 * 60: nothing of order 1 turns against the crank
-            "crank": {"throws": [0], "splay": -60},
-            "layout": {"bank_angle": 60, "firing_order": [1, 2]},
-        },
-        {  # less than even firing takes, and more even than common pins
-            "crank": {"throws": [0, 240, 120], "splay": -18},
-            "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]},
-        },
-        {"crank": {"throws": [0, 240, 120]}, "layout": {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]}},
-        {"crank": {"throws": [0, 240, 120]}, "layout": {"firing_order": [1, 3, 2]}},
-        {"crank": {"throws": [0, 239.5, 120.5]}, "layout": {"firing_order": [1, 3, 2]}},
-        {
-            "crank": {"throws": [0, 240, 120]},
-            "layout": {"firing_order": [1, 2, 3], "firing_intervals": [120, 120, 480]},
-        },
-        {"crank": {"throws": [0, 240, 120]}, "layout": {"firing_order": [1, 2, 3], "strokes": 2}},
-        {"crank": {"throws": [0, 90]}, "layout": {"firing_order": [1, 2]}},
-        {"crank": {"throws": [0, 90, 270, 180]}, "layout": {"firing_order": [1, 3, 2, 4]}},
-        {"crank": {"throws": [0]}, "layout": {"bank_angle": 45, "firing_order": [1, 2]}},
-        {"crank": {"throws": [0, 240, 120]}, "layout": {}},
-    ],
-)
+@cases("engine/firing", "an_order_is_not_doubted_where_it_is_even_or_none_is")
 def test_an_order_is_not_doubted_where_it_is_even_or_none_is(parts):
     doubts = engine(**parts).doubts
     assert not [doubt for doubt in doubts if "firing" in doubt or "splay" in doubt]

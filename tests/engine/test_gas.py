@@ -13,7 +13,6 @@ from support.paths import write
 
 from balcli.core.cylinder_pressure import find_highest
 from balcli.engine.load import load
-from balcli.engine.parse import parse
 from balcli.errors import InputError
 
 TWO_STROKE = FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2")
@@ -218,64 +217,7 @@ def test_a_diagram_may_have_so_many_rows(beside):
 
 
 # ------------------------------------------------------------------ mistakes
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        (
-            FOUR.replace("bore = 86\n", "") + WIEBE,
-            "piston.bore: is missing; gas presses on its area, such as bore = 86",
-        ),
-        (
-            FOUR.replace("firing_order = [1, 3, 4, 2]", "") + WIEBE,
-            "layout.firing_order: is missing; a four-stroke cylinder fires in every second "
-            "revolution, and only the firing order says in which, such as firing_order = "
-            "[1, 3, 4, 2]",
-        ),
-        (
-            FOUR + "[cylinder.2]\ngas = 0\n",
-            "cylinder.2.gas: needs [gas], which says what the gas does in all cylinders",
-        ),
-        (FOUR + WIEBE + "zero = 'firing'\n", "gas.zero: belongs to an indicator diagram; leave it out"),
-        (
-            TWO_STROKE + WIEBE + "intake_closes = 580\n",
-            "gas.intake_closes: has no meaning in a two-stroke cycle, whose ports close where the "
-            "exhaust opened: leave it out",
-        ),
-        (
-            FOUR + WIEBE + "exhaust_opens = 30\n",
-            "gas.burn_duration: a burn over 50° from -15° ends at 35°, past 30°, where the exhaust opens",
-        ),
-        (FOUR + WIEBE.replace("imep = 9", "imep = -50"), "gas.imep: is -50 bar: this cycle has at least "),
-        (FOUR + WIEBE.replace("imep = 9", "max_pressure = 5"), "gas.max_pressure: is 5 bar: this cycle has at least "),
-        (FOUR + WIEBE.replace("imep = 9", "max_pressure = 0"), "gas.max_pressure: is 0 bar: this cycle has at least "),
-        (
-            FOUR + WIEBE.replace("wiebe", "dual") + "max_pressure = 0\n",
-            "gas.max_pressure: is 0 bar: this cycle has at least ",
-        ),
-        (
-            FOUR + WIEBE.replace("wiebe", "diesel").replace("imep = 9", "cut_off = 40"),
-            "gas.cut_off: is 40: this cycle has at most ",
-        ),
-        (
-            FOUR + WIEBE.replace("wiebe", "otto") + "burn_start = 3\n",
-            "gas: has burn_start, which only a wiebe cycle has",
-        ),
-        (
-            FOUR + "[gas]\nimep = 3\n",
-            "gas: has neither indicator nor cycle nor harmonics; give either indicator or cycle or harmonics",
-        ),
-        (
-            FOUR + "[gas]\nindicator = 'x.csv'\nheat = 3\n",
-            "gas: has heat beside indicator; these belong to a computed cycle",
-        ),
-        (FOUR + "[gas]\nindicator = 3\n", "gas.indicator: 3 is no name of a file; give the name"),
-        (FOUR + "[flywheel]\ninertia = 0\n", "flywheel.inertia: 0 is not above 0; a moment of inertia is wanted: "),
-        (
-            FOUR + "[bearing]\npin_width = 20\n",
-            "bearing: has pin_width without pin_diameter; give either pin_diameter and pin_width",
-        ),
-    ],
-)
+@cases("engine/gas", "a_mistake_by_its_path", FOUR=FOUR, TWO_STROKE=TWO_STROKE, WIEBE=WIEBE)
 def test_a_mistake_by_its_path(text, told):
     (found,) = problems(text)
     assert found.startswith(told)
@@ -284,15 +226,6 @@ def test_a_mistake_by_its_path(text, told):
 @cases("engine/gas", "mistakes_of_heat_of_a_cylinder", WIEBE=WIEBE)
 def test_mistakes_of_heat_of_a_cylinder(gas, own, told):
     assert problems(f"{FOUR}{gas}[cylinder.2]\n{own}\n")[0].startswith(told)
-
-
-def test_a_misfire_is_told_of_a_cylinder_that_there_is():
-    assert problems(FOUR + WIEBE + "[cylinder.7]\ngas = 0\n")[0].startswith("cylinder.7: there is")
-
-
-def test_a_file_without_gas_makes_no_gas():
-    assert parse(FOUR).gas is None
-    assert build_text(FOUR).gas is None
 
 
 THREE = RADIAL.replace("radial = 7", "radial = 3\nfiring_order = [1, 3, 2]").replace("[piston]", "[piston]\nbore = 120")

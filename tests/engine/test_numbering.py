@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import refused
 
 from balcli.engine.build import Engine
@@ -92,18 +93,7 @@ def test_the_only_engine_of_the_first_tier_is_used(order, angle, keys, numbering
     assert "numbering" not in engine.to_dict()["layout"]
 
 
-@pytest.mark.parametrize(
-    ("order", "angle", "numbering", "throws", "moment"),
-    [
-        ("1-3-2-4", 180, "[[1, 3], [2, 4]]", "0, 180, 180, 0", 0),  # Subaru EJ
-        ("1-4-3-2", 180, "[[1, 2], [3, 4]]", "0, 180, 180, 0", 0),  # VW
-        ("1-6-2-4-3-5", 180, "[[1, 2, 3], [4, 5, 6]]", "0, 180, 120, 300, 240, 60", 0),  # Porsche 911
-        ("1-6-3-2-5-4", 180, "[[1, 3, 5], [2, 4, 6]]", "0, 180, 120, 300, 240, 60", 0),  # Subaru EZ
-        ("1-4-5-2-3-6", 180, "[[1, 3, 5], [2, 4, 6]]", "0, 180, 240, 60, 120, 300", 0),  # Corvair
-        ("1-5-3-6-2-4", 15, "[[1, 3, 5], [2, 4, 6]]", "0, 255, 120, 135, 240, 15", 0.904),  # VR6
-        ("1-2-4-5-3", 15, "[[1, 3, 5], [2, 4]]", "0, 231, 144, 87, 288", 0.712),  # VR5
-    ],
-)
+@cases("engine/numbering", "several_engines_are_listed_the_better_balanced_first")
 def test_several_engines_are_listed_the_better_balanced_first(order, angle, numbering, throws, moment):
     first, second, last = read_lines(order=order, bank_angle=angle, **ALTERNATING)
     assert first.startswith(f"layout.numbering = {numbering}: throws {throws};")
@@ -175,36 +165,7 @@ def test_a_second_and_a_third_tier_is_never_taken_unasked():
     assert any("[[1, 2, 3], [6, 5, 4]]" in line for line in lines)
 
 
-@pytest.mark.parametrize(
-    ("crank", "layout", "hint"),
-    [
-        (
-            {"throws": [0, 120, 240, 240, 120, 0]},
-            {"firing_order": [1, 5, 3, 6, 2, 4]},
-            "crank.throws = [0, 240, 120, 120, 240, 0], which count in the sense of rotation",
-        ),
-        (
-            {"throws": [0, 180, 180, 0]},
-            {"firing_order": [1, 2, 3, 4], "firing_intervals": [180] * 4},
-            "crank.throws = [0, 180, 0, 180]",
-        ),
-        (
-            {},
-            {
-                "bank_angle": 90,
-                "numbering": [[1, 2, 3], [6, 5, 4]],
-                "firing_order": [1, 6, 2, 5, 3, 4],
-                "firing_intervals": [150, 90] * 3,
-            },
-            "layout.firing_intervals = [90, 150, 90, 150, 90, 150]",
-        ),
-        (
-            {},
-            {"bank_angle": 90, "numbering": [[1, 2, 3], [4, 5, 6]], "firing_order": [1, 4, 3, 6, 2, 5]},
-            "crank.splay = -30",
-        ),
-    ],
-)
+@cases("engine/numbering", "what_would_make_a_given_numbering_fit")
 def test_what_would_make_a_given_numbering_fit(crank, layout, hint):
     assert refused(crank=crank, layout=layout).endswith(f"It fits with {hint}")
 
@@ -217,22 +178,7 @@ def test_a_radial_is_counted_with_or_against_the_rotation():
     assert "layout.numbering = [[1], [5], [4], [3], [2]]" in told
 
 
-@pytest.mark.parametrize(
-    ("order", "doubted"),
-    [
-        ("1-3-2", False),
-        ("1-3-4-2", False),
-        ("1-2-4-3", False),
-        ("1-4-2-3", True),
-        ("3-4-2-1", False),
-        ("1-2-4-5-3", False),
-        ("1-2-3-4-5", True),
-        ("1-5-3-6-2-4", False),
-        ("1-4-2-6-3-5", False),
-        ("1-4-2-5-3-6", True),
-        ("1-6-2-5-8-3-7-4", False),
-    ],
-)
+@cases("engine/numbering", "a_crank_that_nobody_builds_is_doubted_in_one_line")
 def test_a_crank_that_nobody_builds_is_doubted_in_one_line(order, doubted):
     doubts = load(tables(order, None)).doubts
     assert len(doubts) == doubted

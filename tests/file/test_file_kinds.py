@@ -12,32 +12,10 @@ from balcli.engine.parse import parse
 from balcli.errors import InputError
 from balcli.file.examples import template
 
-CHAIN = template("torsion")
+CHAIN, BODY, RUNS = template("torsion"), block(), three_runs()
 
 
-@pytest.mark.parametrize(
-    ("command", "text", "message"),
-    [
-        ("field", GOOD, "is an engine file, which balcli analyze and others read; give a file of runs"),
-        ("field", CHAIN, "is a chain file, which balcli torsion reads; give a file of runs"),
-        ("analyze", CHAIN, "is a chain file, which balcli torsion reads; give an engine file"),
-        ("mounts", CHAIN, "is a chain file, which balcli torsion reads; give an engine file"),
-        *(
-            (
-                command,
-                block(),
-                "has a body on mounts and no engine, which balcli mounts reads; an engine has [crank], "
-                "[rod] and [piston]",
-            )
-            for command in ("analyze", "balance", "numbers")
-        ),
-        *(
-            (command, three_runs(), "is a file of runs, which balcli field reads; give an engine file")
-            for command in ("analyze", "torque", "mounts", "numbers")
-        ),
-        ("torsion", three_runs(), "is a file of runs, which balcli field reads; give an engine file or a chain file"),
-    ],
-)
+@cases("file/file_kinds", "a_file_of_another_kind", BODY=BODY, CHAIN=CHAIN, GOOD=GOOD, RUNS=RUNS)
 def test_a_file_of_another_kind(balcli, command, text, message):
     outcome = balcli(command, "-", stdin=text)
     assert outcome == (2, "", f"balcli: standard input: {message}\n")

@@ -6,6 +6,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from support.cases import cases
 from support.commands import refusal, run_here
 from support.engines import GOOD, changed
 from support.gas_engines import PETROL_FOUR
@@ -24,22 +25,7 @@ def told(*changes, args=()):
     return run_here("analyze", "-", "--only", "verdict", *args, stdin=changed(*changes))
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "answer"),
-    [
-        ("stroke = 90", "stroke = 3.00 in", 'stroke = 3.00 in: a value with a unit stands in quotes: stroke = "3.00 in"'),
-        ("stroke = 90", 'stroke = 3.400"', 'a value with a unit stands in quotes: stroke = "3.400 in"'),
-        ("stroke = 90", "stroke = 68,6", ": stroke = 68,6: write a decimal point, not a comma"),
-        ("throws = [0, 180, 180, 0]", "throws = 0, 90", "a list stands in brackets, with commas: throws = [0, 90]"),
-        ("throws = [0, 180, 180, 0]", "throws = [0; -180] # deg", ": throws = [0, -180]"),
-        ("throws = [0, 180, 180, 0]", "throws = 0 240 120", ": throws = [0, 240, 120]"),
-        ("firing_order = [1, 3, 4, 2]", "firing_order = 1-3-4-2", ": firing_order = [1, 3, 4, 2]"),
-        ("stroke = 90", "stroke 90", " (at line 3, column 8): stroke 90"),
-        ("stroke = 90", "stroke = 90;", ": stroke = 90;"),
-        ("[rod]", "[rod", ": [rod"),
-        ("[rod]", "[crank]", ": [crank]"),
-    ],
-)  # fmt: skip
+@cases("file/slips", "a_line_that_is_no_toml_is_shown_with_what_it_should_be")
 def test_a_line_that_is_no_toml_is_shown_with_what_it_should_be(old, new, answer):
     err = told((old, new)).err
     assert NOT_TOML in err
@@ -70,16 +56,7 @@ def test_an_example_of_a_list_is_of_its_key():
     assert err.endswith("5 is not a list; write it in square brackets, such as [1, 3, 4, 2]\n")
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "meant"),
-    [
-        ("[rod]", "[conrod]", "conrod: unknown key in an engine file; did you mean rod?"),
-        ("stroke = 90", "stroke = 90\npin_offset = 30", "unknown key in [crank]; did you mean splay?"),
-        ("[operation]", '[cylinder.3]\npiston = "520 g"', "[cylinder]; did you mean piston_mass?"),
-        ("[layout]", "[layout]\nbank = 90", "unknown key in [layout]; did you mean bank_angle?"),
-        ("[operation]", "[operation]\nrpm = 9000", "unknown key in [operation]; did you mean speed?"),
-    ],
-)  # fmt: skip
+@cases("file/slips", "other_words_for_a_key_lead_to_it")
 def test_other_words_for_a_key_lead_to_it(old, new, meant):
     text = changed() if old in GOOD else f"{GOOD}\n[operation]\n"
     assert meant in run_here("analyze", "-", stdin=text.replace(old, new, 1)).err
@@ -89,48 +66,7 @@ COUNT = "the number of cylinders follows from throws and banks; give every throw
 WIEBE = {"cycle": "wiebe", "compression_ratio": 10, "imep": 9}
 
 
-@pytest.mark.parametrize(
-    ("keys", "answer"),
-    [
-        ({"layout": {"cylinders": 7}}, f"layout.cylinders: unknown key in [layout]; {COUNT}"),
-        ({"cylinders": 4}, f"cylinders: unknown key in an engine file; {COUNT}"),
-        ({"cylinder": 4}, f"cylinder: does not name a cylinder; {COUNT}"),
-        ({"cylinder": {"bore": 80}}, "cylinder.bore: does not name a cylinder; bore belongs to [piston]"),
-        ({"engine": {"cylinders": 4}}, f"engine.cylinders: there is no table [engine]; {COUNT}"),
-        ({"engine": {"bore": 80}}, "engine.bore: there is no table [engine]; bore belongs to [piston]"),
-        ({"engine": {"rpm": 80}}, "engine.rpm: there is no table [engine]; speed belongs to [operation]"),
-        ({"foo": {"bar": 1}}, "foo.bar: there is no table [foo]"),
-        ({"crank": {"radius": 45}}, "crank.radius: unknown key in [crank]; give crank.stroke, twice the crank radius"),
-        ({"cylinder": {"2": {"bore": 65}}}, "cylinder.2.bore: unknown key in [cylinder]; bore belongs to [piston]"),
-        ({"crank": {"strokes": 4}}, "crank.strokes: unknown key in [crank]; strokes belongs to [layout]"),
-        ({"gas": {"file": "p.csv"}}, "gas.file: unknown key in [gas]; did you mean indicator?"),
-        ({"crank": {"phase": [0, 180]}}, "crank.phase: unknown key in [crank]; did you mean throws?"),
-        ({"shaft": [{"ratio": 2, "unbalance": 9, "phase": 3}]}, "shaft.1.phase: unknown key in [shaft]; did you mean angle?"),
-        ({"bore": 80}, "bore: unknown key in an engine file; bore belongs to [piston]"),
-        ({"mass": 80}, "mass: unknown key in an engine file; mass belongs to [rod] or [piston]"),
-        ({"rpm": 3000}, "rpm: unknown key in an engine file; speed belongs to [operation]"),
-        ({"lambda": 0.3}, "lambda: unknown key in an engine file; ratio belongs to [rod]"),
-        ({"rod": {"lambda": 0.3}}, "rod.lambda: unknown key in [rod]; did you mean ratio?"),
-        ({"rod": {"name": "x"}}, "rod.name: unknown key in [rod]; name stands at the head of the file, above all tables"),
-        ({"piston": {"weight": 1}}, "piston.weight: unknown key in [piston]; did you mean mass?"),
-        ({"layout": {"angle": 60}}, "layout.angle: unknown key in [layout]; did you mean bank_angle?"),
-        ({"layout": {"stroke": 90}}, "layout.stroke: unknown key in [layout]; stroke belongs to [crank]"),
-        ({"gas": WIEBE | {"powder": 3}}, "gas.powder: unknown key in [gas]; it has indicator, zero,"),
-        ({"torsion": {"flywheel": {"inertia": 3}}}, "torsion.flywheel: flywheel is a table of its own, not one within [torsion]"),
-        ({"crank": {"flywheel": {"inertia": 3}}}, "crank.flywheel: flywheel is a table of its own, not one within [crank]; write [flywheel]"),
-        ({"crank": {"flywheel": 3}}, "crank.flywheel: unknown key in [crank]; it has stroke,"),
-        ({"torsion": {"J": 1}}, "torsion.J: unknown key in [torsion]; did you mean throw_inertia?"),
-        ({"torsion": {"rear": [{"name": "disc", "stiffness": 1, "J": 1}]}}, "torsion.rear.1.J: unknown key in [torsion.rear]; did you mean inertia?"),
-        ({"crank": {"rod": {"length": 3}}}, "crank.rod: rod is a table of its own, not one within [crank]; write [rod] and its keys below it"),
-        ({"engine": {"rod": {"length": 3}}}, "engine.rod: rod is a table of its own, not one within [engine]; write [rod] and its keys below it"),
-        ({"operation": {"mount": {"loss": 3}}}, "operation.mount: mount is a table of its own, not one within [operation]; write [[mount]] and"),
-        ({"operation": {"cylinder": {"loss": 3}}}, "operation.cylinder: cylinder is a table of its own, not one within [operation]; write [cylinder.3] and"),
-        ({"piston": {"gas": 3}}, "piston.gas: unknown key in [piston]; it has bore,"),
-        ({"gas": [WIEBE]}, "gas: stands once, in single brackets: [gas]"),
-        ({"cylinder": [{"gas": 0}]}, "cylinder: has a table for each that differs, such as [cylinder.3]"),
-        ({"operation": {"speed_ripple": 0.02}}, "operation.speed_ripple: 0.02 is no table; write [[operation.speed_ripple]] in double brackets"),
-    ],
-)  # fmt: skip
+@cases("file/slips", "keys_of_newcomers_are_answered_with_what_to_write_instead", COUNT=COUNT, WIEBE=WIEBE)
 def test_keys_of_newcomers_are_answered_with_what_to_write_instead(keys, answer):
     tables = tomllib.loads(GOOD)
     for name, value in keys.items():

@@ -3,24 +3,13 @@
 from __future__ import annotations
 
 import pytest
+from support.cases import cases
 from support.commands import run_here
 from support.engines import build_text, changed
 from support.paths import write
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "inside", "outside"),
-    [
-        ("mass = 0.5", "mass = {}", 3.17, 3.19),  # 5000 kg/m^3 of the bore's cube
-        ("mass = 0.6", "mass = {}", 3.99, 4.01),  # 8 times the piston
-        ("mass = 0.6", "mass = {}", 0.051, 0.049),  # a tenth of the piston
-        ("cg = 45", "cg = {}", 87.9, 88.1),  # 0.55 of the rod's length
-        ("length = 160", "length = {}", 112.6, 112.4),  # lambda 0.4
-        ("length = 160", "length = {}", 299, 301),  # lambda 0.15
-        ("speed = 3000", "speed = {}", 13330, 13340),  # mean piston speed 40 m/s
-        ("speed = 3000", "speed = {}", 9.1, 8.9),
-    ],
-)
+@cases("file/thresholds", "an_engine_file")
 def test_an_engine_file(old, new, inside, outside):
     said = [build_text(changed((old, new.format(value)))).doubts for value in (inside, outside)]
     assert [len(each) for each in said] == [0, 1]

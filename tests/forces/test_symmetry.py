@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import build_text
 from support.paths import ENGINE_FILES
 
@@ -102,20 +103,7 @@ def test_pairs_that_stand_at_no_fraction_of_a_turn_to_each_other():
     assert sentences([0, 33.3333333333, 180, 213.3333333333])[0] == "order 1 force: balanced by symmetry of the layout"
 
 
-@pytest.mark.parametrize(
-    ("layout", "text"),
-    [
-        ("firing_order = [1, 2, 3]\nfiring_intervals = [240, 240, 240]", "firing: even, every 240 deg"),
-        (
-            "firing_order = [1, 2, 3]\nfiring_intervals = [240, 239.9, 240.1]",
-            "firing: nearly even, every 239.9 to 240.1 deg",
-        ),
-        (
-            "firing_order = [1, 2, 3]\nfiring_intervals = [180, 270, 270]",
-            "firing: uneven, at intervals of 180, 270, 270 deg",
-        ),
-    ],
-)
+@cases("forces/symmetry", "even_and_uneven_fire_in_words")
 def test_even_and_uneven_fire_in_words(layout, text):
     base = "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[layout]\n"
     assert explain_symmetry(build_text(base + layout), [1]).firing == text

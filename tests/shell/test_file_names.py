@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from support.cases import cases
 from support.commands import ask_csv, refusal, run_command, run_here
 from support.engines import GOOD, changed
 
@@ -64,23 +65,9 @@ PICTURES = ".svg, .png or .pdf"
 DRAWN = "; pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and field"
 
 
-@pytest.mark.parametrize(
-    ("args", "can"),
-    [
-        (("analyze", "-o", "r.pdf"), f".txt, .json, .csv or .md{DRAWN}"),
-        (("analyze", "-o", "r.html"), ".txt, .json, .csv or .md; pages are written by balcli report FILE X.html"),
-        (("analyze", "-f", "csv", "-o", "r.PDF"), f".txt, .json, .csv or .md{DRAWN}"),
-        (("analyze", "-o", "r.xyz"), ".txt, .json, .csv or .md"),
-        (("curves", "-o", "r.md"), ".csv or .json"),
-        (("sweep", *VARY, "-o", "r.png"), f".csv, .json, .parquet, .txt or .md{DRAWN}"),
-        (("sweep", *VARY, "--plot", "r.csv"), PICTURES),
-        (("plot", "-o", "r.jpg"), PICTURES),
-        (("report", "-o", "r.pdf"), ".html or .htm"),
-        (("balance", "--write", "r.json"), ".toml"),
-        (("search", *SEARCH, "--write", "r.csv"), ".toml"),
-    ],
-    ids=lambda v: " ".join(v) if type(v) is tuple else "",
-)  # fmt: skip
+@cases(
+    "shell/file_names", "an_ending_that_cannot_be_is_refused", DRAWN=DRAWN, PICTURES=PICTURES, SEARCH=SEARCH, VARY=VARY
+)
 def test_an_ending_that_cannot_be_is_refused(args, can):
     name, *rest = args
     option, target = {"-o": "--output"}.get(rest[-2], rest[-2]), rest[-1]
@@ -90,15 +77,7 @@ def test_an_ending_that_cannot_be_is_refused(args, can):
     assert os.listdir() == ["good.toml"]
 
 
-@pytest.mark.parametrize(
-    ("args", "said"),
-    [
-        (("analyze", "-f", "csv", "-o", "r.json"), ".json is json, but --format says csv"),
-        (("analyze", "-f", "table", "-o", "r.md"), ".md is markdown, but --format says table"),
-        (("curves", "-f", "json", "-o", "r.csv"), ".csv is csv, but --format says json"),
-        (("sweep", *VARY, "-f", "json", "-o", "r.PARQUET"), ".parquet is parquet, but --format says json"),
-    ],
-)
+@cases("shell/file_names", "a_contradiction_is_refused", VARY=VARY)
 def test_a_contradiction_is_refused(args, said):
     name, *rest = args
     assert refusal(name, "good.toml", *rest) == (f"--output {rest[-1]}: {said}; leave one of them out")

@@ -10,6 +10,7 @@ import tomllib
 import numpy as np
 import pytest
 from oracle import momentum
+from support.cases import cases
 from support.commands import refusal, run_here
 from support.engines import build_text, changed
 from support.paths import write
@@ -382,47 +383,12 @@ def test_unequal_pins_share_what_was_measured():
 
 
 # ------------------------------------------------------------------ refusals
-@pytest.mark.parametrize(
-    ("text", "options", "told"),
-    [
-        (
-            TWIN,
-            SchemeOptions(factor=(0.5,), measured=1.0),
-            "--factor and --measured say the same: what balances a pin stands for a factor; give one of them",
-        ),
-        (
-            TWIN,
-            SchemeOptions(factor=(51.0,)),
-            "--factor 51: is no share of the reciprocating mass; did you mean 51%? give one such "
-            "as 0.5 or 51%, or a range such as 50%:54%:1%",
-        ),
-        (
-            TWIN,
-            SchemeOptions(factor=(0.0, 5.0)),  # of 0,5
-            "--factor 5: is no share of the reciprocating mass; did you mean 5%? give one such "
-            "as 0.5 or 51%, or a range such as 50%:54%:1%",
-        ),
-        (
-            TWIN,
-            SchemeOptions(measured=812.0),
-            "--measured 812000 g: would balance 563 times the reciprocating mass; 900 g balance "
-            "none of it on a pin, and 2340 g all; is the unit right?",
-        ),
-        (
-            changed(("mass = 0.5", "mass = 0"), ("cg = 45", "cg = 0")),
-            SchemeOptions(measured=1.0),
-            "--measured: nothing goes to and fro in this engine: there is no factor",
-        ),
-        (
-            FORD.replace("spacing = 111.25\n", ""),
-            SchemeOptions(planes="ends"),
-            "--planes: moments are not known, because crank.spacing is missing",
-        ),
-    ],
-)
+@cases("sizing/balance_factor", "what_a_factor_cannot_be", FORD=FORD, TWIN=TWIN)
 def test_what_a_factor_cannot_be(text, options, told):
     with pytest.raises(BalcliError) as caught:
-        size(build_text(text), "factor", options)
+        size_scheme(
+            build_text(text), "factor", **{name: tuple(v) if type(v) is list else v for name, v in options.items()}
+        )
     assert str(caught.value).startswith(told)
 
 

@@ -14,16 +14,7 @@ from hypothesis import strategies as st
 from support.engines import engine
 
 from balcli.analysis.answer import QUANTITIES, analyze
-from balcli.core.mechanisms import (
-    closed_form,
-    harmonics,
-)
-from balcli.core.mechanisms import (
-    closed_form as fourier,
-)
-from balcli.core.mechanisms import (
-    harmonics as sampled,
-)
+from balcli.core.mechanisms import closed_form, harmonics
 from balcli.core.mechanisms.closed_form import SERIES
 from balcli.core.phasors import EPS
 from balcli.engine.build import Engine
@@ -121,9 +112,9 @@ def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
     ]
 
 
-def share_of_bound(series: fourier.Series, row: int, want: list[mp.mpc]) -> float:
+def share_of_bound(series: closed_form.Series, row: int, want: list[mp.mpc]) -> float:
     """Largest error as a share of the bound that the product states, which is 16 roundings."""
-    assert sampled.SAMPLING == BOUNDS["offset pistons"] * EPS == BOUNDS["articulated rods"] * EPS
+    assert harmonics.SAMPLING == BOUNDS["offset pistons"] * EPS == BOUNDS["articulated rods"] * EPS
     errors = [float(abs(mp.mpmathify(complex(got)) - exact)) for got, exact in zip(series.c[:, row], want, strict=True)]
     return max(errors) / float(np.ravel(series.noise)[row])
 
@@ -225,7 +216,7 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
     with mp.workdps(30):
         want = revolution(motion, 2 * c.linkage.find_highest_order(c.lam, c.eps), orders)
     few, which = c.linkage.find_distinct_harmonics(orders, c.lam, c.eps, SERIES)
-    found = fourier.select_cylinders(few, which)
+    found = closed_form.select_cylinders(few, which)
     assert share_of_bound(found["piston"], row, want[0]) < 0.5
     assert share_of_bound(found["rod"], row, want[1]) < 0.5
 
@@ -364,6 +355,3 @@ def test_many_cylinders(count):
     assert found.force.balanced[~left].all()
     want = REVOLVING * np.abs(closed_form.piston(found.orders[left], 0.999)) * count
     assert np.all(np.abs(found.force.major[left] - want) <= BOUNDS["many cylinders"] * count * EPS * want)
-
-
-# ------------------------------------------------------------------ docs/accuracy.md
