@@ -10,8 +10,9 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import docs_site
+import mutants
 import pytest
-from support.paths import ROOT
+from support.paths import PACKAGE, ROOT
 
 import balcli
 from balcli.cli import COMMANDS
@@ -19,6 +20,7 @@ from balcli.cli import COMMANDS
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 WORKFLOWS = [".github/workflows/checks.yml", ".gitlab-ci.yml"]
 PAGES = ["CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "CHANGELOG.md"]
+MUTATIONS = mutants.read_mutations([])
 
 
 def text(name: str) -> str:
@@ -112,3 +114,13 @@ def test_citation_is_of_this_version():
 def test_links_of_community_pages_lead_to_files(page):
     for target in re.findall(r"\]\(([^)\s#]+)", text(page)):
         assert target.startswith("http") or Path(ROOT / target).exists(), target
+
+
+def test_every_mistake_of_the_mutations_can_be_made():
+    """Its text stands once in its file, where it is changed, and its tests are there."""
+    source = {file: (PACKAGE / file).read_text(encoding="utf-8") for file in {each.file for each in MUTATIONS}}
+    for each in MUTATIONS:
+        assert source[each.file].count(each.old) == 1, each
+        assert each.new != each.old, each
+        for tests in each.tests.split():
+            assert (ROOT / "tests" / tests).exists(), each

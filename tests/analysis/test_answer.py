@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from support.engines import alone, build_text, engine
+from support.engines import GOOD, alone, build_text, engine
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
@@ -251,3 +251,12 @@ def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
     found = analyze(e, only=["peak"]).force
     assert found.value == pytest.approx(1.25 * 1 * 0.05 * (20 * np.pi) ** 2, rel=1e-14)
     assert np.cos(found.theta) == pytest.approx(1, abs=1e-12)
+
+
+def test_what_is_small_is_small_beside_the_force_of_one_piston_and_its_rod_end():
+    """m r w^2, over the 300 mm between the outermost throws and at the crank radius of 45 mm."""
+    force = (0.5 + 0.6 * 45 / 160) * 0.045 * (100 * np.pi) ** 2
+    scale = analyze(build_text(GOOD), only=["force"]).of_one_cylinder
+    assert scale["force"] == pytest.approx(force, rel=1e-14)
+    assert scale["moment"] == pytest.approx(0.3 * force, rel=1e-14)
+    assert scale["torque"] == pytest.approx(0.045 * force, rel=1e-14)
