@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.rotors import head, names, polar, random_rotor, run, table, three_runs
 
 from balcli.core.unbalance import STEEL
@@ -407,41 +408,7 @@ def refused(text: str, **options) -> str:
     return str(caught.value)
 
 
-REFUSED = [
-    (
-        head(2) + run([1, 2]) + run([2, 2], [("p1", 1)]),
-        "runs.toml: run: there is no trial weight in p2; add a run with one, such as weights = { p2 "
-        '= "10 @ 0" }, give influence, or leave the plane out with --without p2',
-    ),
-    (
-        head(2) + run([1, 2], [("p2", 1)]) + run([2, 2], [("p1", 1)]),
-        "runs.toml: run.1: has weights, and so has every other run; give the readings of the rotor "
-        "as found, in a run without weights",
-    ),
-    (
-        head(2) + run([1, 2]) + run([2, 2], [("p1", 1), ("p2", 1)]) + run([2, 2], [("p1", 2), ("p2", 2)]),
-        "runs.toml: run: the trial weights in p1 and p2 are never apart, so their effects cannot be "
-        "separated; of 3 runs here, 3 that differ are needed: one as found, and one for each plane",
-    ),
-    (
-        head(2) + run([1]) + run([2], [("p1", 1)]) + run([3], [("p2", 1)]),
-        "runs.toml: planes: 2 planes cannot be told apart by 1 reading; add sensors or speeds, or "
-        "leave 1 plane out with --without",
-    ),
-    (
-        head(2) + run([1, 2]) + run([2, 3], [("p1", 1)]) + run([3, 4], [("p2", 1)]),
-        "runs.toml: planes: p1 and p2 depend on one another: what one does, the others do as well, at "
-        "every sensor and speed; leave one out, such as --without p2",
-    ),
-    (
-        head(2) + run([1, 2]) + run([1, 2], [("p1", 1)]) + run([3, 4], [("p2", 1)]),
-        "runs.toml: planes: a weight in p1 changes no reading, so none can be found for it; use a "
-        "heavier trial weight, or --without p1",
-    ),
-]
-
-
-@pytest.mark.parametrize(("text", "message"), REFUSED)
+@cases("field/balance_rotor", "runs_that_do_not_tell_are_refused")
 def test_runs_that_do_not_tell_are_refused(text, message):
     assert refused(text) == message
 

@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
@@ -229,18 +230,7 @@ def test_units(four):
     assert "Largest motion of each point, in" in imperial
 
 
-SPEEDS = [
-    ("900:100:100", '--speeds "900:100:100": must rise; give first:last:step in rpm'),
-    ("1:2:3:4", '--speeds "1:2:3:4": give first:last:step in rpm, such as 1000:2500:25, or speeds'),
-    ("a", '--speeds "a": give first:last:step in rpm'),
-    ("0,100", '--speeds "0,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm'),
-    ("1e-300,100", '--speeds "1e-300,100": speeds are above 0 and below 1e9 rpm; give first:last:step in rpm'),
-    ("0:100:10", '--speeds "0:100:10": speeds and their step are above 0 and below 1e9 rpm; give first:last'),
-    ("1:1e6:1", '--speeds "1:1e6:1": has 1000000 speeds; at most 20000 are computed'),
-]
-
-
-@pytest.mark.parametrize(("text", "message"), SPEEDS)
+@cases("mounts/command", "speeds_that_are_none")
 def test_speeds_that_are_none(four, text, message):
     assert refusal("mounts", four, "--speeds", text).startswith(message)
 

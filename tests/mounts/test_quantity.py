@@ -63,16 +63,7 @@ def test_figures_of_the_engine_vary_with_those_of_the_mounts(four, tmp_path):
         assert row["mount.left.force"] == pytest.approx(largest, rel=1e-9)
 
 
-WRONG = [
-    ("mode.7.Hz", "mode.7.Hz is no quantity: after mode comes its number from 1 to 6, or its motion"),
-    ("mode.3.hz", "mode.3.hz is no quantity: give mode.3.Hz or mode.3.share or mode.3.damping"),
-    ("mount.force", "mount.force is no quantity: give mount.left.force or mount.left.static"),
-    ("mount.lef.force", 'mount.lef.force: the file has no mount "lef"; did you mean left?'),
-    ("point.x.motion", 'point.x.motion: the file has no point "x"; there are shift_lever'),
-]
-
-
-@pytest.mark.parametrize(("quantity", "message"), WRONG)
+@cases("mounts/quantity", "what_is_no_quantity")
 def test_what_is_no_quantity(four, quantity, message):
     told = refusal("sweep", four, "--vary", "mount.left.loss=0.1,0.2", "-q", quantity)
     told = told.removeprefix(f"{four}: ")

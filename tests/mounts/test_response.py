@@ -366,38 +366,6 @@ def test_symmetric_block_in_closed_form(report):
     assert upright == pytest.approx([np.sqrt(4 * 400e3 / 200) / (2 * np.pi)], rel=1e-14)
 
 
-SAIPA = """
-[body]
-mass = 163.9
-cg = [0, 0, 0]
-inertia = [9.91e6, 4.12e6, 9.09e6, -0.813e6, 1.34e6, -0.472e6]
-gravity = [0, 0, -1]
-[[mount]]
-name = "1"
-at = [-66.446, 463.093, 156.1]
-angles = [0, 0, 90]
-stiffness = [349.5, 370.5, 553]
-[[mount]]
-name = "2"
-at = [-3.59, -455.997, 100.907]
-stiffness = [141, 57, 367.5]
-[[mount]]
-name = "3"
-at = [250.721, -44.715, -200.543]
-axes = [[0.984807753012208, 0, 0.17364817766693033], [0, 2, 0]]
-stiffness = [640.5, 450, 225]
-"""
-
-
-def test_saipa_quick(report):
-    """NVHteam's powertrain on three mounts, as stored: see tests/validation/test_mounts_saipa.py."""
-    six = report(SAIPA).modes
-    stored = [9.610673600, 11.57906006, 12.81532586, 16.37214213, 24.62196449, 26.04757747]
-    assert [mode.frequency_Hz for mode in six] == pytest.approx(stored, rel=1e-9)
-    lowest = [29.71370270, 27.50122226, 2.167605669, 2.470989607, 18.69376064, 19.45271912]
-    assert [*six[0].energy_percent.values()] == pytest.approx(lowest, rel=1e-8)
-
-
 # ------------------------------------------------------------------ what cannot be
 def refused(report, text, **options):
     with pytest.raises(BalcliError) as caught:

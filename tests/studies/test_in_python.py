@@ -7,10 +7,10 @@ from __future__ import annotations
 import io
 import sys
 import tomllib
-from collections.abc import Callable
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.paths import ENGINES
 from support.rotors import three_runs
 
@@ -23,9 +23,6 @@ V8, FOUR = balcli.load_example("v8_crossplane"), balcli.load_example("i4")
 MOUNTS, DIESEL = balcli.load_example("i4_mounts"), balcli.load_example("i6_diesel")
 GAS = balcli.load_example("i4_wiebe")
 CLOSE = 1e-12
-
-
-# ------------------------------------------------------------------ what is given
 
 
 # ------------------------------------------------------------------ sweep
@@ -265,313 +262,19 @@ def test_mounts_of_an_engine_a_dict_or_a_body_alone():
 # ------------------------------------------------------------------ what is wrong, in words
 ENGINE = "give an Engine; load(...) makes one of a path or a dict"
 NAMES = 'give names, such as ["force.2.major", "moment.1.backward"]'
-RATIO = {"rod.ratio": 0.3}
-WRONG: dict[type[Exception], list[tuple[Callable[[], object], str]]] = {
-    TypeError: [
-        (lambda: balcli.analyze("v8.toml"), f"analyze: 'v8.toml' (str): {ENGINE}"),
-        (lambda: balcli.balance(None), f"balance: None (NoneType): {ENGINE}"),
-        (lambda: balcli.sweep({}, {}), f"sweep: {{}} (dict): {ENGINE}"),
-        (lambda: balcli.search(3, "throws", ""), f"search: 3 (int): {ENGINE}"),
-        (lambda: balcli.scatter(3), f"scatter: 3 (int): {ENGINE}"),
-        (lambda: balcli.compare(V8, 3), f"compare: 3 (int): {ENGINE}"),
-        (lambda: balcli.analyze_torque(3), f"analyze_torque: 3 (int): {ENGINE}"),
-        (lambda: balcli.analyze_mounts(MOUNTS, others={"a": 3}), f"analyze_mounts: 3 (int): {ENGINE}"),
-        (lambda: balcli.analyze(V8, orders="1"), "orders: '1' (str): give numbers, such as [1, 2, 4]"),
-        (lambda: balcli.analyze(V8, orders=1), "orders: 1 (int): give numbers, such as [1, 2, 4]"),
-        (lambda: balcli.analyze(V8, orders=["x"]), "orders: 'x' (str): give numbers, such as [1, 2, 4]"),
-        (lambda: balcli.sweep(V8, 5), 'sweep: 5 (int): give a dict, such as {"rod.ratio": [0.24, 0.28, 0.32]}'),
-        (
-            lambda: balcli.sweep(V8, {"rod.ratio": 1j}),
-            "rod.ratio: 1j (complex): give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01",
-        ),
-        (lambda: balcli.sweep(V8, RATIO, 5), f"sweep: 5 (int): {NAMES}"),
-        (lambda: balcli.sweep(V8, RATIO, [5]), f"sweep: [5] (list): {NAMES}"),
-        (lambda: balcli.sweep(V8, RATIO, threads="x"), "threads: 'x' (str): give a whole number from 1"),
-        (lambda: balcli.search(V8, "throws", 5), f"search: 5 (int): {NAMES}"),
-        (
-            lambda: balcli.search(V8, "throws", "force.1.major", limits=5),
-            'search: 5 (int): give a dict, such as {"moment.2.major": 100}',
-        ),
-        (lambda: balcli.scatter(V8, samples=1.5), "samples: 1.5 (float): give a whole number from 1"),
-        (lambda: balcli.tables(3), "tables: 3 (int): give the name of a table, such as 'tsinghua-1-2'"),
-        (lambda: balcli.load_example(3), 'load_example: 3 (int): give the name of an example, such as "i4"'),
-        (
-            lambda: balcli.analyze_torsion(5),
-            "analyze_torsion: 5 (int): give an Engine, or the path, text or dict of a chain of inertias and shafts",
-        ),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, "x"),
-            "analyze_torsion: 'x' (str): give speeds in rpm, such as [1500, 2000]",
-        ),
-        (
-            lambda: balcli.analyze_mounts(5),
-            "analyze_mounts: 5 (int): give an Engine, or the path, text or dict of a file with [body] and [[mount]]",
-        ),
-        (lambda: balcli.balance_rotor(5), "balance_rotor: 5 (int): give the path, text or dict of a file of runs"),
-        (lambda: balcli.balance(V8, 5), "balance: 5 (int): give the name of a scheme"),
-        (
-            lambda: balcli.balance(V8, "factor", {"factor": 0.5}),
-            "balance: {'factor': 0.5} (dict): give SchemeOptions(factor=(0.5,))",
-        ),
-        (lambda: balcli.analyze(V8, only=5), 'only: 5 (int): give words, such as ["force", "moment"]'),
-        (lambda: balcli.analyze(V8, only=[5]), 'only: 5 (int): give words, such as ["force", "moment"]'),
-        (lambda: balcli.compare(V8, V8, only=5), 'only: 5 (int): give words, such as ["force", "moment"]'),
-        (
-            lambda: balcli.plot(V8, np.array(["polar", "bars"])),
-            "what: array(['polar', 'bars'], dtype='<U5') (ndarray): give the name of a page, such as",
-        ),
-        (
-            lambda: balcli.scatter(V8, distribution=np.zeros(2)),
-            'distribution: array([0., 0.]) (ndarray): give "uniform" or "normal"',
-        ),
-        (
-            lambda: balcli.balance_rotor(three_runs(), np.zeros(2)),
-            'minimise: array([0., 0.]) (ndarray): give "squares" or "max"',
-        ),
-        (
-            lambda: balcli.analyze_torsion(V8, damper=np.zeros(2)),
-            "damper: array([0., 0.]) (ndarray): give a kind of damper, such as",
-        ),
-        (lambda: balcli.curves(V8, "x"), "step_deg: 'x' (str): give a step in degrees"),
-        (
-            lambda: balcli.analyze_torque(GAS, fluctuation="1/200"),
-            "fluctuation: '1/200' (str): give a number, as 1 / 200",
-        ),
-        (lambda: balcli.analyze_mounts(MOUNTS, scheme=5), 'scheme: 5 (int): give its name, such as "counterweights"'),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, damper="viscous", damper_inertia="x"),
-            "damper_inertia: 'x' (str): give a moment of inertia in kg m2, such as 0.1",
-        ),
-        (lambda: balcli.analyze_torsion(DIESEL, orders=["a"]), "orders: 'a' (str): give numbers, such as [1, 2, 4]"),
-        (lambda: balcli.analyze_torsion(DIESEL, orders=3), "orders: 3 (int): give numbers, such as [1, 2, 4]"),
-        (lambda: balcli.tables("series", ratios=0.25), 'ratios: 0.25 (float): give a text, such as "0.20:0.40:0.01"'),
-        (lambda: balcli.tables("liu-3", angles=[1]), 'angles: [1] (list): give a text, such as "0:180:5"'),
-        (lambda: balcli.tables("series", power="x"), "power: 'x' (str): give a whole number from 0"),
-        (lambda: balcli.search(V8, 5, "moment.1.major"), 'search: 5 (int): give what to arrange, such as "throws"'),
-        *(
-            (
-                lambda names=names: balcli.compare(V8, V8, names=names),
-                f"names: {names!r} ({type(names).__name__}): give a text for each engine, such as ",
-            )
-            for names in ([1, 2], "ab", 5)
-        ),
-        (lambda: V8.vary(5), 'vary: 5 (int): give a dict, such as {"rod.length": 150}'),
-        (
-            lambda: balcli.analyze(V8, guide_height_m="0.6"),
-            "guide_height_m: '0.6' (str): give a length in m, such as 0.6",
-        ),
-        (lambda: balcli.analyze(V8, beside=[5]), f"analyze: 5 (int): {ENGINE}"),
-        (lambda: balcli.analyze(V8, beside=V8), "beside: <Engine"),
-        (lambda: balcli.balance(V8, tools=5), "balance: 5 (int): give Tools(radius=0.05)"),
-        (
-            lambda: balcli.balance(V8, tools=balcli.Tools(radius="50 mm")),
-            "Tools: radius: '50 mm' (str): give a length in m, such as 0.02",
-        ),
-        (
-            lambda: balcli.balance(V8, tools=balcli.Tools(drill=0.012, slug="heavy")),
-            "Tools: slug: 'heavy' (str): give a density in kg/m3, such as 17500",
-        ),
-        (
-            lambda: balcli.balance(V8, "factor", balcli.SchemeOptions(measured=float("nan"))),
-            "SchemeOptions: measured: nan (float): give a mass in kg, such as 0.812",
-        ),
-        (lambda: balcli.analyze_torque(GAS, loads=5), 'loads: 5 (int): give words, such as ["pin", "main"]'),
-        (lambda: balcli.analyze_torque(GAS, cylinder="1"), "cylinder: '1' (str): give a whole number from 1"),
-        (lambda: balcli.analyze_mounts(MOUNTS, others=[V8]), 'analyze_mounts: [<Engine "90-degree cross-plane V8"'),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, [2000], damper="viscous", damper_at=5),
-            "damper_at: 5 (int): give the name of a part",
-        ),
-        *(
-            (
-                lambda speeds=speeds: balcli.analyze_torsion(DIESEL, speeds),
-                f"analyze_torsion: {speeds!r} ({type(speeds).__name__}): give speeds in rpm",
-            )
-            for speeds in ("3000", ["3000"], True, [1000j])
-        ),
-        *(
-            (
-                lambda names=names: balcli.balance_rotor({}, without=names),
-                "without: 5 (int): give names of planes, such as ",
-            )
-            for names in (5, [5])
-        ),
-        (lambda: balcli.analyze_mounts(MOUNTS, orders=3), "orders: 3 (int): give numbers, such as [1, 2, 4]"),
-        *(
-            (
-                lambda orders=orders: balcli.analyze(V8, orders=orders),
-                f"orders: {orders!r} ({type(orders).__name__}): give numbers, such as [1, 2, 4]",
-            )
-            for orders in (np.array(3), b"12")
-        ),
-        *(
-            (
-                lambda limits=limits: balcli.search(V8, "throws", "force.1.major", limits=limits),
-                f"search: {limits!r} ({type(limits).__name__}): give a dict, such as ",
-            )
-            for limits in ("", [], np.array([1, 2]))
-        ),
-        *(
-            (ask, f"{name}: 'no' (str): give True or False")
-            for name, ask in {
-                "by_cylinder": lambda: balcli.analyze(V8, by_cylinder="no"),
-                "reasons": lambda: balcli.analyze(V8, reasons="no"),
-                "even_firing": lambda: balcli.search(V8, "throws", "force.1.major", even_firing="no"),
-            }.items()
-        ),
-        *(
-            (
-                lambda name=name: balcli.balance(V8, "minimax", balcli.SchemeOptions(**{name: ()})),
-                f"SchemeOptions: {name}: () (tuple): give ",
-            )
-            for name in ("at", "planes", "factor")
-        ),
-        (lambda: balcli.combine(FOUR, FOUR, at_m="123"), "at_m: '123' (str): give x, y and z in m"),
-        (
-            lambda: balcli.search(FOUR, "throws", "force.2.major").engine("1"),
-            "rank: '1' (str): give a whole number from 1",
-        ),
-    ],
-    balcli.BalcliError: [
-        (lambda: balcli.compare(V8), "compare needs at least two engine files"),
-        (
-            lambda: balcli.sweep(V8, {}),
-            'sweep: nothing varies; give numbers and values, such as {"rod.ratio": [0.24, 0.28, 0.32]}',
-        ),
-        (lambda: balcli.sweep(V8, {"rod.ratoi": 3}), "rod.ratoi: unknown parameter; did you mean rod.ratio?"),
-        (
-            lambda: balcli.sweep(V8, {"rod.ratio": []}),
-            f"rod.ratio: values of shape (0,); give a list or an array of one axis with 1 to {MOST_PARAMETER_VALUES} values",
-        ),
-        (
-            lambda: balcli.sweep(V8, {"rod.ratio": [[1]]}),
-            f"rod.ratio: values of shape (1, 1); give a list or an array of one axis with 1 to {MOST_PARAMETER_VALUES} values",
-        ),
-        (
-            lambda: balcli.sweep(V8, {"rod.ratio": [2.0]}),
-            "rod.ratio: 2 is not below 1; a plain number is wanted, without quotes, below 1",
-        ),
-        (
-            lambda: balcli.sweep(V8, {"rod.ratio": ["x"]}),
-            'rod.ratio: "x" is not a number followed by a unit; a plain number is wanted, without quotes',
-        ),
-        (lambda: balcli.sweep(V8, {"rod.length": ["3 parsecs"]}), "rod.length: "),
-        (lambda: balcli.sweep(V8, RATIO, ["forse.1.major"]), "forse.1.major is no quantity: did you mean force?"),
-        (lambda: balcli.sweep(V8, RATIO, threads=0), "threads: 0 is less than 1"),
-        (lambda: balcli.search(V8, "throws", "force.1.major", top=0), "top: 0 is less than 1"),
-        (lambda: balcli.scatter(V8, mass=2), 'mass 2: give a share from 0 to 1, such as 0.005 or "0.5%"'),
-        (lambda: balcli.scatter(V8, length="x"), 'length "x": give a percentage of 0 to 100, such as 0.5%'),
-        (
-            lambda: balcli.scatter(V8, angle_deg="x"),
-            'angle_deg: "x" is not a number followed by a unit; an angle is wanted',
-        ),
-        (lambda: balcli.scatter(V8, seed=-1), "seed: -1 is less than 0"),
-        (lambda: balcli.scatter(V8, distribution="odd"), 'distribution \'odd\': choose "uniform" or "normal"'),
-        (
-            lambda: balcli.load_example("v8_crosplane"),
-            'there is no example "v8_crosplane": balcli engines lists them. Did you mean v8_crossplane',
-        ),
-        (
-            lambda: balcli.analyze_torsion(V8),
-            "90-degree cross-plane V8: has no [torsion]; write it with throw_stiffness",
-        ),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, [0]),
-            "speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]",
-        ),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, range(1, MOST_SPEEDS + 2)),
-            f"speeds_rpm: {MOST_SPEEDS + 1} speeds; at most {MOST_SPEEDS} are computed",
-        ),
-        (lambda: balcli.analyze_mounts("no.toml"), "no.toml: no such file"),
-        (lambda: balcli.balance_rotor("no.toml"), "no.toml: no such file"),
-        (lambda: balcli.analyze(V8, only="force, forse"), "there is no quantity forse: choose from"),
-        (lambda: balcli.analyze_torque(GAS, loads=("pins",)), "loads: 'pins'; choose from pin, main"),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, [2000], damper="odd"),
-            "damper 'odd': choose from viscous, rubber, pendulum",
-        ),
-        (lambda: balcli.balance_rotor({}, "odd"), 'minimise \'odd\': choose "squares" or "max"'),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, damper="viscous", damper_inertia=-1),
-            "damper_inertia: -1; give a moment of inertia in kg m2, above 0",
-        ),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, orders=[0, 300]),
-            "orders: 0 to 300; those of torsional vibration are above 0, to 256 at most",
-        ),
-        (lambda: balcli.tables("series", power=-1), "power: -1 is less than 0"),
-        (lambda: balcli.tables("series", power=201), "power: give 200 at most"),
-        (lambda: balcli.search(V8, "throws", "moment.1.major", top=10**9), "top: give 1000 at most"),
-        (lambda: balcli.sweep(V8, {"rod.ratio": 0.3}, threads=10**6), "threads: give 64 at most"),
-        (lambda: balcli.load(""), 'no file is named: ""'),
-        *(
-            (
-                lambda height=height: balcli.analyze(V8, only="guide", guide_height_m=height),
-                f"guide_height_m {height:g}: the distance from the crankshaft to the middle of the "
-                "guides must be positive, below 1000 m",
-            )
-            for height in (0, -1, float("nan"), 2000)
-        ),
-        *(
-            (
-                lambda share=share: balcli.analyze_torque(GAS, fluctuation=share),
-                f"fluctuation {share:g}: give (highest - lowest)/mean speed, such as 1/200",
-            )
-            for share in (0, -0.01, float("nan"), 2)
-        ),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, damper="viscous"),
-            "damper: give the speeds at which it is to help, with speeds_rpm",
-        ),
-        (
-            lambda: balcli.analyze_torsion(DIESEL, [2000], damper_inertia=0.01),
-            "damper_inertia: give the kind of damper, with damper",
-        ),
-        (
-            lambda: balcli.analyze_mounts(MOUNTS, [[1000, 2000]]),
-            "speeds_rpm: of shape (1, 2); give them along one axis",
-        ),
-        *(
-            (
-                lambda name=name: balcli.sweep(V8, RATIO, [name]),
-                f"{name} is no quantity: after peak comes force or moment",
-            )
-            for name in ("peak", "peak.power")
-        ),
-    ],
-    balcli.InputError: [
-        (lambda: balcli.analyze_mounts(V8), "engine: 2 mistakes\n  body: is missing"),
-        (lambda: balcli.balance_rotor({"planes": ["a"]}), "file of runs: run: is missing"),
-        (
-            lambda: balcli.analyze_torsion({"node": [{"name": "a"}], "fixed": ["a"]}),
-            "chain file: fixed: clamps every node; leave one free",
-        ),
-        (
-            lambda: FOUR.vary({"crank.throws": {"first": 0}}),
-            "in-line four, 2 litres with crank.throws: crank.throws: a table is not a list; write it in "
-            "square brackets, such as [0, 180, 180, 0]",
-        ),
-        (
-            lambda: V8.vary({"counterweight.1.mass": 1}),
-            "90-degree cross-plane V8 with counterweight.1.mass: counterweight.1.mass: there is no 1; "
-            "the file has none",
-        ),
-        (
-            lambda: V8.vary({"layout.firing_order": iter([])}),
-            "90-degree cross-plane V8 with layout.firing_order: layout.firing_order: is an empty list",
-        ),
-    ],
-}
 
 
-@pytest.mark.parametrize(
-    ("call", "kind", "message"),
-    [pytest.param(call, kind, message, id=message[:40]) for kind, each in WRONG.items() for call, message in each],
-)
-def test_what_is_wrong_is_told(call, kind, message):
-    with pytest.raises(kind) as caught:
-        call()
+THERE = {"V8": V8, "FOUR": FOUR, "MOUNTS": MOUNTS, "DIESEL": DIESEL, "GAS": GAS, "RATIO": {"rod.ratio": 0.3}}
+THERE |= {"np": np, "three_runs": three_runs, "TypeError": TypeError}
+SIZES = {"MOST_PARAMETER_VALUES": MOST_PARAMETER_VALUES, "MOST_SPEEDS": MOST_SPEEDS, "TOO_MANY": MOST_SPEEDS + 1}
+
+
+@cases("studies/in_python", "what_is_wrong_is_told", ENGINE=ENGINE, NAMES=NAMES, **SIZES)
+def test_what_is_wrong_is_told(kind, call, message):
+    """Calls stand in the table as they are typed, with the names of balcli and those of THERE."""
+    named = {name: getattr(balcli, name) for name in balcli.__all__} | THERE
+    with pytest.raises(named[kind]) as caught:
+        eval(call, named)
     assert str(caught.value).startswith(message)
 
 

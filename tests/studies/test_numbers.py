@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from support.commands import ask, ask_json, refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.paths import ENGINES
 
 
@@ -33,15 +33,3 @@ def test_more_than_arrays_have_axes_are_refused():
     vary = [word for n in range(1, 18) for word in ("--vary", f"cylinder.{n}.piston_mass=0.5")]
     engine = "crank.stroke = 90\nrod.length = 160\npiston.mass = 0.5\nlayout.radial = 17\n"
     assert refusal("sweep", "-", *vary, stdin=engine) == "17 numbers vary; at most 16 can at once"
-
-
-@pytest.mark.parametrize("file", ["v8_wiebe.toml", "i4_mounts.toml", "i6_diesel.toml"])
-def test_every_quantity_can_be_asked_for(file):
-    names = [quantity["name"] for quantity in listed(file)["quantities"]]
-    parts = {"force": "major", "moment": "major"}
-    asked = [
-        name.replace(".N.", ".2.").replace("PART", parts.get(name.partition(".")[0], "amplitude")) for name in names
-    ]
-    file = ENGINES / file
-    out = ask("sweep", file, "--vary", "piston.offset=0", "--quantity", ",".join(asked))
-    assert out.splitlines()[0] == "piston.offset," + ",".join(asked)

@@ -6,7 +6,7 @@ import csv
 from io import StringIO
 
 import pytest
-from support.commands import refusal, run_here
+from support.commands import ask_json, refusal, run_here
 from support.paths import ENGINES
 
 from balcli.engine.parse import read
@@ -29,6 +29,7 @@ def test_every_name_that_a_file_has_can_be_swept(file):
     listed = list(list_quantities(read(path)))
     names = [ask_for(form.pattern) for form in listed]
     assert len(names) == len(set(names))
+    assert [form["name"] for form in ask_json("numbers", path)["quantities"]] == [form.pattern for form in listed]
     done = run_here("sweep", path, "--vary", "operation.speed=1200", "-q", ",".join(names))
     assert (done.status, done.err) == (0, "")
     head, values = csv.reader(StringIO(done.out))

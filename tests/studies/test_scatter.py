@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import refusal, run_here
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.gas_engines import PETROL_FOUR
@@ -227,41 +228,14 @@ def test_tolerances_in_words() -> None:
     assert read_tolerances("1%", 0.01, "0.1", "15%") == Tolerances(0.01, 0.01, 0.1, 0.15)
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        (("much", "0%", "0"), '--mass-scatter "much": give a percentage of 0 to 100, such as 0.5%'),
-        (("0.5", "0%", "0"), '--mass-scatter "0.5": give a percentage of 0 to 100, such as 0.5%'),
-        (("1%", "-1%", "0"), '--length-scatter "-1%": give a percentage of 0 to 100, such as 0.5%'),
-        (("1%", "0%", "wide"), '--angle-scatter: "wide" is not a number followed by a unit'),
-    ],
-)
+@cases("studies/scatter", "mistakes_in_words")
 def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         read_tolerances(*given, None)
     assert str(caught.value).startswith(message)
 
 
-@pytest.mark.parametrize(
-    ("text", "options", "message"),
-    [
-        (GOOD, ("--mass-scatter", "0%"), "nothing deviates; give a tolerance, such as --mass-scatter 0.5%"),
-        (GOOD, ("-q", "force.1.axis"), "force.1.axis is a direction, which has no mean"),
-        (GOOD, ("--samples", "0"), "0 samples: from 1 to 2000000 are allowed"),
-        (GOOD, ("-q", "torque.max"), "torque.max: the engine file has no [gas]"),
-        (GOOD, ("-q", "gas.2.amplitude"), "gas.2.amplitude: the engine file has no [gas]"),
-        (
-            FOUR,
-            ("-q", "torque.max", "--samples", "30000"),
-            "30000 samples: torque.max is computed one by one, from 1 to 20000 are allowed",
-        ),
-        (
-            FOUR.replace("inertia = 90000\n", ""),
-            ("-q", "fluctuation"),
-            "fluctuation: the file gives no inertia",
-        ),
-    ],
-)
+@cases("studies/scatter", "what_cannot_be_scattered_is_refused", GOOD=GOOD, FOUR=FOUR)
 def test_what_cannot_be_scattered_is_refused(text, options, message):
     assert refusal("scatter", "-", *options, stdin=text).startswith(message)
 

@@ -177,11 +177,6 @@ def test_json_is_one_document() -> None:
     assert [row[2] for row in document["rows"]] == [None, None]
 
 
-def test_a_variant_that_cannot_turn_is_found_before_anything_is_computed() -> None:
-    with pytest.raises(InputError, match=r"rod.length: the crank cannot turn: .* lambda = 1.25"):
-        check_corners(asked(GOOD, "crank.stroke=80:400:1"))
-
-
 def test_a_system_that_gives_no_thread_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(_: Thread) -> None:
         raise RuntimeError("can't start new thread")

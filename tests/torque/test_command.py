@@ -361,26 +361,7 @@ def test_curves_that_cannot_be(tmp_path, content, told):
     assert told in refusal("torque", "--curve", path)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        pytest.param(
-            "angle_deg;torque_Nm\n0;1,5\n90,5;-2,25\n360;1.5\n", id="semicolons part columns, and commas decimals"
-        ),
-        pytest.param("angle_deg\ttorque_Nm\n0\t1,5\n90,5\t-2,25\n360\t1.5\n", id="so do tabs"),
-        pytest.param(
-            "angle_deg,\t\ttorque_Nm\n0,\t\t1.5\n90.5,\t\t-2.25\n360,\t\t1.5\n", id="tabs after commas are room"
-        ),
-        pytest.param(
-            "angle_deg,torque_Nm\n0,1.5,first\n90.5,-2.25,,idle\n360,1.5,\n",
-            id="words without a heading count for nothing",
-        ),
-        pytest.param(
-            "angle_deg;torque_Nm\n0;1,5;7\n90,5;-2,25;8,5\n360;1,5;ok\n",
-            id="nor do numbers, where semicolons part columns",
-        ),
-    ],
-)
+@cases("shell/torque", "one_curve_in_other_words")
 def test_one_curve_in_other_words(tmp_path, text):
     path = write(tmp_path / "t.csv", "angle_deg,torque_Nm\n0,1.5\n90.5,-2.25\n360,1.5\n")
     plain = ask("torque", "--curve", path)

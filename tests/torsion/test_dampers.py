@@ -9,6 +9,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_torsion, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
@@ -287,34 +288,7 @@ stiffness = 1e6
 """
 
 
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        ((), ""),
-        (
-            ("--damper-inertia", "20"),
-            "a viscous damper of 2e-05 kg m2 at disc hardly lowers the largest torque; the "
-            "whole system has 1.001 kg m2. Is it of the right size (on the command line bare "
-            "numbers are kg mm2), and in the right place?",
-        ),
-        (
-            ("--damper-inertia", "3e6"),
-            "the damper has 3 kg m2, more than the whole system (1.001 kg m2); is it of the "
-            "right size (on the command line bare numbers are kg mm2)?",
-        ),
-        (
-            ("--damper-at", "nose"),
-            "the damper that is proposed has 0.3003 kg m2, 300 times as much as nose, which carries "
-            "it (0.001 kg m2): give what there is room for, such as --damper-inertia "
-            '"0.001 kg m^2"',
-        ),
-        (("--damper-at", "nose", "--damper-inertia", "0.3 kg m^2"), ""),
-        (
-            ("--speeds", "1400:2000:10"),
-            "the best damping is at the end of what is looked at, 0.033 to 30 times that of mode 1 by itself",
-        ),
-    ],
-)
+@cases("torsion/dampers", "dampers_of_unlikely_size")
 def test_dampers_of_unlikely_size(options, told):
     speeds = () if "--speeds" in options else RANGE
     asked = (*speeds, "--damper", "viscous", *options, "--format", "json")
@@ -389,44 +363,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
     assert tomllib.loads(fitted.read_text())["node"][0]["damper"]["kind"] == "viscous"
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (("--damper", "viscous"), "--damper: give the speeds at which it is to help, with --speeds"),
-        (
-            ("--write", "x.toml", "--speeds", "1000:2000"),
-            "--write: give the kind of damper to write, with --damper",
-        ),
-        (("--damper-at", "disc"), "--damper-at: give the kind of damper, with --damper"),
-        (("--damper-inertia", "3"), "--damper-inertia: give the kind of damper, with --damper"),
-        (
-            ("--damper", "viscous", "--damper-at", "disk", *RANGE),
-            '--damper-at "disk": cannot carry a damper; what can is disc, wall',
-        ),
-        (("--damper", "viscous", "--damper-at", "wall", *RANGE), "--damper: wall does not move in mode 1"),
-        (
-            ("--damper", "viscous", "--damper-inertia", "-3", *RANGE),
-            '--damper-inertia "-3": a moment of inertia is wanted: a bare number in kg mm^2, or '
-            '"4200 kg mm^2" or "8.1 lb in^2", above 0',
-        ),
-        (
-            ("--damper", "viscous", "--damper-inertia", "3 kg", *RANGE),
-            '--damper-inertia "3 kg": is a mass, but a moment of inertia is wanted: a bare number in '
-            'kg mm^2, or "4200 kg mm^2" or "8.1 lb in^2"',
-        ),
-        (
-            ("--damper", "pendulum", *RANGE),
-            "--damper pendulum: a chain has no crank that says how far out pendulums hang: give "
-            'disc one, such as damper = { kind = "pendulum", mass = 2, radius = 60, length = 5 }',
-        ),
-        (
-            ("--damper", "viscous", "--orders", "2", *RANGE),
-            "standard input: nothing excites it at the orders asked for",
-        ),
-        (("--what", "modes"), "--what modes: give --plot and a file for the picture"),
-        (("--what", "response", "--plot", "x.svg"), "--what response: give the range, such as --speeds 1000:2500"),
-    ],
-)
+@cases("torsion/dampers", "options_that_miss_others", RANGE=RANGE)
 def test_options_that_miss_others(options, message):
     assert refusal("torsion", "-", *options, stdin=SINGLE) == message
 

@@ -216,28 +216,26 @@ def test_a_peak_beside_its_resonance_is_found():
     assert worst.speed_rpm == pytest.approx(speeds[torque.argmax()], abs=0.02)
 
 
-@pytest.mark.parametrize("loss", [0.0, 1e-11, 1e-9])
-def test_what_hardly_anything_damps_has_no_bound(loss):
-    """So narrow a resonance no search between the speeds climbs: of 1e-11 to a thousandth."""
-    text = f"""
+def write_disc(loss: float) -> str:
+    """1 N m on a disc of 1 kg m2 on 10 kN m/rad."""
+    return f"""
         fixed = ["wall"]
         node = [{{ name = "disc", inertia = 1e6 }}, {{ name = "wall" }}]
         shaft = [{{ from = "disc", to = "wall", stiffness = 1e4, loss = {loss!r} }}]
         excitation = [{{ node = "disc", order = 1, cos = 1 }}]
         """
+
+
+@pytest.mark.parametrize("loss", [0.0, 1e-11, 1e-9])
+def test_what_hardly_anything_damps_has_no_bound(loss):
+    """So narrow a resonance no search between the speeds climbs: of 1e-11 to a thousandth."""
     with pytest.raises(BalcliError, match=r"15\.9155 Hz is excited by order 1 at 954\.93 rpm"):
-        analyze_torsion(text, [800, 1100])
-    assert analyze_torsion(text, [960, 1100]).response is not None
+        analyze_torsion(write_disc(loss), [800, 1100])
+    assert analyze_torsion(write_disc(loss), [960, 1100]).response is not None
 
 
 @pytest.mark.parametrize("loss", [3e-9, 1e-6])
 def test_what_something_damps_is_found(loss):
-    """1 N m on a disc of 1 kg m2 on 10 kN m/rad: at the resonance 1/loss times as much."""
-    text = f"""
-        fixed = ["wall"]
-        node = [{{ name = "disc", inertia = 1e6 }}, {{ name = "wall" }}]
-        shaft = [{{ from = "disc", to = "wall", stiffness = 1e4, loss = {loss!r} }}]
-        excitation = [{{ node = "disc", order = 1, cos = 1 }}]
-        """
-    (shaft,) = analyze_torsion(text, [800, 1100]).response.shafts
+    """At the resonance 1/loss times as much as 1 N m."""
+    (shaft,) = analyze_torsion(write_disc(loss), [800, 1100]).response.shafts
     assert shaft.worst.half_peak_to_peak_Nm == pytest.approx(1 / loss, rel=1e-6)

@@ -6,6 +6,7 @@ import json
 import math
 
 import pytest
+from support.cases import cases
 from support.commands import ask_torsion, refusal, run_here
 
 from balcli.file.toml import parse_toml
@@ -119,86 +120,7 @@ def test_torques_of_one_node_and_order_add_up():
     assert excitation.steady.ravel() == pytest.approx([-1j * foot_pound, 0, 0, 4 - 5j])
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("gear = []", 'node: is missing; write [[node]] for every inertia, such as name = "flywheel"'),
-        ("node = 3", "node: is one of several; write [[node]] in double brackets, once for each node"),
-        ("node = []", "node: is an empty list; a chain has at least one node"),
-        (
-            TWO.replace('to = "b"', 'to = "bb"').replace('name = "b"', 'name = "flywheel"'),
-            'shaft.1.to: "bb" is no node; there are a, flywheel',
-        ),
-        (
-            TWO.replace('to = "b"', 'to = "flywhel"').replace('name = "b"', 'name = "flywheel"'),
-            'shaft.1.to: "flywhel" is no node; did you mean flywheel?',
-        ),
-        (TWO + "[[node]]\nname = 3\n", "node.3.name: 3 is no name; use up to 200 letters, digits and signs, in quotes"),
-        (
-            TWO + '[[node]]\nname = "c"\n',
-            'node.3: "c" hangs on nothing that hangs on "a"; join them by a [[shaft]] or a [[gear]]',
-        ),
-        (
-            TWO + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 2\n' * 1 + '[[gear]]\nfrom = "b"\nto = "a"\nratio = 2\n',
-            "gear.1: is in a loop of gears whose ratios lock each other",
-        ),
-        (
-            TWO.replace("stiffness = 1000", 'stiffness = "rigid"') + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 1\n',
-            "gear.1: closes a loop of gears and rigid shafts, fixed nodes counted as one: nothing "
-            "says how they share the torque; leave it out, or give a stiffness",
-        ),
-        (
-            'fixed = ["a", "c"]\n'
-            + TWO
-            + '[[node]]\nname = "c"\n[[node]]\nname = "d"\n'
-            + '[[gear]]\nfrom = "a"\nto = "d"\nratio = 2\n'
-            + '[[gear]]\nfrom = "d"\nto = "c"\nratio = 2\n',
-            "gear.2: closes a loop of gears and rigid shafts, fixed nodes counted as one: nothing "
-            "says how they share the torque; leave it out, or give a stiffness",
-        ),
-        (
-            TWO + '[[gear]]\nfrom = "a"\nto = "b"\nratio = 1.02\n',
-            "gear.1: closes a loop whose ratios contradict each other, 1.02 one way round and 1 "
-            "the other: a chain that turns would wind up its shafts without end; give ratios "
-            "with all digits",
-        ),
-        ('fixed = ["a", "b"]\n' + TWO, "fixed: clamps every node; leave one free"),
-        (
-            'fixed = ["a"]\nangle_limit = 0.3\n' + TWO,
-            'angle_limit: is of the first node, and "a" is fixed; leave it out, or begin with the '
-            "node that may swing so far",
-        ),
-        (
-            'fixed = ["c"]\nangle_limit = 0.3\n'
-            + TWO
-            + '[[node]]\nname = "c"\n[[gear]]\nfrom = "a"\nto = "c"\nratio = 2\n',
-            'angle_limit: is of the first node, and "a" meshes with a fixed node; leave it out, or '
-            "begin with the node that may swing so far",
-        ),
-        (
-            TWO.replace("inertia = 1e6\n", "").replace("inertia = 2e6\n", ""),
-            "node.1.inertia: is missing; nothing that turns has any",
-        ),
-        (
-            'fixed = ["b"]\n' + TWO.replace("inertia = 1e6\n", ""),
-            "node.1.inertia: is missing; nothing that turns has any",
-        ),
-        (  # c meshes with b, and stands still as well: an internal error
-            'fixed = ["b"]\n'
-            + TWO.replace("inertia = 1e6\n", "")
-            + '[[node]]\nname = "c"\ninertia = 3\n[[gear]]\nfrom = "b"\nto = "c"\nratio = 2\n',
-            "node.1.inertia: is missing; nothing that turns has any",
-        ),
-        (
-            TWO.replace("stiffness = 1000", "stiffness = 1000\nlength = 3\ndiameter = 30"),
-            "shaft.1: has stiffness and length; leave one of them out",
-        ),
-        (
-            TWO.replace("stiffness = 1000", "stiffness = 1000\nbore = 3"),
-            "shaft.1: has a bore of 3 mm and no diameter; the bore is the smaller of both",
-        ),
-    ],
-)
+@cases("torsion/read_chain", "a_mistake_says_what_would_be_right", TWO=TWO)
 def test_a_mistake_says_what_would_be_right(text, message):
     assert mistakes(text) == [message]
 
