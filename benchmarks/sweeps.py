@@ -11,8 +11,8 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from balcli.results.analysis import analyze
 
+from balcli.analysis.answer import analyze
 from balcli.bench import V8, WAYS, run_sweep, time_run
 from balcli.engine.build import build
 from balcli.engine.parse import parse
