@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from support.cases import cases
@@ -214,6 +216,26 @@ def test_a_peak_beside_its_resonance_is_found():
     worst = analyze_torsion(text, np.linspace(1400, 6100, 6)).response.shafts[0].worst
     assert worst.half_peak_to_peak_Nm == pytest.approx(torque.max(), rel=1e-7)
     assert worst.speed_rpm == pytest.approx(speeds[torque.argmax()], abs=0.02)
+
+
+@pytest.mark.slow
+def test_the_largest_of_a_long_chain_are_those_of_close_speeds():
+    """Forty random nodes and eight orders, asked every 37.5 rpm and every 0.2 rpm."""
+    rng = np.random.default_rng(40)
+    names = [f"n{k}" for k in range(40)]
+    ends, parts = pairwise(names), ("cos", "sin")
+    tables = {
+        "loss": 0.01,
+        "node": [{"name": each, "inertia": rng.uniform(5e4, 3e5)} for each in names],
+        "shaft": [{"from": a, "to": b, "stiffness": 10 ** rng.uniform(5.5, 6.5)} for a, b in ends],
+        "excitation": [
+            {"node": str(rng.choice(names)), "order": k / 2} | dict(zip(parts, rng.normal(size=2), strict=True))
+            for k in range(1, 9)
+        ],
+    }
+    coarse, fine = (analyze_torsion(tables, np.linspace(600, 1200, count)).response.shafts for count in (17, 3001))
+    for few, many in zip(coarse, fine, strict=True):
+        assert few.worst.half_peak_to_peak_Nm == pytest.approx(many.half_peak_to_peak_Nm.max(), rel=1e-3)
 
 
 def write_disc(loss: float) -> str:

@@ -46,8 +46,8 @@ Box: TypeAlias = tuple[slice, ...]
 # Yields the outcome of some work for each item, in their order.
 Share: TypeAlias = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]]
 ALONE = 64  # variants at a time where each is computed by itself
-CHUNK = 32_768  # variants at a time, at most: enough for what they share
-BYTES = 1 << 23  # of an array that a box needs: no more than the cache holds
+CHUNK = 65_536  # variants at a time, at most: enough for what they share
+BYTES = 1 << 24  # of an array that a box needs: no more than the cache holds
 _BOXES = 8  # in a block, each with a tenth of a second's work
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
 

@@ -131,13 +131,11 @@ def _find_flexibilities(
 ) -> Complex:
     """Return 1/stiffness (shafts, points) of every shaft that carries anything, of others 0."""
     k, c = np.where(np.isinf(chain.stiffness), 0, chain.stiffness), damping.dashpots
-    stiffness = np.outer(k * (1 + 1j * damping.loss), np.ones_like(w)) + 1j * np.outer(c, w)
+    stiffness = (k * (1 + 1j * damping.loss))[:, None] + 1j * np.outer(c, w)
     bends = carrying & np.isfinite(chain.stiffness)
     if np.any(stiffness[bends] == 0):
         raise ValueError("a shaft that is a dashpot alone carries nothing at a frequency of 0")
-    flexible = np.zeros_like(stiffness)
-    flexible[bends] = 1 / stiffness[bends]
-    return flexible
+    return np.divide(1, stiffness, out=np.zeros_like(stiffness), where=bends[:, None])
 
 
 def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
@@ -177,10 +175,8 @@ def _solve_tree(chain: Chain, equations: _Equations) -> _Solution:
                 part = flexible[shaft] * stiff[child]
                 pivots[child] = near**2 + part
                 weak |= np.abs(pivots[child]) <= _WEAK_PIVOT * (near**2 + np.abs(part))
-                felt[child], pushed[child] = (
-                    stiff[child] / pivots[child],
-                    load[child] / pivots[child],
-                )
+                felt[child] = stiff[child] / pivots[child]
+                pushed[child] = load[child] / pivots[child]
             stiff[parent] += far**2 * felt[child]
             load[parent] -= near * far * pushed[child]
             size[parent] += far**2 * np.abs(felt[child])

@@ -30,7 +30,8 @@ _HIGH = 0.5  # of the largest: a resonance as high may have a higher top beside 
 _NEAR = 0.9  # of the largest value at the speeds looked at: a top beside them may exceed this
 _CLOSER = 0.3  # of the rest to the largest value, from round to round
 _ROUNDS = 7
-_FLAT = 1e-8  # share of a top by which it stands out: a flatter one is found
+_FLAT = 1e-4  # share of a top by which it stands out: a flatter one is a parabola
+_FOUND = 1e-8  # share of a top by which the vertex of the parabola is above it
 
 
 class Largest(NamedTuple):
@@ -94,8 +95,7 @@ def find_largest(
             sides = sides[(sides > rpm[0]) & (sides < rpm[-1])]
         near = 1 - (1 - _NEAR) * _CLOSER**k
         more = np.append(sides, _approach_tops(speeds, values, near, together=together))
-    top = values.argmax(axis=0)
-    return Largest(speeds[top], np.take_along_axis(values, top[None], axis=0)[0], speeds)
+    return Largest(speeds[values.argmax(axis=0)], values.max(axis=0), speeds)
 
 
 def count_columns(system: TorsionalSystem) -> int:
@@ -146,7 +146,8 @@ def _measure(
 
 def _approach_tops(speeds: Real, values: Real, near: float, *, together: bool) -> Real:
     """Return speeds beside every top of a column that is near its highest, by a share of this: half
-    way to the speeds before and after it, and the vertex of the parabola through the three.
+    way to the speeds before and after it, and the vertex of the parabola through the three, as far
+    as these are not found already.
     """
     level = values.max() if together else values.max(axis=0)
     padded = np.pad(values, ((1, 1), (0, 0)), constant_values=-1)
@@ -162,7 +163,8 @@ def _approach_tops(speeds: Real, values: Real, near: float, *, together: bool) -
     bend = np.where(after < before, (after - before) / (x2 - x0), -np.inf)
     vertex = np.clip((x0 + x1) / 2 - before / (2 * bend), x0, x2)
     sharp = y1 - np.minimum(y0, y2) > _FLAT * y1
-    return np.unique(np.concatenate([x0 + x1, x1 + x2, 2 * vertex])[np.tile(sharp, 3)] / 2)
+    higher = -bend * (vertex - x1) ** 2 > _FOUND * y1
+    return np.unique(np.stack([x0 + x1, x1 + x2, 2 * vertex])[np.stack([sharp, sharp, higher])] / 2)
 
 
 _HALVINGS = 24  # of an interval of speeds in which a limit is passed
@@ -406,9 +408,12 @@ def find_barred(
     def passes(rpm: Real) -> NDArray[np.bool_]:
         """Whether a limit is passed at each speed (speeds,)."""
         curves = compute_curves(system, rpm)[0][:, :, : len(weights)] * weights
-        passed = sum_amplitudes(curves) > 1
-        passed[passed] = find_swing(orders, curves[:, passed]).half > 1
-        return np.any(passed, axis=1)
+        most, passed = sum_amplitudes(curves), np.zeros(len(rpm), bool)
+        first = most.argmax(axis=1)[:, None] == np.arange(len(weights))
+        for which in (first, ~first):  # one curve mostly tells
+            speed, curve = np.nonzero(which & (most > 1) & ~passed[:, None])
+            passed[speed[find_swing(orders, curves[:, speed, curve]).half > 1]] = True
+        return passed
 
     speeds = response.looked_at_rpm
     above = passes(speeds)
