@@ -126,10 +126,10 @@ def test_boxes_cover_the_grid_in_the_order_of_rows(shape: tuple[int, ...], most:
 @pytest.mark.parametrize(
     ("engine", "vary", "of", "most"),
     [
-        (VEE, "rod.ratio=0.2:0.3:0.01", "force.2.major", 32_768),
-        (VEE, "rod.ratio=0.2:0.3:0.01", "force.4096.major", 64),
-        (VEE, "rod.ratio=0.2:0.999:0.001", "peak.force", 100),
-        (VEE, "cylinder.1.piston_offset=0:2:0.01", "force.2.major", 32_768),
+        (VEE, "rod.ratio=0.2:0.3:0.01", "force.2.major", 65_536),
+        (VEE, "rod.ratio=0.2:0.3:0.01", "force.4096.major", 128),
+        (VEE, "rod.ratio=0.2:0.999:0.001", "peak.force", 200),
+        (VEE, "cylinder.1.piston_offset=0:2:0.01", "force.2.major", 65_536),
         (VEE, "cylinder.1.piston_offset=0:114.9:0.1", "force.2.major", 10_000),
     ],
 )
