@@ -9,19 +9,14 @@ from __future__ import annotations
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from support.engines import engine
 
 from balcli.analysis.answer import QUANTITIES, analyze
 from balcli.core.mechanisms import (
     closed_form,
-    harmonics,
-)
-from balcli.core.mechanisms import (
     closed_form as fourier,
-)
-from balcli.core.mechanisms import (
+    harmonics,
     harmonics as sampled,
 )
 from balcli.core.mechanisms.closed_form import SERIES

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..core.cylinders import Travel, find_travel
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
 from ..engine.build import Engine, check_engine
@@ -25,14 +26,14 @@ from ..forces.spectrum import (
 )
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..show.result import Result
+from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.sizing import size_auto
 
 if TYPE_CHECKING:
-    from ..core.cylinders import Travel
     from ..forces.crankshaft import InnerLoads
     from ..forces.guide import GuideMoments
     from ..forces.symmetry import Symmetry
     from ..forces.textbook import Textbook
-    from ..sizing.remedy import Remedy
 
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
@@ -269,9 +270,6 @@ def _compute_chapters(
     """Return sizing, inner loads, guide moments and travel, as far as they are wanted or exist."""
     found: dict[str, Any] = {}
     if "sizing" in wanted:
-        from ..sizing.remedy import fit_devices
-        from ..sizing.sizing import size_auto
-
         remedy = size_auto(engine)
         left = {*wanted, "force", "moment", "peak"} - {"sizing"}
         found["sizing"] = Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
@@ -282,8 +280,6 @@ def _compute_chapters(
 
         found["guide"] = compute_guide_moments(engine, asked, guide_height_m)
     if engine.cylinders.linkage is not None:
-        from ..core.cylinders import find_travel
-
         found["travel"] = find_travel(engine.cylinders)
     return found
 
@@ -300,11 +296,9 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
     """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
-    from ..forces.crankshaft import compute_inner_loads
+    from ..forces.crankshaft import add_gas_loads, compute_inner_loads
 
     inner = compute_inner_loads(engine, asked)
     if engine.gas is None:
         return inner
-    from ..forces.crankshaft import add_gas_loads
-
     return add_gas_loads(inner, engine, asked)

@@ -18,6 +18,7 @@ from ..file.edit import set_keys
 from ..file.toml import name_file
 from ..shell import scheme_options
 from ..shell.file_names import format_of, format_option, require_ending, text_format
+from ..shell.inputs import read_engine
 from ..shell.options import (
     EnginePath,
     Orders,
@@ -119,14 +120,12 @@ def show_balance(result: Balance, form: BalanceFormat, output: Path | None, unit
     """Print or write the balance, or its bobweight card, in this format."""
     for reason in dict.fromkeys(result.remedy.reasons):
         note(f"scheme {result.remedy.scheme}: {reason}")
+    from . import bobweight_page, show as renderer
+
     if form is BalanceFormat.CARD:
-        from .bobweight_page import write_page
-
-        emit(write_page(result), output)
+        emit(bobweight_page.write_page(result), output)
     else:
-        from .show import RENDERER
-
-        show([result], RENDERER, Format(form), output, units)
+        show([result], renderer.RENDERER, Format(form), output, units)
 
 
 def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
@@ -229,7 +228,6 @@ def balance(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = choose_balance_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..shell.inputs import read_engine
     from .answer import balance_engine, insert_remedy, permit_unbalance
 
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)

@@ -16,15 +16,11 @@ from . import (
     layouts,
     liang,
     liu,
+    series as kvasnikov,
+    series as series_coefficients,
     torque_examples,
     tsinghua,
     wang,
-)
-from . import (
-    series as kvasnikov,
-)
-from . import (
-    series as series_coefficients,
 )
 from .recomputed import Print, Ranges, Table, load_print, parse_crank_ratios, parse_range
 
