@@ -24,6 +24,8 @@ from ..forces.spectrum import (
     list_gas_orders,
     merge_orders,
 )
+from ..forces.symmetry import Symmetry, explain_symmetry
+from ..forces.textbook import Textbook, find_textbook
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..show.result import Result
 from ..sizing.remedy import Remedy, fit_devices
@@ -32,8 +34,6 @@ from ..sizing.sizing import size_auto
 if TYPE_CHECKING:
     from ..forces.crankshaft import InnerLoads
     from ..forces.guide import GuideMoments
-    from ..forces.symmetry import Symmetry
-    from ..forces.textbook import Textbook
 
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
@@ -110,8 +110,6 @@ class Analysis(Result):
     @property
     def textbook(self) -> Textbook:
         """Force and moment, as far as they were asked for and are known, as textbooks have them."""
-        from ..forces.textbook import find_textbook
-
         asked = [kind.name for kind, _ in self.spectra.vectors()]
         known = [name for name in asked if name != "moment" or self.moments_known]
         return find_textbook(self.engine, self.orders, known)
@@ -288,8 +286,6 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
     """Return why orders are balanced; nothing can be proved of order 0, nor of moments that are
     not known.
     """
-    from ..forces.symmetry import explain_symmetry
-
     provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
     return explain_symmetry(engine, orders[orders > 0], provable)
 

@@ -149,12 +149,10 @@ def curves(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = format_of(output, form, SERIES, SeriesFormat.CSV)
-    from ..forces.curves import divide_revolution
     from . import curves as chapter
 
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
-    angles = divide_revolution(read_angle("--step", step), engine.cycle_revolutions)
-    found = chapter.compute_curves(engine, cylinder, angles)
+    found = chapter.compute_curves_by_step(engine, cylinder, read_angle("--step", step))
     match form:
         case SeriesFormat.CSV:
             text = csv_text([chapter.rows(found)])

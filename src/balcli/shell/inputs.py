@@ -63,12 +63,11 @@ def read_engine(
             f"{path}: no such file; several words of --only stand with commas between them: "
             f"--only force,{path}"
         )
-    from ..engine.load import build_named
-    from ..engine.parse import parse
+    from ..engine import load, parse
 
     text = read_bytes(path)
-    model = parse(text, name_file(path))
-    engine = build_named(model, path)
+    model = parse.parse(text, name_file(path))
+    engine = load.build_named(model, path)
     if is_verbose():
         _tell_what_was_read(name_file(path), text, model, engine)
     if not engine.places_known:

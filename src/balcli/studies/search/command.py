@@ -200,17 +200,16 @@ def search(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ...engine.build import build
-    from ...engine.parse import parse
+    from ...engine import build, parse
     from . import answer, designs
 
     if require not in ("", "even-firing"):
         message = f'"{require}": only even-firing can be required'
         raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
-    model = parse(text, name)
+    model = parse.parse(text, name)
     with naming_file(name):
-        _doubt(build(model).unlikely, over, name)
+        _doubt(build.build(model).unlikely, over, name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     with_gas = model.gas is not None
