@@ -14,13 +14,12 @@ from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
 from . import (
     layouts,
-    liang,
     liu,
     series as kvasnikov,
     series as series_coefficients,
-    torque_examples,
     tsinghua,
     wang,
+    worked_examples,
 )
 from .recomputed import Print, Ranges, Table, load_print, parse_crank_ratios, parse_range
 
@@ -37,8 +36,8 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "wang-1": wang.tabulate_optimum,
     "kvasnikov-1": kvasnikov.tabulate_piston,
     "kvasnikov-2": kvasnikov.tabulate_rod,
-    "liang-examples": liang.tabulate_liang_examples,
-    "torque-examples": torque_examples.tabulate_torque_examples,
+    "liang-examples": worked_examples.tabulate_liang_examples,
+    "torque-examples": worked_examples.tabulate_torque_examples,
     "series": series_coefficients.tabulate_series,
     "layouts": layouts.tabulate_layouts,
 }
