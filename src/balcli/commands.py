@@ -17,6 +17,13 @@ from .file import examples
 from .file.examples import template
 from .file.fields import counted, suggest_nearest
 from .shell.file_names import TEXTS, format_of, parse_output, require_ending
+from .shell.inputs import (
+    exit_on_errors,
+    find_engine_files,
+    find_expected,
+    read_engine,
+    try_each,
+)
 from .shell.options import FormatOption, Output
 from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
 from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
@@ -63,8 +70,6 @@ def new(
 
 def complete_examples(incomplete: str) -> list[str]:
     """Return the example engines that begin with this text."""
-    from .file import examples
-
     return [name for name in examples.names() if name.startswith(incomplete)]
 
 
@@ -171,18 +176,24 @@ def schema(
 
 
 def _describe_file(kind: File) -> dict[str, Any]:
-    from .field.tables import Run, RunsFile
-    from .file.schema import describe_engine_file, describe_file  # pydantic
-    from .file.torsion_tables import Damper
-    from .torsion.tables import LISTS, ChainFile
+    from .field import tables as runs
+    from .file import schema as files, torsion_tables  # pydantic
+    from .torsion import tables as chain
 
     match kind:
         case File.ENGINE:
-            return describe_engine_file()
+            return files.describe_engine_file()
         case File.FIELD:
-            return describe_file(RunsFile, [Run], "runs-file", "balcli file of runs")
+            return files.describe_file(
+                runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs"
+            )
         case File.TORSION:
-            return describe_file(ChainFile, [Damper, *LISTS], "chain-file", "balcli chain file")
+            return files.describe_file(
+                chain.ChainFile,
+                [torsion_tables.Damper, *chain.LISTS],
+                "chain-file",
+                "balcli chain file",
+            )
 
 
 def _describe_result(name: str, kind: File | None) -> dict[str, Any]:
@@ -243,22 +254,14 @@ def check(
       balcli check v8.toml
       balcli check v8.toml --tolerance 1e-6 --format junit
     """
-    from .core.records import to_document
     from .regression import (
-        Check,
         CheckedEngine,
         check_target,
+        describe_checks,
         find_abandoned,
         find_differences,
         find_record,
         record_result,
-    )
-    from .shell.inputs import (
-        exit_on_errors,
-        find_engine_files,
-        find_expected,
-        read_engine,
-        try_each,
     )
 
     def compare_or_record(path: Path) -> CheckedEngine:
@@ -282,7 +285,7 @@ def check(
             lines = [line for each in checked for line in _list_lines(each)]
             emit(legible("\n".join([*lines, counted(len(results), "engine") + done])))
         case CheckFormat.JSON:
-            emit(json_text(to_document(Check(engines=tuple(checked)))))
+            emit(json_text(describe_checks(checked)))
         case CheckFormat.JUNIT:
             emit(_write_junit(checked))
     exit_on_errors(errors)

@@ -137,6 +137,10 @@ class InputError(BalcliError):
         return "\n".join([f"{head}: {count} mistakes", *(f"  {p}" for p in self.problems), *last])
 
 
+class OtherKindError(InputError):
+    """A file of one kind where another is wanted."""
+
+
 @contextmanager
 def naming_file(file: str) -> Iterator[None]:
     """Give mistakes that are found within the name of a file."""
@@ -194,3 +198,14 @@ def wrong_type(function: str, value: object, wanted: str) -> TypeError:
         text = "a number of thousands of digits"
     shown = text if len(text) <= 60 and "\n" not in text else f"{text[:57].splitlines()[0]}..."
     return TypeError(f"{function}: {legible(shown)} ({type(value).__name__}): {wanted}")
+
+
+# What a file lacks, for whoever asks for it.
+NO_GAS = (
+    'has no [gas]; give a diagram, a cycle or harmonics, such as cycle = "wiebe", '
+    "compression_ratio = 10.5, imep = 10"
+)
+MOMENTS_UNKNOWN = (
+    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
+    "that all throws stand in one plane"
+)

@@ -21,12 +21,16 @@ import numpy as np
 from .analysis import show as renderer
 from .analysis.answer import analyze
 from .analysis.curves import compute_engine_curves
+from .core.records import to_document
 from .engine.build import Engine
 from .errors import BalcliError
 from .file.model import EngineFile
 from .forces.kinds import GAS, GAS_KINDS, KINDS
 from .forces.spectrum import Spectra
 from .limits import LARGEST_FILE_BYTES
+from .mounts.answer import analyze_mounts
+from .torque.answer import analyze_torque
+from .torsion.answer import analyze_torsion
 
 TOLERANCE = 1e-9  # share of the largest figure of a group, beyond what rounding may do
 PEAK_ANGLE_DEG = 1e-3  # a peak is flat: rounding moves its angle more than its value
@@ -214,10 +218,6 @@ def _describe(
 
 def _describe_chapters(engine: Engine) -> dict[str, Any]:
     """Return the main figures of the chapters that the engine file has."""
-    from .mounts.answer import analyze_mounts
-    from .torque.answer import analyze_torque
-    from .torsion.answer import analyze_torsion
-
     model: EngineFile | None = engine.model
     found: dict[str, Any] = {}
     if engine.gas is not None:
@@ -416,3 +416,8 @@ def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
             errors[kind.key, f"order {order:g}"] = float(error)
         errors[kind.key, ""] = float(each.sum())
     return errors
+
+
+def describe_checks(checked: Iterable[CheckedEngine]) -> dict[str, Any]:
+    """Return the document `balcli.check/1`."""
+    return to_document(Check(engines=tuple(checked)))

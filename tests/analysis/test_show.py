@@ -15,8 +15,7 @@ from support.cases import cases
 from support.engines import GOOD, RADIAL, build_text, inline_engine, rotary_engine
 from support.paths import ENGINES
 
-from balcli.analysis import show as analysis
-from balcli.analysis import show as analysis_document
+from balcli.analysis import show as analysis, show as analysis_document
 from balcli.analysis.answer import QUANTITIES, analyze
 from balcli.errors import BalcliError
 from balcli.shell.options import parse_parts

@@ -16,8 +16,7 @@ from support.engines import RADIAL, build_text
 
 from balcli.core.cylinders import find_travel
 from balcli.core.mechanisms.linkage import Articulated
-from balcli.engine import build as engine
-from balcli.engine import parse as enginefile
+from balcli.engine import build as engine, parse as enginefile
 from balcli.errors import InputError
 from balcli.forces import spectrum
 from balcli.forces.spectrum import find_relevant_orders

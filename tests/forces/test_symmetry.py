@@ -13,8 +13,7 @@ from support.paths import ENGINE_FILES
 
 from balcli.analysis import answer as analysis
 from balcli.analysis.show import document as analysis_document
-from balcli.engine import build as engine
-from balcli.engine import parse as enginefile
+from balcli.engine import build as engine, parse as enginefile
 from balcli.forces import spectrum
 from balcli.forces.symmetry import explain_symmetry
 from balcli.show.csv import json_text

@@ -16,8 +16,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from balcli.core.mechanisms import closed_form, harmonics
-from balcli.core.mechanisms import closed_form as fourier
+from balcli.core.mechanisms import closed_form, closed_form as fourier, harmonics
 from balcli.core.mechanisms.harmonics import find_distinct
 
 RELATIVE = 1e-14  # of each order to 32 of the centred mechanism, twice that to 64, where it is above 1e-290

@@ -16,8 +16,7 @@ import numpy as np
 import pytest
 from support.commands import run_python
 from support.engines import GOOD, build_text, changed, inline_engine
-from support.gas_engines import FOUR as GAS_FOUR
-from support.gas_engines import WIEBE
+from support.gas_engines import FOUR as GAS_FOUR, WIEBE
 from support.pictures import draw_page
 
 from balcli.analysis.answer import QUANTITIES, analyze

@@ -15,8 +15,7 @@ from support.cases import cases
 from support.paths import ENGINE_FILES, ENGINES
 
 from balcli import analyze, balance, load
-from balcli.analysis import comparison
-from balcli.analysis import show as analysis
+from balcli.analysis import comparison, show as analysis
 from balcli.analysis.comparison import compare_engines
 from balcli.balancing import show as balance_renderer
 from balcli.show.sheet import Facts, Grid, Sheet, Text, View

@@ -6,8 +6,7 @@ import cmath
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from balcli.sizing.effects import Slot
 from balcli.sizing.planes import measure_direction

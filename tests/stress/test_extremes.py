@@ -9,8 +9,7 @@ from __future__ import annotations
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from support.engines import engine
 
 from balcli.analysis.answer import QUANTITIES, analyze

@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 import tomli_w
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from support.engines import alone, build_text
 
 from balcli.core.phasors import Phasors

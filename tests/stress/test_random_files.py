@@ -8,8 +8,7 @@ import json
 import warnings
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from support.commands import run_here
 from support.engine_files import engine_files
 

@@ -8,8 +8,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
+from hypothesis import example, given, strategies as st
 from support.engines import build_text, engine_text
 from support.remedies import figures, fit_scheme, size_scheme
 

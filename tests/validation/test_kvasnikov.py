@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from balcli.books.answer import recompute
-from balcli.core.mechanisms import closed_form
-from balcli.core.mechanisms import power_series as series
+from balcli.core.mechanisms import closed_form, power_series as series
 from balcli.core.phasors import unit
 
 LAM = np.array([1 / 6, 1 / 4])

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from balcli.books.answer import recompute
-from balcli.core.mechanisms import closed_form
-from balcli.core.mechanisms import power_series as series
+from balcli.core.mechanisms import closed_form, power_series as series
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..core.cylinders import Travel, find_travel
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
 from ..engine.build import Engine, check_engine
@@ -23,16 +24,16 @@ from ..forces.spectrum import (
     list_gas_orders,
     merge_orders,
 )
+from ..forces.symmetry import Symmetry, explain_symmetry
+from ..forces.textbook import Textbook, find_textbook
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..show.result import Result
+from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.sizing import size_auto
 
 if TYPE_CHECKING:
-    from ..core.cylinders import Travel
     from ..forces.crankshaft import InnerLoads
     from ..forces.guide import GuideMoments
-    from ..forces.symmetry import Symmetry
-    from ..forces.textbook import Textbook
-    from ..sizing.remedy import Remedy
 
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
@@ -109,8 +110,6 @@ class Analysis(Result):
     @property
     def textbook(self) -> Textbook:
         """Force and moment, as far as they were asked for and are known, as textbooks have them."""
-        from ..forces.textbook import find_textbook
-
         asked = [kind.name for kind, _ in self.spectra.vectors()]
         known = [name for name in asked if name != "moment" or self.moments_known]
         return find_textbook(self.engine, self.orders, known)
@@ -269,9 +268,6 @@ def _compute_chapters(
     """Return sizing, inner loads, guide moments and travel, as far as they are wanted or exist."""
     found: dict[str, Any] = {}
     if "sizing" in wanted:
-        from ..sizing.remedy import fit_devices
-        from ..sizing.sizing import size_auto
-
         remedy = size_auto(engine)
         left = {*wanted, "force", "moment", "peak"} - {"sizing"}
         found["sizing"] = Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
@@ -282,8 +278,6 @@ def _compute_chapters(
 
         found["guide"] = compute_guide_moments(engine, asked, guide_height_m)
     if engine.cylinders.linkage is not None:
-        from ..core.cylinders import find_travel
-
         found["travel"] = find_travel(engine.cylinders)
     return found
 
@@ -292,19 +286,15 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
     """Return why orders are balanced; nothing can be proved of order 0, nor of moments that are
     not known.
     """
-    from ..forces.symmetry import explain_symmetry
-
     provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
     return explain_symmetry(engine, orders[orders > 0], provable)
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
     """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
-    from ..forces.crankshaft import compute_inner_loads
+    from ..forces.crankshaft import add_gas_loads, compute_inner_loads
 
     inner = compute_inner_loads(engine, asked)
     if engine.gas is None:
         return inner
-    from ..forces.crankshaft import add_gas_loads
-
     return add_gas_loads(inner, engine, asked)

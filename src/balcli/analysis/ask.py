@@ -17,6 +17,7 @@ from ..show.csv import Rows, name_cell
 from ..show.formats import Format, Renderer, Units
 from ..show.sheet import NamedResult, Sheet, View
 from ..show.units import System
+from . import show as chapter
 from .answer import Analysis, analyze, list_usual_quantities
 
 if TYPE_CHECKING:
@@ -25,24 +26,18 @@ if TYPE_CHECKING:
 
 def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
     """What a person reads of it."""
-    from . import show as analysis
-
-    return analysis.sheet(one.result, system, one.view)
+    return chapter.sheet(one.result, system, one.view)
 
 
 def document(one: NamedResult[Analysis]) -> dict[str, Any]:
     """`balcli.analysis/1`."""
-    from . import show as analysis_document
-
-    return analysis_document.document(one.result)
+    return chapter.document(one.result)
 
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
     """CSV: the rows of the analysis, each after the engine's name."""
-    from . import show as analysis_document
-
     devices = "sizing" in one.view.parts
-    header, lines = analysis_document.rows(one.result, system, devices=devices)
+    header, lines = chapter.rows(one.result, system, devices=devices)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
 
 
@@ -79,22 +74,24 @@ def _choose_result(
     asked: Request, for_people: bool
 ) -> tuple[Callable[[Engine], Any], Renderer[NamedResult[Any]]]:
     """Return what is found of an engine, and how it is shown."""
+    if not (asked.marine or asked.over_speed):
+        return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
+    from . import speeds  # for those who ask for several
+
     if asked.marine:
-        from . import speeds as marine
-        from .speeds import find_marine_sheet
 
         def find_sheet(engine: Engine) -> Any:
-            height, speeds = asked.height_m, asked.speeds_rpm
-            return find_marine_sheet(engine, speeds, asked.orders, height, every_order=asked.whole)
+            height, rpm = asked.height_m, asked.speeds_rpm
+            return speeds.find_marine_sheet(
+                engine, rpm, asked.orders, height, every_order=asked.whole
+            )
 
-        return find_sheet, marine.MARINE
+        return find_sheet, speeds.MARINE
     if asked.over_speed:
-        from . import speeds
-        from .speeds import analyze_speeds
 
         def find_series(engine: Engine) -> Any:
             ask = _ask(asked, engine, for_people)
-            return analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
+            return speeds.analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
 
         return find_series, speeds.RENDERER
     return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER

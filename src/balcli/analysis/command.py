@@ -10,6 +10,7 @@ import typer
 
 from ..errors import BalcliError
 from ..shell.file_names import SERIES, SeriesFormat, format_of, format_option, text_format
+from ..shell.inputs import name_engines, named_by_file, read_engine
 from ..shell.options import (
     PARTS,
     EnginePath,
@@ -93,7 +94,6 @@ def compare(
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
-    from ..shell.inputs import name_engines, read_engine
     from .comparison import RENDERER, compare_engines
 
     rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_only(only)
@@ -142,19 +142,15 @@ def curves(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = format_of(output, form, SERIES, SeriesFormat.CSV)
-    from ..forces.curves import divide_revolution
-    from ..shell.inputs import read_engine
-    from . import curves as renderer
-    from .curves import compute_curves
+    from . import curves as chapter
 
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
-    angles = divide_revolution(read_angle("--step", step), engine.cycle_revolutions)
-    found = compute_curves(engine, cylinder, angles)
+    found = chapter.compute_curves_by_step(engine, cylinder, read_angle("--step", step))
     match form:
         case SeriesFormat.CSV:
-            text = csv_text([renderer.rows(found)])
+            text = csv_text([chapter.rows(found)])
         case SeriesFormat.JSON:
-            text = json_text(renderer.document(found))
+            text = json_text(chapter.document(found))
         case _:
             assert_never(form)
     emit(text, output)
@@ -193,7 +189,6 @@ def sum(  # noqa: A001 (the command's name)
     """
     refuse_overwriting(reads=[first, second], writes={"--output": output})
     form = text_format(output, form)
-    from ..shell.inputs import named_by_file, read_engine
     from .two_engines import RENDERER, Arrangement, combine_engines
 
     rpm, asked = parse_speed(speed), parse_orders(orders)

@@ -301,7 +301,12 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
     engine = check_engine("curves", engine)
     step = check_number("step_deg", step_deg, "give a step in degrees")
     number = None if cylinder is None else check_count("cylinder", cylinder)
-    return compute_curves(engine, number, divide_revolution(step, engine.cycle_revolutions))
+    return compute_curves_by_step(engine, number, step)
+
+
+def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float) -> Curves:
+    """Return the curves at angles this far apart over a cycle; errors as of `curves`."""
+    return compute_curves(engine, cylinder, divide_revolution(step_deg, engine.cycle_revolutions))
 
 
 def document(curves: Curves) -> dict[str, Any]:

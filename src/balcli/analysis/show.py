@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..core.records import to_document
-from ..engine.layout import MOMENTS_UNKNOWN
+from ..errors import MOMENTS_UNKNOWN
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
 from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot

@@ -38,8 +38,7 @@ from ..show.sheet import (
     size_cell,
     size_text,
 )
-from . import sections as symmetry
-from . import show as analysis_document
+from . import sections as symmetry, show as analysis_document
 from .answer import Analysis, analyze
 from .comparison import (
     TITLES,

@@ -399,3 +399,28 @@ def _list_entries(device: DeviceTable) -> dict[str, Any]:
     """Return keys and values of a device as TOML has them."""
     values = {key: getattr(device, key) for key in FIELDS[type(device)]}
     return {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}
+
+
+def answer_knuckles(
+    scheme: str,
+    options: SchemeOptions,
+    even: str | None,
+    model: EngineFile,
+    engine: Engine,
+    orders: list[float] | None,
+) -> Balance:
+    """Return the balance of the scheme that changes knuckle angles, at the engine's speed.
+
+    Raises:
+        BalcliError: options that are not its own, and --even with another scheme.
+    """
+    if scheme != KNUCKLES:
+        raise BalcliError(
+            f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
+        )
+    if options != SchemeOptions():
+        raise BalcliError("scheme knuckles: has no option but --even")
+    goal = next((goal for goal in GOALS if goal == (even or GOALS[0])), None)
+    if goal is None:
+        raise BalcliError(f'--even "{even or "":.60}": choose from {", ".join(GOALS)}')
+    return balance_knuckles(model, goal, orders, float(engine.speed_rpm))

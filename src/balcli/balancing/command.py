@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..core.unbalance import SLUGS
-from ..errors import BalcliError, note
+from ..errors import note
 from ..file.edit import set_keys
 from ..file.toml import name_file
 from ..shell import scheme_options
 from ..shell.file_names import format_of, format_option, require_ending, text_format
+from ..shell.inputs import read_engine
 from ..shell.options import (
     EnginePath,
     Orders,
@@ -28,12 +29,9 @@ from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show,
 from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme_options
 from ..shell.values import optional, read_length, read_mass, read_number
 from ..show.formats import Format, Units
-from ..sizing.options import SchemeOptions
 from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
 
 if TYPE_CHECKING:
-    from ..engine.build import Engine
-    from ..file.model import EngineFile
     from ..sizing.workshop import Tools
     from .answer import Balance
 
@@ -116,14 +114,12 @@ def show_balance(result: Balance, form: BalanceFormat, output: Path | None, unit
     """Print or write the balance, or its bobweight card, in this format."""
     for reason in dict.fromkeys(result.remedy.reasons):
         note(f"scheme {result.remedy.scheme}: {reason}")
+    from . import bobweight_page, show as renderer
+
     if form is BalanceFormat.CARD:
-        from .bobweight_page import write_page
-
-        emit(write_page(result), output)
+        emit(bobweight_page.write_page(result), output)
     else:
-        from .show import RENDERER
-
-        show([result], RENDERER, Format(form), output, units)
+        show([result], renderer.RENDERER, Format(form), output, units)
 
 
 def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
@@ -157,33 +153,6 @@ def parse_grade(text: str | None) -> float | None:
         return None
     wanted = "a grade of ISO 21940-11 such as G16 or 6.3"
     return read_number("--grade", text.strip().removeprefix("G"), wanted)
-
-
-def answer_knuckles(
-    scheme: str,
-    options: SchemeOptions,
-    even: str | None,
-    model: EngineFile,
-    engine: Engine,
-    orders: list[float] | None,
-) -> Balance:
-    """Return the balance of the scheme that changes knuckle angles, at the engine's speed.
-
-    Raises:
-        BalcliError: options that are not its own, and --even with another scheme.
-    """
-    from . import answer as knuckles
-
-    if scheme != KNUCKLES:
-        raise BalcliError(
-            f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
-        )
-    if options != SchemeOptions():
-        raise BalcliError("scheme knuckles: has no option but --even")
-    goal = next((goal for goal in knuckles.GOALS if goal == (even or knuckles.GOALS[0])), None)
-    if goal is None:
-        raise BalcliError(f'--even "{even or "":.60}": choose from {", ".join(knuckles.GOALS)}')
-    return knuckles.balance_knuckles(model, goal, orders, float(engine.speed_rpm))
 
 
 def balance(
@@ -226,8 +195,7 @@ def balance(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = choose_balance_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ..shell.inputs import read_engine
-    from .answer import balance_engine, insert_remedy, permit_unbalance
+    from . import answer
 
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
     usual = "factor" if form is BalanceFormat.CARD else "auto"
@@ -239,14 +207,14 @@ def balance(
     asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm)
     if scheme == KNUCKLES or even is not None:
-        result = answer_knuckles(scheme, options, even, model, engine, asked)
+        result = answer.answer_knuckles(scheme, options, even, model, engine, asked)
     else:
-        result = balance_engine(engine, scheme, options, asked, tools)
-    permitted = permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
+        result = answer.balance_engine(engine, scheme, options, asked, tools)
+    permitted = answer.permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
     result = replace(result, permitted=permitted)
     if write is not None:
         refuse_leaving_files(text, path, write)
-        new = insert_remedy(text, result.remedy, name_file(path))
+        new = answer.insert_remedy(text, result.remedy, name_file(path))
         if rpm is not None:
             new = set_keys(new, "operation", {"speed": rpm}, "as balanced by balcli")
         write_file(new, write)

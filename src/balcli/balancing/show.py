@@ -20,7 +20,7 @@ from ..analysis.overview import find_orders_that_matter, name_column, tell_other
 from ..analysis.show import brief_document
 from ..core.peaks import Peak
 from ..core.records import list_figures, remove_unit, to_document, write_each
-from ..engine.layout import MOMENTS_UNKNOWN
+from ..errors import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..show.csv import Columns, Rows
 from ..show.figures import assumptions, figure_rows

@@ -11,17 +11,12 @@ from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
 from . import (
     layouts,
-    liang,
     liu,
-    torque_examples,
+    series as kvasnikov,
+    series as series_coefficients,
     tsinghua,
     wang,
-)
-from . import (
-    series as kvasnikov,
-)
-from . import (
-    series as series_coefficients,
+    worked_examples,
 )
 from .recomputed import Print, Ranges, Table, load_print, parse_crank_ratios, parse_range
 
@@ -38,8 +33,8 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "wang-1": wang.tabulate_optimum,
     "kvasnikov-1": kvasnikov.tabulate_piston,
     "kvasnikov-2": kvasnikov.tabulate_rod,
-    "liang-examples": liang.tabulate_liang_examples,
-    "torque-examples": torque_examples.tabulate_torque_examples,
+    "liang-examples": worked_examples.tabulate_liang_examples,
+    "torque-examples": worked_examples.tabulate_torque_examples,
     "series": series_coefficients.tabulate_series,
     "layouts": layouts.tabulate_layouts,
 }

@@ -80,21 +80,19 @@ def tables(
     form = text_format(output, form)
     from dataclasses import replace
 
-    from .answer import select_tables
-    from .layouts import add_firing
-    from .show import ERRATA, LAYOUTS, RENDERER, TABLE_LIST
+    from . import answer, layouts as common, show as pages
 
     if angle:
         angle = as_bare_angles("--angle", angle)
-    chosen = select_tables(name, lam, angle, power)
+    chosen = answer.select_tables(name, lam, angle, power)
     if errata:
-        show([chosen], ERRATA, form, output)
+        show([chosen], pages.ERRATA, form, output)
     elif name and chosen[0].name == "layouts" and digits is None:
-        show([add_firing(chosen[0])], LAYOUTS, form, output)
+        show([common.add_firing(chosen[0])], pages.LAYOUTS, form, output)
     elif name:
-        show([replace(chosen[0], digits=digits)], RENDERER, form, output)
+        show([replace(chosen[0], digits=digits)], pages.RENDERER, form, output)
     else:
-        show([chosen], TABLE_LIST, form, output)
+        show([chosen], pages.TABLE_LIST, form, output)
 
 
 def layouts(form: FormatOption = None, output: Output = None) -> None:
@@ -106,8 +104,6 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
       balcli layouts --format markdown
     """
     form = text_format(output, form)
-    from .answer import recompute
-    from .layouts import add_firing
-    from .show import LAYOUTS
+    from . import answer, layouts as common, show as pages
 
-    show([add_firing(recompute("layouts"))], LAYOUTS, form, output)
+    show([common.add_firing(answer.recompute("layouts"))], pages.LAYOUTS, form, output)

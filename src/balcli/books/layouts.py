@@ -10,17 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from ..engine.build import Engine, build
+from ..engine.parse import parse
 from ..file.examples import folder
+from ..file.model import EngineFile
+from ..forces.textbook import find_textbook
 from .recomputed import Print, Ranges, Row, Table
-
-if TYPE_CHECKING:
-    from ..engine.build import Engine
-    from ..file.model import EngineFile
-
 
 ORDERS = (1, 2, 4, 6)
 
@@ -55,20 +54,14 @@ def _find_gaps(engine: Engine) -> tuple[float, ...]:
 
 
 def _read(name: str) -> EngineFile:
-    from ..engine.parse import parse
-
     return parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
 
 
 def _build(file: EngineFile) -> Engine:
-    from ..engine.build import build
-
     return build(file.with_table("piston", offset=0.0))
 
 
 def _row(name: str) -> Row:
-    from ..forces.textbook import find_textbook
-
     file = _read(name)
     engine = _build(file)
     found = find_textbook(engine, np.array(ORDERS, float), ("force", "moment"))

@@ -13,8 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..core.mechanisms import closed_form
-from ..core.mechanisms import power_series as series
+from ..core.mechanisms import closed_form, power_series as series
 from ..core.phasors import Array
 from .recomputed import Explanation, Print, Ranges, Row, Table, Words, as_numbers, head_rows
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.cylinders import Cylinders
+from ..core.cylinders import Cylinders, find_travel
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
@@ -206,8 +206,6 @@ class Assembly:
         """
         if self.model.articulation is None or self.rank:
             return self.tops_deg
-        from ..core.cylinders import find_travel
-
         tops = zip(self.numbers, find_travel(self.cylinders).top_deg, strict=True)
         return {n: self.axes_deg[n] + self.sense * float(top) for n, top in tops}
 

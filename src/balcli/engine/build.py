@@ -12,12 +12,13 @@ from ..core.cylinders import Cylinders, Device
 from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
 from ..core.speed_ripple import RippleLine
-from ..errors import BalcliError, InputError, check_type, naming_file, wrong_type
+from ..errors import MOMENTS_UNKNOWN, BalcliError, InputError, check_type, naming_file, wrong_type
+from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import change_tables, list_tables
 from .assembly import Assembly
 from .devices import build_devices
-from .layout import MOMENTS_UNKNOWN, are_places_known
+from .layout import are_places_known
 from .numbering import doubt_firing, find_fitting_splay, list_inferred
 from .parse import find_contradictions, parse_dict
 from .rods import Weighed
@@ -25,12 +26,6 @@ from .rods import Weighed
 if TYPE_CHECKING:
     from ..file.gas_tables import Bearing, Flywheel
     from .gas import EngineGas
-
-
-NO_GAS = (
-    'has no [gas]; give a diagram, a cycle or harmonics, such as cycle = "wiebe", '
-    "compression_ratio = 10.5, imep = 10"
-)
 
 
 class Bearings(NamedTuple):
@@ -155,8 +150,6 @@ class Engine:
     @property
     def unlikely(self) -> tuple[str, ...]:
         """What its file says that is allowed and yet unlikely, in words."""
-        from ..file.doubts import find_suspicious
-
         of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
             return of_gas

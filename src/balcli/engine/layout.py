@@ -204,12 +204,6 @@ def _join(numbers: Sequence[int]) -> str:
     return " and ".join(map(str, numbers)) if len(numbers) < 3 else ", ".join(map(str, numbers))
 
 
-MOMENTS_UNKNOWN = (
-    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
-    "that all throws stand in one plane"
-)
-
-
 def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()) -> bool:
     """Whether the file says where the throws stand along the crank (of one throw it need not).
 

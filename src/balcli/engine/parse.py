@@ -23,6 +23,7 @@ from ..file.plain_tables import normalize_tables
 from ..file.read import Draft, check_tables, read_tables, refuse
 from ..file.toml import name_file, read_bytes
 from ..limits import MOST_SAMPLES
+from .articulation import check_articulation, check_knuckles
 from .assembly import Assembly
 from .numbering import check_numbering, infer_numbering
 from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
@@ -78,8 +79,6 @@ def check_cylinders(parts: Assembly) -> Iterator[Problem]:
 def check_masters(parts: Assembly) -> Iterator[Problem]:
     """Articulated rods have a master rod on their throw, and knuckle pins that fit."""
     if parts.model.articulation is not None:
-        from .articulation import check_articulation  # for the few engines that have rods on rods
-
         yield from check_articulation(parts, parts.model.articulation)
 
 
@@ -169,8 +168,6 @@ def check_speed(parts: Assembly) -> Iterator[Problem]:
 def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:
     """Articulated rods can follow their knuckle pins all the way round."""
     if parts.model.articulation is not None:
-        from .articulation import check_knuckles
-
         yield from check_knuckles(parts.model, parts.cylinders, parts.numbers)
 
 

@@ -10,6 +10,7 @@ import typer
 from ..errors import BalcliError, Exit
 from ..file.toml import name_file
 from ..shell.file_names import picture_form, text_format
+from ..shell.inputs import warn_each
 from ..shell.options import FormatOption, Output, UnitsOption
 from ..shell.output import refuse_overwriting, show, write_figure
 from ..shell.values import optional
@@ -60,20 +61,15 @@ def field(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from ..shell.inputs import warn_each
-    from .answer import find_corrections
-    from .read import read_runs
-    from .show import RENDERER
+    from . import answer, plot as picture, read, show as pages
 
-    file, name = read_runs(path), name_file(path)
+    file, name = read.read_runs(path), name_file(path)
     if check and file.grade is None:
         raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
-    result = find_corrections(file, minimise, without or (), name)
+    result = answer.find_corrections(file, minimise, without or (), name)
     warn_each(result.doubts, name)
     if plot is not None and drawn is not None:
-        from .plot import make_field  # brings matplotlib
-
-        write_figure(make_field(result), drawn, plot)
-    show([result], RENDERER, form, output, units)
+        write_figure(picture.make_field(result), drawn, plot)
+    show([result], pages.RENDERER, form, output, units)
     if check and result.permitted is not None and not result.permitted.reached:
         raise typer.Exit(Exit.DIFFERENCE)

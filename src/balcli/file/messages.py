@@ -8,7 +8,7 @@ from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple, get_args
 
-from ..errors import InputError, Problem
+from ..errors import OtherKindError, Problem
 from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
 from . import model
 from .fields import counted, nearest, printable, shorten
@@ -146,10 +146,6 @@ def ordinal(number: int) -> str:
 
 
 SHARED = {"name", "source", "shaft"}  # keys of an engine file that others have, or might have
-
-
-class OtherKindError(InputError):
-    """A file of one kind where another is wanted."""
 
 
 class FileKind(NamedTuple):

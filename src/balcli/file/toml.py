@@ -12,6 +12,7 @@ from typing import Any
 
 from ..errors import BalcliError, InputError, Problem
 from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
+from .examples import is_example
 from .fields import nearest
 
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
@@ -59,8 +60,6 @@ def read_bytes(source: str | Path) -> bytes:
 
 def find_near_file(source: str | Path) -> str:
     """Return the file or example that was probably meant, in words; empty if none is near."""
-    from .examples import is_example  # after a mistake alone
-
     with_ending, asked = f"{source}.toml", Path(source)
     if Path(with_ending).is_file():
         return f"; {with_ending} is there: did you mean it?"

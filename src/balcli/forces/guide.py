@@ -14,9 +14,8 @@ import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine, build
-from ..engine.layout import MOMENTS_UNKNOWN
 from ..engine.load import FiguresOfVariants
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import EngineFile
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER
 from .quantity import Subject, TargetQuantity, parse_target_quantity

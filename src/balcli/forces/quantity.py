@@ -16,8 +16,7 @@ import numpy as np
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
-from ..engine.layout import MOMENTS_UNKNOWN
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.fields import shorten, suggest_nearest
 from ..limits import HIGHEST_ORDER
 from .kinds import EVERY_KIND, GAS_KINDS, TORQUE_TOTAL, VECTORS

@@ -9,6 +9,7 @@ from ..errors import warn
 from ..file.toml import name_file
 from ..shell import scheme_options
 from ..shell.file_names import picture_form, text_format
+from ..shell.inputs import name_engines, read_engine, silence_cylinders, warn_each
 from ..shell.options import EnginePaths, FormatOption, Misfire, Output, UnitsOption, parse_orders
 from ..shell.output import refuse_overwriting, show, write_figure
 from ..shell.progress import reporting
@@ -65,13 +66,10 @@ def mounts(
     rpm, asked = parse_speeds(speeds), parse_orders(orders)
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
     scheme = choose_beside(scheme, options)
-    from ..shell.inputs import name_engines, read_engine, silence_cylinders, warn_each
-    from .answer import report_mounts
-    from .build import read_mounted
-    from .show import RENDERER
+    from . import answer, build, plot as picture, show as pages
 
     name, silent = name_file(paths[0]), misfire or ()
-    model, engine, doubts = read_mounted(paths[0])
+    model, engine, doubts = build.read_mounted(paths[0])
     warn_each(doubts, name)
     if engine is not None:
         engine = silence_cylinders(engine, silent, paths[0])
@@ -79,7 +77,9 @@ def mounts(
     names = name_engines([model.name, *(other.name for other in others)], paths)
     beside = list(zip(names[1:], others, strict=True))
     with reporting("work") as tell:
-        result = report_mounts(model, engine, rpm, asked, scheme, beside, name, tell, options)
+        result = answer.report_mounts(
+            model, engine, rpm, asked, scheme, beside, name, tell, options
+        )
     if result.response is None and any((speeds, orders, scheme, misfire)):
         warn(
             f"{name}: nothing shakes this body, so speeds, orders, misfires and schemes say "
@@ -87,7 +87,5 @@ def mounts(
         )
     warn_each(result.doubts, name)
     if plot is not None and drawn is not None:
-        from .plot import make_mounts  # brings matplotlib
-
-        write_figure(make_mounts(result, SYSTEMS[units]), drawn, plot)
-    show([result], RENDERER, form, output, units)
+        write_figure(picture.make_mounts(result, SYSTEMS[units]), drawn, plot)
+    show([result], pages.RENDERER, form, output, units)

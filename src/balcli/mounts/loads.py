@@ -27,8 +27,7 @@ from ..core.speed_ripple import (
 )
 from ..core.vibration import Complex, Real
 from ..engine.build import NONE_SILENT, Engine, SilentCylinders
-from ..engine.layout import MOMENTS_UNKNOWN
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.kinds import GAS_KINDS
 from ..forces.spectrum import (
     Spectra,

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError, warn
 from ..file.toml import name_file
 from ..shell import scheme_options
 from ..shell.file_names import choose_target, format_of, parse_output, picture_form
+from ..shell.inputs import read_engine
 from ..shell.options import (
     EnginePath,
     Orders,
@@ -29,11 +29,7 @@ from ..show.units import SYSTEMS
 from .names import OF_TORSION, PAGES, check_page
 
 if TYPE_CHECKING:
-    from ..engine.build import Engine
-    from ..file.model import EngineFile
-    from ..mounts.records import MountReport
-    from ..sizing.options import SchemeOptions
-    from ..torsion.answer import TorsionAnalysis
+    pass
 
 
 Page = Annotated[
@@ -68,53 +64,16 @@ def report(
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = parse_output(choose_target(target, output, "X.html"))
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
-    from ..analysis.answer import analyze
-    from ..balancing.answer import balance_engine as balance
-    from ..shell.inputs import read_engine
-    from .page import page
+    from . import page as pages
 
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
     scheme = choose_scheme(scheme, options)
     asked = parse_orders(orders)
     _, model, engine = read_engine(path, parse_speed(speed))
-    result = analyze(engine, asked)
-    balanced = balance(engine, scheme, options, asked)
-    mounted = None
-    if model.body:
-        fitted = scheme if balanced.remedy.reasons else None  # without devices nothing is compared
-        mounted = _put_on_mounts(model, engine, fitted, options, name_file(path))
-    twisted = _twist(model, engine, name_file(path)) if model.torsion else None
-    turning = None if engine.gas is None else engine
+    found = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
     with reporting("pictures") as tell:
-        text = page(result, balanced, SYSTEMS[units], mounted, twisted, turning, tell)
+        text = pages.page(found.result, found.balanced, SYSTEMS[units], *found[2:], tell)
     emit(text, output)
-
-
-def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
-    """How its crankshaft twists; None, with a warning, where that cannot be told."""
-    from ..torsion.answer import TorsionQuestion, answer_question
-    from ..torsion.load import make_source
-    from ..torsion.quantity import choose_torsion_speeds
-
-    try:
-        source = make_source(model, engine, name)
-        return answer_question(source, TorsionQuestion(choose_torsion_speeds(engine)))
-    except BalcliError as error:
-        warn(f"the page does not show the torsion: {error}")
-        return None
-
-
-def _put_on_mounts(
-    model: EngineFile, engine: Engine, scheme: str | None, options: SchemeOptions, name: str
-) -> MountReport | None:
-    """What the body does on its mounts; None, with a warning, where that cannot be told."""
-    from ..mounts.answer import report_mounts
-
-    try:
-        return report_mounts(model, engine, scheme=scheme, name=name, options=options)
-    except BalcliError as error:
-        warn(f"the page does not show the mounts: {error}")
-        return None
 
 
 def complete_pages(typed: str) -> list[str]:

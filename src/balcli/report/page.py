@@ -8,21 +8,25 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..analysis import show as analysis
-from ..analysis.answer import Analysis
+from ..analysis.answer import Analysis, analyze
 from ..balancing import show as balance
-from ..balancing.answer import Balance
+from ..balancing.answer import Balance, balance_engine
 from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors
 from ..engine.build import Engine
+from ..errors import BalcliError, warn
+from ..file.model import EngineFile
 from ..forces.gas_torque import find_torque_curves
 from ..forces.kinds import MOMENT, VECTORS
 from ..forces.spectrum import take_gas
+from ..mounts import show as mounts
+from ..mounts.answer import report_mounts
 from ..mounts.records import MountReport
 from ..mounts.rigid_body import PROJECTION, find_corners
 from ..process import Tell, tell_nobody
@@ -30,6 +34,11 @@ from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
 from ..show.sheet import NEGLIGIBLE, ON_A_PAGE, Facts, Grid, Text, order_number
 from ..show.units import ShownUnit, System
+from ..sizing.options import SchemeOptions
+from ..torsion import plot as twisting, show as torsion
+from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
+from ..torsion.load import make_source
+from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel
@@ -37,8 +46,6 @@ from .study import Study
 
 if TYPE_CHECKING:
     from markupsafe import Markup
-
-    from ..torsion.answer import TorsionAnalysis
 
 
 _SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
@@ -177,6 +184,68 @@ _PICTURES = (
 _COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"))
 
 
+class Answers(NamedTuple):
+    """What a report shows of an engine; None of a chapter that its file does not have."""
+
+    result: Analysis
+    balanced: Balance
+    mounted: MountReport | None
+    twisted: TorsionAnalysis | None
+    turning: Engine | None
+
+
+def find_answers(
+    model: EngineFile,
+    engine: Engine,
+    orders: Sequence[float] | None,
+    scheme: str,
+    options: SchemeOptions,
+    name: str,
+) -> Answers:
+    """Compute the chapters that the file of an engine has.
+
+    Args:
+        model: What the file says.
+        engine: The engine of it.
+        orders: Those to be shown; None: the usual ones.
+        scheme: Which devices are fitted.
+        options: Of that scheme.
+        name: Of the file, for messages.
+
+    Raises:
+        BalcliError: The scheme does not fit the engine.
+    """
+    result = analyze(engine, orders)
+    balanced = balance_engine(engine, scheme, options, orders)
+    mounted = None
+    if model.body:
+        fitted = scheme if balanced.remedy.reasons else None  # without devices nothing is compared
+        mounted = _put_on_mounts(model, engine, fitted, options, name)
+    twisted = _twist(model, engine, name) if model.torsion else None
+    return Answers(result, balanced, mounted, twisted, None if engine.gas is None else engine)
+
+
+def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
+    """How its crankshaft twists; None, with a warning, where that cannot be told."""
+    try:
+        source = make_source(model, engine, name)
+        return answer_question(source, TorsionQuestion(choose_torsion_speeds(engine)))
+    except BalcliError as error:
+        warn(f"the page does not show the torsion: {error}")
+        return None
+
+
+def _put_on_mounts(
+    model: EngineFile, engine: Engine, scheme: str | None, options: SchemeOptions, name: str
+) -> MountReport | None:
+    """What the body does on its mounts; None, with a warning, where that cannot be told."""
+    try:
+        return report_mounts(model, engine, scheme=scheme, name=name, options=options)
+    except BalcliError as error:
+        warn(f"the page does not show the mounts: {error}")
+        return None
+
+
 def page(
     result: Analysis,
     balanced: Balance,
@@ -237,20 +306,15 @@ def _gather_chapters(
             "running_script": _read("running.js"),
         }
     if mounted is not None:
-        from ..mounts import show as mounts  # for files that have mounts
-
         chapters |= {
             "mounts": mounts.sheet(mounted, system),
             "rocking": rocking(mounted),
             "rocking_script": _read("rocking.js"),
         }
     if twisted is not None:
-        from ..torsion import show as torsion  # for files that have it
-        from ..torsion.plot import make_torsion
-
         chapters |= {"torsion": torsion.sheet(twisted, system), "twists": []}
         for what in OF_TORSION:
-            figure = make_torsion(twisted, what, system, titled=False)
+            figure = twisting.make_torsion(twisted, what, system, titled=False)
             svg = inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
             chapters["twists"].append(Markup(svg))
     return chapters

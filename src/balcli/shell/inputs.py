@@ -7,19 +7,28 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
-from typing import NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import typer
 
-from ..engine.build import NO_GAS, Engine, take_model
-from ..engine.layout import MOMENTS_UNKNOWN
-from ..engine.load import build_named
-from ..engine.parse import parse
-from ..errors import BalcliError, Exit, is_verbose, legible, note, say, warn
-from ..file.messages import OtherKindError
-from ..file.model import EngineFile
+from ..errors import (
+    MOMENTS_UNKNOWN,
+    NO_GAS,
+    BalcliError,
+    Exit,
+    OtherKindError,
+    is_verbose,
+    legible,
+    note,
+    say,
+    warn,
+)
 from ..file.toml import find_near_file, name_file, read_bytes
 from .options import WORDS_OF_ONLY
+
+if TYPE_CHECKING:
+    from ..engine.build import Engine
+    from ..file.model import EngineFile
 
 # What says something of moments besides them, of all that can be asked for.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
@@ -54,11 +63,13 @@ def read_engine(
             f"{path}: no such file; several words of --only stand with commas between them: "
             f"--only force,{path}"
         )
+    from ..engine import load, parse
+
     text = read_bytes(path)
-    model = parse(text, name_file(path))
-    engine = build_named(model, path)
+    model = parse.parse(text, name_file(path))
+    engine = load.build_named(model, path)
     if is_verbose():
-        _tell_what_was_read(name_file(path), text, engine)
+        _tell_what_was_read(name_file(path), text, model, engine)
     if not engine.places_known:
         _tell_unknown(name_file(path), asked)
     if "gas" in (asked or ()):
@@ -69,13 +80,13 @@ def read_engine(
     return LoadedEngine(text, model, engine)
 
 
-def _tell_what_was_read(name: str, text: bytes, engine: Engine) -> None:
+def _tell_what_was_read(name: str, text: bytes, model: EngineFile, engine: Engine) -> None:
     """Notes for those who want to know how a file was understood."""
     from ..file.plain_tables import list_assumed  # for them alone
 
     note(f"{name}: read, {len(text)} bytes")
     inferred = {line.partition(" =")[0]: line for line in engine.inferred}
-    rest = list_assumed(take_model(engine))
+    rest = list_assumed(model)
     others = [line for line in rest if line.partition(" =")[0].partition(":")[0] not in inferred]
     for each in (*inferred.values(), *others):
         note(f"{name}: not in the file: {each}")

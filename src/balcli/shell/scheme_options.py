@@ -11,13 +11,12 @@ from ..errors import BalcliError, warn
 from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..show.formats import Units
 from ..sizing.options import SchemeOptions
+from ..sizing.schemes import NAMES
 from .values import optional, read_lengths, read_mass_on_scales, read_share
 
 
 def complete_schemes(incomplete: str) -> list[str]:
     """Return the balance schemes that begin with this text."""
-    from ..sizing.schemes import NAMES
-
     return [name for name in NAMES if name.startswith(incomplete)]
 
 

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, assert_never
 
+from .csv import csv_text, json_text
+from .table import markdown, plain_text
+
 if TYPE_CHECKING:
     from .csv import Columns, Rows
     from .sheet import Sheet
@@ -72,17 +75,13 @@ def render(
     Args:
         seen: whether a person will see it in a terminal, with colours and at its width.
     """
-    match form:  # the module of the one format that is asked for is imported
+    match form:
         case Format.TABLE | Format.MARKDOWN:
             sheets = [renderer.sheet(result, system) for result in results]
             return lay_out(sheets, form, seen=seen)
         case Format.CSV:
-            from .csv import csv_text
-
             return csv_text([renderer.rows(result, system) for result in results])
         case Format.JSON:
-            from .csv import json_text
-
             return "\n".join(json_text(renderer.document(result)) for result in results)
         case _:
             assert_never(form)
@@ -91,15 +90,11 @@ def render(
 def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
     """Sheets as tables or Markdown, one after the other; `seen` as of `render`."""
     if form is Format.MARKDOWN:
-        from .table import markdown
-
         return markdown(sheets)
     if seen:
         from .terminal import terminal  # rich
 
         return terminal(sheets)
-    from .table import plain_text
-
     return plain_text(sheets)
 
 

@@ -16,8 +16,7 @@ from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.build import Engine
-from ..engine.layout import MOMENTS_UNKNOWN
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
 from .bobweights import DEFINITION, NO_THROW, FactorPeaks, PlaneNeed, fill_card

@@ -14,8 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..core.phasors import EPS, wrap_degrees
 from ..engine.build import Engine
-from ..engine.layout import MOMENTS_UNKNOWN
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from .options import SchemeOptions
 from .residual import Residual, ResidualPart

@@ -9,8 +9,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ..engine.build import Engine
-from ..engine.layout import MOMENTS_UNKNOWN
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.fields import join_words
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT

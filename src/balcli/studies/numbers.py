@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..core.records import to_document
 from ..shell.file_names import text_format
+from ..shell.inputs import read_engine
 from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import refuse_overwriting, show
 from ..show.csv import Rows
@@ -86,7 +87,6 @@ def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) 
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..shell.inputs import read_engine
     from .quantities import name_numbers
 
     show([name_numbers(read_engine(path, asked=()).model)], RENDERER, form, output)

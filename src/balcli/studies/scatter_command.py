@@ -11,6 +11,7 @@ from ..core.records import to_document
 from ..file.toml import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..shell.file_names import text_format
+from ..shell.inputs import read_engine, warn_of_unknown_moments
 from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
@@ -168,7 +169,6 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from ..shell.inputs import read_engine, warn_of_unknown_moments
     from .scatter import Drawing, Variants, read_tolerances
 
     within = read_tolerances(mass, length, angle, stiffness)

@@ -25,8 +25,10 @@ import numpy as np
 from ..core.phasors import Array
 from ..engine.build import Engine, check_engine, take_model
 from ..engine.load import concerns_gas
+from ..engine.numbering import doubt_firing
 from ..engine.parse import read
 from ..errors import BalcliError, InputError, naming_file
+from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.toml import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
@@ -87,6 +89,14 @@ class Sweep:
     def of_engine(self) -> tuple[Quantity, ...]:
         """Quantities of forces and moments."""
         return self.evaluator.of_engine
+
+    @property
+    def doubts(self) -> list[str]:
+        """What is unlikely of the file, unless it varies."""
+        with naming_file(self.name):
+            all_of_file = [*find_suspicious(self.file), *doubt_firing(self.file)]
+        varied = [p.path.rstrip(".0123456789") for p in self.parameters]
+        return [d for d in all_of_file if not any(one in d for one in varied)]
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import AbstractContextManager, nullcontext
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError, naming_file, warn
+from ..errors import BalcliError, warn
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
-from ..process import count_cores
 from ..shell.file_names import (
     VARIANTS,
     Place,
@@ -23,6 +20,7 @@ from ..shell.file_names import (
     picture_form,
     read_place,
 )
+from ..shell.inputs import warn_each, warn_of_unknown_moments
 from ..shell.options import EnginePath, ProgressAtOnce
 from ..shell.output import is_seen, refuse_overwriting, write_figure
 from ..shell.progress import reporting
@@ -30,7 +28,7 @@ from ..shell.values import optional
 from .quantity_names import describe_names
 
 if TYPE_CHECKING:
-    from .sweep import Chunk, Share, Sweep
+    from .sweep import Chunk, Sweep
 
 
 def sweep(
@@ -116,14 +114,12 @@ def sweep(
     if force and not (output and output.is_folder):
         warn("--force is for a folder of parts (-o variants/); a file is replaced without it")
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from .sweep import evaluate_chunks, join_chunks, read_sweep
-    from .sweep_show import check_drawable, make_sweep
-    from .sweep_write import write_blocks, write_sweep
+    from . import sweep as chapter, sweep_show, sweep_write
 
-    job = read_sweep(path, vary, quantity)
+    job = chapter.read_sweep(path, vary, quantity)
     _doubt(job, quantity)
     if drawn is not None:
-        check_drawable(job)
+        sweep_show.check_drawable(job)
     shown = not is_seen(file) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
     kept: list[Chunk] = []
 
@@ -138,28 +134,25 @@ def sweep(
 
     with reporting("variants", job.variants, progress, shown) as watch:
         if output is not None and output.is_folder:
-            write_blocks(job, output.path, _sharing(jobs, dask), watch, force=force)
+            sweep_write.write_blocks(
+                job, output.path, sweep_write.share_work(jobs, dask), watch, force=force
+            )
         else:
-            with _sharing(jobs, dask) as share:
-                write_sweep(job, report(evaluate_chunks(job, share)), kind, file)
+            with sweep_write.share_work(jobs, dask) as share:
+                sweep_write.write_sweep(
+                    job, report(chapter.evaluate_chunks(job, share)), kind, file
+                )
     if plot is not None and drawn is not None:
-        write_figure(make_sweep(job, join_chunks(job, kept)), drawn, plot)
+        write_figure(sweep_show.make_sweep(job, chapter.join_chunks(job, kept)), drawn, plot)
 
 
 def _doubt(job: Sweep, quantity: str | None) -> None:
     """Say that moments are not known, where the usual quantities would have some, and what is
     unlikely of the file, unless it varies.
     """
-    from ..engine.numbering import doubt_firing
-    from ..file.doubts import find_suspicious
-    from ..shell.inputs import warn_each, warn_of_unknown_moments
-
     if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
         warn_of_unknown_moments(job.name)
-    with naming_file(job.name):
-        doubts = [*find_suspicious(job.file), *doubt_firing(job.file)]
-    varied = [p.path.rstrip(".0123456789") for p in job.parameters]
-    warn_each((d for d in doubts if not any(one in d for one in varied)), job.name)
+    warn_each(job.doubts, job.name)
 
 
 def _choose_target(
@@ -185,15 +178,3 @@ def _choose_target(
             "file, or leave --plot out"
         )
     return file, VariantsFormat.PARQUET
-
-
-def _sharing(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
-    """Return what shares work among threads, or on a cluster, if an address of one is given."""
-    if dask:
-        from .sweep_write import connect_cluster
-
-        return connect_cluster(dask)
-    from .sweep import share_among_threads
-
-    threads = jobs or min(count_cores(), MOST_THREADS)
-    return nullcontext(partial(share_among_threads, threads=threads))

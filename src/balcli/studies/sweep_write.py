@@ -20,7 +20,7 @@ import logging
 import re
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
-from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from functools import partial
 from itertools import chain, islice
 from pathlib import Path
@@ -31,7 +31,8 @@ import numpy as np
 from ..core.phasors import Array
 from ..errors import BalcliError, tell_unwritable
 from ..files import replacing
-from ..limits import MOST_ROWS_READ
+from ..limits import MOST_ROWS_READ, MOST_THREADS
+from ..process import count_cores
 from ..shell.file_names import VariantsFormat
 from ..shell.output import is_seen, standard_output
 from ..shell.progress import Progress
@@ -48,6 +49,7 @@ from .sweep import (
     divide_into_blocks,
     evaluate_chunks,
     run_in_order,
+    share_among_threads,
     split_columns,
 )
 from .sweep_show import FIRST, make_sheet, sweep_csv, sweep_json
@@ -249,6 +251,14 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
 
 RETRIES = 3  # of what a worker has not finished
 AHEAD = 4  # tasks for each thread that may wait to be fetched
+
+
+def share_work(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
+    """Return what shares work among threads, or on a cluster, if an address of one is given."""
+    if dask:
+        return connect_cluster(dask)
+    threads = jobs or min(count_cores(), MOST_THREADS)
+    return nullcontext(partial(share_among_threads, threads=threads))
 
 
 @contextmanager

@@ -8,9 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import BalcliError, warn
+from ..file.edit import set_keys
 from ..file.toml import name_file
 from ..limits import FLUCTUATION
 from ..shell.file_names import require_ending, text_format
+from ..shell.inputs import (
+    exit_on_errors,
+    named_by_file,
+    read_engine,
+    require_gas,
+    silence_cylinders,
+    warn_each,
+)
 from ..shell.options import (
     FormatOption,
     Misfire,
@@ -120,25 +129,15 @@ def torque(
     ):
         if misplaced:
             raise BalcliError(f"{option} needs {needs}")
-    from ..shell.inputs import (
-        exit_on_errors,
-        named_by_file,
-        read_engine,
-        require_gas,
-        silence_cylinders,
-        warn_each,
-    )
-    from .show import RENDERER
+    from . import answer, given_curve, show as pages
 
     rpm, asked, allowed = parse_speed(speed), parse_orders(orders), parse_fluctuation(fluctuation)
     if curve is not None:
-        from .given_curve import analyze_curve, doubt_period, read_curve
-
         own = None if inertia is None else read_inertia("--inertia", inertia, units)
-        given = read_curve(curve)
-        warn_each(doubt_period(given), str(curve))
-        taken = None if load is None else read_curve(load)
-        found = analyze_curve(
+        given = given_curve.read_curve(curve)
+        warn_each(given_curve.doubt_period(given), str(curve))
+        taken = None if load is None else given_curve.read_curve(load)
+        found = given_curve.analyze_curve(
             curve.stem,
             given,
             taken,
@@ -148,20 +147,18 @@ def torque(
             orders=asked,
         )
     else:
-        from .answer import analyze_torque_of_engine as analyze_torque
-
         source = read_engine(path or "", rpm)
         require_gas(source.engine, path or "")
         engine = named_by_file(source.engine, path or "")
         engine = silence_cylinders(engine, misfire or (), path or "")
-        found = analyze_torque(
+        found = answer.analyze_torque_of_engine(
             engine, asked, cylinder=cylinder, fluctuation=allowed, loads=loads or ()
         )
         if found.loads is not None and found.loads.obstacle:
             warn(f"{name_file(path or '')}: main bearings: {found.loads.obstacle}")
         if write is not None:
             write_uneven(path or "", source.text, found, write)
-    show([found], RENDERER, form, output, units)
+    show([found], pages.RENDERER, form, output, units)
     if found.flywheel is not None and found.flywheel.stall and fluctuation is None:
         exit_on_errors([f"{name_file(path or str(curve))}: {found.flywheel.stall}"])
 
@@ -188,8 +185,6 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     Raises:
         BalcliError: The inertia is not known, or too small; the target cannot be written.
     """
-    from ..file.edit import set_keys
-
     refuse_leaving_files(source, path, target)
     flywheel = result.flywheel
     if flywheel is None or flywheel.fluctuation is None:

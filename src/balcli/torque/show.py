@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..core.records import find_unit, list_figures, remove_unit
-from ..core.records import to_document as document
+from ..core.records import find_unit, list_figures, remove_unit, to_document as document
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.csv import Rows

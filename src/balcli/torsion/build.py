@@ -38,8 +38,7 @@ from .chain import (
     rigid_motions,
 )
 from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, ViscousRing
-from .tables import ChainFile, Gear
-from .tables import ChainShaft as ShaftTable
+from .tables import ChainFile, ChainShaft as ShaftTable, Gear
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
 

@@ -9,11 +9,15 @@ from typing import Annotated
 import typer
 
 from ..errors import BalcliError
+from ..file.toml import name_file
 from ..shell.file_names import picture_form, require_ending, text_format
+from ..shell.inputs import warn_each
 from ..shell.options import FormatOption, Misfire, Output, ProgressAtOnce, UnitsOption
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_figure, write_file
+from ..shell.progress import reporting
 from ..shell.values import optional
 from ..show.formats import Units
+from ..show.units import SYSTEMS
 
 
 class DamperKind(StrEnum):
@@ -110,34 +114,27 @@ def torsion(
     form = text_format(output, form)
     drawn = None if plot is None else picture_form(plot, "--plot")
     require_ending(write, ".toml", "--write")
-    from ..file.toml import name_file
-    from ..shell.inputs import warn_each
-    from ..shell.progress import reporting
-    from ..show.units import SYSTEMS
-    from .answer import answer_question
-    from .ask import parse_question, require_speeds
-    from .dampers import insert_damper
-    from .load import load_source
-    from .plot import make_torsion
-    from .show import RENDERER
+    from . import answer, ask, dampers, load, plot as picture, show as pages
 
-    asked = parse_question(speeds, orders, holzer or (), damper, damper_at, damper_inertia, units)
+    asked = ask.parse_question(
+        speeds, orders, holzer or (), damper, damper_at, damper_inertia, units
+    )
     if write is not None and damper is None:
         raise BalcliError("--write: give the kind of damper to write, with --damper")
     if plot is None and what != "all":
         raise BalcliError(f"--what {what}: give --plot and a file for the picture")
-    require_speeds(asked, what)
-    source = load_source(path, asked.orders, misfire or ())
+    ask.require_speeds(asked, what)
+    source = load.load_source(path, asked.orders, misfire or ())
     warn_each(source.doubts, name_file(path))
     with reporting("work", at_once=progress) as tell:
-        result = answer_question(source, asked, tell)
+        result = answer.answer_question(source, asked, tell)
     sized = result.damper
     if sized is not None:
         warn_each(sized.doubts or (), "--damper")
     warn_each(result.doubts, name_file(path))
     if write is not None and sized is not None:
         refuse_leaving_files(source.text, path, write)
-        write_file(insert_damper(source.text, sized.node, sized.damper), write)
+        write_file(dampers.insert_damper(source.text, sized.node, sized.damper), write)
     if plot is not None and drawn is not None:
-        write_figure(make_torsion(result, what, SYSTEMS[units]), drawn, plot)
-    show([result], RENDERER, form, output, units)
+        write_figure(picture.make_torsion(result, what, SYSTEMS[units]), drawn, plot)
+    show([result], pages.RENDERER, form, output, units)

@@ -9,8 +9,7 @@ from math import cos, radians, sin
 
 import pytest
 
-from balcli.core.mechanisms import power_series as series
-from balcli.core.mechanisms import slidercrank as sc
+from balcli.core.mechanisms import power_series as series, slidercrank as sc
 
 LAM = Fraction(1, 4)
 POWER = 24  # lambda^26 = 2e-16: the remainder is below the rounding error

@@ -9,8 +9,7 @@ from support.engines import GNOME, build_text, rotary_engine
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import even_knuckles
 from balcli.core.cylinders import find_travel
-from balcli.engine import build as engine
-from balcli.engine import parse as enginefile
+from balcli.engine import build as engine, parse as enginefile
 from balcli.errors import BalcliError, InputError
 from balcli.forces import spectrum
 from balcli.report.page import scene

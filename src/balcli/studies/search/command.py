@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,6 +12,7 @@ from ...errors import naming_file
 from ...file.toml import name_file, read_bytes
 from ...limits import MOST_FOUND
 from ...shell.file_names import require_ending, text_format
+from ...shell.inputs import warn_each
 from ...shell.options import EnginePath, FormatOption, Output
 from ...shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
 from ...shell.progress import exit_if_cut_short, reporting, reporting_until_stopped
@@ -23,7 +24,6 @@ from ...show.units import name_with_unit
 from ..quantity_names import tell_speeds
 
 if TYPE_CHECKING:
-    from ...file.model import EngineFile
     from ...show.units import System
     from .answer import Search
     from .designs import Found
@@ -197,34 +197,31 @@ def search(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ...engine.parse import parse
-    from .answer import search_arrangements
-    from .designs import parse_objective, write_design
+    from ...engine import build, parse
+    from . import answer, designs
 
     if require not in ("", "even-firing"):
         message = f'"{require}": only even-firing can be required'
         raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
-    model = parse(text, name)
+    model = parse.parse(text, name)
     with naming_file(name):
-        _doubt(model, over, name)
+        _doubt(build.build(model).unlikely, over, name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     with_gas = model.gas is not None
-    goal = parse_objective(minimise, limit or (), maximise=maximise, with_gas=with_gas)
+    goal = designs.parse_objective(minimise, limit or (), maximise=maximise, with_gas=with_gas)
     watching = reporting if any("=" in one for one in over) else reporting_until_stopped
     with watching("arrangements") as progress, naming_file(name):
-        found = search_arrangements(model, over, goal, top, bool(require), progress)
+        found = answer.search_arrangements(model, over, goal, top, bool(require), progress)
     show([found], RENDERER, form, output)
     if write is not None:
-        write_file(write_design(text, found.results[0].design, name), write)
+        write_file(designs.write_design(text, found.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")
 
 
-def _doubt(model: EngineFile, over: list[str], name: str) -> None:
+def _doubt(doubts: Iterable[str], over: list[str], name: str) -> None:
     """Warn of what is unlikely in the file, except of what is arranged or varies."""
-    from ...engine.build import build
-    from ...shell.inputs import warn_each
 
     varied = [text.partition("=")[0] for text in over]
-    warn_each((d for d in build(model).unlikely if not any(one in d for one in varied)), name)
+    warn_each((d for d in doubts if not any(one in d for one in varied)), name)
