@@ -17,6 +17,7 @@ from support.rotors import three_runs
 
 import balcli
 from balcli.analysis.answer import QUANTITIES
+from balcli.names import RENDERERS
 from balcli.show import result as exchange
 from balcli.show.result import Result
 
@@ -81,7 +82,7 @@ def answer(request: pytest.FixtureRequest) -> Result:
 
 
 def test_all_answers_are_tried():
-    assert ANSWERS.keys() == exchange.RENDERERS.keys()
+    assert ANSWERS.keys() == RENDERERS.keys()
 
 
 @pytest.mark.parametrize("name", ANSWERS)

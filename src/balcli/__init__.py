@@ -9,6 +9,7 @@ cancels them.
 
 from __future__ import annotations
 
+from .names import PUBLIC, import_name
 from .version import __version__
 
 TYPE_CHECKING = (
@@ -78,44 +79,6 @@ __all__ = [
     "tables",
 ]
 
-_ROOMS = {
-    "Analysis": "analysis.answer",
-    "analyze": "analysis.answer",
-    "Balance": "balancing.answer",
-    "balance": "balancing.answer",
-    "BalcliError": "errors",
-    "InputError": "errors",
-    "Combined": "analysis.two_engines",
-    "combine": "analysis.two_engines",
-    "Comparison": "analysis.comparison",
-    "compare": "analysis.comparison",
-    "Curves": "analysis.curves",
-    "curves": "analysis.curves",
-    "Engine": "engine.build",
-    "load": "engine.load",
-    "load_example": "engine.load",
-    "FieldBalance": "field.answer",
-    "balance_rotor": "field.answer",
-    "MountReport": "mounts.records",
-    "plot": "report.plot",
-    "analyze_mounts": "mounts.answer",
-    "Result": "show.result",
-    "Scatter": "studies.scatter",
-    "scatter": "studies.scatter",
-    "SchemeOptions": "sizing.options",
-    "Search": "studies.search.answer",
-    "search": "studies.search.answer",
-    "Swept": "studies.sweep",
-    "sweep": "studies.sweep",
-    "Table": "books.recomputed",
-    "tables": "books.answer",
-    "Tools": "sizing.workshop",
-    "TorqueAnalysis": "torque.records",
-    "analyze_torque": "torque.answer",
-    "TorsionAnalysis": "torsion.answer",
-    "analyze_torsion": "torsion.answer",
-}
-
 
 def __dir__() -> list[str]:
     """What the library promises, for completion."""
@@ -126,8 +89,6 @@ if not TYPE_CHECKING:  # which would else believe in any name
 
     def __getattr__(name: str) -> object:
         """The library's door: what is behind it is imported when it is first asked for."""
-        if name not in _ROOMS:
+        if name not in PUBLIC:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        from importlib import import_module
-
-        return getattr(import_module(f".{_ROOMS[name]}", __name__), name)
+        return import_name(f"{PUBLIC[name]}:{name}")

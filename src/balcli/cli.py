@@ -12,7 +12,6 @@ import sys
 import time
 from collections.abc import Iterable, Iterator
 from copy import copy
-from importlib import import_module
 from inspect import cleandoc
 from io import StringIO
 from typing import Annotated, Any, NoReturn
@@ -23,6 +22,7 @@ from typer.main import get_command
 
 from .errors import BalcliError, Exit, Loudness, note, say, set_loudness, warn
 from .limits import MOST_DIGITS
+from .names import import_name
 from .show.sheet import USUAL_DIGITS, set_digits
 from .version import __version__
 
@@ -139,7 +139,7 @@ class _OnDemand(TyperGroup):
         single = typer.Typer(
             add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None
         )
-        function = getattr(import_module(f"balcli.{MODULES[cmd_name]}"), cmd_name)
+        function = import_name(f"{MODULES[cmd_name]}:{cmd_name}")
         text = function.__doc__ or COMMANDS[cmd_name]  # `python -OO` has no docstrings
         single.command(cmd_name, cls=_Command, help=_unwrapped(cleandoc(text)))(function)
         command = get_command(single)

@@ -16,6 +16,7 @@ from .errors import BalcliError, Exit, legible
 from .file import examples
 from .file.examples import template
 from .file.fields import counted, suggest_nearest
+from .names import DOCUMENTS
 from .shell.file_names import TEXTS, format_of, parse_output, require_ending
 from .shell.inputs import (
     exit_on_errors,
@@ -28,7 +29,7 @@ from .shell.options import FormatOption, Output
 from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
 from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
 from .show.csv import json_text
-from .show.formats import DOCUMENTS, Format
+from .show.formats import Format
 
 if TYPE_CHECKING:
     from .regression import CheckedEngine, Difference

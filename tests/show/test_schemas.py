@@ -15,7 +15,7 @@ from support.paths import ENGINES
 
 from balcli import __version__
 from balcli.file.examples import template
-from balcli.show.formats import DOCUMENTS
+from balcli.names import DOCUMENTS
 from balcli.show.schema import describe_document
 
 FILES = sorted(path for path in ENGINES.rglob("*.toml"))

@@ -16,6 +16,7 @@ from ..errors import MOMENTS_UNKNOWN, BalcliError, InputError, check_type, namin
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import change_tables, list_tables
+from ..names import NOTEBOOK, import_name
 from .assembly import Assembly
 from .devices import build_devices
 from .layout import are_places_known
@@ -167,9 +168,7 @@ class Engine:
         return f'"{self.name}": {", ".join(words)}' if self.name else ", ".join(words)
 
     def _repr_html_(self) -> str:
-        from importlib import import_module
-
-        return import_module("balcli.show.notebook").show_engine(self)
+        return import_name(NOTEBOOK)(self)
 
     @property
     def speed_assumed(self) -> bool:

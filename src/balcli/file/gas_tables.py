@@ -1,7 +1,7 @@
 """Tables of an engine file about gas pressure, crank torque and flywheel: [gas], [flywheel] and
 [bearing].
 
-They are imported for files that have them (`messages.CHAPTERS`).
+They are imported for files that have them (`names.CHAPTERS`).
 """
 
 from __future__ import annotations

@@ -5,11 +5,11 @@ file has, and the kinds of files, told apart by the keys at their head.
 from __future__ import annotations
 
 from collections.abc import Collection, Container, Iterable, Mapping, Sequence
-from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from ..errors import OtherKindError, Problem
 from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
+from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
 from .fields import counted, nearest, printable, shorten
 from .table import FileTable
@@ -29,17 +29,6 @@ TABLES: dict[str, type[FileTable]] = {
     "operation": model.Operation,
     "frame": model.Frame,
 }
-# Tables that few engines have, or of chapters beyond balance: the module of each, imported for
-# files that have the table. Its class is called like the key.
-CHAPTERS = {
-    "articulation": "file.model",
-    "gas": "file.gas_tables",
-    "flywheel": "file.gas_tables",
-    "bearing": "file.gas_tables",
-    "torsion": "file.torsion_tables",
-    "body": "file.mount_tables",
-}
-CHAPTER_LISTS = {"mount": "file.mount_tables", "point": "file.mount_tables"}  # each several times
 DEVICES: dict[str, type[FileTable]] = {
     "counterweight": model.Counterweight,
     "shaft": model.Shaft,
@@ -52,8 +41,8 @@ def import_table(key: str) -> type[FileTable]:
     """Return the table of a key; the module of a chapter is imported."""
     if key in TABLES or key in DEVICES:
         return (TABLES | DEVICES)[key]
-    module = import_module(f"balcli.{(CHAPTERS | CHAPTER_LISTS)[key]}")
-    return getattr(module, key.capitalize())
+    table: type[FileTable] = import_name(f"{(CHAPTERS | CHAPTER_LISTS)[key]}:{key.capitalize()}")
+    return table
 
 
 def import_tables() -> dict[str, type[FileTable]]:

@@ -7,7 +7,7 @@ a file has.
 
 Tables of a radial engine whose rods are hinged to a master rod, in the units of the file.
 
-They are imported for files that have them (`messages.CHAPTERS`).
+They are imported for files that have them (`names.CHAPTERS`).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Tables of an engine file about its mounts: [body], [[mount]] and [[point]].
 
-They are imported for files that have them (`messages.CHAPTERS`).
+They are imported for files that have them (`names.CHAPTERS`).
 """
 
 from __future__ import annotations

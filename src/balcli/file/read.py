@@ -17,10 +17,9 @@ from pydantic_core import ErrorDetails
 
 from ..errors import CONTROL_CHARACTERS, InputError, Problem
 from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
+from ..names import CHAPTER_LISTS, CHAPTERS
 from .fields import printable, shorten
 from .messages import (
-    CHAPTER_LISTS,
-    CHAPTERS,
     DEVICES,
     ENGINE,
     INSTEAD,

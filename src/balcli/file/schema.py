@@ -8,7 +8,8 @@ from typing import Any, TypeAlias
 
 from pydantic import BaseModel
 
-from .messages import CHAPTER_LISTS, CHAPTERS, DEVICES, TABLES, import_table
+from ..names import CHAPTER_LISTS, CHAPTERS
+from .messages import DEVICES, TABLES, import_table
 from .model import EngineFile, Override
 from .table import FileTable
 

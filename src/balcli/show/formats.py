@@ -96,26 +96,3 @@ def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
 
         return terminal(sheets)
     return plain_text(sheets)
-
-
-# By name, which stands in `format` too: module of the package, and the class that declares it.
-DOCUMENTS = {
-    "analysis": "show.document:Analysis",
-    "balance": "show.document:Balance",
-    "bench": "bench:Bench",
-    "check": "regression:Check",
-    "compare": "analysis.comparison:Comparison",
-    "curves": "show.document:Curves",
-    "field": "field.answer:FieldBalance",
-    "marine": "show.document:Marine",
-    "mounts": "mounts.records:MountReport",
-    "numbers": "studies.quantities:NamedNumbers",
-    "scatter": "studies.scatter:Scatter",
-    "search": "show.document:Search",
-    "speeds": "show.document:Speeds",
-    "sum": "show.document:Sum",
-    "sweep": "show.document:Sweep",
-    "table": "show.document:Table",
-    "torque": "torque.records:TorqueAnalysis",
-    "torsion": "torsion.answer:TorsionAnalysis",
-}

@@ -2,13 +2,12 @@
 notebook, become a dict, rows, a DataFrame or a Parquet file.
 
 What shows a kind of answer stands in its chapter, above this module, and is imported when somebody
-asks for it (`RENDERERS`).
+asks for it (`names.RENDERERS`).
 """
 
 from __future__ import annotations
 
 import math
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +15,7 @@ import numpy as np
 
 from ..errors import BalcliError
 from ..files import replacing
+from ..names import RENDERERS, import_name
 from ..version import __version__
 from .csv import Column, Columns, Rows, stamp
 from .formats import Columnar, Renderer
@@ -80,29 +80,9 @@ class Result:
         write_parquet(self, path)
 
 
-# Which module shows a kind of answer: its document, and its columns or the rows of its CSV.
-RENDERERS = {
-    "Analysis": "analysis.show",
-    "Balance": "balancing.show",
-    "Combined": "analysis.two_engines",
-    "Comparison": "analysis.comparison",
-    "Curves": "analysis.curves",
-    "FieldBalance": "field.show",
-    "MountReport": "mounts.show",
-    "Scatter": "studies.scatter_command",
-    "Search": "studies.search.command",
-    "Swept": "studies.sweep_show",
-    "Table": "books.show",
-    "TorqueAnalysis": "torque.show",
-    "TorsionAnalysis": "torsion.show",
-}
-INSTALLED_BY = {"pandas": "pandas", "pyarrow": "balcli[scale]"}
-
-
 def find_renderer(result: Result) -> Columnar[Any]:
     """Return what shows an answer."""
-    module = import_module(f"balcli.{RENDERERS[type(result).__name__]}")
-    renderer: Columnar[Any] = module.RENDERER
+    renderer: Columnar[Any] = import_name(f"{RENDERERS[type(result).__name__]}:RENDERER")
     return renderer
 
 
@@ -176,23 +156,12 @@ def _word(cell: Any) -> str | None:
 
 
 # ------------------------------------------------------------------ other libraries
-def import_library(name: str, method: str) -> Any:
-    """A library that balcli does without unless it is asked for.
-
-    Raises:
-        BalcliError: it is not there, with what to install.
-    """
-    try:
-        return import_module(name)
-    except ImportError:
-        top = name.partition(".")[0]
-        wanted = INSTALLED_BY[top]
-        raise BalcliError(f"{method} needs {top}: pip install {wanted}") from None
-
-
 def make_frame(result: Result) -> Any:
     """A DataFrame of pandas."""
-    pandas = import_library("pandas", "to_pandas()")
+    try:
+        import pandas
+    except ImportError:
+        raise BalcliError("to_pandas() needs pandas: pip install pandas") from None
     found = list_columns(result)
     frame = pandas.DataFrame(dict(found.values))
     frame.attrs["units"] = dict(found.units)
@@ -201,15 +170,18 @@ def make_frame(result: Result) -> Any:
 
 def write_parquet(result: Result, path: str | Path) -> None:
     """A Parquet file, which takes its place when it is whole; errors as of `replacing`."""
-    parquet = import_library("pyarrow.parquet", "to_parquet()")
-    pyarrow = import_library("pyarrow", "to_parquet()")
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError:
+        raise BalcliError("to_parquet() needs pyarrow: pip install balcli[scale]") from None
     found = list_columns(result)
     arrays = [pyarrow.array(column, from_pandas=True) for column in found.values.values()]
     fields = [
         pyarrow.field(name, array.type, metadata={"unit": found.units.get(name, "")})
         for name, array in zip(found.values, arrays, strict=True)
     ]
-    about = {"balcli.version": __version__, "balcli.show.result": type(result).__name__}
+    about = {"balcli.version": __version__, "balcli.result": type(result).__name__}
     table = pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about))
     with replacing(Path(path)) as place:
         parquet.write_table(table, place)

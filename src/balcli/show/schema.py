@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import is_dataclass
-from importlib import import_module
 from typing import Any
 
 from pydantic import TypeAdapter
 
 from ..core.records import describe_record, find_unit
 from ..file.schema import DIALECT, Node
-from .formats import DOCUMENTS
+from ..names import DOCUMENTS, import_name
 
 
 def describe_document(name: str) -> Node:
     """JSON Schema (draft 2020-12) of one of `DOCUMENTS`. Further keys are allowed: new ones may be
     added under the same version.
     """
-    place, _, declared = DOCUMENTS[name].partition(":")
-    kind = getattr(import_module(f"balcli.{place}"), declared)
+    kind = import_name(DOCUMENTS[name])
     if is_dataclass(kind):
         described = describe_record(kind)  # type: ignore[arg-type]
         described["properties"] = {"version": {"type": "string"}} | described["properties"]

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Literal, Protocol, cast
 
 from ..errors import BalcliError
@@ -16,6 +15,7 @@ from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile, Override
 from ..file.table import FileTable
 from ..forces.quantity import Quantity, parse_quantity
+from ..names import QUANTITIES, import_name
 from .parameters import find_numbers
 from .quantity_names import BEGINNINGS, CHAPTERS, ENGINE, Chapter, Form, find_chapter
 
@@ -70,7 +70,7 @@ class ChapterModule(Protocol):
 
 def load_chapter(chapter: Chapter) -> ChapterModule:
     """The module that computes the quantities of a chapter, which is not ENGINE."""
-    return cast(ChapterModule, import_module(f"balcli.{chapter.module}"))
+    return cast(ChapterModule, import_name(QUANTITIES[chapter.name]))
 
 
 def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity, ...]:

@@ -43,11 +43,11 @@ class Chapter(NamedTuple):
     """Quantities that one module computes.
 
     Attributes:
-        module: below `balcli`; what it has to have says `quantities.ChapterModule`.
+        name: Key in `names.QUANTITIES`, which has the module (`quantities.ChapterModule`).
         forms: of their names.
     """
 
-    module: str
+    name: str
     forms: tuple[Form, ...]
 
     @property
@@ -60,7 +60,7 @@ _OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y
 _OF_SCALAR = "amplitude, cos, sin"
 
 ENGINE = Chapter(
-    "forces.quantity",
+    "engine",
     (
         Form("force.N.PART", "N", f"free force: {_OF_VECTOR}"),
         Form("moment.N.PART", "N·m", f"free moment: {_OF_VECTOR}"),
@@ -75,14 +75,14 @@ ENGINE = Chapter(
     ),
 )
 GUIDE = Chapter(
-    "forces.guide",
+    "guide",
     (
         Form("guide.N.H", "N·m", "H-type guide-force moment, gas included"),
         Form("guide.N.X", "N·m", "X-type guide-force moment, gas included"),
     ),
 )
 CYCLE = Chapter(
-    "torque.quantity",
+    "cycle",
     (
         Form("torque.mean", "N·m", "mean torque of the gas", "gas"),
         Form("torque.max", "N·m", "largest torque over the cycle, at steady speed", "gas"),
@@ -92,7 +92,7 @@ CYCLE = Chapter(
 )
 _OF_MOTION = "the mode that has most of this motion"
 MOUNTS = Chapter(
-    "mounts.quantity",
+    "mounts",
     (
         Form("mode.N.Hz", "Hz", "natural frequency on the mounts", "mount"),
         Form("mode.N.share", "%", "largest share of its energy in one motion", "mount"),
@@ -121,7 +121,7 @@ MOUNTS = Chapter(
     ),
 )
 TORSION = Chapter(
-    "torsion.quantity",
+    "torsion",
     (
         Form("torsion.N.Hz", "Hz", "natural frequency of the crankshaft that twists", "torsion"),
         Form(

@@ -1,0 +1,120 @@
+"""Modules by name: the one place where modules stand in strings.
+
+Whatever is imported only when somebody asks for it, from a floor that may not know it by an import,
+has its line here: the package's public names, what shows a result, the types of documents, the
+tables of chapters in an engine file, and their quantities. Loads no library.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+# What `import balcli` offers: the module of each name.
+PUBLIC = {
+    "Analysis": "analysis.answer",
+    "analyze": "analysis.answer",
+    "Balance": "balancing.answer",
+    "balance": "balancing.answer",
+    "BalcliError": "errors",
+    "InputError": "errors",
+    "Combined": "analysis.two_engines",
+    "combine": "analysis.two_engines",
+    "Comparison": "analysis.comparison",
+    "compare": "analysis.comparison",
+    "Curves": "analysis.curves",
+    "curves": "analysis.curves",
+    "Engine": "engine.build",
+    "load": "engine.load",
+    "load_example": "engine.load",
+    "FieldBalance": "field.answer",
+    "balance_rotor": "field.answer",
+    "MountReport": "mounts.records",
+    "plot": "report.plot",
+    "analyze_mounts": "mounts.answer",
+    "Result": "show.result",
+    "Scatter": "studies.scatter",
+    "scatter": "studies.scatter",
+    "SchemeOptions": "sizing.options",
+    "Search": "studies.search.answer",
+    "search": "studies.search.answer",
+    "Swept": "studies.sweep",
+    "sweep": "studies.sweep",
+    "Table": "books.recomputed",
+    "tables": "books.answer",
+    "Tools": "sizing.workshop",
+    "TorqueAnalysis": "torque.records",
+    "analyze_torque": "torque.answer",
+    "TorsionAnalysis": "torsion.answer",
+    "analyze_torsion": "torsion.answer",
+}
+
+# What shows a kind of result: the module with its RENDERER.
+RENDERERS = {
+    "Analysis": "analysis.show",
+    "Balance": "balancing.show",
+    "Combined": "analysis.two_engines",
+    "Comparison": "analysis.comparison",
+    "Curves": "analysis.curves",
+    "FieldBalance": "field.show",
+    "MountReport": "mounts.show",
+    "Scatter": "studies.scatter_command",
+    "Search": "studies.search.command",
+    "Swept": "studies.sweep_show",
+    "Table": "books.show",
+    "TorqueAnalysis": "torque.show",
+    "TorsionAnalysis": "torsion.show",
+}
+
+# JSON documents, by the name that stands in `format`: the class that declares each.
+DOCUMENTS = {
+    "analysis": "show.document:Analysis",
+    "balance": "show.document:Balance",
+    "bench": "bench:Bench",
+    "check": "regression:Check",
+    "compare": "analysis.comparison:Comparison",
+    "curves": "show.document:Curves",
+    "field": "field.answer:FieldBalance",
+    "marine": "show.document:Marine",
+    "mounts": "mounts.records:MountReport",
+    "numbers": "studies.quantities:NamedNumbers",
+    "scatter": "studies.scatter:Scatter",
+    "search": "show.document:Search",
+    "speeds": "show.document:Speeds",
+    "sum": "show.document:Sum",
+    "sweep": "show.document:Sweep",
+    "table": "show.document:Table",
+    "torque": "torque.records:TorqueAnalysis",
+    "torsion": "torsion.answer:TorsionAnalysis",
+}
+
+# Tables of chapters in an engine file; the class of each is called like the key.
+CHAPTERS = {
+    "articulation": "file.model",
+    "gas": "file.gas_tables",
+    "flywheel": "file.gas_tables",
+    "bearing": "file.gas_tables",
+    "torsion": "file.torsion_tables",
+    "body": "file.mount_tables",
+}
+# Those that may stand several times in a file.
+CHAPTER_LISTS = {"mount": "file.mount_tables", "point": "file.mount_tables"}
+# What computes the quantities of a chapter for sweep, search and scatter.
+QUANTITIES = {
+    "guide": "forces.guide",
+    "cycle": "torque.quantity",
+    "mounts": "mounts.quantity",
+    "torsion": "torsion.quantity",
+}
+NOTEBOOK = "show.notebook:show_engine"
+
+
+def import_name(place: str) -> Any:
+    """Return a module of the package, or what is called so in it.
+
+    Args:
+        place: Module below `balcli`, or `module:name`.
+    """
+    module, _, name = place.partition(":")
+    found = import_module(f"balcli.{module}")
+    return getattr(found, name) if name else found
