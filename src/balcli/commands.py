@@ -18,13 +18,7 @@ from .file.examples import template
 from .file.fields import counted, suggest_nearest
 from .names import DOCUMENTS
 from .shell.file_names import TEXTS, format_of, parse_output, require_ending
-from .shell.inputs import (
-    exit_on_errors,
-    find_engine_files,
-    find_expected,
-    read_engine,
-    try_each,
-)
+from .shell.inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
 from .shell.options import FormatOption, Output
 from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
 from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped

@@ -8,7 +8,7 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from balcli.sizing.effects import Slot
+from balcli.sizing.fitting import Slot
 from balcli.sizing.planes import measure_direction
 
 

@@ -12,7 +12,7 @@ from support.engines import build_text
 from support.remedies import write_engine
 
 from balcli.errors import BalcliError
-from balcli.sizing.effects import Slot, find_effect, size_unbalances, solve_exactly
+from balcli.sizing.fitting import Slot, find_effect, size_unbalances, solve_exactly
 from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.residual import ReferencePoint, Residual, ResidualPart, find_residual
 

@@ -22,7 +22,7 @@ def test_names_and_options_are_known_without_numpy():
     """For help and completion, which are to answer at once."""
     code = (
         "import sys; from balcli.sizing.options import SchemeOptions; "
-        "from balcli.sizing.options import NAMES; SchemeOptions(order=2).check('two-shaft'); "
+        "from balcli.sizing.schemes import NAMES; SchemeOptions(order=2).check('two-shaft'); "
         "print('numpy' in sys.modules, 'pydantic' in sys.modules, NAMES[0])"
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -11,7 +11,7 @@ from support.remedies import fit_scheme, size_scheme
 
 from balcli.engine.load import load
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.effects import Slot
+from balcli.sizing.fitting import Slot
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.planes import find_free
 from balcli.sizing.remedy import fit_devices

@@ -80,7 +80,7 @@ def tables(
     form = text_format(output, form)
     from dataclasses import replace
 
-    from . import answer, layouts as common, show as pages
+    from . import answer, answer as common, show as pages
 
     if angle:
         angle = as_bare_angles("--angle", angle)
@@ -104,6 +104,6 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
       balcli layouts --format markdown
     """
     form = text_format(output, form)
-    from . import answer, layouts as common, show as pages
+    from . import answer, answer as common, show as pages
 
     show([common.add_firing(answer.recompute("layouts"))], pages.LAYOUTS, form, output)

@@ -18,7 +18,7 @@ from ..show.units import System
 from .recomputed import Cell, Erratum, Table, deviates, parse_decimal, parse_number, round_like
 
 if TYPE_CHECKING:
-    from .layouts import Layouts
+    from .answer import Layouts
     from .recomputed import Row
 
 

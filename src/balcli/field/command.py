@@ -61,7 +61,7 @@ def field(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from . import answer, plot as picture, read, show as pages
+    from . import answer, read, show as pages, show as picture
 
     file, name = read.read_runs(path), name_file(path)
     if check and file.grade is None:

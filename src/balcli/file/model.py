@@ -18,22 +18,10 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import (
-    BeforeValidator,
-    Field,
-    PrivateAttr,
-)
+from pydantic import BeforeValidator, Field, PrivateAttr
 
 from ..limits import MOST_RIPPLES
-from .fields import (
-    Choice,
-    FileName,
-    Flag,
-    OneOf,
-    counted,
-    join_words,
-    parse_firing_order,
-)
+from .fields import Choice, FileName, Flag, OneOf, counted, join_words, parse_firing_order
 from .table import (
     INTERVAL_TOLERANCE_DEG,
     Angle,

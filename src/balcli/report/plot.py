@@ -15,7 +15,7 @@ from ..balancing.answer import Balance
 from ..engine.build import Engine, take_model
 from ..errors import check_type, warn, wrong_type
 from ..field.answer import FieldBalance
-from ..field.plot import make_field
+from ..field.show import make_field
 from ..forces.spectrum import check_orders
 from ..mounts.plot import make_mounts
 from ..mounts.records import MountReport

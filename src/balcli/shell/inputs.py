@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from ..engine.build import Engine
     from ..file.model import EngineFile
 
+
 # What says something of moments besides them, of all that can be asked for.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
 

@@ -20,8 +20,7 @@ from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
 from .bobweights import DEFINITION, NO_THROW, FactorPeaks, PlaneNeed, fill_card
-from .effects import LEFT, Slot
-from .fitting import Fitting
+from .fitting import LEFT, Fitting, Slot
 from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, read_planes
 from .remedy import Remedy, fit_devices

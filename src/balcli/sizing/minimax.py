@@ -24,9 +24,8 @@ from ..core.phasors import EPS, Complex, Phasors
 from ..core.vibration import Real
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .effects import Slot, size_unbalances
 from .factor import find_curve, find_factor_peaks
-from .fitting import Fitting
+from .fitting import Fitting, Slot, size_unbalances
 from .options import SchemeOptions
 from .planes import SAME_PLACE, find_crank_middle, read_planes
 from .remedy import Remedy

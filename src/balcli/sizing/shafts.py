@@ -15,9 +15,9 @@ from collections.abc import Sequence
 
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .effects import Slot
 from .fitting import (
     Fitting,
+    Slot,
     explain_counterweights,
     explain_couple,
     explain_one_eccentric,

@@ -29,8 +29,7 @@ from ..core.phasors import Array, Complex, unit
 from ..core.records import to_document
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .effects import Slot
-from .fitting import Fitting
+from .fitting import Fitting, Slot
 from .options import SchemeOptions
 from .remedy import Remedy
 from .residual import FORWARD_FORCE

@@ -13,9 +13,15 @@ from collections.abc import Callable
 from ..core.phasors import wrap_degrees
 from ..engine.build import Engine
 from ..errors import BalcliError
-from .effects import Slot, size_unbalances
 from .factor import size_by_factor
-from .fitting import Fitting, explain_counterweights, explain_shaft, explain_sliders
+from .fitting import (
+    Fitting,
+    Slot,
+    explain_counterweights,
+    explain_shaft,
+    explain_sliders,
+    size_unbalances,
+)
 from .minimax import size_minimax
 from .options import SchemeOptions
 from .planes import (

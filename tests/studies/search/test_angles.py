@@ -21,8 +21,7 @@ from balcli.forces.symmetry import explain_symmetry
 from balcli.show.units import SYSTEMS
 from balcli.studies.search.answer import search_arrangements
 from balcli.studies.search.command import rows
-from balcli.studies.search.designs import Objective, parse_objective, write_design
-from balcli.studies.search.evaluate import fires_evenly
+from balcli.studies.search.designs import Objective, fires_evenly, parse_objective, write_design
 
 pytestmark = pytest.mark.slow
 

@@ -15,7 +15,7 @@ from support.paths import ENGINES, write
 
 from balcli.engine.parse import parse
 from balcli.process import tell_nobody
-from balcli.studies.search import evaluate
+from balcli.studies.search import designs as evaluate
 from balcli.studies.search.designs import Merit, parse_objective
 from balcli.studies.search.local import Box, Effort, find_local_optima
 

@@ -19,8 +19,7 @@ from balcli.show.units import SYSTEMS
 from balcli.studies.quantities import parse_quantities
 from balcli.studies.search.answer import search_arrangements
 from balcli.studies.search.command import sheet
-from balcli.studies.search.designs import parse_objective, write_design
-from balcli.studies.search.evaluate import fires_evenly
+from balcli.studies.search.designs import fires_evenly, parse_objective, write_design
 from balcli.studies.search.throws import find_best_throws, tabulate_contributions
 
 NO_ORDER = ("[layout]\nfiring_order = [1, 3, 4, 2]\n", "")

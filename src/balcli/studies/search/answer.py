@@ -31,12 +31,16 @@ from .designs import (
     PATHS,
     Design,
     Found,
+    NumbersJudge,
     Objective,
+    drop_firing_order,
     drop_mirror_images,
+    fires_evenly,
     list_changes,
     parse_objective,
+    rank_designs,
+    rank_one_by_one,
 )
-from .evaluate import NumbersJudge, drop_firing_order, fires_evenly, rank_designs, rank_one_by_one
 from .firing_orders import find_slots, search_firing_order
 from .local import Box, Effort, find_local_optima
 from .throws import give_throws, list_throws, search_throws

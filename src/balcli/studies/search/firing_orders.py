@@ -23,8 +23,7 @@ from ...engine.numbering import find_fitting_splay
 from ...errors import BalcliError
 from ...file.model import EngineFile
 from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
-from .designs import Found, Objective
-from .evaluate import drop_firing_order, rank_throws
+from .designs import Found, Objective, drop_firing_order, rank_throws
 from .throws import count_from
 
 

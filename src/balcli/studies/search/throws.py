@@ -30,8 +30,7 @@ from ...forces.spectrum import compute_spectra, with_only
 from ...limits import MOST_ARRANGEMENTS
 from ...process import Tell, tell_nobody
 from ..quantities import AnyQuantity, choose_of_engine
-from .designs import Design, Found, Objective
-from .evaluate import fires_evenly, name_throws, rank_throws
+from .designs import Design, Found, Objective, fires_evenly, name_throws, rank_throws
 
 Left: TypeAlias = tuple[int, ...]  # how often each angle is still to be given
 Allowed = Callable[[Array], NDArray[np.bool_]]
