@@ -31,7 +31,7 @@ _NEAR = 0.9  # of the largest value at the speeds looked at: a top beside them m
 _CLOSER = 0.3  # of the rest to the largest value, from round to round
 _ROUNDS = 7
 _FLAT = 1e-4  # share of a top by which it stands out: a flatter one is a parabola
-_FOUND = 1e-8  # share of a top by which the vertex of the parabola is above it
+_FOUND = 1e-10  # share of a top by which the vertex of the parabola is above it
 
 
 class Largest(NamedTuple):
