@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from .show.units import System
 
 
-LAM = 0.28
 ORDERS = [1, 2, 4, 6, 8]
 SWEPT_ORDERS = [1, 2]
 POWERS = (3, 5, 7)  # of lambda, up to which books print the series

@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from balcli.core.smallest_largest import find_dependent_columns, solve
+from balcli.core.least_squares import find_dependent_columns, solve
 
 EPS = 2.0**-52
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balcli.core.smallest_largest import Region, minimise, solve
+from balcli.core.least_squares import Region, minimise, solve
 from balcli.field.places import find_region
 
 

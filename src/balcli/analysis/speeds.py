@@ -38,7 +38,7 @@ from ..show.sheet import (
     size_cell,
     size_text,
 )
-from . import sections as symmetry, show as analysis_document
+from . import sections, show as analysis_document
 from .answer import Analysis, analyze
 from .comparison import (
     TITLES,
@@ -235,7 +235,7 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
         own = [line for line in series.lines if line.kind == kind]
         yield _kind_part(kind, own, speeds, system, whole=view.whole or view.every_order)
     if first.why is not None:
-        yield from symmetry.lay_out_symmetry(first.why)
+        yield from sections.lay_out_symmetry(first.why)
 
 
 def _kind_part(

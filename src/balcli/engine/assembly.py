@@ -17,7 +17,6 @@ from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
 from ..file.model import ONE_BY_ONE, Articulation, EngineFile
-from . import layout as firing
 from .figures import (
     NOTHING,
     FileFigures,
@@ -29,7 +28,16 @@ from .figures import (
     rod_figures,
     shared_column,
 )
-from .layout import Plan, bank_angles, cycle_deg, plan_cylinders
+from .layout import (
+    Plan,
+    bank_angles,
+    cycle_deg,
+    find_dead_centres,
+    find_instants,
+    find_intervals,
+    find_pins,
+    plan_cylinders,
+)
 from .rods import RodPlace, RunningGear, Weighed, weigh_rod
 
 if TYPE_CHECKING:
@@ -226,7 +234,7 @@ class Assembly:
         """Angle of each throw (from 0): as given, or as the firing order needs it."""
         throws = self.model.crank.throws
         if not self.throws_given and self.order is not None:
-            wanted = firing.find_pins(self.fires_deg, self.tops_deg, self.sense)
+            wanted = find_pins(self.fires_deg, self.tops_deg, self.sense)
             cells = reversed(self.plan.cells)
             return {c.throw: wanted[c.number] - c.bank * self.splay_deg for c in cells}
         return dict(enumerate(self.figures.take_each("crank.throws", throws or (0.0,))))
@@ -254,9 +262,9 @@ class Assembly:
         if intervals is None and self.throws_given:
             pins = {number: float(lead) for number, lead in self.leads_deg.items()}
             tops = {number: float(top) for number, top in self.true_tops_deg.items()}
-            ready = firing.find_dead_centres(pins, tops, self.sense)
-            intervals = tuple(firing.find_intervals(self.order, ready, cycle))
-        return firing.find_instants(self.order, intervals, cycle)
+            ready = find_dead_centres(pins, tops, self.sense)
+            intervals = tuple(find_intervals(self.order, ready, cycle))
+        return find_instants(self.order, intervals, cycle)
 
     # ------------------------------------------------------------------ places along the crank
     @cached_property

@@ -17,9 +17,9 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
 
+from ..core.least_squares import find_dependent_columns, minimise as make_small, solve
 from ..core.phasors import Complex
 from ..core.records import HIDDEN, INLINE, Axes, Polar, angle_deg
-from ..core.smallest_largest import find_dependent_columns, minimise as make_small, solve
 from ..core.unbalance import find_permitted_unbalance
 from ..errors import BalcliError, InputError, Problem, check_type
 from ..file.fields import counted, join_words, nearest, shorten

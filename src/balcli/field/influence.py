@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.least_squares import solve
 from ..core.phasors import Complex
-from ..core.smallest_largest import solve
 from ..errors import InputError, Problem
 from ..file.fields import join_words
 from .tables import RunsFile

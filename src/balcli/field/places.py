@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.least_squares import Region
 from ..core.phasors import Array, Complex
 from ..core.records import angle_deg
-from ..core.smallest_largest import Region
 from ..core.unbalance import find_drill_depth, find_drilled_unbalance
 from .tables import RunsFile
 

@@ -85,11 +85,6 @@ def clean(value: Any) -> float | None:
     return None if math.isnan(number) else number + 0.0
 
 
-def clean_finite(value: Any) -> float | None:
-    """A plain float as of `clean`; None for an infinite one, too."""
-    return clean(value) if math.isfinite(value) else None
-
-
 def clean_each(values: Iterable[Any]) -> list[float | None]:
     """Plain floats; None for nan, and no negative zero."""
     return [clean(value) for value in values]

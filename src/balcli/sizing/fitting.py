@@ -22,7 +22,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core import smallest_largest as least_squares
+from ..core import least_squares
 from ..core.cylinders import Device
 from ..core.phasors import EPS, unit
 from ..engine.build import Engine
