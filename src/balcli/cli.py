@@ -1,7 +1,8 @@
 """The command line: which commands there are, and the one place where errors become text and exit
 codes.
 
-Only the module of the command that is called is imported; what a command does is in `commands/`.
+Only the module of the command that is called is imported; what a command does is in the `command`
+of its chapter.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Modules by name: the one place where modules stand in strings.
 
-Whatever is imported only when somebody asks for it, from a floor that may not know it by an import,
+Whatever is imported only when somebody asks for it, from a module below it,
 has its line here: the package's public names, what shows a result, the types of documents, the
 tables of chapters in an engine file, and their quantities. Loads no library.
 """

@@ -180,22 +180,3 @@ def alone(engine: Engine, number: int) -> Engine:
     from balcli.forces.spectrum import with_only
 
     return with_only(engine, [n == number for n in engine.numbers])
-
-
-STAGGERED_TWIN = """\
-[crank]
-stroke = 67
-splay = -30
-throw_mass = 1.8
-[rod]
-length = 130
-mass = 0.42
-cg = 35
-[piston]
-mass = 0.55
-[layout]
-bank_angle = 75
-stagger = 20
-[operation]
-speed = 8000
-"""

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
 BENDING = Kind("bending", "bending moment in the crankshaft", "M_b", "bending_Nm", True, "moment")
 BEARING = Kind("bearing", "load of a main bearing", "R", "bearing_N", True, "force")
-WITH_GAS = (  # in the order of `in_bearings.LoadsWithGas`
+WITH_GAS = (  # in the order of `crankshaft.LoadsWithGas`
     Kind("shaft_shear", "shear of the shaft with gas", "Q", "shaft_shear_N", True, "force"),
     Kind("shaft_bending", "bending of the shaft with gas", "M", "shaft_bending_Nm", True, "moment"),
     Kind("main", "load of a main bearing with gas", "R", "main_N", True, "force"),

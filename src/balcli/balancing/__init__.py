@@ -1,1 +1,1 @@
-"""Functions of the library: what a user of Python gives -> one call down the line -> an answer."""
+"""An `Engine` and a scheme in; the fitted devices and the engine before and after out."""

@@ -80,7 +80,7 @@ def tables(
     form = text_format(output, form)
     from dataclasses import replace
 
-    from . import answer, answer as common, show as pages
+    from . import answer, show as pages
 
     if angle:
         angle = as_bare_angles("--angle", angle)
@@ -88,7 +88,7 @@ def tables(
     if errata:
         show([chosen], pages.ERRATA, form, output)
     elif name and chosen[0].name == "layouts" and digits is None:
-        show([common.add_firing(chosen[0])], pages.LAYOUTS, form, output)
+        show([answer.add_firing(chosen[0])], pages.LAYOUTS, form, output)
     elif name:
         show([replace(chosen[0], digits=digits)], pages.RENDERER, form, output)
     else:
@@ -104,6 +104,6 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
       balcli layouts --format markdown
     """
     form = text_format(output, form)
-    from . import answer, answer as common, show as pages
+    from . import answer, show as pages
 
-    show([common.add_firing(answer.recompute("layouts"))], pages.LAYOUTS, form, output)
+    show([answer.add_firing(answer.recompute("layouts"))], pages.LAYOUTS, form, output)

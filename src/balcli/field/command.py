@@ -61,7 +61,7 @@ def field(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from . import answer, read, show as pages, show as picture
+    from . import answer, read, show as pages
 
     file, name = read.read_runs(path), name_file(path)
     if check and file.grade is None:
@@ -69,7 +69,7 @@ def field(
     result = answer.find_corrections(file, minimise, without or (), name)
     warn_each(result.doubts, name)
     if plot is not None and drawn is not None:
-        write_figure(picture.make_field(result), drawn, plot)
+        write_figure(pages.make_field(result), drawn, plot)
     show([result], pages.RENDERER, form, output, units)
     if check and result.permitted is not None and not result.permitted.reached:
         raise typer.Exit(Exit.DIFFERENCE)

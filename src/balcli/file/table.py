@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Set
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, model_validator
 from pydantic.fields import FieldInfo
@@ -11,10 +11,6 @@ from pydantic.fields import FieldInfo
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
 from .fields import Choice, Label, Number, Whole
 from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
-
-if TYPE_CHECKING:
-    pass
-
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 

@@ -1,5 +1,5 @@
 """The figures of a body on its mounts, each declared once: JSON, CSV and the schema derive from
-these records (`documents.records`).
+these records (`core.records`).
 
 Forces are those of the body on its mounts, along the engine's axes. Arrays over speeds have the
 shape (speeds,).

@@ -1,1 +1,1 @@
-"""Pictures by matplotlib."""
+"""Pictures and the page: results of all chapters, drawn."""

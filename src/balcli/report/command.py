@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -27,10 +27,6 @@ from ..shell.values import optional
 from ..show.formats import Units
 from ..show.units import SYSTEMS
 from .names import OF_TORSION, PAGES, check_page
-
-if TYPE_CHECKING:
-    pass
-
 
 Page = Annotated[
     Path | None,

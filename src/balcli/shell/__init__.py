@@ -1,3 +1,1 @@
-"""One module a command: load, compute, render, print once; what brings numpy or pydantic is
-imported when a command runs, so that its help and the shell's completion need not wait for them.
-"""
+"""What commands and Python functions share: typed values, files read, results written, progress."""

@@ -63,7 +63,7 @@ class Remedy(NamedTuple):
 
     @property
     def free(self) -> tuple[bool, ...]:
-        """Which of `devices` may stand anywhere (`device_tables.find_free`)."""
+        """Which of `devices` may stand anywhere (`planes.find_free`)."""
         return find_free(self.devices)
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:

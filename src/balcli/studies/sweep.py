@@ -5,8 +5,6 @@ Every parameter has a trailing axis of its own, so that what does not depend on 
 again: on a grid of bank angles and rod ratios, phases are computed once for each angle,
 coefficients once for each ratio, and only their products for each variant. Rows run with the last
 parameter fastest.
-
-`balcli.sweep`
 """
 
 from __future__ import annotations

@@ -95,7 +95,7 @@ def respond_chain(
         damping: Losses of shafts and nodes.
         frequency: w (rad/s), any shape, commonly (orders, speeds).
         load: Torques (N m) on the nodes, that broadcast to (*frequency, nodes).
-        attached: Complex inertias of dampers (kg m2), likewise; see `torsional_dampers`.
+        attached: Complex inertias of dampers (kg m2), likewise; see `TorsionalSystem.attached`.
 
     Raises:
         UndampedResonanceError: a load drives an undamped mode at its own frequency.

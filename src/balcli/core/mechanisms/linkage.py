@@ -4,7 +4,7 @@ A plain slider-crank needs no more than its piston's motion along the cylinder's
 mass moves on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the
 knuckle pin of an articulated rod, the piston of a cylinder that itself turns, or shares of it on
 both. It adds two components of force, a moment of momentum and a kinetic energy, all of which are
-harmonics of the crank angle like the others (`fourier.Curve`), sampled over a revolution.
+harmonics of the crank angle like the others, sampled over a revolution.
 
 Articulated rods: hinged to the big end of a master rod, as in radials and some V engines
 (docs/theory.md).
