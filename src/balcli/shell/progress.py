@@ -100,8 +100,7 @@ def reporting(
         yield progress
     except KeyboardInterrupt:
         progress.close()
-        if progress.done:
-            say(f"balcli: stopped after {progress.describe()}")
+        say(f"balcli: stopped after {progress.describe()}")
         raise typer.Exit(Exit.INTERRUPTED) from None
     finally:
         progress.close()
