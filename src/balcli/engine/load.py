@@ -10,13 +10,13 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from ..core.vibration import Real
 from ..errors import naming_file, wrong_type
 from ..file.examples import text
 from ..file.model import EngineFile
 from ..file.plain_tables import take_tables
 from ..file.toml import name_file
 from .build import Engine, build
-from .figures import Array
 from .gas import EngineGas
 from .parse import parse, parse_tables
 
@@ -113,8 +113,8 @@ SPEED = "operation.speed"
 
 
 def choose_speeds(
-    engine: Engine, values: Mapping[str, float], usual: Callable[[Engine], Array]
-) -> Array:
+    engine: Engine, values: Mapping[str, float], usual: Callable[[Engine], Real]
+) -> Real:
     """Return the speeds (rpm) over which a quantity of a variant is the largest: the speed of the
     variant alone where it is among the values that vary, else those of `usual`.
     """

@@ -78,7 +78,15 @@ def mounts(
     beside = list(zip(names[1:], others, strict=True))
     with reporting("work") as tell:
         result = answer.report_mounts(
-            model, engine, rpm, asked, scheme, beside, name, tell, options,
+            model,
+            engine,
+            rpm,
+            asked,
+            scheme,
+            beside,
+            name,
+            tell,
+            options,
             ranged=speeds is None or ":" in speeds,
         )
     if result.response is None and any((speeds, orders, scheme, misfire)):

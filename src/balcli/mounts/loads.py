@@ -143,7 +143,11 @@ def find_loads(
         raise BalcliError(MOMENTS_UNKNOWN)
     fired = engine.gas is not None
     of_gas = list_gas_orders(engine) if gas_orders is None else gas_orders
-    wanted = merge_orders(find_relevant_orders(engine), of_gas if fired else ()) if orders is None else orders
+    wanted = (
+        merge_orders(find_relevant_orders(engine), of_gas if fired else ())
+        if orders is None
+        else orders
+    )
     wanted = np.array(wanted[wanted > 0], np.float64)
     kinds = ("force", "moment", "roll", *(["gas"] if fired else []))
     if engine.ripple:  # by orders of the time, in which the crank turns faster than over the angle

@@ -22,11 +22,12 @@ from ..core.vibration import (
     frequencies,
     solve_response,
 )
-from ..engine.figures import find_first_largest
 from ..engine.build import Engine
+from ..engine.figures import find_first_largest
 from ..errors import BalcliError
 from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
+from ..show.sheet import order_number
 from .build import BodyModes, MountedBody
 from .loads import BodyLoads, find_loads
 from .records import (
@@ -40,7 +41,6 @@ from .records import (
     WorstForce,
     WorstMotion,
 )
-from ..show.sheet import order_number
 from .rigid_body import ROLL, carry_points, couple_mounts
 
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
@@ -105,7 +105,9 @@ class RunningBody(NamedTuple):
         roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
         sizes = roll[:, None, None] * running.bound_response(every, some)
         shares = np.divide(sizes, own, out=np.zeros_like(sizes), where=own > 0)
-        beyond = shares[::-1].cumsum(axis=0)[::-1].max(axis=(1, 2))  # of an order and all higher ones
+        beyond = (
+            shares[::-1].cumsum(axis=0)[::-1].max(axis=(1, 2))
+        )  # of an order and all higher ones
         highest = every[beyond > _BEYOND].max(initial=HIGHEST_GAS_ORDER_UNASKED)
         if highest > HIGHEST_GAS_ORDER_UNASKED:
             loads = find_loads(engine, centre, gas_orders=list_gas_orders(engine, highest))
@@ -162,6 +164,15 @@ class RunningBody(NamedTuple):
         """Return the largest length of each curve over the cycle, shape (speeds, curves)."""
         curves = self.read(self.move(omega)[..., None, :])
         return find_longest(self.loads.orders, curves).value
+
+    def find_alone(self, orders: Real, omega: Real) -> Real:
+        """Return the largest length of each curve by one order at one speed (rad/s), shape (pairs,
+        curves), for pairs of both.
+        """
+        own, rows = self.modes, np.searchsorted(self.loads.orders, orders)
+        load, w = self.loads.at(omega)[rows, np.arange(len(rows))], orders * omega
+        motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
+        return largest_of_ellipse(self.read(_with_rate(motion, w)[:, None, :]))
 
     def refuse_resonance(self, omega: Real, *, ranged: bool = True) -> bool:
         """Raise BalcliError if the engine drives an undamped mode at its own frequency at some of
@@ -231,8 +242,14 @@ def find_worst(running: RunningBody, omega: Real, peaks: Real, *, between: bool 
     if not between:
         return _explain_worst(running, omega[peaks.argmax(axis=0)], peaks.max(axis=0))
     met = list_meetings(modes, running.loads, omega / RPM)
-    lossy = [(rpm * RPM, modes.loss[k]) for k, _, rpm in met if modes.loss[k] > UNDAMPED]
-    at, loss = np.array(lossy).reshape(-1, 2).T
+    lossy = [(o, rpm * RPM, modes.loss[k]) for k, o, rpm in met if modes.loss[k] > UNDAMPED]
+    order, at, loss = np.array(lossy).reshape(-1, 3).T
+    if len(omega) > 1:  # of resonances only those count that may exceed the speeds beside them
+        gap = np.clip(np.searchsorted(omega, at), 1, len(omega) - 1) - 1
+        added = np.zeros((len(omega) - 1, peaks.shape[1]))
+        np.add.at(added, gap, running.find_alone(order, at))
+        may = (np.maximum(peaks[1:], peaks[:-1]) + added >= peaks.max(axis=0)).any(axis=1)
+        at, loss = at[may[gap]], loss[may[gap]]
     about = (at * (1 + loss * _BESIDE[:, None])).ravel()
     about = np.setdiff1d(about[(about > omega[0]) & (about < omega[-1])], omega)
     speeds = np.concatenate([omega, about])
@@ -267,7 +284,9 @@ def _explain_worst(running: RunningBody, omega: Real, value: Real) -> Worst:
         MetMode(order_number(order), int(mode), float(rpm)) if there else None
         for order, mode, rpm, there in zip(*met, cause_rpm, large[cause, each], strict=True)
     )
-    return Worst(value, omega, orders[leading], alone[leading, each], modes[leading, each], resonances)
+    return Worst(
+        value, omega, orders[leading], alone[leading, each], modes[leading, each], resonances
+    )
 
 
 def _with_rate(motion: Complex, w: Real) -> Complex:
