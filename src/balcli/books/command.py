@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -31,7 +31,15 @@ Name = Annotated[
 ]
 Errata = Annotated[
     bool,
-    typer.Option("--errata", help="List every printed figure that is not the exact one rounded."),
+    typer.Option(
+        "--errata",
+        help="List the printed figures that are not the exact ones rounded, and equations and "
+        "sentences that are wrong, each with its class.",
+    ),
+]
+Kind = Annotated[
+    Literal["misprint", "rounding", "approximation", "method", "error", "copy"] | None,
+    typer.Option(help="Errata of this class alone.", show_default=False),
 ]
 Lam = Annotated[
     str | None,
@@ -62,6 +70,7 @@ Digits = Annotated[
 def tables(
     name: Name = None,
     errata: Errata = False,
+    kind: Kind = None,
     lam: Lam = None,
     angle: Angle = None,
     power: Power = None,
@@ -69,12 +78,13 @@ def tables(
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
-    """The printed coefficient tables of five books and papers, recomputed, and every misprint in
-    them.
+    """The printed coefficient tables of five books and papers (and worked examples of three
+    textbooks), recomputed; their errata by class, with those of equations and text.
 
     \b
     Examples:
       balcli tables tsinghua-1-2
+      balcli tables --errata --kind misprint
       balcli tables --errata --format json
     """
     form = text_format(output, form)
@@ -85,8 +95,8 @@ def tables(
     if angle:
         angle = as_bare_angles("--angle", angle)
     chosen = answer.select_tables(name, lam, angle, power)
-    if errata:
-        show([chosen], pages.ERRATA, form, output)
+    if errata or kind:
+        show([answer.find_errata(chosen, kind)], pages.ERRATA, form, output)
     elif name and chosen[0].name == "layouts" and digits is None:
         show([answer.add_firing(chosen[0])], pages.LAYOUTS, form, output)
     elif name:

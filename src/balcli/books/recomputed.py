@@ -1,10 +1,8 @@
-"""A recomputed table next to its print, and the rule that says which printed figures are wrong.
+"""Recomputed tables next to their prints, and the rule for errata: which printed figures are wrong,
+and of what class.
 
-The printed figures: package data, one CSV file a table, headed by its source.
-
-What a reader may ask of a table: other columns and rows than the printed ones.
-
-Ranges are written as on the command line: `0.20:0.40:0.01`, `0.24,0.28,1/3`.
+Each print is a CSV file of the package, headed by its source. A table can have other rows and
+columns than its print: ranges such as `0.20:0.40:0.01` and `0.24,0.28,1/3`.
 """
 
 from __future__ import annotations
@@ -12,11 +10,11 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
 from importlib.resources import files
-from typing import NamedTuple, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -28,6 +26,16 @@ from ..show.result import Result
 Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
+ErratumClass = Literal["misprint", "rounding", "approximation", "method", "error", "copy"]
+Supposed: TypeAlias = tuple[ErratumClass, str, int, float]  # see `Print.compare_answers`
+CLASSES: dict[ErratumClass, str] = {
+    "misprint": "the print contradicts its own formula",
+    "rounding": "last digits are wrong: cut off, or computed from rounded figures",
+    "approximation": "a rounded constant or a shortened series of the author gives the print",
+    "method": "the author's method does not find what it looks for",
+    "error": "the statement itself is wrong, not its print",
+    "copy": "wrong in the scanned copy that was read; the print may be right",
+}
 
 
 @dataclass(frozen=True)
@@ -38,17 +46,35 @@ class Explanation:
 
     kind: str
     rows: tuple[Row, ...]
+    category: ErratumClass = "method"
 
 
 @dataclass(frozen=True)
 class Erratum:
-    """A printed figure that is not the exact one rounded to as many digits."""
+    """A printed figure that is not the exact one rounded, or a statement that is wrong.
+
+    Attributes:
+        row: Number of the row in its table, from 0.
+        column: Heading of the column.
+        printed: What the source prints.
+        exact: What would be right.
+        kind: How the print came about, or how the right form of a statement is known.
+        category: Class of the erratum, a key of `CLASSES`.
+        label: Name of the row.
+    """
 
     row: int
     column: str
     printed: str
     exact: Cell
     kind: str
+    category: ErratumClass
+    label: str
+
+    def describe(self) -> dict[str, Cell]:
+        """Return the erratum as JSON has it, the category as `class`."""
+        fields = asdict(self)
+        return fields | {"class": fields.pop("category")}
 
 
 @dataclass(frozen=True, repr=False)
@@ -65,6 +91,7 @@ class Table(Result):
         explanations: Explanations of errata.
         stub: How many leading columns name a row.
         digits: Decimals of the figures that are shown; None: as printed.
+        stated: Errata of a table of statements, which no rule finds.
     """
 
     name: str
@@ -76,6 +103,7 @@ class Table(Result):
     explanations: tuple[Explanation, ...] = ()
     stub: int = 1
     digits: int | None = None
+    stated: tuple[Erratum, ...] = ()
 
     @property
     def summary(self) -> str:
@@ -84,8 +112,8 @@ class Table(Result):
 
     @property
     def errata(self) -> tuple[Erratum, ...]:
-        """Printed cells that are not the exact ones rounded."""
-        return tuple(self._errata())
+        """Printed cells that are not the exact ones rounded, or the wrong statements."""
+        return self.stated or tuple(self._errata())
 
     def label(self, row: int) -> str:
         """Return the name of a row: the cells of its stub."""
@@ -97,9 +125,9 @@ class Table(Result):
         for i, (row, words) in enumerate(zip(self.exact, self.printed, strict=True)):
             for j, (value, text) in enumerate(zip(row, words, strict=True)):
                 if text is not None and deviates(value, text):
-                    supposed = [(each.kind, each.rows[i][j]) for each in self.explanations]
-                    kind = _find_kind(value, text, supposed)
-                    yield Erratum(i, self.columns[j], text, value, kind)
+                    supposed = [(each, each.rows[i][j]) for each in self.explanations]
+                    why = _classify(value, text, supposed)
+                    yield Erratum(i, self.columns[j], text, value, *why, self.label(i))
 
 
 def parse_decimal(text: str) -> Decimal | None:
@@ -153,20 +181,22 @@ def explain_figure(value: Cell, text: str) -> str | None:
     return ", digits transposed" if y in swaps else None
 
 
-def _find_kind(value: Cell, text: str, supposed: Sequence[tuple[str, Cell]]) -> str:
-    """Return the kind of an erratum: the first explanation that leads to it, or what its digits
-    show.
+def _classify(
+    value: Cell, text: str, supposed: Sequence[tuple[Explanation, Cell]]
+) -> tuple[str, ErratumClass]:
+    """Return kind and class of an erratum: the first explanation that leads to it, or what its
+    digits show.
     """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
-        return "misprint"
-    for kind, other in supposed:
+        return "misprint", "misprint"
+    for each, other in supposed:
         differs = isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value)
         if differs and (found := explain_figure(other, text)) is not None:
-            return kind + found
+            return each.kind + found, each.category
     error = abs(round_like(value, printed) - printed).scaleb(-_exponent(printed))
-    kind = "misprint" if error > 1 else "last digit"
-    return kind + (explain_figure(value, text) or "")
+    more = explain_figure(value, text) or ""
+    return ("misprint" + more, "misprint") if error > 1 else ("last digit" + more, "rounding")
 
 
 def _exponent(printed: Decimal) -> int:
@@ -225,23 +255,23 @@ class Print:
         shape = tuple(columns), tuple(rows), tuple(printed)
         return Table(self.name, self.title, self.source, *shape, tuple(explanations), stub)
 
-    def compare_answers(
-        self, answers: Sequence[float], others: Sequence[tuple[str, int, float]]
-    ) -> Table:
+    def compare_answers(self, answers: Sequence[float], others: Sequence[Supposed]) -> Table:
         """Return the exact answers of worked examples, which stand at the ends of the rows.
 
         Args:
             answers: Exact answers.
-            others: What authors took instead: the kind of erratum, the number of the answer (from
-                0), their value.
+            others: What authors took instead: class and kind of erratum, the number of the answer
+                (from 0), their value.
         """
         rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
         blank: Row = (None,) * len(self.columns)
         explanations = [
             Explanation(
-                kind, tuple((*blank[1:], value if k == n else None) for k in range(len(rows)))
+                kind,
+                tuple((*blank[1:], value if k == n else None) for k in range(len(rows))),
+                category,
             )
-            for kind, n, value in others
+            for category, kind, n, value in others
         ]
         return self.compare(self.columns, rows, explanations=explanations, stub=4)
 

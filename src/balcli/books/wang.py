@@ -35,7 +35,9 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
         rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    explained = [Explanation("half-cycle search", search_rows)]
+    explained = [
+        Explanation("half-cycle search, theta to 180 deg only: larger forces follow", search_rows)
+    ]
     return printed.compare(columns, rows, explanations=explained)
 
 

@@ -21,7 +21,7 @@ from ..core.piecewise import polyline, resolved
 from ..core.speed_ripple import surplus
 from ..file import units
 from ..file.units import POUND_FORCE, STANDARD_GRAVITY
-from .recomputed import Print, Ranges, Table
+from .recomputed import Print, Ranges, Supposed, Table
 
 # fmt: off
 _UICKER = [  # N m, every 10 deg of two turns
@@ -33,6 +33,12 @@ _UICKER = [  # N m, every 10 deg of two turns
     -793, -893, -836, -605, -379, -264, -300, -368, -334, -198, -56, -2,
 ]
 # fmt: on
+_TWO_TERMS = "author's approximation: two terms of the motion"
+_OMEGA = "author's approximation: omega taken as 418 rad/s"
+_GRAVITY = "author's approximation: g taken as 32.2 ft/s^2"
+_FIRST_EXCESS = "the largest while the torque first exceeds the load"
+_WHOLE_CYCLE = "the work of a whole cycle is taken for the fluctuation of energy"
+_ROUNDED = "follows from the rounded figures 1.79 and 37400, g = 32.2"
 
 
 def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
@@ -41,11 +47,16 @@ def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
     energy = surplus(uicker).energy
     answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
     whole = _uicker_inertia(_simpson_mean() * 4 * np.pi)
-    others = (
-        ("author's approximation: two terms of the motion", 0, _bevan(two_terms=True)),
-        ("the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
-        ("the work of a whole cycle is taken for the fluctuation of energy", 4, whole),
-    )
+    others: list[Supposed] = [
+        (
+            "approximation",
+            _TWO_TERMS,
+            0,
+            _bevan(two_terms=True),
+        ),
+        ("method", _FIRST_EXCESS, 2, _khurmi_zero_side()),
+        ("method", _WHOLE_CYCLE, 4, whole),
+    ]
     return printed.compare_answers(answers, others)
 
 
@@ -100,11 +111,16 @@ GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers next to the printed ones, in the order of the book."""
     rounded = _round(1.79 * 37400 / 32.2)
-    others = (
-        ("author's approximation: omega taken as 418 rad/s", 1, _round(_acceleration(418.0))),
-        ("follows from the rounded figures 1.79 and 37400, g = 32.2", 2, rounded),
-        ("author's approximation: g taken as 32.2 ft/s^2", 7, _second(32.2)[-1]),
-    )
+    others: list[Supposed] = [
+        (
+            "approximation",
+            _OMEGA,
+            1,
+            _round(_acceleration(418.0)),
+        ),
+        ("rounding", _ROUNDED, 2, rounded),
+        ("approximation", _GRAVITY, 7, _second(32.2)[-1]),
+    ]
     return printed.compare_answers((*_first(), *_second(), *_third()), others)
 
 
