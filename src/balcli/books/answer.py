@@ -9,10 +9,9 @@ the crankshaft. `forces.textbook` takes off all else that textbooks leave out.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from types import NoneType
-from typing import NamedTuple
 
 import numpy as np
 
@@ -48,22 +47,11 @@ def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
     return printed.compare(("engine", "layout", "cylinders", *ends), rows, stub=3)
 
 
-class Layouts(NamedTuple):
-    """The table, and the different intervals between firings of each engine, deg, ascending; none
+def find_gaps(name: str) -> tuple[float, ...]:
+    """Return the different intervals between firings of an example engine, deg, ascending; none
     where the file of several cylinders gives no firing order.
     """
-
-    table: Table
-    gaps_deg: Mapping[str, tuple[float, ...]]
-
-
-def add_firing(table: Table) -> Layouts:
-    """The table of layouts with the firing intervals of its engines."""
-    names = [str(row[0]) for row in table.exact]
-    return Layouts(table, {name: _find_gaps(_build(_read(name))) for name in names})
-
-
-def _find_gaps(engine: Engine) -> tuple[float, ...]:
+    engine = _build(_read(name))
     alone = len(engine.numbers) == 1  # and has no order
     fires = [0.0] if alone else [*map(float, engine.fires_deg.values())]
     instants = [*fires, 180.0 * engine.strokes]

@@ -98,7 +98,7 @@ def tables(
     if errata or kind:
         show([answer.find_errata(chosen, kind)], pages.ERRATA, form, output)
     elif name and chosen[0].name == "layouts" and digits is None:
-        show([answer.add_firing(chosen[0])], pages.LAYOUTS, form, output)
+        show(chosen, pages.LAYOUTS, form, output)
     elif name:
         show([replace(chosen[0], digits=digits)], pages.RENDERER, form, output)
     else:
@@ -116,4 +116,4 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
     form = text_format(output, form)
     from . import answer, show as pages
 
-    show([answer.add_firing(answer.recompute("layouts"))], pages.LAYOUTS, form, output)
+    show([answer.recompute("layouts")], pages.LAYOUTS, form, output)

@@ -40,8 +40,8 @@ def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
     gamma = as_numbers(printed.headings())
     stub = printed.column(printed.columns[0])
     explanations = [
-        Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough)), "approximation"),
-        Explanation("quotient of the rounded lines above", _quotients(printed), "rounding"),
+        Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough))),
+        Explanation("quotient of the rounded lines above", _quotients(printed)),
     ]
     rows = head_rows(stub, _paths(gamma, _cos))
     return printed.compare(printed.columns, rows, explanations=explanations)
@@ -58,7 +58,7 @@ def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
 def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
     """Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
     gammas = [float(text) if text else None for text in printed.column("gamma_deg")]
-    explanations = [Explanation(ROUGH, _sliders(printed, gammas, _rough), "approximation")]
+    explanations = [Explanation(ROUGH, _sliders(printed, gammas, _rough))]
     rows = _sliders(printed, gammas, _cos)
     return printed.compare(printed.columns, rows, explanations=explanations, stub=2)
 

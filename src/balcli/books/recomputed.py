@@ -27,7 +27,6 @@ Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
 ErratumClass = Literal["misprint", "rounding", "approximation", "method", "error", "copy"]
-Supposed: TypeAlias = tuple[ErratumClass, str, int, float]  # see `Print.compare_answers`
 CLASSES: dict[ErratumClass, str] = {
     "misprint": "the print contradicts its own formula",
     "rounding": "last digits are wrong: cut off, or computed from rounded figures",
@@ -46,7 +45,6 @@ class Explanation:
 
     kind: str
     rows: tuple[Row, ...]
-    category: ErratumClass = "method"
 
 
 @dataclass(frozen=True)
@@ -125,9 +123,10 @@ class Table(Result):
         for i, (row, words) in enumerate(zip(self.exact, self.printed, strict=True)):
             for j, (value, text) in enumerate(zip(row, words, strict=True)):
                 if text is not None and deviates(value, text):
-                    supposed = [(each, each.rows[i][j]) for each in self.explanations]
-                    why = _classify(value, text, supposed)
-                    yield Erratum(i, self.columns[j], text, value, *why, self.label(i))
+                    supposed = [(each.kind, each.rows[i][j]) for each in self.explanations]
+                    kind = _find_kind(value, text, supposed)
+                    category = _classify(kind)
+                    yield Erratum(i, self.columns[j], text, value, kind, category, self.label(i))
 
 
 def parse_decimal(text: str) -> Decimal | None:
@@ -181,22 +180,29 @@ def explain_figure(value: Cell, text: str) -> str | None:
     return ", digits transposed" if y in swaps else None
 
 
-def _classify(
-    value: Cell, text: str, supposed: Sequence[tuple[Explanation, Cell]]
-) -> tuple[str, ErratumClass]:
-    """Return kind and class of an erratum: the first explanation that leads to it, or what its
-    digits show.
+def _find_kind(value: Cell, text: str, supposed: Sequence[tuple[str, Cell]]) -> str:
+    """Return the kind of an erratum: the first explanation that leads to it, or what its digits
+    show.
     """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
-        return "misprint", "misprint"
-    for each, other in supposed:
+        return "misprint"
+    for kind, other in supposed:
         differs = isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value)
         if differs and (found := explain_figure(other, text)) is not None:
-            return each.kind + found, each.category
+            return kind + found
     error = abs(round_like(value, printed) - printed).scaleb(-_exponent(printed))
-    more = explain_figure(value, text) or ""
-    return ("misprint" + more, "misprint") if error > 1 else ("last digit" + more, "rounding")
+    kind = "misprint" if error > 1 else "last digit"
+    return kind + (explain_figure(value, text) or "")
+
+
+def _classify(kind: str) -> ErratumClass:
+    """Return the class of a wrong figure from the words of its kind."""
+    if kind.startswith("misprint"):
+        return "misprint"
+    if kind.startswith("author's approximation"):
+        return "approximation"
+    return "rounding" if "last digit" in kind or "rounded" in kind else "method"
 
 
 def _exponent(printed: Decimal) -> int:
@@ -255,23 +261,23 @@ class Print:
         shape = tuple(columns), tuple(rows), tuple(printed)
         return Table(self.name, self.title, self.source, *shape, tuple(explanations), stub)
 
-    def compare_answers(self, answers: Sequence[float], others: Sequence[Supposed]) -> Table:
+    def compare_answers(
+        self, answers: Sequence[float], others: Sequence[tuple[str, int, float]]
+    ) -> Table:
         """Return the exact answers of worked examples, which stand at the ends of the rows.
 
         Args:
             answers: Exact answers.
-            others: What authors took instead: class and kind of erratum, the number of the answer
-                (from 0), their value.
+            others: What authors took instead: the kind of erratum, the number of the answer (from
+                0), their value.
         """
         rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
         blank: Row = (None,) * len(self.columns)
         explanations = [
             Explanation(
-                kind,
-                tuple((*blank[1:], value if k == n else None) for k in range(len(rows))),
-                category,
+                kind, tuple((*blank[1:], value if k == n else None) for k in range(len(rows)))
             )
-            for category, kind, n, value in others
+            for kind, n, value in others
         ]
         return self.compare(self.columns, rows, explanations=explanations, stub=4)
 

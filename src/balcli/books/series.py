@@ -101,14 +101,13 @@ def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Tab
     def first(count: int) -> tuple[Row, ...]:
         return head_rows(stub, [_sum(terms(n, n + 2 * count), lam, count) for n in orders])
 
-    shortened = ("first term of the series alone", "two terms of the series")
     return printed.compare(
         columns,
         head_rows(stub, exact(orders, lam)),
         printed.align_cells(stub, columns),
         [
-            Explanation(f"author's approximation: {words}", first(count), "approximation")
-            for count, words in enumerate(shortened, 1)
+            Explanation("author's approximation: first term of the series alone", first(1)),
+            Explanation("author's approximation: two terms of the series", first(2)),
         ],
     )
 

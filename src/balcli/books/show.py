@@ -16,6 +16,7 @@ from ..show.formats import Renderer
 from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, Text, number
 from ..show.table import fold
 from ..show.units import System
+from .answer import find_gaps
 from .recomputed import (
     CLASSES,
     Cell,
@@ -29,7 +30,6 @@ from .recomputed import (
 from .statements import STATEMENT
 
 if TYPE_CHECKING:
-    from .answer import Layouts
     from .recomputed import Row
 
 
@@ -172,11 +172,9 @@ def describe_errata(errata: Errata) -> list[dict[str, Any]]:
 
 def list_errata(errata: Errata, _system: System) -> Rows:
     """Return an erratum a line, for CSV."""
-    columns = ("table", "row", "column", "printed", "exact", "kind", "class")
-    return Rows(
-        columns,
-        [(t, e.label, e.column, e.printed, _exact(e), e.kind, e.category) for t, e in errata],
-    )
+    columns = ("table", *_SHOWN_OF_ERRATUM, "kind", "class")
+    lines = [(t, e.label, e.column, e.printed, _exact(e), e.kind, e.category) for t, e in errata]
+    return Rows(columns, lines)
 
 
 def _exact(erratum: Erratum) -> str:
@@ -229,30 +227,19 @@ _NOTE = (
 )
 
 
-def lay_out_layouts(result: Layouts, _system: System) -> Sheet:
+def lay_out_layouts(table: Table, _system: System) -> Sheet:
     """Force and moment of orders 1 and 2, and how evenly each engine fires."""
-    columns = result.table.columns
-    places = [columns.index(f"{name}_major") for name in _SHOWN]
+    places = [table.columns.index(f"{name}_major") for name in _SHOWN]
 
     def cells(row: Row) -> tuple[str, ...]:
         name, title, *_ = map(str, row)
         multiples = (number(float(row[k] or 0.0), 4) for k in places)
-        gaps = "/".join(f"{gap:g}" for gap in result.gaps_deg[name])  # 90/150: it fires unevenly
+        gaps = "/".join(f"{gap:g}" for gap in find_gaps(name))  # 90/150: it fires unevenly
         return title.partition(" (")[0], *multiples, gaps or UNKNOWN
 
-    rows = tuple(map(cells, result.table.exact))
+    rows = tuple(map(cells, table.exact))
     grid = Grid("", ("engine", *_SHOWN, "fires every"), rows, note=_NOTE)
     return Sheet("Free forces and moments of common engines", (grid,))
 
 
-def describe_layouts(result: Layouts) -> dict[str, Any]:
-    """`balcli.table/1`."""
-    return document(result.table)
-
-
-def list_layouts(result: Layouts, system: System) -> Rows:
-    """CSV: the exact figures of all orders."""
-    return rows(result.table, system)
-
-
-LAYOUTS = Renderer(sheet=lay_out_layouts, document=describe_layouts, rows=list_layouts)
+LAYOUTS = Renderer(sheet=lay_out_layouts, document=document, rows=rows)

@@ -21,24 +21,9 @@ from ..core.piecewise import polyline, resolved
 from ..core.speed_ripple import surplus
 from ..file import units
 from ..file.units import POUND_FORCE, STANDARD_GRAVITY
-from .recomputed import Print, Ranges, Supposed, Table
+from .recomputed import Print, Ranges, Table, as_numbers, load_print
 
-# fmt: off
-_UICKER = [  # N m, every 10 deg of two turns
-    0, 17, 812, 963, 1016, 937, 774, 641, 697, 849, 1031, 1027,
-    902, 712, 607, 594, 544, 345, 0, -344, -540, -576, -570, -638,
-    -785, -879, -814, -571, -324, -190, -203, -235, -164, -7, 150, 145,
-    0, -145, -150, 7, 164, 235, 203, 490, 424, 571, 814, 879,
-    785, 638, 570, 576, 540, 344, 0, -344, -540, -577, -572, -643,
-    -793, -893, -836, -605, -379, -264, -300, -368, -334, -198, -56, -2,
-]
-# fmt: on
-_TWO_TERMS = "author's approximation: two terms of the motion"
-_OMEGA = "author's approximation: omega taken as 418 rad/s"
-_GRAVITY = "author's approximation: g taken as 32.2 ft/s^2"
-_FIRST_EXCESS = "the largest while the torque first exceeds the load"
-_WHOLE_CYCLE = "the work of a whole cycle is taken for the fluctuation of energy"
-_ROUNDED = "follows from the rounded figures 1.79 and 37400, g = 32.2"
+_UICKER = as_numbers(load_print("uicker-18-1").column("torque_Nm"))
 
 
 def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
@@ -47,16 +32,11 @@ def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
     energy = surplus(uicker).energy
     answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
     whole = _uicker_inertia(_simpson_mean() * 4 * np.pi)
-    others: list[Supposed] = [
-        (
-            "approximation",
-            _TWO_TERMS,
-            0,
-            _bevan(two_terms=True),
-        ),
-        ("method", _FIRST_EXCESS, 2, _khurmi_zero_side()),
-        ("method", _WHOLE_CYCLE, 4, whole),
-    ]
+    others = (
+        ("author's approximation: two terms of the motion", 0, _bevan(two_terms=True)),
+        ("the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
+        ("the work of a whole cycle is taken for the fluctuation of energy", 4, whole),
+    )
     return printed.compare_answers(answers, others)
 
 
@@ -94,7 +74,7 @@ def _khurmi_zero_side() -> float:
 def _simpson_mean() -> float:
     """N m, by the book's rule."""
     weights = np.tile([2, 4], 36)
-    return float(weights @ np.array(_UICKER)) * np.pi / 18 / 3 / (4 * np.pi)
+    return float(weights @ _UICKER) * np.pi / 18 / 3 / (4 * np.pi)
 
 
 def _uicker_inertia(energy: float) -> float:
@@ -111,16 +91,11 @@ GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers next to the printed ones, in the order of the book."""
     rounded = _round(1.79 * 37400 / 32.2)
-    others: list[Supposed] = [
-        (
-            "approximation",
-            _OMEGA,
-            1,
-            _round(_acceleration(418.0)),
-        ),
-        ("rounding", _ROUNDED, 2, rounded),
-        ("approximation", _GRAVITY, 7, _second(32.2)[-1]),
-    ]
+    others = (
+        ("author's approximation: omega taken as 418 rad/s", 1, _round(_acceleration(418.0))),
+        ("follows from the rounded figures 1.79 and 37400, g = 32.2", 2, rounded),
+        ("author's approximation: g taken as 32.2 ft/s^2", 7, _second(32.2)[-1]),
+    )
     return printed.compare_answers((*_first(), *_second(), *_third()), others)
 
 
