@@ -31,11 +31,7 @@ Name = Annotated[
 ]
 Errata = Annotated[
     bool,
-    typer.Option(
-        "--errata",
-        help="List the printed figures that are not the exact ones rounded, and equations and "
-        "sentences that are wrong, each with its class.",
-    ),
+    typer.Option("--errata", help="List wrong figures, equations and sentences by class."),
 ]
 Kind = Annotated[
     Literal["misprint", "rounding", "approximation", "method", "error", "copy"] | None,
@@ -43,11 +39,7 @@ Kind = Annotated[
 ]
 Lam = Annotated[
     str | None,
-    optional(
-        "0.20:0.40:0.01",
-        "Other crank ratios than the printed ones; or a list 0.25,1/3.",
-        "--lambda",
-    ),
+    optional("0.20:0.40:0.01", "Other crank ratios than printed; or a list 0.25,1/3.", "--lambda"),
 ]
 Angle = Annotated[str | None, optional("0:180:5", "Other crank angles (degrees).", "--angle")]
 Power = Annotated[
