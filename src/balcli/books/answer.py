@@ -24,7 +24,7 @@ from ..file.model import EngineFile
 from ..forces.textbook import find_textbook
 from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
-from . import liu, series, statements, tsinghua, wang, worked_examples
+from . import liu, series, tsinghua, wang, worked_examples
 from .recomputed import (
     Erratum,
     ErratumClass,
@@ -35,6 +35,7 @@ from .recomputed import (
     load_print,
     parse_crank_ratios,
     parse_range,
+    tabulate_statements,
 )
 
 ORDERS = (1, 2, 4, 6)
@@ -97,7 +98,7 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "liang-examples": worked_examples.tabulate_liang_examples,
     "torque-examples": worked_examples.tabulate_torque_examples,
     "series": series.tabulate_series,
-    "statements": statements.tabulate_statements,
+    "statements": tabulate_statements,
     "layouts": tabulate_layouts,
 }
 NAMES = tuple(TABLES)

@@ -14,7 +14,7 @@ from dataclasses import asdict, dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
 from importlib.resources import files
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
@@ -27,6 +27,7 @@ Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
 ErratumClass = Literal["misprint", "rounding", "approximation", "method", "error", "copy"]
+STATEMENT = "statement"  # the column of errata that are no figures
 CLASSES: dict[ErratumClass, str] = {
     "misprint": "the print contradicts its own formula",
     "rounding": "last digits are wrong: cut off, or computed from rounded figures",
@@ -280,6 +281,21 @@ class Print:
             for kind, n, value in others
         ]
         return self.compare(self.columns, rows, explanations=explanations, stub=4)
+
+
+def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
+    """Return the equations and sentences that are wrong: exact is the right form, every row an
+    erratum. The tests compute both forms of each.
+    """
+    cells, words, stated = [], list[Words](), []
+    for i, row in enumerate(printed.rows):
+        source, place, wrong, right, category, known = map(str, row)
+        cells.append((source, place, right, category, known))
+        words.append((source, place, wrong, None, None))
+        label, name = f"{source}, {place}", cast("ErratumClass", category)
+        stated.append(Erratum(i, STATEMENT, wrong, right, known, name, label))
+    shape = ("source", "place", STATEMENT, "class", "known"), tuple(cells), tuple(words)
+    return Table(printed.name, printed.title, printed.source, *shape, stub=2, stated=tuple(stated))
 
 
 def load_print(name: str) -> Print:

@@ -19,6 +19,7 @@ from ..show.units import System
 from .answer import find_gaps
 from .recomputed import (
     CLASSES,
+    STATEMENT,
     Cell,
     Erratum,
     Table,
@@ -27,7 +28,6 @@ from .recomputed import (
     parse_number,
     round_like,
 )
-from .statements import STATEMENT
 
 if TYPE_CHECKING:
     from .recomputed import Row
@@ -192,10 +192,7 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
     errata = [e for t in tables for e in t.errata]
     misprints = sum(e.category == "misprint" for e in errata)
-    note = (
-        f"{len(errata)} errata, {misprints} of them misprints; balcli tables NAME shows a table,\n"
-        "--errata lists the errata by class, --kind misprint those of one class"
-    )
+    note = f"{len(errata)} errata, {misprints} of them misprints; --errata lists them, tables NAME a table"
     titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
     sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
     printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))
