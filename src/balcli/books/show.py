@@ -192,7 +192,8 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
     errata = [e for t in tables for e in t.errata]
     misprints = sum(e.category == "misprint" for e in errata)
-    note = f"{len(errata)} errata, {misprints} of them misprints; --errata lists them, tables NAME a table"
+    counted = f"{len(errata)} errata, {misprints} of them misprints"
+    note = f"{counted}; --errata lists them, tables NAME a table"
     titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
     sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
     printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))
