@@ -207,7 +207,7 @@ def find_places(parts: Parts) -> Places:
             (c.bank - (plan.rods_on_throw - 1) / 2) * stagger if plan.rods_on_throw > 1 else 0.0
         )
         z[c.number] = either(parts.find_own(c.number).position_mm, along[c.throw] + beside) / 1e3
-        middles[c.throw] = middles[c.throw] + z[c.number] - beside / 1e3  # of any shape
+        middles[c.throw] = middles[c.throw] + (z[c.number] - beside / 1e3)  # of any shape
     throws = column([middle / plan.rods_on_throw for middle in middles.values()], parts.rank)
     if model.frame.reference is None:
         return Places(z, throws, (0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2))
