@@ -29,7 +29,7 @@ from .gas import CylinderGas, EngineGas
 
 if TYPE_CHECKING:
     from ..core.cylinders import Cylinders
-    from .assembly import Assembly
+    from .parts import Parts
 
 
 ATMOSPHERE = 101325.0  # Pa, what gauge pressures lack
@@ -187,7 +187,7 @@ def list_doubts(
 HEAT_OF_AIR, HEAT_MOST = 34, 40.0
 
 
-def build_gas(parts: Assembly, cylinders: Cylinders | None = None) -> EngineGas:
+def build_gas(parts: Parts, cylinders: Cylinders | None = None) -> EngineGas:
     """Return the gas of an engine whose tables fit together otherwise.
 
     Args:
@@ -222,7 +222,7 @@ class _Own(NamedTuple):
 class _Builder:
     """The gas of an engine while it is put together."""
 
-    def __init__(self, parts: Assembly, cylinders: Cylinders) -> None:
+    def __init__(self, parts: Parts, cylinders: Cylinders) -> None:
         self.parts, self.model, self.cylinders = parts, parts.model, cylinders
         self.gas = self._vary(parts.model.gas or Gas.model_construct())
         self.strokes = parts.model.layout.strokes

@@ -339,7 +339,7 @@ def find_unevenness(engine: Engine, model: EngineFile) -> Array:
     shape (candidates,).
     """
     c = engine.cylinders
-    # of plain slider-cranks, as `Assembly.tops_deg`; articulated pins are set for their lead
+    # of plain slider-cranks, as `Pins.tops_deg`; articulated pins are set for their lead
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
     tops = np.asarray(c.axis_of_each_deg + late - c.pin_deg)
     tops = tops - tops[engine.numbers.index(1)]

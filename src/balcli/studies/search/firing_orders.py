@@ -133,7 +133,7 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
         BalcliError: cylinders with throws of their own; there is no even firing order.
     """
     layout = plan_cylinders(model.crank, model.layout)
-    top_deg = assemble(model).tops_deg
+    top_deg = assemble(model).pins.tops_deg
     if any(own.throw is not None for own in model.cylinder.values()):
         raise BalcliError(
             "cylinders with throws of their own leave no firing order to look for: give "

@@ -95,7 +95,7 @@ def give_throws(model: EngineFile) -> EngineFile:
             "give crank.throws and splay alone"
         )
     if model.crank.throws is None and model.layout.firing_order:
-        found = assemble(model).throws_deg
+        found = assemble(model).pins.throws_deg
         model = model.with_table("crank", throws=[float(found[t]) for t in range(len(found))])
     if len(model.crank.throws or ()) < 2:
         raise BalcliError(
