@@ -94,7 +94,7 @@ class Assembly:
     @cached_property
     def plan(self) -> Plan:
         """Banks, throws and numbers; InputError where they do not fit together."""
-        return plan_cylinders(self.model.crank, self.model.layout)
+        return plan_cylinders(self.model)
 
     @cached_property
     def own(self) -> dict[int, OwnFigures]:

@@ -128,7 +128,7 @@ class Candidate:
         """
         turn = TURN if self.model.gas is None else cycle_deg(self.model.layout)
         mine, theirs = (
-            np.array([float(one.parts.fires_deg[c.number]) for c in one.parts.plan.cells])
+            np.array([float(one.parts.fires_deg.get(c.number, 0.0)) for c in one.parts.plan.cells])
             for one in (self, other)
         )
         shifts = theirs - mine
@@ -218,6 +218,8 @@ def find_fitting_splay(model: EngineFile) -> float | None:
     fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
     wanted = find_pins(fires, parts.tops_deg, parts.sense)
     first, second = (c.number for c in parts.plan.cells if c.throw == 0 and c.bank < 2)
+    if not {first, second} <= fires.keys():
+        return None
     lead = np.remainder(wanted[second] - wanted[first] + 180, 360) - 180
     splay = round(float(lead), 3) + 0.0
     split = Assembly(model.with_table("crank", splay=splay))

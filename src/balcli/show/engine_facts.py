@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..core.cylinders import find_travel
 from ..core.phasors import Figure
 from ..engine.build import Engine, SilentCylinders
 from ..file.fields import count_lambda_digits
@@ -130,7 +131,8 @@ def _bore(engine: Engine, system: System) -> str:
     if math.isnan(bore_m):
         return ""
     bore = number(system.length.of(bore_m))
-    stroke = number(system.length.of(2 * float(engine.cylinders.radius)))
+    first = find_travel(engine.cylinders).stroke[engine.numbers.index(1)]
+    stroke = number(system.length.of(float(first)))
     volume = system.volume.fit(float(engine.displacement_m3))
     size = f"{number(volume.of(float(engine.displacement_m3)), 4)} {volume.name}"
     return f", bore × stroke {bore} × {stroke} {system.length.name}, {size}"
