@@ -9,11 +9,12 @@ from support.engines import engine, refused
 
 from balcli.engine.figures import FileFigures
 from balcli.engine.layout import bank_angles, cycle_deg, plan_cylinders
-from balcli.file.model import Crank, Layout
+from balcli.file.model import Crank, EngineFile, Layout, Rod
 
 
 def planned(throws=None, **layout):
-    return plan_cylinders(Crank(stroke=100, throws=throws), Layout(**layout))
+    crank = Crank(stroke=100, throws=throws)
+    return plan_cylinders(EngineFile(crank=crank, rod=Rod(length=200), layout=Layout(**layout)))
 
 
 def where(found):

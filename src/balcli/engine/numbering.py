@@ -30,6 +30,7 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
+from ..file.gas_tables import WIEBE_KEYS
 from ..file.model import EngineFile
 from .assembly import Assembly
 from .devices import build_devices
@@ -408,7 +409,10 @@ def list_inferred(parts: Assembly) -> Iterator[str]:
     """
     model, plan = parts.model, parts.plan
     layout, given = model.layout, model.layout.model_fields_set
-    if parts.order is None or parts.rank:
+    if parts.rank:
+        return
+    yield from _list_defaults(parts)
+    if parts.order is None:
         return
     inferred = not parts.throws_given
     if plan.banks > 1 and "numbering" not in given and (inferred or model.gas is not None):
@@ -420,6 +424,21 @@ def list_inferred(parts: Assembly) -> Iterator[str]:
             yield f"layout.firing_intervals = [{_join(_list_gaps(parts))}]"
     if "strokes" not in given and (inferred or model.gas is not None):
         yield f"layout.strokes = {layout.strokes}"
+
+
+def _list_defaults(parts: Assembly) -> Iterator[str]:
+    """Yield masses, places and burning of which the file says nothing, with their defaults."""
+    model, rod, gas = parts.model, parts.model.rod.model_fields_set, parts.model.gas
+    together = parts.plan.rods_on_throw > 1 and model.articulation is None
+    if together and "stagger" not in model.layout.model_fields_set:
+        yield "layout.stagger = 0"
+    if gas is not None and gas.cycle == "wiebe":
+        keys = (key for key in WIEBE_KEYS if key not in gas.model_fields_set)
+        yield from (f"gas.{key} = {getattr(gas, key):g}" for key in keys)
+    if rod & {"mass", "small_end"} and not rod & {"inertia", "pendulum"}:
+        yield "rod.inertia: two masses at the ends"
+    if "throw_mass" not in model.crank.model_fields_set:
+        yield "crank.throw_mass = 0 kg"
 
 
 def _count_throws_from_first(parts: Assembly) -> list[float]:
