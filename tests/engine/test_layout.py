@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from support.cases import cases
@@ -9,12 +11,12 @@ from support.engines import engine, refused
 
 from balcli.engine.figures import FileFigures
 from balcli.engine.layout import bank_angles, cycle_deg, plan_cylinders
-from balcli.file.model import Crank, EngineFile, Layout, Rod
+from balcli.file.model import Crank, Layout
 
 
 def planned(throws=None, **layout):
     crank = Crank(stroke=100, throws=throws)
-    return plan_cylinders(EngineFile(crank=crank, rod=Rod(length=200), layout=Layout(**layout)))
+    return plan_cylinders(SimpleNamespace(crank=crank, layout=Layout(**layout), cylinder={}))
 
 
 def where(found):

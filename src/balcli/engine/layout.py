@@ -181,8 +181,7 @@ def _check_firing_order(model: EngineFile, numbers: Sequence[int], throws: int) 
     ):
         return
     told = _describe_not_once(order, numbers)
-    if (missing := [n for n in numbers if n not in order]) and model.crank.throws is not None:
-        first = missing[0]
+    if first := next((n for n in numbers if n not in order and n in model.cylinder), 0):
         told += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
     banks = count_banks(layout)
     if 1 < banks <= throws == len(order) and layout.rods == "shared":
