@@ -29,7 +29,15 @@ def test_a_dummy_does_not_count_in_the_mean_pressure():
     """Two cylinders of the given mean pressure have it together, wherever the dummy stands."""
     for order, dummy in (([1, 3], "2"), ([2, 3], "1")):
         own = {dummy: {**GUIDE["cylinder"]["2"]}}
-        made = engine(**{**GUIDE, "crank": {**GUIDE["crank"], "throws": [0, 0, 0]}, "cylinder": own, "gas": WIEBE, "layout": {"firing_order": order}})
+        made = engine(
+            **{
+                **GUIDE,
+                "crank": {**GUIDE["crank"], "throws": [0, 0, 0]},
+                "cylinder": own,
+                "gas": WIEBE,
+                "layout": {"firing_order": order},
+            }
+        )
         assert analyze_torque(made).imep_Pa == pytest.approx(1e6, rel=1e-9)
 
 
@@ -71,7 +79,12 @@ def test_the_crankshaft_counts_in_the_couple_at_uneven_speed():
 
 
 def test_the_verdict_names_the_roll_couple_that_remains():
-    single = engine(crank={"stroke": 84, "throw_mass": 0.61}, rod={"length": 140, "mass": 0.47, "cg": 39, "inertia": 1600}, piston={"bore": 87, "mass": 0.46}, operation={"speed": 6500})
-    first = str(analyze(single)).partition("First order:")[2].partition("\n")[0]
+    single = engine(
+        crank={"stroke": 84, "throw_mass": 0.61},
+        rod={"length": 140, "mass": 0.47, "cg": 39, "inertia": 1600},
+        piston={"bore": 87, "mass": 0.46},
+        operation={"speed": 6500},
+    )
+    first = analyze(single).render().partition("First order:")[2].partition("\n")[0]
     assert "Roll couple of 35.3" in first
     assert "No moment" not in first

@@ -342,9 +342,7 @@ def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
     return " and ".join(told)
 
 
-def _tell_vector(
-    k: int, order: int, vector: _Vector, devices: Sequence[Device]
-) -> tuple[str, str]:
+def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device]) -> tuple[str, str]:
     """Return one vector of order 1 or 2: its size and how it turns; and what cancels it, nothing
     where it is negligible, or where the file has such devices already.
     """

@@ -462,8 +462,8 @@ class _Builder:
 
     # -------------------------------------------------------------- firing
     def _find_nominal(self, tops: list[float]) -> list[float]:
-        """Return `CylinderGas.nominal_deg` of each row. Cylinder 1 (`find_first`) fires in [-180, 180) deg of
-        crank angle, the others next to when the firing order has them fire.
+        """Return `CylinderGas.nominal_deg` of each row. Cylinder 1 (`find_first`) fires in
+        [-180, 180) deg of crank angle, the others next to when the firing order has them fire.
         """
         parts, cycle = self.parts, 180.0 * self.strokes
         phi, fires = self.cylinders.angle_deg, parts.fires_deg

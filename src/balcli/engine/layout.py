@@ -169,7 +169,9 @@ def _number_cylinders(
     return numbers, []
 
 
-def _check_firing_order(model: EngineFile, numbers: Sequence[int], throws: int) -> Iterator[Problem]:
+def _check_firing_order(
+    model: EngineFile, numbers: Sequence[int], throws: int
+) -> Iterator[Problem]:
     """Every cylinder stands in the firing order once; dummies, which have no gas, may be left out.
     Where the order has one cylinder for each throw, and banks share the throws, the mistake says
     how they do not.
