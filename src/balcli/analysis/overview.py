@@ -201,8 +201,8 @@ _SWAYS = {"x": "yawing", "y": "pitching"}
 _Row = tuple[int, float]  # index of an order, and the order
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
 _UNEVEN = (
-    "The uneven speed mixes the orders. Devices are sized at steady speed; one that cancels an order "
-    "there also cancels what that order adds to others."
+    "The uneven speed mixes the orders. Devices are sized at steady speed; one that cancels an "
+    "order there also cancels what that order adds to others."
 )
 
 
