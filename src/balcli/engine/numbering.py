@@ -427,18 +427,14 @@ def list_inferred(parts: Assembly) -> Iterator[str]:
 
 
 def _list_defaults(parts: Assembly) -> Iterator[str]:
-    """Yield masses, places and burning of which the file says nothing, with their defaults."""
-    model, rod, gas = parts.model, parts.model.rod.model_fields_set, parts.model.gas
+    """Yield places and burning of which the file says nothing, with their defaults."""
+    model, gas = parts.model, parts.model.gas
     together = parts.plan.rods_on_throw > 1 and model.articulation is None
     if together and "stagger" not in model.layout.model_fields_set:
         yield "layout.stagger = 0"
     if gas is not None and gas.cycle == "wiebe":
         keys = (key for key in WIEBE_KEYS if key not in gas.model_fields_set)
         yield from (f"gas.{key} = {getattr(gas, key):g}" for key in keys)
-    if rod & {"mass", "small_end"} and not rod & {"inertia", "pendulum"}:
-        yield "rod.inertia: two masses at the ends"
-    if "throw_mass" not in model.crank.model_fields_set:
-        yield "crank.throw_mass = 0 kg"
 
 
 def _count_throws_from_first(parts: Assembly) -> list[float]:

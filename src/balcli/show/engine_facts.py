@@ -82,10 +82,10 @@ def _has_arm(device: Device) -> bool:
 
 def _tell_inferred(engine: Engine) -> str:
     """Return keys that the file leaves out; throws and intervals without their values, which stand
-    in lines of their own; masses of rod and throw are left to -v and JSON.
+    in lines of their own.
     """
-    shown, minor = {"crank.throws", "layout.firing_intervals"}, ("rod.inertia", "crank.throw_mass")
-    pairs = (line.split(" = ") for line in engine.inferred if not line.startswith(minor))
+    shown = {"crank.throws", "layout.firing_intervals"}
+    pairs = (line.split(" = ") for line in engine.inferred)
     return ", ".join(key if key in shown else f"{key} = {value}" for key, value in pairs)
 
 
