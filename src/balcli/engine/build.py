@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..core.cylinders import Cylinders, Device
+from ..core.cylinders import Cylinders, Device, find_travel
 from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
 from ..core.speed_ripple import RippleLine
@@ -184,8 +184,11 @@ class Engine:
 
     @property
     def displacement_m3(self) -> Figure:
-        """Swept volume by bore and twice the crank radius."""
-        return math.pi / 4 * self.bore_m**2 * (2 * self.cylinders.radius) * self.cylinders.count
+        """Swept volume of all cylinders but dummies, which the firing order leaves out."""
+        stroke = find_travel(self.cylinders).stroke
+        burning = [row for row, n in enumerate(self.numbers) if n in (self.fires_deg or {n})]
+        volume: Array = math.pi / 4 * self.bore_m**2 * stroke[burning].sum(axis=0)
+        return volume if volume.ndim else float(volume)
 
     @property
     def first_axis_deg(self) -> Figure:

@@ -30,6 +30,7 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
+from ..file.gas_tables import WIEBE_KEYS
 from ..file.model import EngineFile
 from .devices import build_devices
 from .figures import place_in_plane
@@ -128,7 +129,7 @@ class Candidate:
         """
         turn = TURN if self.model.gas is None else cycle_deg(self.model.layout)
         mine, theirs = (
-            np.array([float(one.parts.fires_deg[c.number]) for c in one.parts.plan.cells])
+            np.array([float(one.parts.fires_deg.get(c.number, 0.0)) for c in one.parts.plan.cells])
             for one in (self, other)
         )
         shifts = theirs - mine
@@ -218,6 +219,8 @@ def find_fitting_splay(model: EngineFile) -> float | None:
     fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
     wanted = find_pins(fires, parts.pins.tops_deg, parts.sense)
     first, second = (c.number for c in parts.plan.cells if c.throw == 0 and c.bank < 2)
+    if not {first, second} <= fires.keys():
+        return None
     lead = np.remainder(wanted[second] - wanted[first] + 180, 360) - 180
     splay = round(float(lead), 3) + 0.0
     split = Parts(model.with_table("crank", splay=splay))
@@ -406,7 +409,10 @@ def list_inferred(parts: Parts) -> Iterator[str]:
     """
     model, plan = parts.model, parts.plan
     layout, given = model.layout, model.layout.model_fields_set
-    if parts.order is None or parts.rank:
+    if parts.rank:
+        return
+    yield from _list_defaults(parts)
+    if parts.order is None:
         return
     inferred = not parts.throws_given
     if plan.banks > 1 and "numbering" not in given and (inferred or model.gas is not None):
@@ -418,6 +424,17 @@ def list_inferred(parts: Parts) -> Iterator[str]:
             yield f"layout.firing_intervals = [{_join(_list_gaps(parts))}]"
     if "strokes" not in given and (inferred or model.gas is not None):
         yield f"layout.strokes = {layout.strokes}"
+
+
+def _list_defaults(parts: Parts) -> Iterator[str]:
+    """Yield places and burning of which the file says nothing, with their defaults."""
+    model, gas = parts.model, parts.model.gas
+    together = parts.plan.rods_on_throw > 1 and model.articulation is None
+    if together and "stagger" not in model.layout.model_fields_set:
+        yield "layout.stagger = 0"
+    if gas is not None and gas.cycle == "wiebe":
+        keys = (key for key in WIEBE_KEYS if key not in gas.model_fields_set)
+        yield from (f"gas.{key} = {getattr(gas, key):g}" for key in keys)
 
 
 def _count_throws_from_first(parts: Parts) -> list[float]:

@@ -191,7 +191,8 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
     if parts.model.gas is None:
         for number, own in parts.model.cylinder.items():
             for key in ("gas", "heat", "indicator"):
-                if getattr(own, key) is not None:
+                dummy = key == "gas" and parts.order is not None and number not in parts.order
+                if getattr(own, key) is not None and not dummy:
                     yield Problem(
                         f"cylinder.{number}.{key}",
                         "needs [gas], which says what the gas does in all cylinders",

@@ -21,6 +21,7 @@ from ..core.cylinders import Cylinders, find_travel
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
+from ..errors import InputError, Problem
 from ..file.model import ONE_BY_ONE, Articulation, EngineFile
 from .figures import (
     NOTHING,
@@ -137,7 +138,11 @@ def set_pins(parts: Parts) -> Pins:
     else:
         fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
         wanted = find_pins(fires, tops, parts.sense)
-        throws = {c.throw: wanted[c.number] - c.bank * splay for c in reversed(cells)}
+        firing = [c for c in reversed(cells) if c.number in wanted]
+        throws = {c.throw: wanted[c.number] - c.bank * splay for c in firing}
+        if silent := [c.number for c in cells if c.throw not in throws]:
+            told = f"no firing order says where the throw of dummy piston {silent[0]} stands"
+            raise InputError([Problem.of_missing("crank.throws", told)])
     pins = {
         c.number: either(parts.find_own(c.number).throw_deg, throws[c.throw] + c.bank * splay)
         for c in cells
@@ -331,7 +336,7 @@ class Parts:
     """
 
     plan: cached_property[Plan] = cached_property(
-        lambda self: plan_cylinders(self.model.crank, self.model.layout)
+        lambda self: plan_cylinders(self.model)
     )
     masters = cached_property(find_masters)
     rods = cached_property(weigh_rods)
