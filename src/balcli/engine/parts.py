@@ -416,7 +416,7 @@ class Parts:
         return {key: mass for key, mass in given.items() if mass is not None}
 
     def weigh_gear(self, place: RodPlace) -> RunningGear:
-        """Return piston and rod of one cylinder; cylinders without figures of their own share one."""
+        """Return piston and rod of one cylinder; those without figures of their own share one."""
         key = (place.number if place.number in self.own else 0, place.articulated)
         if key not in self._gears:
             own = self.find_own(place.number)
