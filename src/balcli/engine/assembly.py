@@ -29,6 +29,7 @@ from .figures import (
     shared_column,
 )
 from .layout import (
+    Cell,
     Plan,
     bank_angles,
     cycle_deg,
@@ -177,6 +178,11 @@ class Assembly:
         share = take("crank.throw_mass", crank.throw_mass) / self.plan.rods_on_throw
         rod_bearing = take("bobweight.rod_bearing", bobweight.rod_bearing)
         oil, found = take("bobweight.oil", bobweight.oil), {}
+        per_pin = take("bobweight.oil_per_pin", bobweight.oil_per_pin)
+        if self.figures.is_displaced("bobweight.oil_per_pin"):
+            per_pin = 0.0
+        elif self.figures.is_displaced("bobweight.oil"):
+            oil = 0.0
         for cell in self.plan.cells:
             number, gear = cell.number, self.gears[cell.number]
             own, hung = self.own_of(number).piston_mass, number in self.masters
@@ -188,9 +194,20 @@ class Assembly:
                 big_end=gear.big_end,
                 share=share,
                 rod_bearing=0.0 if hung else rod_bearing,
-                oil=0.0 if hung else oil,
+                oil=0.0 if hung else oil + self._share_of_pin(per_pin, cell),
             )
         return found
+
+    def _share_of_pin(self, whole: Figure, cell: Cell) -> Figure:
+        """Return the share that a rod has of a figure of its crank pin, which others may share."""
+        if not np.any(whole):
+            return 0.0
+        lead, found = self.leads_deg[cell.number], 0.0
+        for other in self.plan.cells:
+            if other.throw == cell.throw and other.number not in self.masters:
+                apart = (self.leads_deg[other.number] - lead + 180) % 360 - 180
+                found = found + (np.abs(apart) < 1e-9)
+        return whole / found
 
     # ------------------------------------------------------------------ crank pins and firing
     @cached_property

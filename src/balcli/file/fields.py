@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 
-STRING_PATTERN = r"^\s*[+-]?(?:pi|π|(?:[0-9.]|pi|π).*[A-Za-z°µμ²³¹π\"”″0-9])\s*$"
+_DIGITS, _LAST = "0-9０-９¼-¾⅐-⅞", "A-Za-zА-я°ºµμ²³¹π\"”″㎀-㏟"  # noqa: RUF001
+STRING_PATTERN = rf"^\s*[+−–-]?\s*(?:pi|π|(?:[{_DIGITS}.]|pi|π).*[{_LAST}{_DIGITS}.])\s*$"  # noqa: RUF001
 RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
 
 
@@ -59,7 +60,7 @@ def count_lambda_digits(ratio: float, usual: int = 4) -> int:
 
 def parse_firing_order(value: object) -> object:
     """Return a firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is."""
-    if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-, ]\s*\d{1,5})+\s*", value):
+    if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-–—,; ]\s*\d{1,5})+\s*", value):
         return [int(number) for number in re.findall(r"\d+", value)]
     return value
 
@@ -173,6 +174,8 @@ class Whole(_Field):
             f"a whole number{' or a half' * self.halves} from {self.least:g} to {self.most}"
             f"{'' if self.zero else ', not 0,'} is wanted"
         )
+        if isinstance(value, str) and re.fullmatch(r"\s*[+-]?[0-9]{1,6}\s*", value):
+            value = int(value)
         is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
         if not is_number or (2 * value if self.halves else value) % 1:  # type: ignore[operator]
             kind = "multiple of 1/2" if self.halves else "whole number"
