@@ -199,7 +199,10 @@ def test_refusals_say_what_is_near(text, dimension, begin):
     assert str(caught.value).startswith(begin)
 
 
-@pytest.mark.parametrize("text", ["pi", "-π", "pi/2", "2π", '3.5"', "5500 min⁻¹", "86 мм", "０,5 Kg", "½ in.", "3 1/2 in", "3-1/2 in", "9 kgf/cm2"])
+@pytest.mark.parametrize(
+    "text",
+    ["pi", "-π", "pi/2", "2π", '3.5"', "5500 min⁻¹", "86 мм", "０,5 Kg", "½ in.", "3 1/2 in", "3-1/2 in", "9 kgf/cm2"],
+)
 def test_editors_take_what_is_read(text):
     assert re.search(STRING_PATTERN, text)
 
@@ -207,7 +210,11 @@ def test_editors_take_what_is_read(text):
 SPELLINGS = {  # of one unit, with the dimension of the figure
     LENGTH: (["mm", "MM", "мм", "㎜", "millimetre"], ["in", "In", "in.", "inches", '"', "″"], ["cm", "см", "CM"]),
     MASS: (["kg", "Kg", "KG", "кг", "㎏"], ["g", "г", "gram"], ["oz", "Oz", "ounces"]),
-    UNBALANCE: (["g mm", "gmm", "g·mm", "g.mm", "г·мм"], ["oz in", "ozin", "in-oz", "oz·in"], ["kg cm", "kgcm", "кг·см"]),
+    UNBALANCE: (
+        ["g mm", "gmm", "g·mm", "g.mm", "г·мм"],
+        ["oz in", "ozin", "in-oz", "oz·in"],
+        ["kg cm", "kgcm", "кг·см"],
+    ),
     SPEED: (["rpm", "RPM", "Rpm", "r.p.m.", "1/min", "min⁻¹", "об/мин"], ["rad/s", "рад/с"]),
     TORQUE: (["N m", "Nm", "N·m", "Н·м", "Нм"], ["kN m", "kNm", "кН·м", "KN m"], ["lbf ft", "lbfft", "ftlb", "lb-ft"]),
     INERTIA: (["kg m^2", "kg m²", "kgm2", "кг·м²", "kg*m**2"],),

@@ -202,7 +202,8 @@ class Assembly:
         """Return the share that a rod has of a figure of its crank pin, which others may share."""
         if not np.any(whole):
             return 0.0
-        lead, found = self.leads_deg[cell.number], 0.0
+        found: Figure = 0.0
+        lead = self.leads_deg[cell.number]
         for other in self.plan.cells:
             if other.throw == cell.throw and other.number not in self.masters:
                 apart = (self.leads_deg[other.number] - lead + 180) % 360 - 180

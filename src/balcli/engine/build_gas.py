@@ -55,10 +55,10 @@ def build_diagram(gas: Gas, name: str, columns: NumberColumns, strokes: int) -> 
         BalcliError: The first mistake in the file, by its line.
     """
     kind = "gauge" if _is_gauge(gas, columns) else "absolute"
-    for row in np.flatnonzero(_absolute(gas, columns) < 0).tolist():
+    for below in np.flatnonzero(_absolute(gas, columns) < 0).tolist():
         right, hint = ("at least the vacuum", "") if kind == "gauge" else ("0 or more", ASK_GAUGE)
-        found = columns.as_written(row, 1)
-        message = f"line {columns.lines[row]}: the {kind} pressure is {found}: give {right}"
+        found = columns.as_written(below, 1)
+        message = f"line {columns.lines[below]}: the {kind} pressure is {found}: give {right}"
         raise BalcliError(f"{name}: {message}{hint}")
     angle, pressure, _ = _read(gas, columns, 180.0 * strokes)
     for row, message in find_diagram_mistakes(angle, pressure, strokes=strokes):
@@ -85,7 +85,9 @@ def _read(gas: Gas, columns: NumberColumns, period: float) -> tuple[Array, Array
         return angle, pressure, 1
     angle = angle + period * np.searchsorted(starts, np.arange(len(angle)) - 0.5)
     span = angle[-1] - angle[0]
-    kept = np.append(True, np.diff(angle) > _SAME)  # the end of a cycle is the beginning of the next
+    kept = np.append(
+        True, np.diff(angle) > _SAME
+    )  # the end of a cycle is the beginning of the next
     if not (np.diff(angle) > -_SAME).all():
         return np.array(columns.column(0)), pressure, 1
     count = round((span + np.median(steps)) / period)
@@ -188,7 +190,8 @@ def list_doubts(
     if value > MAX_PRESSURE * BAR:
         yield (
             f"{path}: the highest pressure is {value / scale:.4g} {unit}, where at most "
-            f"{MAX_PRESSURE * BAR / scale:.4g} is usual; does the heading of its column name the right unit?"
+            f"{MAX_PRESSURE * BAR / scale:.4g} is usual; does the heading of its column "
+            "name the right unit?"
         )
     lowest = found.extremes()[0].value / scale
     if lowest * scale < LOW_PRESSURE * BAR:
@@ -400,7 +403,10 @@ class _Builder:
                 raise BalcliError(f"{line}: {what.format(**told)}")
 
         step = 2 / self.strokes
-        refuse(np.append(False, np.diff(orders) <= 0), "order {order:g} is not above the {last:g} before it")
+        refuse(
+            np.append(False, np.diff(orders) <= 0),
+            "order {order:g} is not above the {last:g} before it",
+        )
         above = f"order {{order:g}} is above {HIGHEST_TABLE_ORDER}, where no table goes"
         refuse(orders > HIGHEST_TABLE_ORDER, above)
         mean = "order 0 has sin {sine:g}; it is the mean, which has no sine: write 0"

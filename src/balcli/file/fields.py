@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 
-_DIGITS, _LAST = "0-9０-９¼-¾⅐-⅞", "A-Za-zА-я°ºµμ²³¹π\"”″㎀-㏟"  # noqa: RUF001
-STRING_PATTERN = rf"^\s*[+−–-]?\s*(?:pi|π|(?:[{_DIGITS}.]|pi|π).*[{_LAST}{_DIGITS}.])\s*$"  # noqa: RUF001
+_DIGITS, _LAST = "0-9０-９¼-¾⅐-⅞", 'A-Za-zА-я°ºµμ²³¹π"”″㎀-㏟'
+STRING_PATTERN = rf"^\s*[+−–-]?\s*(?:pi|π|(?:[{_DIGITS}.]|pi|π).*[{_LAST}{_DIGITS}.])\s*$"
 RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
 
 
@@ -44,6 +44,26 @@ def shorten(value: object) -> str:
         text = f"[{items}{', ...' if len(value) > 8 else ''}]"
         return text if len(text) <= LONGEST_SHOWN else f"a list of {len(value)}"
     return f"{value:.15g}" if isinstance(value, float) else str(value)[:LONGEST_SHOWN]
+
+
+class WrittenFigure(float):
+    """A figure that a file gives in a unit of its own; `text` is what the file has."""
+
+    text: str
+
+    def __new__(cls, value: float, text: str) -> WrittenFigure:
+        figure = super().__new__(cls, value)
+        figure.text = text
+        return figure
+
+    def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override]
+        return float(self), self.text
+
+
+def as_written(value: float, unit: str) -> str:
+    """Return a figure as its file has it; `unit` is that of a bare number."""
+    text = value.text if isinstance(value, WrittenFigure) else f"{value:g} {unit}"
+    return printable(text.strip())
 
 
 def counted(count: int, what: str) -> str:
@@ -133,7 +153,7 @@ class Number(_Field):
             raise ValueError(f"{shown} is no finite number; {wanted(self.dimension)}")
         if fault := self._fault(number):
             raise ValueError(f"{shown} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
-        return number
+        return WrittenFigure(number, value) if isinstance(value, str) else number
 
     def _fault(self, number: float) -> tuple[str, str] | None:
         """Return how a number is out of bounds, and its bounds; None if it is within."""

@@ -114,7 +114,7 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
 
 
 def _find_format(text: str) -> str:
-    """Return what a text is that is no TOML, in words; empty where it was probably meant as TOML."""
+    """Return the format of a text that is no TOML; empty where it was probably meant as TOML."""
     lines = [line.strip() for line in text.splitlines() if line.strip()]
     first, start = next(iter(lines), ""), text.lstrip()[:1]
     if start == "{" or (start == "[" and not re.match(r"\[{1,2}[\w. \t-]+\]", first)):

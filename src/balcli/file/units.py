@@ -248,7 +248,7 @@ _KINDS = (  # how one speaks of what has these units; the first that has the pow
 )
 
 # One spelling for what is written in several ways and can mean one thing only
-_SIGNS = str.maketrans("−–º˚“”″⁄’", "--°°\"\"\"/'")
+_SIGNS = str.maketrans("−–º˚“”″⁄’", '--°°"""/\'')
 _CYRILLIC = dict(
     pair.split(":")
     for pair in """
@@ -256,25 +256,25 @@ _CYRILLIC = dict(
     рад:rad град:deg об:turn Гц:Hz кГц:kHz Н:N кН:kN МН:MN Нм:Nm кНм:kNm кгм:kgm гмм:gmm гсм:gcm
     кгс:kgf тс:tf ат:at атм:atm бар:bar Па:Pa кПа:kPa МПа:MPa ГПа:GPa
     Дж:J кДж:kJ МДж:MJ Вт:W кВт:kW л:l
-    """.split()
+    """.split()  # noqa: SIM905
 )
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
-        (r"(\d?)\s*([¼-¾⅐-⅞])", lambda m: f"{m[1]} {normalize('NFKC', m[2])}"),
-        (r"[\uff01-\uff5e\u3380-\u33df\u00a0\u2007\u2009\u202f]", lambda m: normalize("NFKC", m[0])),
-        (r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS)),
-        (r".+", lambda m: m[0].translate(_SIGNS)),
-        (r"(?i)\br\.p\.m\.?", "rpm"),
-        (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
-        (r"[а-яёА-ЯЁ]+", lambda m: _CYRILLIC.get(m[0], m[0])),
-        (r"(?<=\d)\s*[x×·⋅*]\s*10\^([+-]?\d{1,3})\b", r"e\1"),
-        (
-            r"^(\s*[+-]?[1-9]\d{0,2})((?:[ '_]\d{3})+)(?![\d/]| \d{3}|\s*/\s*\d)",
-            lambda m: m[1] + re.sub(r"[ '_]", "", m[2]),
-        ),
-        # A decimal comma, unless three digits behind it might be thousands
-        (r"^(\s*[+-]?(?:0|\d{4,}|\d+(?=,(?:\d{1,2}|\d{4,})(?!\d)))),(\d+)(?![\d,.])", r"\1.\2"),
-        (r'^([^"]*\d)\s*"\s*$', r"\1 in"),
+    (r"(\d?)\s*([¼-¾⅐-⅞])", lambda m: f"{m[1]} {normalize('NFKC', m[2])}"),
+    (r"[\uff01-\uff5e\u3380-\u33df\u00a0\u2007\u2009\u202f]", lambda m: normalize("NFKC", m[0])),
+    (r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS)),
+    (r".+", lambda m: m[0].translate(_SIGNS)),
+    (r"(?i)\br\.p\.m\.?", "rpm"),
+    (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
+    (r"[а-яёА-ЯЁ]+", lambda m: _CYRILLIC.get(m[0], m[0])),
+    (r"(?<=\d)\s*[x×·⋅*]\s*10\^([+-]?\d{1,3})\b", r"e\1"),
+    (
+        r"^(\s*[+-]?[1-9]\d{0,2})((?:[ '_]\d{3})+)(?![\d/]| \d{3}|\s*/\s*\d)",
+        lambda m: m[1] + re.sub(r"[ '_]", "", m[2]),
+    ),
+    # A decimal comma, unless three digits behind it might be thousands
+    (r"^(\s*[+-]?(?:0|\d{4,}|\d+(?=,(?:\d{1,2}|\d{4,})(?!\d)))),(\d+)(?![\d,.])", r"\1.\2"),
+    (r'^([^"]*\d)\s*"\s*$', r"\1 in"),
 )
 
 
@@ -300,7 +300,8 @@ _PER_SECOND = r"\d\.?(?:(?:\s+1)?\s*/\s*|\s*(?=\w+(?:\^|\*\*)?-))s(?:ec)?(?:(?:\
 _HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
 # pi/2, -3*pi/4 rad
 _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
-_POUND = r"(?i)(?:\b|(?<=ft|in))(?:lbs?|pounds?)(?=\b|ft|in)"  # a force where only that fits: 24 lb in/rad, 0.3 lb in s2
+# A force where only that fits: 24 lb in/rad, 0.3 lb in s2
+_POUND = r"(?i)(?:\b|(?<=ft|in))(?:lbs?|pounds?)(?=\b|ft|in)"
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([23]))?"
 
 

@@ -40,8 +40,8 @@ _WHOLE = 1e-4  # of itself, by which a period in a file may be rounded: 102.86 d
 
 
 def read_curve(path: Path) -> PiecewiseCurve:
-    """Return a torque from CSV headed angle_deg,torque_Nm, or in other units: straight lines between rows, the last of
-    which closes the period.
+    """Return a torque from CSV headed angle_deg,torque_Nm (or in other units): straight lines
+    between rows, the last of which closes the period.
 
     Raises:
         BalcliError: The file is none of that kind, or angles do not rise.
