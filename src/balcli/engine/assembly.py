@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -202,13 +202,14 @@ class Assembly:
         """Return the share that a rod has of a figure of its crank pin, which others may share."""
         if not np.any(whole):
             return 0.0
-        found: Figure = 0.0
+        found: Any = 0.0
         lead = self.leads_deg[cell.number]
         for other in self.plan.cells:
             if other.throw == cell.throw and other.number not in self.masters:
                 apart = (self.leads_deg[other.number] - lead + 180) % 360 - 180
                 found = found + (np.abs(apart) < 1e-9)
-        return whole / found
+        share: Figure = whole / found
+        return share
 
     # ------------------------------------------------------------------ crank pins and firing
     @cached_property
