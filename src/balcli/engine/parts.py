@@ -180,7 +180,8 @@ def _count_on_pin(parts: Parts, cell: Cell) -> Figure:
     leads = parts.pins.leads_deg
     rods = [c.number for c in parts.plan.cells if c.throw == cell.throw]
     apart = (leads[n] - leads[cell.number] for n in rods if n not in parts.masters)
-    return sum((1.0 * (np.abs((angle + 180) % 360 - 180) < 1e-9) for angle in apart), 0.0)
+    together = (np.abs((angle + 180) % 360 - 180) < 1e-9 for angle in apart)
+    return sum((np.asarray(each, float) for each in together), 0.0)
 
 
 # ------------------------------------------------------------------ places along the crank
