@@ -302,8 +302,8 @@ def _list_travel(travel: Travel, numbers: Sequence[int]) -> list[tuple[int, floa
 
 
 UNITS = (
-    "Fn: largest force of order n of one cylinder's reciprocating masses; a: distance of "
-    "neighbouring throws; as built: with rotating masses and stagger."
+    "Fn: largest force of order n of one cylinder's reciprocating masses; a: least axial distance "
+    "of two throws; as built: with rotating masses and stagger."
 )
 
 

@@ -449,10 +449,11 @@ class Curves(Document):
     assumed: NotRequired[Assumed]
 
 
-class Erratum(TypedDict):
-    """A printed figure that is not the exact one rounded."""
+class Erratum(TypedDict("_Classified", {"class": str})):  # a keyword of Python
+    """A printed figure that is not the exact one rounded, or a statement that is wrong."""
 
     row: int
+    label: str
     column: str
     printed: str
     exact: Cell
