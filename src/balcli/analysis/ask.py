@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..core.records import Node, to_document
 from ..engine.build import Engine
 from ..forces.kinds import GAS, ROLL
 from ..shell.inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
@@ -29,9 +30,9 @@ def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
     return chapter.sheet(one.result, system, one.view)
 
 
-def document(one: NamedResult[Analysis]) -> dict[str, Any]:
-    """`balcli.analysis/1`."""
-    return chapter.document(one.result)
+def document(one: NamedResult[Any]) -> Node:
+    """The JSON document, which has the engine's own name."""
+    return to_document(one.result)
 
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, assert_never
 
+from ..core.records import to_document
 from .csv import csv_text, json_text
 from .table import markdown, plain_text
 
@@ -40,11 +41,11 @@ class Columnar(Generic[Shown]):
     """How results of one kind become documents and columns.
 
     Attributes:
-        document: Makes what JSON says, in SI units.
+        document: Makes the JSON document, in SI units; default: the record's.
         columns: Makes the columns of DataFrames; None: those of the rows of CSV.
     """
 
-    document: Callable[[Shown], Any]
+    document: Callable[[Shown], Any] = to_document
     columns: Callable[[Shown], Columns] | None = None
 
 
