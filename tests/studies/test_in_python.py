@@ -196,9 +196,9 @@ def test_curves_of_an_engine_and_of_a_piston():
     assert len(found.rows()) == 72
     spectra = balcli.analyze(FOUR, range(1, 33), only="force").spectra
     wanted = spectra.force.values(np.radians(found.crank_deg)).real
-    assert found.values["force_x_N"] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+    assert found.curves["force_x_N"] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
     piston = balcli.curves(FOUR, 90, cylinder=2)
-    assert piston.values["travel_m"].max() == pytest.approx(2 * FOUR.cylinders.radius)
+    assert piston.curves["travel_m"].max() == pytest.approx(2 * FOUR.cylinders.radius)
     assert "travel_m" in piston.to_pandas()
     assert len(balcli.curves(balcli.load_example("i4_wiebe"), 90).rows()) == 8
     with pytest.raises(balcli.BalcliError, match=r"in-line four, 2 litres has the cylinders 1, 2, 3, 4$"):
@@ -281,8 +281,8 @@ def test_what_is_wrong_is_told(kind, call, message):
 @pytest.mark.parametrize("cylinder", [None, 2])
 def test_curves_with_gas_do_not_depend_on_how_many_angles_are_computed_at_a_time(cylinder, monkeypatch):
     engine = balcli.load_example("i4_wiebe")
-    at_once = balcli.curves(engine, 7, cylinder=cylinder).values
+    at_once = balcli.curves(engine, 7, cylinder=cylinder).curves
     monkeypatch.setattr(force_curves, "AT_ONCE", 4 * 10)  # ten angles of four cylinders
-    in_pieces = balcli.curves(engine, 7, cylinder=cylinder).values
+    in_pieces = balcli.curves(engine, 7, cylinder=cylinder).curves
     for name, values in at_once.items():
         np.testing.assert_allclose(in_pieces[name], values, rtol=0, atol=1e-12 * np.abs(values).max())

@@ -145,7 +145,7 @@ class Analysis(Result):
 
 
 def shorten(analysis: Analysis) -> PeaksAndOrders:
-    """Return peaks and orders alone, where the engine is known; the peaks must have been asked for."""
+    """Return peaks, which must have been asked for, and orders alone."""
     assert analysis.peak is not None
     return PeaksAndOrders(analysis.peak, analysis.spectra)
 

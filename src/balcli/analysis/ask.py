@@ -9,13 +9,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.records import Node, to_document
 from ..engine.build import Engine
 from ..forces.kinds import GAS, ROLL
 from ..shell.inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
 from ..shell.output import show
 from ..show.csv import Rows, name_cell
-from ..show.formats import Format, Renderer, Units
+from ..show.formats import Format, Renderer, Units, write_named
 from ..show.sheet import NamedResult, Sheet, View
 from ..show.units import System
 from . import show as chapter
@@ -30,11 +29,6 @@ def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
     return chapter.sheet(one.result, system, one.view)
 
 
-def document(one: NamedResult[Any]) -> Node:
-    """The JSON document, which has the engine's own name."""
-    return to_document(one.result)
-
-
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
     """CSV: the rows of the analysis, each after the engine's name."""
     devices = "sizing" in one.view.parts
@@ -42,7 +36,7 @@ def rows(one: NamedResult[Analysis], system: System) -> Rows:
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 
 
 def answer(

@@ -24,6 +24,8 @@ ANGLES = (
     "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
     "counterweights from cylinder 1's crank pin, of shafts from x."
 )
+
+
 # ------------------------------------------------------------------ for people
 def device_grid(remedy: Remedy, system: System) -> Grid:
     """Return one row a device."""

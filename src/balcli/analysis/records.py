@@ -16,7 +16,14 @@ from ..file import model
 from ..forces.crankshaft import AlongCrank, InnerLoads
 from ..forces.guide import GuideMoments
 from ..forces.spectrum import Spectra
-from ..show.figures import Harmonic, OrderFigures, Peaks, Vector, list_harmonics, list_orders, list_vectors
+from ..show.figures import (
+    Harmonic,
+    Peaks,
+    Vector,
+    list_harmonics,
+    list_orders,
+    list_vectors,
+)
 from ..show.sheet import order_number
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance
 from ..sizing.remedy import Remedy

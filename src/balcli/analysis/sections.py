@@ -239,7 +239,7 @@ def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:
         yield FigureRow(*about, "why_size", clean(reason.size), "of one cylinder")
         if reason.reciprocating is not None:
             yield FigureRow(*about, "why_reciprocating", clean(reason.reciprocating), reason.unit)
-            yield FigureRow(*about, "why_built", clean(reason.built), reason.unit)
+            yield FigureRow(*about, "why_built", reason.built, reason.unit)
     if why.scope:
         yield FigureRow(0, "scope", None, "why", why.scope, "")
     if why.firing:

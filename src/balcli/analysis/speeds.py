@@ -22,7 +22,7 @@ from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import engine_facts
 from ..show.figures import clean, name_engine
-from ..show.formats import Renderer
+from ..show.formats import Renderer, write_named
 from ..show.sheet import (
     NAMELESS,
     NEGLIGIBLE,
@@ -40,7 +40,6 @@ from ..show.sheet import (
 )
 from . import sections, show as analysis_show
 from .answer import Analysis, analyze
-from .ask import document
 from .comparison import (
     TITLES,
     Line,
@@ -338,7 +337,7 @@ def _kind_part(
     return Grid(title, ("rpm", *heads), table, words=())
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 
 
 _NAMES = (
@@ -485,4 +484,4 @@ def _tell_axes(result: MarineSheet) -> str:
     return f"V is along x, from which bank angles count ({what}), H along y."
 
 
-MARINE = Renderer(sheet=lay_out_marine, document=document, rows=list_marine)
+MARINE = Renderer(sheet=lay_out_marine, document=write_named, rows=list_marine)

@@ -1,4 +1,4 @@
-"""The figures of an engine as records: orders, peaks and the engine itself; and one by one for CSV."""
+"""The figures of an engine as records (orders, peaks, the engine itself), and as lines of CSV."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.peaks import Peak
-from ..core.phasors import Array, Complex, Phasors, wrap_degrees
+from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
 from ..engine.build import Engine, SilentCylinders
 from ..forces.kinds import FORCE, MOMENT, Kind
@@ -236,7 +236,7 @@ def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:
     return {key: numbers for key, numbers in each.items() if numbers}
 
 
-def clean(value: float) -> float | None:
+def clean(value: Figure) -> float | None:
     """A plain float; None for nan, and no negative zero."""
     number = float(value)
     return None if math.isnan(number) else number + 0.0
@@ -245,16 +245,12 @@ def clean(value: float) -> float | None:
 # ------------------------------------------------------------------ order by order
 def list_orders(spectra: Spectra) -> list[OrderFigures]:
     """Return one record an order, with the kinds that were computed."""
-    each = [(kind.key, list_figures_of(kind, phasors)) for kind, phasors in spectra.items()]
+    columns: Node = {kind.key: list_vectors(phasors) for kind, phasors in spectra.vectors()}
+    columns |= {kind.key: list_harmonics(phasors) for kind, phasors in spectra.scalars()}
     return [
-        OrderFigures(order=order_number(order), **{key: figures[k] for key, figures in each})
-        for k, order in enumerate(spectra.orders.tolist())
+        OrderFigures(order=order, **{key: column[k] for key, column in columns.items()})
+        for k, order in enumerate(map(order_number, spectra.orders))
     ]
-
-
-def list_figures_of(kind: Kind, phasors: Phasors) -> list[Vector] | list[Harmonic]:
-    """Return one record an order of a kind."""
-    return list_vectors(phasors) if kind.vector else list_harmonics(phasors)
 
 
 def list_vectors(phasors: Phasors) -> list[Vector]:
@@ -282,19 +278,20 @@ def size_or_mean(c: complex, order: float) -> float:
     return abs(c) if order else c.real
 
 
-def peak_deg(c: ArrayLike, orders: ArrayLike) -> Array:
+def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
     """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; nan if it
     vanishes or is a mean; of one shape.
     """
     there = np.not_equal(c, 0) & np.greater(orders, 0)
     n = np.where(there, orders, 1.0)
-    angle = -np.angle(c, deg=True) % 360 / n
+    angle = np.degrees(-np.angle(c)) % 360 / n
     return np.where(there, np.where(angle < 360 / n, angle, 0.0), np.nan)
 
 
-def phase_deg(c: ArrayLike) -> Array:
+def phase_deg(c: complex | Complex) -> Array:
     """Return the angle in (-180, 180] of `amplitude cos(n theta - angle)`."""
-    return wrap_degrees(-np.angle(c, deg=True), 360)
+    angle = -np.degrees(np.angle(c))
+    return np.where(angle <= -180, angle + 360, angle)
 
 
 # ------------------------------------------------------------------ as a list
