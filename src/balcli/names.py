@@ -69,7 +69,7 @@ RENDERERS = {
 # JSON documents, by the name that stands in `format`: the class that declares each.
 DOCUMENTS = {
     "analysis": "analysis.answer:Analysis",
-    "balance": "show.document:Balance",
+    "balance": "balancing.show:BalanceDocument",
     "bench": "bench:Bench",
     "check": "regression:Check",
     "compare": "analysis.comparison:Comparison",
@@ -79,10 +79,10 @@ DOCUMENTS = {
     "mounts": "mounts.records:MountReport",
     "numbers": "studies.quantities:NamedNumbers",
     "scatter": "studies.scatter:Scatter",
-    "search": "show.document:Search",
+    "search": "studies.search.answer:Search",
     "speeds": "analysis.speeds:SpeedSeries",
     "sum": "analysis.two_engines:Combined",
-    "sweep": "show.document:Sweep",
+    "sweep": "studies.sweep_show:SweepDocument",
     "table": "show.document:Table",
     "torque": "torque.records:TorqueAnalysis",
     "torsion": "torsion.answer:TorsionAnalysis",

@@ -37,7 +37,7 @@ def test_they_are_what_analyze_gives() -> None:
     assert force is not None
     assert moment is not None
     assert roll is not None
-    assert found.force is not None
+    assert found.peak is not None
     expected = {
         "force.2.major": force.major[1],
         "force.1.minor": force.minor[0],

@@ -103,11 +103,11 @@ def test_weights_and_limits_of_a_search():
     weighed = {"moment.1.major": 1, "moment.2.major": np.float64(0.5)}
     for one in balcli.search(V8, "throws", weighed, limits={"moment.2.major": 1000.0}).results:
         assert one.objective == pytest.approx(
-            one.figures["moment.1.major"] + 0.5 * one.figures["moment.2.major"], rel=CLOSE
+            one.quantities["moment.1.major"] + 0.5 * one.quantities["moment.2.major"], rel=CLOSE
         )
-        assert one.figures["moment.2.major"] < 1000
+        assert one.quantities["moment.2.major"] < 1000
     both = balcli.search(V8, "throws", ["moment.1.major", "moment.2.major"])
-    assert both.results[0].figures.keys() == weighed.keys()
+    assert both.results[0].quantities.keys() == weighed.keys()
 
 
 def test_angles_of_a_search_are_numbers_of_a_frame():

@@ -45,10 +45,10 @@ from .records import (
     CylinderShare,
     PeaksAndOrders,
     Stroke,
-    describe_devices,
     describe_guide,
     describe_inner,
     list_strokes,
+    name_devices,
 )
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
@@ -159,7 +159,7 @@ class Sizing:
         after: Analysis with the devices.
     """
 
-    remedy: Annotated[Remedy, WrittenAs(describe_devices), INLINE]
+    remedy: Annotated[Remedy, WrittenAs(name_devices), INLINE]
     after: Annotated[Analysis, WrittenAs(shorten)]
 
 

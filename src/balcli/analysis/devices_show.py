@@ -7,13 +7,12 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..core.records import Node, to_document
 from ..file.model import Counterweight, Shaft, Slider
 from ..limits import MOST_HOLES
 from ..show.sheet import UNKNOWN, Grid, degrees, given, number
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
-from .records import KEYS, describe_devices, find_value
+from .records import KEYS, find_value
 
 if TYPE_CHECKING:
     from ..show.units import ShownUnit, System
@@ -153,12 +152,6 @@ def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit)
 
 
 # ------------------------------------------------------------------ for programs
-def device_entries(remedy: Remedy) -> Node:  # of balance, until it is a record
-    """Return new devices in JSON, as an engine file would describe them."""
-    found = to_document(describe_devices(remedy))
-    return {key: devices for key, devices in found.items() if key != "scheme"}
-
-
 def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:
     """Yield each device with its name among those of its kind: `shaft 2`."""
     numbers: Counter[str] = Counter()

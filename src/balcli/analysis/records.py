@@ -320,21 +320,32 @@ class Slider:
     position_mm: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Devices:
     """Devices that a scheme fits, as an engine file would describe them.
 
     Attributes:
-        scheme: Name of the scheme.
         counterweights: Counterweights on the crankshaft.
         shafts: Balancer shafts.
         sliders: Masses that run to and fro.
     """
 
-    scheme: str
     counterweights: tuple[Counterweight, ...]
     shafts: tuple[Shaft, ...]
     sliders: tuple[Slider, ...]
+
+
+@dataclass(frozen=True)
+class SizedDevices:
+    """Devices of a scheme.
+
+    Attributes:
+        scheme: Name of the scheme.
+        devices: The devices.
+    """
+
+    scheme: str
+    devices: Annotated[Devices, INLINE]
 
 
 # Figures of a device by the fields of the engine file, with their units; in the order of CSV.
@@ -349,18 +360,18 @@ KEYS = {
 }
 
 
+def name_devices(remedy: Remedy) -> SizedDevices:
+    """Return the scheme and its devices."""
+    return SizedDevices(remedy.scheme, describe_devices(remedy))
+
+
 def describe_devices(remedy: Remedy) -> Devices:
     """Return the devices of a remedy by their kinds."""
-    free = zip(remedy.devices, remedy.free, strict=True)
+    each = [*zip(remedy.devices, remedy.free, strict=True)]
     return Devices(
-        scheme=remedy.scheme,
-        counterweights=tuple(Counterweight(**_list_fields(d)) for d in remedy.counterweights),
-        shafts=tuple(
-            Shaft(**_list_fields(d), free=anywhere)
-            for d, anywhere in free
-            if isinstance(d, model.Shaft)
-        ),
-        sliders=tuple(Slider(**_list_fields(d)) for d in remedy.sliders),
+        tuple(Counterweight(**_list_fields(d)) for d in remedy.counterweights),
+        tuple(Shaft(**_list_fields(d), free=f) for d, f in each if isinstance(d, model.Shaft)),
+        tuple(Slider(**_list_fields(d)) for d in remedy.sliders),
     )
 
 

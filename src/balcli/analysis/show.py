@@ -9,7 +9,6 @@ from typing import TypeAlias
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.records import Node, to_document
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
 from ..show.csv import Columns, Rows
@@ -19,7 +18,7 @@ from ..show.formats import Renderer
 from ..show.sheet import IN_BRIEF, NAMELESS, Facts, Grid, Sheet, Text, View, sentence
 from ..show.units import System
 from . import sections
-from .answer import Analysis, Sizing, shorten
+from .answer import Analysis, Sizing
 from .devices_show import device_grid, device_rows, number_devices
 from .order_tables import (
     cylinder_table,
@@ -184,11 +183,6 @@ def columns(result: Analysis) -> Columns:
             values[f"{kind.name}.{part}"] = figures + 0.0
             units[f"{kind.name}.{part}"] = "deg" if part == "axis" else kind.si_unit
     return Columns(values, units)
-
-
-def brief_document(result: Analysis) -> Node:  # of balance, until it is a record
-    """Peaks and orders alone, where the engine is known."""
-    return to_document(shorten(result))
 
 
 def rows(result: Analysis, system: System, *, devices: bool = True) -> Rows:

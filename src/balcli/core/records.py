@@ -17,7 +17,7 @@ Rules:
 * Marks in `Annotated`: `Polar` writes a complex number as magnitude and angle, `Reached` a peak as
   its value and its crank angle, `WrittenAs` a value as the record that a function makes of it,
   `Axes(2)` is an array of two axes (no mark: one), `INLINE` puts the keys of a value beside those
-  of the other attributes, `HIDDEN` keeps an attribute for Python alone.
+  of the other attributes (of a dict, any keys), `HIDDEN` keeps an attribute for Python alone.
 
 Example::
 
@@ -259,12 +259,16 @@ def _describe_class(record: type, definitions: Node) -> Node:
     summary, _, rest = cleandoc(record.__doc__ or "").partition("\n\n")
     texts = dict(_ATTRIBUTE.findall(rest.partition("Attributes:\n")[2]))
     properties: Node = {}
+    further: Node = {}
     required: list[str] = []
     for each in _list_attributes(record):
         kind = each.kind if each.make is None else get_type_hints(each.make)["return"]
         node = _describe(kind, each, definitions)
         if each.inline and "$ref" in node:
             node = definitions[node["$ref"].rpartition("/")[2]]
+        elif each.inline and "properties" not in node:  # a dict of any keys
+            further |= node
+            continue
         for key, part in (node["properties"] if each.inline else {each.key: node}).items():
             unit = find_unit(key)
             text = "" if each.inline else " ".join(texts.get(each.name, "").split())
@@ -272,7 +276,7 @@ def _describe_class(record: type, definitions: Node) -> Node:
             properties[key] = {"description": text} | part if text else part
         if not each.optional:
             required += node.get("required", ()) if each.inline else (each.key,)
-    return {
+    return further | {
         "type": "object",
         "description": " ".join(summary.split()),
         "properties": properties,
@@ -303,6 +307,8 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
             definitions[name] = {}  # stands there while its attributes are described
             definitions[name] = _describe_class(kind, definitions)  # type: ignore[arg-type]
         return {"$ref": f"#/$defs/{name}"}
+    if kind is Any:
+        return {}
     if kind is complex:
         return {"type": "array", "items": _NUMBER}
     return {"type": _SIMPLE[kind]} if kind in _SIMPLE else _NUMBER

@@ -15,6 +15,7 @@ from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
 from ..engine.build import Engine, SilentCylinders
+from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
@@ -200,8 +201,8 @@ def measure_engine(engine: Engine) -> EngineSize:
     return EngineSize(engine.name, engine.cylinders.count, float(engine.displacement_m3))
 
 
-def name_engine(engine: Engine) -> EngineName:
-    """Return the name of an engine."""
+def name_engine(engine: Engine | EngineFile) -> EngineName:
+    """Return the name of an engine, or of its file."""
     return EngineName(engine.name)
 
 
@@ -222,12 +223,6 @@ def list_assumed(known: bool, inferred: Sequence[str] = ()) -> tuple[str, ...] |
         inferred: What else was taken.
     """
     return (*inferred, *([] if known else ["crank.spacing = 0"])) or None
-
-
-def assumptions(result: Located) -> Node:  # of balance, until it is a record
-    """Return the entry `assumed` of JSON."""
-    listed = list_assumed(result.moments_known)
-    return {} if listed is None else {"assumed": listed}
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:
