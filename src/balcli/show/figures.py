@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Annotated, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Figure, Phasors
@@ -263,8 +263,12 @@ def _find_parts(c: Complex, orders: Array) -> tuple[list[float], list[float]]:
 
 def list_harmonics(phasors: Phasors) -> list[Harmonic]:
     """Return couples, torques or rolls, one an order."""
-    c = phasors.x
-    columns = (c.real, -c.imag, np.abs(c), peak_deg(c, phasors.orders), phasors.balanced)
+    return list_coefficients(phasors.orders, phasors.x, phasors.balanced)
+
+
+def list_coefficients(orders: Array, c: Complex, balanced: NDArray[np.bool_]) -> list[Harmonic]:
+    """Return the orders of `Re sum c_n e^{i n theta}`, each argument of shape (orders,)."""
+    columns = (c.real, -c.imag, np.abs(c), peak_deg(c, orders), balanced)
     return list(map(Harmonic, *(column.tolist() for column in columns)))
 
 
