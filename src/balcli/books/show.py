@@ -8,18 +8,28 @@ precision. Besides: all errata, the list of tables, and the table of common layo
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any, Literal
 
+from ..core.records import Node, to_document
 from ..show.csv import Rows
 from ..show.formats import Renderer
 from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, number
 from ..show.units import System
-from .recomputed import Cell, Erratum, Table, deviates, parse_decimal, parse_number, round_like
+from .recomputed import (
+    Cell,
+    Erratum,
+    Row,
+    Table,
+    Words,
+    deviates,
+    parse_decimal,
+    parse_number,
+    round_like,
+)
 
 if TYPE_CHECKING:
     from .answer import Layouts
-    from .recomputed import Row
 
 
 def sheet(table: Table, _system: System) -> Sheet:
@@ -36,18 +46,35 @@ def sheet(table: Table, _system: System) -> Sheet:
     return Sheet(f"{table.name}: {table.title}", (Facts((("source", table.source),)), grid))
 
 
-def document(table: Table) -> dict[str, Any]:
+@dataclass(frozen=True, kw_only=True)
+class TableDocument:
+    """A printed table, recomputed.
+
+    Attributes:
+        name: Name of the table.
+        title: Title of the table.
+        source: Book or paper that prints it.
+        columns: Names of the columns.
+        rows: Exact cells of every row.
+        printed: Printed texts of every row; null: not printed.
+        errata: Printed cells that are not the exact ones rounded.
+    """
+
+    format: Literal["balcli.table/1"] = "balcli.table/1"
+    name: str
+    title: str
+    source: str
+    columns: tuple[str, ...]
+    rows: tuple[Row, ...]
+    printed: tuple[Words, ...]
+    errata: tuple[Erratum, ...]
+
+
+def document(table: Table) -> Node:
     """Return `balcli.table/1`: the exact figures, the printed texts, and the errata."""
-    return {
-        "format": "balcli.table/1",
-        "name": table.name,
-        "title": table.title,
-        "source": table.source,
-        "columns": table.columns,
-        "rows": table.exact,
-        "printed": table.printed,
-        "errata": [asdict(e) for e in table.errata],
-    }
+    head = {key: getattr(table, key) for key in ("name", "title", "source", "columns")}
+    found = TableDocument(**head, rows=table.exact, printed=table.printed, errata=table.errata)
+    return to_document(found)
 
 
 def rows(table: Table, _system: System) -> Rows:
