@@ -220,8 +220,8 @@ def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow
 
 
 UNITS = (
-    "Fn: largest force of order n of one cylinder's reciprocating masses; a: distance of "
-    "neighbouring throws; as built: with rotating masses and stagger."
+    "Fn: largest force of order n of one cylinder's reciprocating masses; a: least axial distance "
+    "of two throws; as built: with rotating masses and stagger."
 )
 
 

@@ -139,7 +139,8 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
     spectra, known = result.spectra, result.moments_known
     spectra = spectra if known else replace(spectra, moment=None)
     steady = not result.engine.ripple
-    told = verdict(spectra, system, result.of_one_cylinder, steady=steady)
+    devices = result.engine.devices
+    told = verdict(spectra, system, result.of_one_cylinder, steady=steady, devices=devices)
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)
     if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 alone says nothing

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..core.cylinders import Cylinders, Device
+from ..core.cylinders import Cylinders, Device, find_travel
 from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
 from ..core.speed_ripple import RippleLine
@@ -17,11 +17,11 @@ from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import change_tables, list_tables
 from ..names import NOTEBOOK, import_name
-from .assembly import Assembly
 from .devices import build_devices
 from .layout import are_places_known
 from .numbering import doubt_firing, find_fitting_splay, list_inferred
 from .parse import find_contradictions, parse_dict
+from .parts import Parts
 from .rods import Weighed
 
 if TYPE_CHECKING:
@@ -184,8 +184,11 @@ class Engine:
 
     @property
     def displacement_m3(self) -> Figure:
-        """Swept volume by bore and twice the crank radius."""
-        return math.pi / 4 * self.bore_m**2 * (2 * self.cylinders.radius) * self.cylinders.count
+        """Swept volume of all cylinders but dummies, which the firing order leaves out."""
+        stroke = find_travel(self.cylinders).stroke
+        burning = [row for row, n in enumerate(self.numbers) if n in (self.fires_deg or {n})]
+        volume: Array = math.pi / 4 * self.bore_m**2 * stroke[burning].sum(axis=0)
+        return volume if volume.ndim else float(volume)
 
     @property
     def first_axis_deg(self) -> Figure:
@@ -300,12 +303,12 @@ def build(
         fires_deg=parts.fires_deg,
         strokes=model.layout.strokes,
         bore_m=math.nan if bore is None else bore / 1e3,
-        throws_m=parts.throws_m,
+        throws_m=parts.places.throws,
         speed_rpm=parts.figures.take("operation.speed", model.operation.speed),
-        ripple=parts.ripple,
-        reference_m=parts.reference_m,
-        devices=tuple(build_devices(model, parts.figures, parts.axes_deg[1])),
-        weighed=tuple(parts.weighed[number] for number in parts.numbers),
+        ripple=parts.find_ripple(),
+        reference_m=parts.places.reference,
+        devices=tuple(build_devices(model, parts.figures, parts.pins.axes_deg[1])),
+        weighed=tuple(parts.rods.weighed[number] for number in parts.numbers),
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
         crank_inertia=_in_si(parts.figures.take_optional("crank.inertia", model.crank.inertia)),
@@ -361,9 +364,9 @@ def assemble(
     *,
     rank: int = 0,
     gas: EngineGas | None = None,
-) -> Assembly:
+) -> Parts:
     """The parts of an engine that fit together; arguments and errors as of `build`."""
-    parts = Assembly(model, varied, rank, known_gas=gas)
+    parts = Parts(model, varied, rank, known_gas=gas)
     if problems := find_contradictions(parts):
         raise InputError(problems)
     return parts
@@ -374,7 +377,7 @@ def _in_si(inertia: Figure | None) -> Figure | None:
     return None if inertia is None else inertia * 1e-6
 
 
-def _find_flywheel(parts: Assembly, table: Flywheel) -> Figure | None:
+def _find_flywheel(parts: Parts, table: Flywheel) -> Figure | None:
     """Moment of inertia of the flywheel, kg m2."""
     take = parts.figures.take_optional
     inertia = take("flywheel.inertia", table.inertia)

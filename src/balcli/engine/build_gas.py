@@ -26,10 +26,11 @@ from ..file.model import Override
 from ..file.units import BAR, INCH, POUND_FORCE
 from ..limits import HIGHEST_TABLE_ORDER
 from .gas import CylinderGas, EngineGas
+from .layout import find_first
 
 if TYPE_CHECKING:
     from ..core.cylinders import Cylinders
-    from .assembly import Assembly
+    from .parts import Parts
 
 
 ATMOSPHERE = 101325.0  # Pa, what gauge pressures lack
@@ -187,7 +188,7 @@ def list_doubts(
 HEAT_OF_AIR, HEAT_MOST = 34, 40.0
 
 
-def build_gas(parts: Assembly, cylinders: Cylinders | None = None) -> EngineGas:
+def build_gas(parts: Parts, cylinders: Cylinders | None = None) -> EngineGas:
     """Return the gas of an engine whose tables fit together otherwise.
 
     Args:
@@ -222,7 +223,7 @@ class _Own(NamedTuple):
 class _Builder:
     """The gas of an engine while it is put together."""
 
-    def __init__(self, parts: Assembly, cylinders: Cylinders) -> None:
+    def __init__(self, parts: Parts, cylinders: Cylinders) -> None:
         self.parts, self.model, self.cylinders = parts, parts.model, cylinders
         self.gas = self._vary(parts.model.gas or Gas.model_construct())
         self.strokes = parts.model.layout.strokes
@@ -461,17 +462,18 @@ class _Builder:
 
     # -------------------------------------------------------------- firing
     def _find_nominal(self, tops: list[float]) -> list[float]:
-        """Return `CylinderGas.nominal_deg` of each row. Cylinder 1 fires in [-180, 180) deg of
-        crank angle, the others next to when the firing order has them fire.
+        """Return `CylinderGas.nominal_deg` of each row. Cylinder 1 (`find_first`) fires in
+        [-180, 180) deg of crank angle, the others next to when the firing order has them fire.
         """
         parts, cycle = self.parts, 180.0 * self.strokes
-        phi, first = self.cylinders.angle_deg, parts.numbers.index(1)
-        fires = parts.fires_deg if parts.order is not None else {}
+        phi, fires = self.cylinders.angle_deg, parts.fires_deg
+        origin = find_first(fires) if fires else 1
+        first = parts.numbers.index(origin)
         found = []
         for row, number in enumerate(parts.numbers):
             at = 0.0 - float(phi[row])
             top = math.degrees(tops[row] - tops[first])
-            wanted = float(fires[number] - fires[1]) if number in fires else 0.0
+            wanted = float(fires[number] - fires[origin]) if number in fires else 0.0
             at += 360.0 * round((wanted - top - at) / 360.0)
             found.append(at % cycle)
         return found

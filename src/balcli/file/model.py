@@ -179,7 +179,8 @@ class Layout(FileTable):
         "numbers of the cylinders as they fire", [1, 3, 4, 2]
     )
     firing_intervals: Intervals | None = key(
-        "from each firing to the next; left out: from the throws, or even", [405, 315]
+        "from each firing to the next; left out: as crank.throws give them, even without these",
+        [405, 315],
     )
     rotary: Annotated[bool, Flag()] = key(
         "the crank stands still and the cylinders turn about it", True, default=False

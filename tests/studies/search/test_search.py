@@ -209,7 +209,7 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
 
 
 def _images(order: tuple[int, ...], file: EngineFile) -> list[tuple[int, ...]]:
-    cells = {(c.bank, c.throw): c.number for c in plan_cylinders(file.crank, file.layout).cells}
+    cells = {(c.bank, c.throw): c.number for c in plan_cylinders(file).cells}
     last = max(throw for _, throw in cells)
     other_end = {n: cells.get((bank, last - throw), n) for (bank, throw), n in cells.items()}
     ends = [order, tuple(other_end[n] for n in order)]

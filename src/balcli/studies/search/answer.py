@@ -260,7 +260,7 @@ def _read_range(model: EngineFile, text: str) -> SearchRange:
 def _check_angle(model: EngineFile, key: str) -> None:
     """Raise BalcliError if the engine has no such angle, or its crank follows from it."""
     name = key.replace("_", " ")
-    one_bank = plan_cylinders(model.crank, model.layout).banks < 2
+    one_bank = plan_cylinders(model).banks < 2
     if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
         raise BalcliError(
             f"there is no {name} to look for: the engine is no vee (give layout.bank_angle)"

@@ -132,8 +132,8 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     Raises:
         BalcliError: cylinders with throws of their own; there is no even firing order.
     """
-    layout = plan_cylinders(model.crank, model.layout)
-    top_deg = assemble(model).tops_deg
+    layout = plan_cylinders(model)
+    top_deg = assemble(model).pins.tops_deg
     if any(own.throw is not None for own in model.cylinder.values()):
         raise BalcliError(
             "cylinders with throws of their own leave no firing order to look for: give "
