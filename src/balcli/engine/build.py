@@ -308,7 +308,7 @@ def build(
         ripple=parts.find_ripple(),
         reference_m=parts.places.reference,
         devices=tuple(build_devices(model, parts.figures, parts.pins.axes_deg[1])),
-        weighed=tuple(parts.rods.weighed[number] for number in parts.numbers),
+        weighed=tuple(parts.weighed[number] for number in parts.numbers),
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
         crank_inertia=_in_si(parts.figures.take_optional("crank.inertia", model.crank.inertia)),

@@ -30,11 +30,13 @@ from .figures import (
     RodFigures,
     column,
     either,
+    or_nothing,
     own_figures,
     rod_figures,
     shared_column,
 )
 from .layout import (
+    Cell,
     Plan,
     bank_angles,
     cycle_deg,
@@ -58,18 +60,6 @@ PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] t
 
 
 # ------------------------------------------------------------------ pistons and rods
-class Rods(NamedTuple):
-    """Piston and rod of each cylinder.
-
-    Attributes:
-        gears: their masses, lengths and moment of inertia.
-        weighed: the masses of each cylinder as a workshop weighs them.
-    """
-
-    gears: dict[int, RunningGear]
-    weighed: dict[int, Weighed]
-
-
 def find_masters(parts: Parts) -> dict[int, int]:
     """Return the cylinder with the master rod of each articulated cylinder."""
     table, cells = parts.model.articulation, parts.plan.cells
@@ -80,29 +70,9 @@ def find_masters(parts: Parts) -> dict[int, int]:
     return {number: master for number, master in each if number != master}
 
 
-def weigh_rods(parts: Parts) -> Rods:
+def find_gears(parts: Parts) -> dict[int, RunningGear]:
     """Return piston and rod of each cylinder."""
-    take, bobweight, masters = parts.figures.take, parts.model.bobweight, parts.masters
-    share = take("crank.throw_mass", parts.model.crank.throw_mass) / parts.plan.rods_on_throw
-    rod_bearing = take("bobweight.rod_bearing", bobweight.rod_bearing)
-    oil = take("bobweight.oil", bobweight.oil)
-    piston = tuple(parts.find_piston_masses().items())
-    gears, weighed = {}, {}
-    for cell in parts.plan.cells:
-        number, hung = cell.number, cell.number in masters
-        gears[number] = gear = parts.weigh_gear(parts.find_rod(number, hung))
-        own = parts.find_own(number).piston_mass
-        weighed[number] = Weighed(
-            cell.throw,
-            piston=gear.piston,
-            piston_parts=piston if own is None else (("mass", own),),
-            small_end=gear.small_end,
-            big_end=gear.big_end,
-            share=share,
-            rod_bearing=0.0 if hung else rod_bearing,
-            oil=0.0 if hung else oil,
-        )
-    return Rods(gears, weighed)
+    return {n: parts.weigh_gear(parts.find_rod(n, n in parts.masters)) for n in parts.plan.numbers}
 
 
 # ------------------------------------------------------------------ crank pins and firing
@@ -130,7 +100,7 @@ def set_pins(parts: Parts) -> Pins:
     axes = {c.number: either(parts.find_own(c.number).bank_deg, banks[c.bank]) for c in cells}
     tops = axes
     if model.articulation is None:
-        gears, radius = parts.rods.gears, parts.radius
+        gears, radius = parts.gears, parts.radius
         tops = {n: axis + parts.sense * gears[n].top_deg(radius) for n, axis in axes.items()}
     splay = figures.take("crank.splay", model.crank.splay)
     if parts.throws_given or parts.order is None:
@@ -178,6 +148,40 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
             find_intervals(parts.order, find_dead_centres(leads, tops, parts.sense), cycle)
         )
     return find_instants(parts.order, intervals, cycle)
+
+
+def weigh_cylinders(parts: Parts) -> dict[int, Weighed]:
+    """Return the masses of each cylinder as a workshop weighs them."""
+    take, bobweight = parts.figures.take, parts.model.bobweight
+    share = take("crank.throw_mass", parts.model.crank.throw_mass) / parts.plan.rods_on_throw
+    rod_bearing = take("bobweight.rod_bearing", bobweight.rod_bearing)
+    oil = parts.figures.take_optional("bobweight.oil", bobweight.oil)
+    oil_per_pin = parts.figures.take_optional("bobweight.oil_per_pin", bobweight.oil_per_pin)
+    piston, weighed = tuple(parts.find_piston_masses().items()), {}
+    for cell in parts.plan.cells:
+        number, hung = cell.number, cell.number in parts.masters
+        gear, own = parts.gears[number], parts.find_own(number).piston_mass
+        shared = 0.0 if hung or oil_per_pin is None else oil_per_pin / _count_on_pin(parts, cell)
+        weighed[number] = Weighed(
+            cell.throw,
+            piston=gear.piston,
+            piston_parts=piston if own is None else (("mass", own),),
+            small_end=gear.small_end,
+            big_end=gear.big_end,
+            share=share,
+            rod_bearing=0.0 if hung else rod_bearing,
+            oil=0.0 if hung else or_nothing(oil) + shared,
+        )
+    return weighed
+
+
+def _count_on_pin(parts: Parts, cell: Cell) -> Figure:
+    """Return how many rods are on the crank pin of a cylinder."""
+    leads = parts.pins.leads_deg
+    rods = [c.number for c in parts.plan.cells if c.throw == cell.throw]
+    apart = (leads[n] - leads[cell.number] for n in rods if n not in parts.masters)
+    together = (np.abs((angle + 180) % 360 - 180) < 1e-9 for angle in apart)
+    return sum((np.asarray(each, float) for each in together), 0.0)
 
 
 # ------------------------------------------------------------------ places along the crank
@@ -249,8 +253,8 @@ def _turn(parts: Parts) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
 
 def arrange_cylinders(parts: Parts) -> Cylinders:
     """Return the arrays of all cylinders, one row each, sorted by bank (`Parts.numbers`)."""
-    (axes, pins), rods, numbers, rank = _turn(parts), parts.rods, parts.numbers, parts.rank
-    gears, weighed, radius = rods.gears, rods.weighed, parts.radius
+    (axes, pins), numbers, rank = _turn(parts), parts.numbers, parts.rank
+    gears, weighed, radius = parts.gears, parts.weighed, parts.radius
     one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder has figures of its own
 
     def of_each(find: Callable[[int], Figure]) -> Array:
@@ -312,7 +316,7 @@ def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
     pins_deg = column([parts.sense * angles.get(n, 0.0) for n in numbers], rank)
     of_master = [masters.get(n, n) for n in numbers]
     leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
-    masses = [parts.rods.gears[n].big_end if n in masters else 0.0 for n in numbers]
+    masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
     ratios = column([ratio if n in masters else 0.0 for n in numbers], rank)
     return Articulated(
         mass=column(masses, rank),
@@ -337,10 +341,11 @@ class Parts:
 
     plan: cached_property[Plan] = cached_property(lambda self: plan_cylinders(self.model))
     masters = cached_property(find_masters)
-    rods = cached_property(weigh_rods)
+    gears = cached_property(find_gears)
     pins = cached_property(set_pins)
     fires_deg = cached_property(find_fires)
     true_tops_deg = cached_property(find_true_tops)
+    weighed = cached_property(weigh_cylinders)
     places = cached_property(find_places)
     banks = cached_property(group_banks)
     cylinders = cached_property(arrange_cylinders)

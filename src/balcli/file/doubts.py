@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from .fields import count_lambda_digits
+from .fields import WrittenFigure, count_lambda_digits, printable
 from .model import Counterweight, EngineFile
 from .units import ask_unit
 
@@ -113,7 +113,8 @@ def _doubt(figures: Iterable[Figure]) -> Iterator[str]:
             usual = f"at least {_round(least)}"
         elif least == 0 <= value:
             usual = f"at most {_round(most)}"
-        yield f"{name} {value:.{digits}g}{unit}, where {usual} is usual; {hint}"
+        written = f' ("{printable(value.text)}")' if isinstance(value, WrittenFigure) else ""
+        yield f"{name} {value:.{digits}g}{unit}{written}, where {usual} is usual; {hint}"
 
 
 def _round(value: float) -> str:

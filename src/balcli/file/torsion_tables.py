@@ -1,10 +1,5 @@
-"""Table [torsion] of an engine file: what its crankshaft and all that hangs on it are like when
-they twist.
-
-It is imported for files that have it.
-
-Tables that chains of inertias and shafts share, wherever they are described: a shaft between two
-nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
+"""Table [torsion] of an engine file, and the tables that it shares with chain files: a shaft
+between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
 """
 
 from __future__ import annotations
@@ -16,7 +11,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
-from .fields import RIGID, Number, OneOf, counted, shorten
+from .fields import RIGID, Number, OneOf, as_written, counted, shorten
 from .table import FileTable, GivenInertia, Name, Size, TableRule
 from .units import (
     ANGLE,
@@ -108,8 +103,13 @@ class ShaftKeys(FileTable):
 
     def _check_bore(self) -> Iterator[str]:
         if self.bore is not None and (self.diameter is None or self.bore >= self.diameter):
-            outer = "no diameter" if self.diameter is None else f"a diameter of {self.diameter:g}"
-            yield f"has a bore of {self.bore:g} mm and {outer}; the bore is the smaller of both"
+            outer = (
+                "no diameter"
+                if self.diameter is None
+                else f"a diameter of {as_written(self.diameter, 'mm')}"
+            )
+            message = f"has a bore of {as_written(self.bore, 'mm')} and {outer}; "
+            yield message + "the bore is the smaller of both"
 
     rules = (
         TableRule(_check_length, {"stiffness", "length"}),
