@@ -69,19 +69,17 @@ def _choose_result(
     asked: Request, for_people: bool
 ) -> tuple[Callable[[Engine], Any], Renderer[NamedResult[Any]]]:
     """Return what is found of an engine, and how it is shown."""
-    if not (asked.marine or asked.over_speed):
-        return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
     from . import speeds  # for those who ask for several
 
     if asked.marine:
-
-        def find_sheet(engine: Engine) -> Any:
-            height, rpm = asked.height_m, asked.speeds_rpm
-            return speeds.find_marine_sheet(
-                engine, rpm, asked.orders, height, every_order=asked.whole
-            )
-
-        return find_sheet, speeds.MARINE
+        sheets = partial(
+            speeds.find_marine_sheet,
+            speeds_rpm=asked.speeds_rpm,
+            orders=asked.orders,
+            guide_height_m=asked.height_m,
+            every_order=asked.whole,
+        )
+        return sheets, speeds.MARINE
     if asked.over_speed:
 
         def find_series(engine: Engine) -> Any:

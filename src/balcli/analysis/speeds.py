@@ -8,9 +8,10 @@ called vertical, too: M1V is My of order 1, M1H its Mx.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, fields, replace
 from functools import cached_property, partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -150,19 +151,6 @@ class MarineSpeed:
 
 
 @dataclass(frozen=True)
-class MarineAxes:
-    """Axes that builders call vertical and horizontal.
-
-    Attributes:
-        v: Vertical axis.
-        h: Horizontal axis.
-    """
-
-    v: str = "x"
-    h: str = "y"
-
-
-@dataclass(frozen=True)
 class CountedEngine:
     """An engine and its cylinders.
 
@@ -201,7 +189,7 @@ class MarineSheet:
     format: Literal["balcli.marine/1"] = "balcli.marine/1"
     engine: Annotated[Engine, WrittenAs(count_cylinders)]
     includes: Includes
-    axes: MarineAxes = MarineAxes()
+    axes: Mapping[str, str] = MappingProxyType({"v": "x", "h": "y"})
     height_m: Array
     speeds: tuple[MarineSpeed, ...]
     force_of_one: Annotated[Array, HIDDEN]

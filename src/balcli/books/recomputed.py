@@ -64,8 +64,8 @@ class Erratum:
         printed: What the source prints.
         exact: What would be right.
         kind: How the print came about, or how the right form of a statement is known.
-        category: Class of the erratum, a key of `CLASSES`.
         label: Name of the row.
+        category: Class of the erratum, a key of `CLASSES`.
     """
 
     row: int
@@ -73,8 +73,8 @@ class Erratum:
     printed: str
     exact: Cell
     kind: str
-    category: Annotated[ErratumClass, WrittenAs(name_class, "class")]
     label: str
+    category: Annotated[ErratumClass, WrittenAs(name_class, "class")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -128,7 +128,7 @@ class Table(Result):
                     supposed = [(each.kind, each.rows[i][j]) for each in self.explanations]
                     kind = _find_kind(value, text, supposed)
                     category = _classify(kind)
-                    yield Erratum(i, self.columns[j], text, value, kind, category, self.label(i))
+                    yield Erratum(i, self.columns[j], text, value, kind, self.label(i), category)
 
 
 def parse_decimal(text: str) -> Decimal | None:
@@ -294,7 +294,7 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
         cells.append((source, place, right, category, known))
         words.append((source, place, wrong, None, None))
         label, name = f"{source}, {place}", cast("ErratumClass", category)
-        stated.append(Erratum(i, STATEMENT, wrong, right, known, name, label))
+        stated.append(Erratum(i, STATEMENT, wrong, right, known, label, name))
     shape = ("source", "place", STATEMENT, "class", "known"), tuple(cells), tuple(words)
     return Table(printed.name, printed.title, printed.source, *shape, stub=2, stated=tuple(stated))
 

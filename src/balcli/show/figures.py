@@ -168,15 +168,13 @@ class EngineState:
     reference_mm: tuple[float, ...]
 
 
-class Located(Protocol):
-    """A result of an engine whose file may say where its throws stand."""
+class OrdersAndPeaks(Protocol):
+    """A result with orders and peaks, of an engine whose file may say where its throws stand: an
+    analysis, or the sum of two engines.
+    """
 
     @property
     def moments_known(self) -> bool: ...
-
-
-class OrdersAndPeaks(Located, Protocol):
-    """A result with orders and peaks: an analysis, or the sum of two engines."""
 
     @property
     def spectra(self) -> Spectra: ...
