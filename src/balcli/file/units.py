@@ -232,6 +232,7 @@ TORSIONAL_STIFFNESS = Dimension(
 TORSIONAL_DAMPING = Dimension(
     "N m s/rad", "a torsional damping", ("2 N m s/rad", "18 lbf in s/rad")
 )
+DENSITY = Dimension("g/cm^3", "a density", ("7.85 g/cm^3", "7850 kg/m^3"))
 SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", ("79.3 GPa", "11.5e6 psi"))
 STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number")
