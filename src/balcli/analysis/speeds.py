@@ -9,9 +9,8 @@ called vertical, too: M1V is My of order 1, M1H its Mx.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields, replace
+from dataclasses import astuple, dataclass, field, fields, replace
 from functools import cached_property, partial
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -189,7 +188,7 @@ class MarineSheet:
     format: Literal["balcli.marine/1"] = "balcli.marine/1"
     engine: Annotated[Engine, WrittenAs(count_cylinders)]
     includes: Includes
-    axes: Mapping[str, str] = MappingProxyType({"v": "x", "h": "y"})
+    axes: Mapping[str, str] = field(default_factory={"v": "x", "h": "y"}.copy)
     height_m: Array
     speeds: tuple[MarineSpeed, ...]
     force_of_one: Annotated[Array, HIDDEN]
