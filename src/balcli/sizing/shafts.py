@@ -140,12 +140,15 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
             ) from None
         raise
     fitting = Fitting.start(engine, "two-shaft", residual.order, residual.note)
+    if residual.order == 1:
+        fitting = fitting.balance_rotating()
+        residual = fitting.find_residual(1)
     return _add_pair(fitting, residual, options).remedy
 
 
 def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
-    fitting = Fitting.start(engine, "four-shaft")
+    fitting = Fitting.start(engine, "four-shaft").balance_rotating()
     residuals = [fitting.find_residual(order) for order in (1, 2)]
     forces = [residual for residual in residuals if residual.has("force", (1, -1))]
     if not forces:
