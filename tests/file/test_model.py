@@ -42,7 +42,7 @@ def test_values_are_numbers_in_the_files_units():
     assert engine.crank.throws == (0.0, 180.0, 180.0, 0.0)
     assert engine.rod.mass == 0.6
     assert engine.operation.speed == 3000.0
-    assert all(type(angle) is float for angle in engine.crank.throws)
+    assert all(isinstance(angle, float) for angle in engine.crank.throws)
 
 
 def test_devices_and_cylinders():

@@ -110,7 +110,7 @@ def balance_engine(
         TypeError: what is no engine; options or tools that are none.
 
     Example:
-        >>> balance(load("i3.toml"), "counterweights").after.moment.value
+        >>> balance(load("i3.toml"), "counterweights").after.peak.moment.value
     """
     check_engine("balance", engine)
     check_type("balance", scheme, str, 'give the name of a scheme, such as "counterweights"')
@@ -317,7 +317,7 @@ def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
 
 def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
     """Row of the first cylinder of each bank."""
-    cells = plan_cylinders(model.crank, model.layout).cells
+    cells = plan_cylinders(model).cells
     first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}
     return [numbers.index(first[bank]) for bank in sorted(first)]
 

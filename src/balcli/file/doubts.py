@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from .fields import count_lambda_digits
+from .fields import WrittenFigure, count_lambda_digits, printable
 from .model import Counterweight, EngineFile
 from .units import ask_unit
 
@@ -113,7 +113,8 @@ def _doubt(figures: Iterable[Figure]) -> Iterator[str]:
             usual = f"at least {_round(least)}"
         elif least == 0 <= value:
             usual = f"at most {_round(most)}"
-        yield f"{name} {value:.{digits}g}{unit}, where {usual} is usual; {hint}"
+        written = f' ("{printable(value.text)}")' if isinstance(value, WrittenFigure) else ""
+        yield f"{name} {value:.{digits}g}{unit}{written}, where {usual} is usual; {hint}"
 
 
 def _round(value: float) -> str:
@@ -147,6 +148,11 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
         yield (
             f"layout.strokes is not given, and 4 is taken; engines with a stroke of {stroke:g} mm "
             f"at {speed:g} rpm are two-strokes: say layout.strokes = 2, or 4 if it is so"
+        )
+    if model.operation.speed_ripple and crank.inertia is None:
+        yield (
+            "crank.inertia is not given: at uneven speed, couple C and inertia torque T leave out "
+            "the crankshaft except its unbalanced throws; give its moment of inertia"
         )
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):

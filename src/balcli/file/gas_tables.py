@@ -30,11 +30,11 @@ Exponent = Annotated[float, Number(PLAIN, least=0, most=100)]
 
 _GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
 DIAGRAM_KEYS = ("zero", "phase", "pressure")
-_WIEBE_KEYS = ("burn_start", "burn_duration", "burn_shape")
+WIEBE_KEYS = ("burn_start", "burn_duration", "burn_shape")
 _CYCLE_KEYS = (
     *("compression_index", "expansion_index", "intake", "exhaust"),
     *("exhaust_opens", "intake_closes", "bmep", "max_pressure", "cut_off", "heat"),
-    *_WIEBE_KEYS,
+    *WIEBE_KEYS,
 )
 
 
@@ -135,7 +135,7 @@ class Gas(FileTable):
         if not computed:
             idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
         elif self.cycle != "wiebe":
-            idle.update(_WIEBE_KEYS)
+            idle.update(WIEBE_KEYS)
         if strokes == 2:
             idle.update(("exhaust", "intake_closes"))
         if not measured:
@@ -152,7 +152,7 @@ class Gas(FileTable):
             yield f"has {join_words(others)} beside {what}; these belong to a computed cycle"
 
     def _check_wiebe(self) -> Iterator[str]:
-        wiebe = [key for key in _WIEBE_KEYS if key in self.model_fields_set]
+        wiebe = [key for key in WIEBE_KEYS if key in self.model_fields_set]
         if wiebe and self.cycle not in (None, "wiebe"):
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
 

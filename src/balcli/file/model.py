@@ -2,12 +2,8 @@
 mm^2, g mm, s).
 
 The tables check and never derive: what follows from the figures (rod length from its ratio, inertia
-from a pendulum) is the business of the package `engine`. A validator is built only for a table that
-a file has.
-
-Tables of a radial engine whose rods are hinged to a master rod, in the units of the file.
-
-They are imported for files that have them (`names.CHAPTERS`).
+from a pendulum) is computed by the package `engine`. A validator is built only for a table that a
+file has.
 """
 
 from __future__ import annotations
@@ -179,7 +175,8 @@ class Layout(FileTable):
         "numbers of the cylinders as they fire", [1, 3, 4, 2]
     )
     firing_intervals: Intervals | None = key(
-        "from each firing to the next; left out: from the throws, or even", [405, 315]
+        "from each firing to the next; left out: as crank.throws give them, even without these",
+        [405, 315],
     )
     rotary: Annotated[bool, Flag()] = key(
         "the crank stands still and the cylinders turn about it", True, default=False
@@ -229,10 +226,18 @@ def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
 
 
 class Bobweight(FileTable):
-    """What turns with a crank pin besides rod and throw, for each rod on it; it rotates."""
+    """What turns with a crank pin besides rod and throw; it rotates."""
+
+    choices = (Choice((("oil",), ("oil_per_pin",))),)
 
     rod_bearing: Mass = key("big-end bearing shells of one rod", 0.047, default=0.0)
     oil: Mass = key("allowance for oil, for each rod", 0.004, default=0.0)
+    oil_per_pin: Mass = key(
+        "allowance for oil of a whole crank pin, as shops write it, instead of oil; its rods share "
+        "it equally",
+        0.005,
+        default=0.0,
+    )
 
 
 class Ripple(FileTable):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
-from .fields import Choice, Flag, Number
+from .fields import Choice, Flag, Number, as_written
 from .table import Angle, FileTable, Name, TableRule, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
@@ -46,6 +46,7 @@ Turns = Annotated[tuple[Angle, ...], _three]
 Stiffnesses = Annotated[tuple[Annotated[float, _Stiffness], ...], _three, _AlikeOrEach(_Stiffness)]
 Dampings = Annotated[tuple[Annotated[float, _Damping], ...], _three, _AlikeOrEach(_Damping)]
 
+UNIT = INERTIA.unit
 _PERPENDICULAR = 1e-6  # cosine between two axes that are
 
 
@@ -91,13 +92,13 @@ def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
     a, b, c, d, e, f = inertia
     for name, value in zip(("xx", "yy", "zz"), inertia, strict=False):
         if value <= 0:
-            yield f"inertia {name} is {value:g}; a moment of inertia is above 0"
+            yield f"inertia {name} is {as_written(value, UNIT)}; a moment of inertia is above 0"
             return
     for name, value, square in (("xy", d, a * b), ("yz", e, b * c), ("zx", f, c * a)):
         if value**2 >= square:
             yield (
-                f"inertia {name} is {value:g}; beside {2 * name[0]} and {2 * name[1]} it must be "
-                f"within {math.sqrt(square):g}"
+                f"inertia {name} is {as_written(value, UNIT)}; beside {2 * name[0]} "
+                f"and {2 * name[1]} it must be within {math.sqrt(square):g} {UNIT}"
             )
             return
     if a * b * c + 2 * d * e * f <= a * e**2 + b * f**2 + c * d**2:

@@ -1,8 +1,7 @@
-"""Text of an engine file -> its tables, and every mistake that the text has, each by its path.
+"""Read the tables of an engine file one by one, and collect every mistake by its path, with what
+would be right.
 
-What the tables say against each other is not looked at here: that takes an engine (`engine.parse`).
-
-The tables of a file, read one by one: every mistake by its path, with what would be right.
+Contradictions between tables are not looked for here: that takes an engine (`engine.parse`).
 """
 
 from __future__ import annotations

@@ -1,10 +1,5 @@
-"""Table [torsion] of an engine file: what its crankshaft and all that hangs on it are like when
-they twist.
-
-It is imported for files that have it.
-
-Tables that chains of inertias and shafts share, wherever they are described: a shaft between two
-nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
+"""Table [torsion] of an engine file, and the tables that it shares with chain files: a shaft
+between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
 """
 
 from __future__ import annotations
@@ -16,10 +11,11 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
-from .fields import RIGID, Number, OneOf, counted, shorten
+from .fields import RIGID, Number, OneOf, as_written, counted, shorten
 from .table import FileTable, GivenInertia, Name, Size, TableRule
 from .units import (
     ANGLE,
+    DENSITY,
     INERTIA,
     MASS,
     PLAIN,
@@ -61,11 +57,15 @@ Stiffness = Annotated[float, _Stiffness()]
 Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
 Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
 Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
+Density = Annotated[float, Number(DENSITY, above=0, most=30)]
 StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
 AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
 _RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
 _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
+
+
+STEEL = 7.85  # g/cm3
 
 
 class ShaftKeys(FileTable):
@@ -88,6 +88,12 @@ class ShaftKeys(FileTable):
     shear_modulus: Modulus = Field(
         79.3, examples=[79.3], description="of what a plain shaft is made of; default: steel"
     )
+    density: Density | None = Field(
+        None,
+        examples=[STEEL],
+        description="of a plain shaft: half of its inertia counts at either end; left out: it has "
+        "none",
+    )
     loss: Loss | None = Field(
         None, examples=[0.035], description="loss factor, imaginary over real part of the stiffness"
     )
@@ -108,11 +114,21 @@ class ShaftKeys(FileTable):
 
     def _check_bore(self) -> Iterator[str]:
         if self.bore is not None and (self.diameter is None or self.bore >= self.diameter):
-            outer = "no diameter" if self.diameter is None else f"a diameter of {self.diameter:g}"
-            yield f"has a bore of {self.bore:g} mm and {outer}; the bore is the smaller of both"
+            outer = (
+                "no diameter"
+                if self.diameter is None
+                else f"a diameter of {as_written(self.diameter, 'mm')}"
+            )
+            message = f"has a bore of {as_written(self.bore, 'mm')} and {outer}; "
+            yield message + "the bore is the smaller of both"
+
+    def _check_density(self) -> Iterator[str]:
+        if self.density is not None and (self.length is None or self.diameter is None):
+            yield "has a density, and no length and diameter of a plain shaft that has it"
 
     rules = (
         TableRule(_check_length, {"stiffness", "length"}),
+        TableRule(_check_density, {"density", "length", "diameter"}),
         TableRule(_check_stiffness, {"stiffness", "length", "diameter"}),
         TableRule(_check_bore, {"bore", "diameter"}),
     )
@@ -182,17 +198,30 @@ class ChainKeys(FileTable):
     angle_limit: AngleLimit | None = Field(
         None,
         examples=[0.3],
-        description="angle by which the first node may swing either way; above, a speed is barred",
+        description="angle by which the free end (of a chain the first node) may swing either way; "
+        "above, a speed is barred",
     )
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:
     """Torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
-    if shaft.stiffness is not None or shaft.diameter is None or shaft.length is None:
+    if shaft.stiffness is not None or shaft.length is None:
         return math.inf if shaft.stiffness is None else shaft.stiffness
-    outer, inner = shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3
-    modulus = shaft.shear_modulus * 1e9
-    return modulus * math.pi * (outer**4 - inner**4) / 32 / (shaft.length / 1e3)
+    return shaft.shear_modulus * 1e9 * _find_polar_moment(shaft) / (shaft.length / 1e3)
+
+
+def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
+    """Moment of inertia of a plain shaft of this density (g/cm3), kg m2; 0 without one, and of a
+    shaft given by its stiffness.
+    """
+    length = (shaft.length or 0.0) / 1e3
+    return (density or 0.0) * 1e3 * _find_polar_moment(shaft) * length if length else 0.0
+
+
+def _find_polar_moment(shaft: ShaftKeys) -> float:
+    """Polar moment of the section, m4; 0 without a diameter."""
+    outer, inner = (shaft.diameter or 0.0) / 1e3, (shaft.bore or 0.0) / 1e3
+    return math.pi * (outer**4 - inner**4) / 32
 
 
 class SpeedRatio(Number):

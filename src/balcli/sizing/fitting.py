@@ -46,7 +46,7 @@ from .residual import (
 )
 
 _ROTATING = (
-    "The rotating mass of throws and rods turns with the crank: weights opposite the pins balance it"
+    "The rotating mass of throws and rods turns with the crank: weights opposite to it"
 )
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
 
@@ -262,15 +262,15 @@ class Fitting(NamedTuple):
         for weighed, pin, z in zip(
             engine.weighed, engine.cylinders.pin_deg, engine.cylinders.z, strict=True
         ):
-            turning = unit(float(engine.first_axis_deg + pin))
-            unbalance = complex(float(weighed.rotating + weighed.share) * scale * turning)
+            direction = complex(unit(float(engine.first_axis_deg + pin)))
+            unbalance = float(weighed.rotating + weighed.share) * scale * direction
             force += unbalance
             moment += unbalance * (float(z) - residual.reference.z)
         pins = force
         for device in engine.devices:
             if device.kind is DeviceKind.COUNTERWEIGHT:
                 force += complex(device.forward)
-                moment += complex(device.forward) * (device.z - residual.reference.z)
+                moment += complex(device.forward) * float(device.z - residual.reference.z)
         if (pins.conjugate() * force).real < 0:  # the weights of the file balance more than that
             return self
         parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}

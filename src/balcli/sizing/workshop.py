@@ -166,8 +166,8 @@ def _plan_holes(
         raise BalcliError(
             f"--drill {1e3 * tools.drill:g} mm: {1e6 * unbalance:.6g} g mm for {name_kind(device)} "
             f"at z = {device.position:g} mm do not fit: {fitting} holes side by side have room on "
-            f"{1e3 * room:g} mm (--width) and make at most {1e6 * fitting * of_one:.6g} g mm; use a "
-            "larger drill or --radius, a larger --max-depth, or --slug"
+            f"{1e3 * room:g} mm (--width) and make at most {1e6 * fitting * of_one:.6g} g mm; use "
+            "a larger drill or --radius, a larger --max-depth, or --slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)
