@@ -109,7 +109,11 @@ def holes_grid(
     rim = tell_rim(tools, f"{_length(practical[0].radius_mm, unit, 4)} {unit.name}")
 
     def cells(p: Practical) -> tuple[str, ...]:
-        return degrees(p.hole_angle_deg or 0.0), f"{p.holes}", _length(p.drill_depth_mm or 0.0, unit, 4)
+        return (
+            degrees(p.hole_angle_deg or 0.0),
+            f"{p.holes}",
+            _length(p.drill_depth_mm or 0.0, unit, 4),
+        )
 
     rows = tuple(
         (f"{k} {name_kind(device)}", *cells(figures))

@@ -177,9 +177,9 @@ def permit_unbalance(
 
 
 # Options of the command line are fields of the two arguments here.
-balance = tell_arguments(**{name: name for name in dict.fromkeys((*SchemeOptions._fields, *Tools._fields))})(
-    balance_engine
-)
+balance = tell_arguments(
+    **{name: name for name in dict.fromkeys((*SchemeOptions._fields, *Tools._fields))}
+)(balance_engine)
 balance.__name__ = balance.__qualname__ = "balance"
 balance.__module__ = __name__  # where pickle finds it
 

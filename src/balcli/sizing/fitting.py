@@ -45,9 +45,7 @@ from .residual import (
     hold_steady,
 )
 
-_ROTATING = (
-    "The rotating mass of throws and rods turns with the crank: weights opposite to it"
-)
+_ROTATING = "The rotating mass of throws and rods turns with the crank: weights opposite to it"
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
 
 
@@ -276,9 +274,7 @@ class Fitting(NamedTuple):
         parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}
         parts = {p: v if abs(v) > 4 * residual.noise.get(p, 0) else 0j for p, v in parts.items()}
         turning = residual._replace(parts=parts)
-        slots = [
-            Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)
-        ]
+        slots = [Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)]
         return self.cancel(slots, FORWARD, _ROTATING, turning)
 
     def describe_roll(self, before: Residual, group: str = "") -> Fitting:

@@ -276,11 +276,15 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
         replace(one, unbalance_kg_m=one.mu * mass * radius)
         for one in find_optima(float(np.ravel(c.lam)[0]))
     )
-    fitting = Fitting.start(engine, "eccentric-slider").balance_rotating().add_details(
-        unit_force_N=mass * radius * float(engine.omega) ** 2,
-        fitted=to_document(optima[0]),
-        optima=[to_document(one) for one in optima],
-        definition=_ECCENTRIC_SLIDER,
+    fitting = (
+        Fitting.start(engine, "eccentric-slider")
+        .balance_rotating()
+        .add_details(
+            unit_force_N=mass * radius * float(engine.omega) ** 2,
+            fitted=to_document(optima[0]),
+            optima=[to_document(one) for one in optima],
+            definition=_ECCENTRIC_SLIDER,
+        )
     )
     return fitting.remedy._replace(beyond=_make_shafts(engine, optima[0]))
 
