@@ -276,8 +276,8 @@ def test_holes_that_do_not_fit_on_the_crank_are_an_error():
     for drill in (1e-4, 1e-170):
         with pytest.raises(BalcliError, match="do not fit"):
             plan_holes(20_000, drill=drill)
-    message = refusal("balance", "-", "--drill", "0.1", text=SINGLE)
-    assert all(part in message for part in ("--drill 0.1 mm", "g mm", "holes side by side", "--width", "--slug"))
+    message = refusal("balance", "-", "--drill", "2", stdin=SINGLE)
+    assert all(part in message for part in ("--drill 2 mm", "g mm", "holes side by side", "--width", "--slug"))
     assert plan_holes(20_000, drill=0.02, max_depth=0.05, width=0.06).holes == 3
     with pytest.raises(BalcliError, match="2 holes side by side"):
         plan_holes(20_000, drill=0.02, max_depth=0.05, width=0.059)

@@ -354,6 +354,15 @@ def explain_couple(residual: Residual, sense: int) -> str:
     )
 
 
+def explain_compensator(residual: Residual) -> str:
+    """Return why shafts with a force take a moment."""
+    return (
+        f"Order {residual.order} moment: the engine has no force of this order, so that the shafts "
+        "work as a moment compensator; their force at this distance makes the opposite moment, and "
+        "stays (couple-shaft leaves no force)"
+    )
+
+
 def explain_sliders(residual: Residual) -> str:
     """Return why two sliders are fitted for the force."""
     return (
