@@ -72,12 +72,12 @@ def _part(
 
 
 def _row(key: str, table: type[FileTable], definition: dict[str, Any]) -> str:
-    shown, field = definition["properties"][key], table.model_fields[key]
+    shown, document = definition["properties"][key], table.documents()[key]
     unit = shown.get("unit") or shown.get("items", {}).get("unit", "")
-    meaning = field.description or ""
+    meaning = document.description
     if options := shown.get("enum"):
         meaning += f" ({' or '.join(map(_toml, options))})"
-    example = _toml(field.examples[0]) if field.examples else ""
+    example = _toml(document.examples[0]) if document.examples else ""
     return (
         f"| `{key}` | {unit} | {_left_out(key, table, definition)} | {meaning} | "
         f"{f'`{example}`' if example else ''} |"

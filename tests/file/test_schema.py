@@ -50,8 +50,8 @@ def test_every_key_is_described(table, key, field):
     [
         (table, key, example)
         for table in MODELS
-        for key, field in table.model_fields.items()
-        for example in field.examples or ()
+        for key, document in table.documents().items()
+        for example in document.examples
     ],
 )
 def test_examples_are_accepted(table, key, example):

@@ -12,10 +12,9 @@ from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
 from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
 from .fields import counted, nearest, printable, shorten
-from .table import FileTable
+from .table import FileTable, KeyDocument
 
 if TYPE_CHECKING:
-    from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
 
 
@@ -72,29 +71,41 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         table: what may stand there.
     """
     kind, loc, value = finding["type"], finding["loc"], finding["input"]
-    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
-    examples = list(field.examples or ()) if field else []
+    inner, key = find_inner_table(table, loc), str(loc[-1]) if loc else ""
+    field = inner.keys().get(key)
+    description, examples = inner.documents().get(key, KeyDocument())
     place, shown = join_path(path, loc), shorten(value)
     if kind == "missing":
         example = shorten(examples[0]) if examples else "{ length = 200 }"
-        return Problem.of_missing(place, f"give it, such as {loc[-1]} = {example}")
+        return Problem.of_missing(place, f"give it, such as {key} = {example}")
     if kind == "value_error":
         message = str(finding["ctx"]["error"])
     elif kind in ("too_short", "too_long"):
-        message = _describe_length(value, finding["ctx"], field)
+        message = _describe_length(value, finding["ctx"], description)
     elif kind == "tuple_type" and field and find_table(field.annotation):
         found = "is one of several" if isinstance(value, Mapping) else f"{shown} is no table"
         message = f"{found}; write [[{place}]] in double brackets"
     elif kind == "tuple_type":
-        example = shorten(next((each for each in examples if isinstance(each, list)), [0, 180]))
+        example = shorten(examples[0] if examples else [0, 180])
         message = f"{shown} is not a list; write it in square brackets, such as {example}"
-    elif kind.startswith("model_"):
-        message = f"{shown} is not a table; write it in braces with its keys"
     else:
-        message = f"{shown} does not fit here"
+        message = f"{shown} is not a table; write it in braces with its keys"
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
         return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
     return Problem(place, message)
+
+
+def _describe_length(
+    value: Sequence[object], context: Mapping[str, object], description: str
+) -> str:
+    least, most = context.get("min_length"), context.get("max_length")
+    if least == 1:
+        return "is an empty list; give at least one value"
+    if most in (MOST_LIST_VALUES, MOST_RIPPLES):
+        return f"has {len(value)} values; at most {most} are taken"
+    these = f": {description.partition(';')[0]}" if description else ""
+    found = f"{shorten(value)} has {counted(len(value), 'value')}"
+    return f"{found} where {least or most} are wanted{these}"
 
 
 def find_inner_table(table: type[FileTable], loc: Sequence[str | int]) -> type[FileTable]:
@@ -110,20 +121,6 @@ def find_table(annotation: object) -> type[FileTable] | None:
     if isinstance(annotation, type) and issubclass(annotation, FileTable):
         return annotation
     return next(filter(None, map(find_table, get_args(annotation))), None)
-
-
-def _describe_length(
-    value: list[object], context: Mapping[str, object], field: FieldInfo | None
-) -> str:
-    if not value:
-        hint = "" if field is not None and field.is_required() else ", or leave the key out"
-        return f"is an empty list; give at least one value{hint}"
-    if (most := context.get("max_length")) in (MOST_LIST_VALUES, MOST_RIPPLES):
-        return f"has {len(value)} values; at most {most} are taken"
-    wanted = context.get("min_length") or context.get("max_length")
-    what = field.description if field else None
-    these = f": {what.partition(';')[0]}" if what else ""
-    return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted{these}"
 
 
 def ordinal(number: int) -> str:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
-from .fields import Choice, Flag, Number, as_written
-from .table import Angle, FileTable, Name, TableRule, Triple
+from .fields import Choice, Number, as_written
+from .table import Angle, FileTable, Name, Switch, TableRule, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
 if TYPE_CHECKING:
@@ -53,29 +53,19 @@ _PERPENDICULAR = 1e-6  # cosine between two axes that are
 class Body(FileTable):
     """All that rocks on the mounts: the engine with its gearbox, as one rigid body."""
 
-    mass: Annotated[float, Number(MASS, above=0, most=1e12)] = Field(
-        description="of the whole", examples=[163.9]
-    )
-    cg: Triple = Field(
-        description="x, y, z of the centre of gravity, in the engine's axes",
-        examples=[[12, -8, 35]],
-    )
-    inertia: Tensor = Field(
-        description="xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity, as "
-        "they stand in the matrix (products of inertia with minus)",
-        examples=[[9.91e6, 4.12e6, 9.09e6, -0.813e6, 1.34e6, -0.472e6]],
-    )
-    gravity: Direction = Field(
-        (-1.0, 0.0, 0.0),
-        description="direction of the weight, of any length",
-        examples=[[-1, 0, 0]],
-    )
-    carries_load: Annotated[bool, Flag()] = Field(
-        False,
-        description="what takes the engine's torque stands on the body, too, such as the generator "
-        "of a genset: at rest no mount feels its mean",
-        examples=[True],
-    )
+    mass: Annotated[float, Number(MASS, above=0, most=1e12)]
+    """Of the whole. Example: 163.9"""
+    cg: Triple
+    """x, y, z of the centre of gravity, in the engine's axes. Example: [12, -8, 35]"""
+    inertia: Tensor
+    """Xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity, as they stand in
+    the matrix (products of inertia with minus). Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
+    1.34e6, -0.472e6]"""
+    gravity: Direction = (-1.0, 0.0, 0.0)
+    """Direction of the weight, of any length. Example: [-1, 0, 0]"""
+    carries_load: Switch = False
+    """What takes the engine's torque stands on the body, too, such as the generator of a genset:
+    at rest no mount feels its mean. Example: true"""
 
     def _check_gravity(self) -> Iterator[str]:
         if not any(self.gravity):
@@ -113,34 +103,24 @@ class Mount(FileTable):
 
     choices = (Choice((("axes",), ("angles",))),)
 
-    name: Name = Field(description="what to call it", examples=["left"])
-    at: Triple = Field(description="x, y, z, in the engine's axes", examples=[[-66, 463, 156]])
-    stiffness: Stiffnesses = Field(
-        description="static, along its three own axes; one figure: alike along all three",
-        examples=[[349.5, 370.5, 453]],
-    )
-    axes: Directions | None = Field(
-        None,
-        description="first and second own axis in the engine's axes, perpendicular, of any length; "
-        "left out: x, y, z",
-        examples=[[[0, 1, 0], [-1, 0, 0]]],
-    )
-    angles: Turns | None = Field(
-        None,
-        description="instead of axes: turned about x, then y, then z by these",
-        examples=[[0, -10, 0]],
-    )
-    loss: Annotated[float, Number(PLAIN, least=0, most=10)] = Field(
-        0.0, description="loss factor of the stiffness", examples=[0.1]
-    )
-    damping: Dampings = Field(
-        (0.0, 0.0, 0.0),
-        description="viscous, along its own axes, or one figure",
-        examples=[[0.4, 0.4, 0.4]],
-    )
-    dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = Field(
-        1.0, description="dynamic over static stiffness; statics do not use it", examples=[1.3]
-    )
+    name: Name
+    """What to call it. Example: 'left'"""
+    at: Triple
+    """x, y, z, in the engine's axes. Example: [-66, 463, 156]"""
+    stiffness: Stiffnesses
+    """Static, along its three own axes; one figure: alike along all three. Example: [349.5,
+    370.5, 453]"""
+    axes: Directions | None = None
+    """First and second own axis in the engine's axes, perpendicular, of any length; left out: x,
+    y, z. Example: [[0, 1, 0], [-1, 0, 0]]"""
+    angles: Turns | None = None
+    """Instead of axes: turned about x, then y, then z by these. Example: [0, -10, 0]"""
+    loss: Annotated[float, Number(PLAIN, least=0, most=10)] = 0.0
+    """Loss factor of the stiffness. Example: 0.1"""
+    damping: Dampings = (0.0, 0.0, 0.0)
+    """Viscous, along its own axes, or one figure. Example: [0.4, 0.4, 0.4]"""
+    dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = 1.0
+    """Dynamic over static stiffness; statics do not use it. Example: 1.3"""
 
     def _check_stiffness(self) -> Iterator[str]:
         if not any(self.stiffness):
@@ -163,5 +143,7 @@ class Mount(FileTable):
 class Point(FileTable):
     """A point of the body whose motion is wanted."""
 
-    name: Name = Field(description="what to call it", examples=["seat rail"])
-    at: Triple = Field(description="x, y, z, in the engine's axes", examples=[[0, 500, 0]])
+    name: Name
+    """What to call it. Example: 'seat rail'"""
+    at: Triple
+    """x, y, z, in the engine's axes. Example: [0, 500, 0]"""

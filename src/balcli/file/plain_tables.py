@@ -167,7 +167,7 @@ def list_assumed(model: EngineFile) -> Iterator[str]:
             path = f"{name}.{key}"
             if key in table.model_fields_set or path in idle:
                 continue
-            _, told, taken = (field.description or "").partition(_TOLD)
+            _, told, taken = table.documents()[key].description.partition(_TOLD)
             unit = next((m.dimension.unit for m in field.metadata if isinstance(m, Number)), "")
             if told:
                 yield f"{path}: {taken}"

@@ -215,8 +215,12 @@ def _read_without(
 ) -> FileTable | None:
     """Return `RefusedTable.draft`."""
     known = {key: part for key, part in value.items() if key not in broken}
-    needed = {key: field for key, field in table.keys().items() if field.is_required()}
-    examples = {key: (field.examples or [None])[0] for key, field in needed.items()}
+    needed = {key for key, field in table.keys().items() if field.is_required()}
+    examples = {
+        key: document.examples[0] if document.examples else None
+        for key, document in table.documents().items()
+        if key in needed
+    }
     try:
         draft = table.model_validate(examples | known, context=broken)
     except ValidationError:

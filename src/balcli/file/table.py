@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import ast
+import tomllib
 from collections.abc import Callable, Iterator, Set
+from functools import cache
+from inspect import getsource
+from itertools import pairwise
+from textwrap import dedent
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, model_validator
 from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
-from .fields import Choice, Label, Number, Whole
+from .fields import Choice, Flag, Label, Number, Whole
 from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
@@ -53,6 +59,8 @@ ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT
 
 Name = Annotated[str, Label()]
 
+Switch = Annotated[bool, Flag()]
+
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 
 Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
@@ -68,20 +76,16 @@ Place = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
 Triple = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
 
 
-def key(description: str, *examples: object, default: Any = None) -> Any:
-    """Return the pydantic field of a key that may be left out.
+class KeyDocument(NamedTuple):
+    """The documentation of a key.
 
-    Args:
-        description: what it means, for the schema and the reference.
-        examples: a value that it may have.
-        default: what counts where it is left out; None: nothing, or what the description says.
+    Attributes:
+        description: what the key means.
+        examples: one value that it may have; empty: there is none.
     """
-    return Field(default, description=description, examples=list(examples) or None)
 
-
-def needed(description: str, *examples: object) -> Any:
-    """Return the pydantic field of a key that has to be there; arguments as of `key`."""
-    return Field(description=description, examples=list(examples) or None)
+    description: str = ""
+    examples: tuple[Any, ...] = ()
 
 
 class TableRule(NamedTuple):
@@ -128,3 +132,46 @@ class FileTable(BaseModel):
     def keys(cls) -> dict[str, FieldInfo]:
         """Return the fields of this table by their keys, as a file has them."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
+
+    @classmethod
+    @cache
+    def documents(cls) -> dict[str, KeyDocument]:
+        """Return the documentation of every key. It stands in the string below the key, which ends
+        with an example in TOML; Python keeps no such string, so the source is read.
+        """
+        found = dict.fromkeys(cls.keys(), KeyDocument())
+        for base in reversed(cls.__mro__):
+            if issubclass(base, FileTable) and base is not FileTable:
+                found |= _read_documents(base)
+        for key, field in cls.keys().items():
+            if field.description:  # a table that uses pydantic's own words
+                found[key] = KeyDocument(field.description, tuple(field.examples or ()))
+        return found
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
+        node: dict[str, Any] = handler(schema)
+        properties = handler.resolve_ref_schema(node)["properties"]
+        for key, document in cls.documents().items():
+            if document.description:
+                properties[key]["description"] = document.description
+            if document.examples:
+                properties[key]["examples"] = list(document.examples)
+        return node
+
+
+def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
+    """Return the documentation of the keys that the class of a table itself declares."""
+    found = {}
+    (declared,) = ast.parse(dedent(getsource(table))).body
+    for key, text in pairwise(declared.body):  # type: ignore[attr-defined]
+        match key, text:
+            case (
+                ast.AnnAssign(target=ast.Name(id=name)),
+                ast.Expr(value=ast.Constant(value=str(document))),
+            ):
+                words, _, example = " ".join(document.split()).partition(". Example: ")
+                lower = words[0].lower() + words[1:].removesuffix(".")
+                examples = tomllib.loads(f"example = {example}").values() if example else ()
+                found[name] = KeyDocument(lower, tuple(examples))
+    return found

@@ -219,12 +219,12 @@ def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
     heads = (".".join(parts[:k]) for k in range(len(parts) - 1, 0, -1))
     head = next((name for name in heads if name in tables), "")
     if not head:  # of a cylinder that does not differ from the others
-        return FileNumber(path, None, unit, Override.keys()[parts[-1]].description or "")
+        return FileNumber(path, None, unit, Override.documents()[parts[-1]].description)
     found: object = tables[head]
     meaning = ""
     for part in parts[head.count(".") + 1 :]:
         if isinstance(found, FileTable):
-            meaning = found.keys()[part].description or ""
+            meaning = found.documents()[part].description
             found = getattr(found, part)
         elif isinstance(found, tuple):
             found = found[int(part) - 1]
