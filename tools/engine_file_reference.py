@@ -14,7 +14,7 @@ from typing import Any
 from balcli.file.messages import find_table, import_lists, import_tables
 from balcli.file.model import EngineFile, Override
 from balcli.file.schema import describe_engine_file
-from balcli.file.table import FileTable
+from balcli.file.table import FileTable, document_keys
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "engine-file.md"
 BEGIN, END = "<!-- tables: python tools/engine_file_reference.py -->\n", "<!-- end of tables -->\n"
@@ -72,7 +72,7 @@ def _part(
 
 
 def _row(key: str, table: type[FileTable], definition: dict[str, Any]) -> str:
-    shown, document = definition["properties"][key], table.documents()[key]
+    shown, document = definition["properties"][key], document_keys(table)[key]
     unit = shown.get("unit") or shown.get("items", {}).get("unit", "")
     meaning = document.description
     if options := shown.get("enum"):

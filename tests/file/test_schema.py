@@ -12,7 +12,7 @@ from support.commands import run_python
 from balcli.file.messages import import_lists, import_tables
 from balcli.file.model import Override, Pendulum, Ripple
 from balcli.file.schema import DIALECT, describe_engine_file
-from balcli.file.table import FileTable
+from balcli.file.table import FileTable, document_keys
 
 DOCUMENT = describe_engine_file()
 MODELS: list[type[FileTable]] = [*import_tables().values(), *import_lists().values(), *(Override, Pendulum, Ripple)]
@@ -50,7 +50,7 @@ def test_every_key_is_described(table, key, field):
     [
         (table, key, example)
         for table in MODELS
-        for key, document in table.documents().items()
+        for key, document in document_keys(table).items()
         for example in document.examples
     ],
 )

@@ -12,7 +12,7 @@ from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
 from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
 from .fields import counted, nearest, printable, shorten
-from .table import FileTable, KeyDocument
+from .table import FileTable, KeyDocument, document_keys
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -73,7 +73,7 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
     kind, loc, value = finding["type"], finding["loc"], finding["input"]
     inner, key = find_inner_table(table, loc), str(loc[-1]) if loc else ""
     field = inner.keys().get(key)
-    description, examples = inner.documents().get(key, KeyDocument())
+    description, examples = document_keys(inner).get(key, KeyDocument())
     place, shown = join_path(path, loc), shorten(value)
     if kind == "missing":
         example = shorten(examples[0]) if examples else "{ length = 200 }"

@@ -36,7 +36,7 @@ from .messages import (
 )
 from .model import ONE_BY_ONE, EngineFile, Override
 from .plain_tables import change_tables
-from .table import FileTable
+from .table import FileTable, document_keys
 from .toml import parse_toml
 
 T = TypeVar("T", bound=FileTable)
@@ -218,7 +218,7 @@ def _read_without(
     needed = {key for key, field in table.keys().items() if field.is_required()}
     examples = {
         key: document.examples[0] if document.examples else None
-        for key, document in table.documents().items()
+        for key, document in document_keys(table).items()
         if key in needed
     }
     try:

@@ -134,30 +134,30 @@ class FileTable(BaseModel):
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
     @classmethod
-    @cache
-    def documents(cls) -> dict[str, KeyDocument]:
-        """Return the documentation of every key. It stands in the string below the key, which ends
-        with an example in TOML; Python keeps no such string, so the source is read.
-        """
-        found = dict.fromkeys(cls.keys(), KeyDocument())
-        for base in reversed(cls.__mro__):
-            if issubclass(base, FileTable) and base is not FileTable:
-                found |= _read_documents(base)
-        for key, field in cls.keys().items():
-            if field.description:  # a table that uses pydantic's own words
-                found[key] = KeyDocument(field.description, tuple(field.examples or ()))
-        return found
-
-    @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
         node: dict[str, Any] = handler(schema)
         properties = handler.resolve_ref_schema(node)["properties"]
-        for key, document in cls.documents().items():
+        for key, document in document_keys(cls).items():
             if document.description:
                 properties[key]["description"] = document.description
             if document.examples:
                 properties[key]["examples"] = list(document.examples)
         return node
+
+
+@cache
+def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
+    """Return the documentation of every key of a table. It stands in the string below the key and
+    ends with an example in TOML. Python keeps no such string, so the source is read.
+    """
+    found = dict.fromkeys(table.keys(), KeyDocument())
+    for base in reversed(table.__mro__):
+        if issubclass(base, FileTable) and base is not FileTable:
+            found |= _read_documents(base)
+    for key, field in table.keys().items():
+        if field.description:  # a table that uses pydantic's own words
+            found[key] = KeyDocument(field.description, tuple(field.examples or ()))
+    return found
 
 
 def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
