@@ -77,7 +77,7 @@ def _row(key: str, table: type[FileTable], definition: dict[str, Any]) -> str:
     meaning = document.description
     if options := shown.get("enum"):
         meaning += f" ({' or '.join(map(_toml, options))})"
-    example = _toml(document.examples[0]) if document.examples else ""
+    example = "" if document.example is None else _toml(document.example)
     return (
         f"| `{key}` | {unit} | {_left_out(key, table, definition)} | {meaning} | "
         f"{f'`{example}`' if example else ''} |"

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from types import CodeType
-
 import pytest
 from pydantic import ValidationError
 from support.cases import cases
@@ -12,10 +9,7 @@ from support.engines import GOOD, changed, mistakes_in
 
 from balcli.engine.parse import parse
 from balcli.file import model
-from balcli.file.messages import import_lists, import_tables
 from balcli.file.model import ArticulatedRod
-from balcli.file.torsion_tables import Damper, Part
-from balcli.torsion.tables import ChainShaft
 
 
 def test_defaults():
@@ -109,18 +103,3 @@ def test_models_check_without_a_file_too():
         model.Rod(length=160, ratio=0.28)
     with pytest.raises(ValidationError, match="frozen"):
         parse(GOOD).crank.stroke = 80.0
-
-
-TABLES = (*import_tables().values(), *import_lists().values(), *(ArticulatedRod, Part, ChainShaft, Damper))
-
-
-@pytest.mark.parametrize(("table", "rule"), [(table, rule) for table in TABLES for rule in table.rules])
-def test_rules_name_the_keys_that_they_read(table, rule):
-    def read(code: CodeType) -> Iterator[str]:
-        for name in code.co_names:
-            own = vars(table).get(name)
-            yield from read(own.fget.__code__) if isinstance(own, property) else (name,)
-        for inner in code.co_consts:
-            yield from read(inner) if isinstance(inner, CodeType) else ()
-
-    assert rule.needs == set(read(rule.check.__code__)) & table.model_fields.keys()

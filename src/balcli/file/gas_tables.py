@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import Annotated
 
 from .fields import Choice, FileName, Number, OneOf, join_words
-from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size, TableRule
+from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
@@ -136,7 +136,7 @@ class Gas(FileTable):
         """Exactly one figure tells how much is burnt."""
         if self.cycle is None:
             return
-        given = [key for key in self.goals if key in self.model_fields_set]
+        given = [key for key in self.goals if self.has(key)]
         *front, last = self.goals
         choice = f"give one of {', '.join(front)} and {last}"
         if len(given) > 1:
@@ -156,15 +156,6 @@ class Gas(FileTable):
     def _check_compression_ratio(self) -> Iterator[str]:
         if self.cycle is not None and self.compression_ratio is None:
             yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
-
-    rules = (
-        TableRule(_check_misplaced, {"cycle", "indicator", "harmonics"}),
-        TableRule(_check_wiebe, {"cycle"}),
-        TableRule(_check_max_pressure, {"cycle", "max_pressure"}),
-        TableRule(_check_goals, {"cycle"}, {*_GOALS}),
-        TableRule(_check_bmep, {"cycle", "bmep", "mechanical_efficiency"}),
-        TableRule(_check_compression_ratio, {"cycle", "compression_ratio"}),
-    )
 
 
 class Flywheel(FileTable):

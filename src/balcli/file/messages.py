@@ -73,11 +73,11 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
     kind, loc, value = finding["type"], finding["loc"], finding["input"]
     inner, key = find_inner_table(table, loc), str(loc[-1]) if loc else ""
     field = inner.keys().get(key)
-    description, examples = document_keys(inner).get(key, KeyDocument())
+    description, example = document_keys(inner).get(key, KeyDocument())
     place, shown = join_path(path, loc), shorten(value)
     if kind == "missing":
-        example = shorten(examples[0]) if examples else "{ length = 200 }"
-        return Problem.of_missing(place, f"give it, such as {key} = {example}")
+        text = "{ length = 200 }" if example is None else shorten(example)
+        return Problem.of_missing(place, f"give it, such as {key} = {text}")
     if kind == "value_error":
         message = str(finding["ctx"]["error"])
     elif kind in ("too_short", "too_long"):
@@ -86,8 +86,8 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         found = "is one of several" if isinstance(value, Mapping) else f"{shown} is no table"
         message = f"{found}; write [[{place}]] in double brackets"
     elif kind == "tuple_type":
-        example = shorten(examples[0] if examples else [0, 180])
-        message = f"{shown} is not a list; write it in square brackets, such as {example}"
+        text = shorten(example or [0, 180])
+        message = f"{shown} is not a list; write it in square brackets, such as {text}"
     else:
         message = f"{shown} is not a table; write it in braces with its keys"
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
@@ -203,11 +203,15 @@ _NEAR = 0.65  # of a key and one of its table that is meant: "damper" is no "nam
 _NEAR_ELSEWHERE = 0.75
 
 
-def name_heading(path: str) -> str:
-    """Return the name of a table in its heading: `operation.speed_ripple` of its second line,
-    `operation.speed_ripple.2`.
+def format_heading(path: str) -> str:
+    """Return the heading of the table with this path: `[rod]`, `[[shaft]]` for `shaft.2`,
+    `[cylinder.3]`.
     """
-    return ".".join(part for part in path.split(".") if not part.isdecimal())
+    name = ".".join(part for part in path.split(".") if not part.isdecimal())
+    if name == "cylinder":
+        return f"[{path if path != name else 'cylinder.3'}]"
+    several = name != path or name in DEVICES or name in CHAPTER_LISTS
+    return f"[[{name}]]" if several else f"[{name}]"
 
 
 def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[str, str]:

@@ -44,7 +44,6 @@ from .table import (
     Size,
     Speed,
     Switch,
-    TableRule,
     Triple,
     Unbalance,
 )
@@ -85,8 +84,6 @@ class Crank(FileTable):
                 f"positions has {counted(len(self.positions), 'place')} for "
                 f"{counted(len(self.throws), 'throw')}; give one for each throw"
             )
-
-    rules = (TableRule(_check_places, {"throws", "positions"}),)
 
 
 class Pendulum(FileTable):
@@ -202,12 +199,6 @@ class Layout(FileTable):
                 f"{self.strokes}-stroke has {cycle} (within {INTERVAL_TOLERANCE_DEG:g}); give the "
                 "angle from each firing to the next"
             )
-
-    rules = (
-        TableRule(_check_firing_order, {"firing_order"}),
-        TableRule(_check_numbering, {"numbering"}),
-        TableRule(_check_intervals, {"firing_intervals", "firing_order", "strokes"}),
-    )
 
 
 def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field
 
 from .fields import Choice, Number, as_written
-from .table import Angle, FileTable, Name, Switch, TableRule, Triple
+from .table import Angle, FileTable, Name, Switch, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
 if TYPE_CHECKING:
@@ -74,8 +74,6 @@ class Body(FileTable):
     def _check_inertia(self) -> Iterator[str]:
         yield from find_tensor_faults(self.inertia)
 
-    rules = (TableRule(_check_gravity, {"gravity"}), TableRule(_check_inertia, {"inertia"}))
-
 
 def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
     """Yield the first fault of an inertia tensor (xx, yy, zz, xy, yz, zx)."""
@@ -136,8 +134,6 @@ class Mount(FileTable):
             elif abs(cosine) > _PERPENDICULAR:
                 angle = math.degrees(math.acos(max(-1.0, min(1.0, cosine))))
                 yield f"axes are {angle:.4g} degrees apart; they must be perpendicular"
-
-    rules = (TableRule(_check_stiffness, {"stiffness"}), TableRule(_check_axes, {"axes"}))
 
 
 class Point(FileTable):

@@ -27,9 +27,9 @@ from .messages import (
     TEXTS,
     describe_finding,
     find_inner_table,
+    format_heading,
     import_table,
     join_path,
-    name_heading,
     refuse_other_kind,
     suggest,
     suggest_place,
@@ -123,10 +123,7 @@ class TableReader:
             self.add(path, f"stands once, in single brackets: [{path}]")
             return None
         if not isinstance(value, Mapping):
-            head = f"[{path}]"
-            if path[-1:].isdecimal() and not path.startswith("cylinder."):
-                head = f"[[{name_heading(path)}]]"
-            hint = f"write {head} and its keys below it"
+            hint = f"write {format_heading(path)} and its keys below it"
             self.add(path, f"{shorten(value)} stands where a table belongs; {hint}")
             return None
         keys = table.keys()
@@ -162,14 +159,12 @@ class TableReader:
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
         hint, near = suggest(key, own or (), is_engine=self._is_engine)
-        table, meant = f"[{printable(name_heading(path))}]", join_path(path, [near]) if near else ""
+        table, meant = printable(format_heading(path)), join_path(path, [near]) if near else ""
         message = f"unknown key in {table if path else self._file_kind}"
         is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
         if self._is_engine and path and is_table:
             message, meant = f"{key} is a table of its own, not one within {table}", key
-            several = key in DEVICES or key in CHAPTER_LISTS
-            head = f"[[{key}]]" if several else "[cylinder.3]" if key == "cylinder" else f"[{key}]"
-            hint = f"write {head} and its keys below it"
+            hint = f"write {format_heading(key)} and its keys below it"
         elif own is None:
             message = f"there is no table {table}"
         self.problems.append(Problem(place, f"{message}; {hint}" if hint else message, (), meant))
@@ -215,12 +210,8 @@ def _read_without(
 ) -> FileTable | None:
     """Return `RefusedTable.draft`."""
     known = {key: part for key, part in value.items() if key not in broken}
-    needed = {key for key, field in table.keys().items() if field.is_required()}
-    examples = {
-        key: document.examples[0] if document.examples else None
-        for key, document in document_keys(table).items()
-        if key in needed
-    }
+    needed = [key for key, field in table.keys().items() if field.is_required()]
+    examples = {key: document_keys(table)[key].example for key in needed}
     try:
         draft = table.model_validate(examples | known, context=broken)
     except ValidationError:
@@ -241,12 +232,8 @@ def _find_conflicts(
         missing = tuple(join_path(path, [key]) for key in choice.find_missing(value))
         for mistake in choice.mistakes(value):
             yield Problem(path, mistake, missing)
-    for rule in table.rules if draft is not None else ():
-        if rule.needs.isdisjoint(broken):
-            keys = {*rule.needs, *rule.wants} - value.keys()
-            missing = tuple(join_path(path, [key]) for key in keys)
-            for mistake in rule.check(draft):
-                yield Problem(path, mistake, missing)
+    for mistake, read in draft.find_conflicts(broken) if draft is not None else ():
+        yield Problem(path, mistake, tuple(join_path(path, [key]) for key in read - value.keys()))
 
 
 def _count_values(value: object) -> int:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import ast
 import tomllib
 from collections.abc import Callable, Iterator, Set
+from contextlib import suppress
 from functools import cache
 from inspect import getsource
-from itertools import pairwise
+from itertools import chain, pairwise
 from textwrap import dedent
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -81,33 +82,47 @@ class KeyDocument(NamedTuple):
 
     Attributes:
         description: what the key means.
-        examples: one value that it may have; empty: there is none.
+        example: a value that it may have; None: there is none.
     """
 
     description: str = ""
-    examples: tuple[Any, ...] = ()
+    example: Any = None
 
 
-class TableRule(NamedTuple):
-    """A rule for the keys of a table.
+class Reading:
+    """A table as a rule reads it, where some keys cannot be read.
+
+    Args:
+        table: the table, with any values for its broken keys.
+        broken: the broken keys.
 
     Attributes:
-        check: yields what is wrong, in words.
-        needs: keys without whose values nothing can be said of it.
-        wants: keys of which one is enough.
+        read: the names of all that was read.
     """
 
-    check: Callable[[Any], Iterator[str]]
-    needs: Set[str]
-    wants: Set[str] = frozenset()
+    def __init__(self, table: FileTable, broken: Set[str]) -> None:
+        self._table, self._broken = table, broken
+        self.read: set[str] = set()
+
+    def __getattr__(self, name: str) -> Any:
+        if name in self._broken:
+            raise LookupError(name)
+        self.read.add(name)
+        return getattr(self._table, name)
+
+    def has(self, key: str) -> bool:
+        """Return whether the file gives a key, broken or not."""
+        self.read.add(key)
+        return self._table.has(key)
 
 
 class FileTable(BaseModel):
-    """A table of the engine file: frozen, and an unknown key is a mistake."""
+    """A table of an engine file: frozen, and an unknown key is a mistake. Methods whose names start
+    with `_check_` are its rules: each yields what the keys say against each other, in words.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
     choices: ClassVar[tuple[Choice, ...]] = ()
-    rules: ClassVar[tuple[TableRule, ...]] = ()
 
     @model_validator(mode="after")
     def _consistent(self, info: ValidationInfo) -> FileTable:
@@ -120,9 +135,24 @@ class FileTable(BaseModel):
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """Yield what the fields of this table say against each other."""
-        for rule in self.rules:
-            yield from rule.check(self)
+        """Yield what the keys of this table say against each other."""
+        yield from (message for message, _ in self.find_conflicts(frozenset()))
+
+    def find_conflicts(self, broken: Set[str]) -> Iterator[tuple[str, Set[str]]]:
+        """Yield what the keys say against each other, and which keys were read for it.
+
+        Args:
+            broken: keys that cannot be read; no rule that reads one is applied.
+        """
+        for rule in _list_rules(type(self)):
+            reading = Reading(self, broken)
+            with suppress(LookupError):
+                for message in list(rule(reading)):
+                    yield message, reading.read & self.keys().keys()
+
+    def has(self, key: str) -> bool:
+        """Return whether the file gives a key."""
+        return key in self.model_fields_set
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """Return the keys that exclude this one, since they say the same."""
@@ -140,9 +170,16 @@ class FileTable(BaseModel):
         for key, document in document_keys(cls).items():
             if document.description:
                 properties[key]["description"] = document.description
-            if document.examples:
-                properties[key]["examples"] = list(document.examples)
+            if document.example is not None:
+                properties[key]["examples"] = [document.example]
         return node
+
+
+@cache
+def _list_rules(table: type[FileTable]) -> list[Callable[[Any], Iterator[str]]]:
+    """Return the rules of a table, those of its bases first."""
+    names = (vars(base).items() for base in reversed(table.__mro__))
+    return [rule for name, rule in chain.from_iterable(names) if name.startswith("_check_")]
 
 
 @cache
@@ -156,7 +193,7 @@ def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
             found |= _read_documents(base)
     for key, field in table.keys().items():
         if field.description:  # a table that uses pydantic's own words
-            found[key] = KeyDocument(field.description, tuple(field.examples or ()))
+            found[key] = KeyDocument(field.description, *(field.examples or ())[:1])
     return found
 
 
@@ -172,6 +209,6 @@ def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
             ):
                 words, _, example = " ".join(document.split()).partition(". Example: ")
                 lower = words[0].lower() + words[1:].removesuffix(".")
-                examples = tomllib.loads(f"example = {example}").values() if example else ()
-                found[name] = KeyDocument(lower, tuple(examples))
+                read = tomllib.loads(f"example = {example}")["example"] if example else None
+                found[name] = KeyDocument(lower, read)
     return found

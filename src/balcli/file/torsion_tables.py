@@ -12,7 +12,7 @@ from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
 from .fields import RIGID, Number, OneOf, as_written, counted, shorten
-from .table import FileTable, GivenInertia, Name, Size, TableRule
+from .table import FileTable, GivenInertia, Name, Size
 from .units import (
     ANGLE,
     DENSITY,
@@ -114,13 +114,6 @@ class ShaftKeys(FileTable):
         if self.density is not None and (self.length is None or self.diameter is None):
             yield "has a density, and no length and diameter of a plain shaft that has it"
 
-    rules = (
-        TableRule(_check_length, {"stiffness", "length"}),
-        TableRule(_check_density, {"density", "length", "diameter"}),
-        TableRule(_check_stiffness, {"stiffness", "length", "diameter"}),
-        TableRule(_check_bore, {"bore", "diameter"}),
-    )
-
 
 _KEYS_OF_KIND = {
     "viscous": ("inertia", "damping"),
@@ -157,8 +150,6 @@ class Damper(FileTable):
             yield f"is {self.kind} and lacks {' and '.join(missing)}"
         if strange := sorted(given - set(wanted)):
             yield f"is {self.kind}, which has no {' and no '.join(strange)}"
-
-    rules = (TableRule(_check_keys, {"kind"}),)
 
 
 class NodeKeys(FileTable):
@@ -282,5 +273,3 @@ class Torsion(ChainKeys):
             self.throw_diameter is None or self.throw_bore >= self.throw_diameter
         ):
             yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"
-
-    rules = (TableRule(_check_bore, {"throw_bore", "throw_diameter"}),)
