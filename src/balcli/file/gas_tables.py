@@ -4,8 +4,6 @@
 They are imported for files that have them (`names.CHAPTERS`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated
 

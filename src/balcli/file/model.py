@@ -6,13 +6,11 @@ from a pendulum) is computed by the package `engine`. A validator is built only 
 file has.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Self
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
@@ -368,11 +366,11 @@ class EngineFile(FileTable):
     bobweight: Bobweight = Bobweight.model_construct()
     operation: Operation = Operation.model_construct()
     frame: Frame = Frame.model_construct()
-    articulation: Articulation | None = None
-    gas: Gas | None = None
-    flywheel: Flywheel | None = None
-    bearing: Bearing | None = None
-    torsion: Torsion | None = None
+    articulation: "Articulation | None" = None
+    gas: "Gas | None" = None
+    flywheel: "Flywheel | None" = None
+    bearing: "Bearing | None" = None
+    torsion: "Torsion | None" = None
     cylinder: dict[int, Override] = {}  # noqa: RUF012 - pydantic copies it
     """What differs in single cylinders, by their numbers."""
     counterweight: tuple[Counterweight, ...] = ()
@@ -381,10 +379,10 @@ class EngineFile(FileTable):
     """Balancer shafts."""
     slider: tuple[Slider, ...] = ()
     """Reciprocating balance masses."""
-    body: Body | None = None
-    mount: tuple[Mount, ...] = ()
+    body: "Body | None" = None
+    mount: "tuple[Mount, ...]" = ()
     """What the body stands on."""
-    point: tuple[Point, ...] = ()
+    point: "tuple[Point, ...]" = ()
     """Points whose motion is wanted."""
 
     _folder: Path = PrivateAttr(Path())
@@ -394,7 +392,7 @@ class EngineFile(FileTable):
         """Where the file stands, and the files that it names."""
         return self._folder
 
-    def with_table(self, key: str, **values: object) -> EngineFile:
+    def with_table(self, key: str, **values: object) -> Self:
         """Return a copy of this file with other values in one table; they are not checked."""
         table: FileTable = getattr(self, key)
         return self.model_copy(update={key: table.model_copy(update=values)})

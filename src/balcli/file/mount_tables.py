@@ -3,8 +3,6 @@
 They are imported for files that have them (`names.CHAPTERS`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Annotated, Any
@@ -25,7 +23,7 @@ class _AlikeOrEach:
     def __init__(self, one: Number) -> None:
         self._one = one
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> "CoreSchema":
         from pydantic_core import core_schema
 
         def read(value: object, each: Callable[[object], Any]) -> Any:
@@ -33,7 +31,7 @@ class _AlikeOrEach:
 
         return core_schema.no_info_wrap_validator_function(read, handler(source))
 
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: Any) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(self, schema: "CoreSchema", handler: Any) -> dict[str, Any]:
         return {"anyOf": [self._one.json(), handler(schema)], "unit": self._one.dimension.unit}
 
 

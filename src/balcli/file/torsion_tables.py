@@ -2,8 +2,6 @@
 between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, Any
