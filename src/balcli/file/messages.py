@@ -13,6 +13,7 @@ from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
 from .fields import counted, nearest, printable, shorten
 from .table import FileTable, KeyDocument, document_keys
+from .units import read_rows
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -168,28 +169,14 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
 
 
 # What people call a key, and keys that mean it; the first that a table has
-SYNONYMS = {
-    "conrod": ("rod",),
-    "connecting_rod": ("rod",),
-    "rpm": ("speed",),
-    "pin_offset": ("splay", "offset"),
-    "pin_angles": ("throws",),
-    "crank_angles": ("throws",),
-    "angles": ("throws", "banks"),
-    "phase": ("throws", "angle"),
-    "bore_spacing": ("spacing",),
-    "bank": ("bank_angle",),
-    "vee_angle": ("bank_angle",),
-    "angle": ("bank_angle", "throws"),
-    "diameter": ("bore",),
-    "weight": ("mass", "piston_mass"),
-    "piston": ("piston_mass",),
-    "order": ("firing_order",),
-    "lambda": ("ratio",),
-    "j": ("inertia", "throw_inertia"),
-    "k": ("stiffness", "throw_stiffness"),
-    "file": ("indicator",),
-}
+_SYNONYMS = """
+conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset
+pin_angles crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
+bank vee_angle = bank_angle; angle = bank_angle throws; diameter = bore; weight = mass piston_mass; piston = piston_mass
+order = firing_order; lambda = ratio; j = inertia throw_inertia; k = stiffness throw_stiffness
+file = indicator
+"""
+SYNONYMS = {word: tuple(keys.split()) for word, keys in read_rows(_SYNONYMS).items()}
 _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "
     "crank.throws = [0, 180, 180, 0]"
@@ -207,10 +194,10 @@ def format_heading(path: str) -> str:
     """Return the heading of the table with this path: `[rod]`, `[[shaft]]` for `shaft.2`,
     `[cylinder.3]`.
     """
+    if path == "cylinder" or path.startswith("cylinder."):
+        return f"[{path if '.' in path else 'cylinder.3'}]"
     name = ".".join(part for part in path.split(".") if not part.isdecimal())
-    if name == "cylinder":
-        return f"[{path if path != name else 'cylinder.3'}]"
-    several = name != path or name in DEVICES or name in CHAPTER_LISTS
+    several = path[-1:].isdecimal() or name in DEVICES or name in CHAPTER_LISTS
     return f"[[{name}]]" if several else f"[{name}]"
 
 

@@ -57,13 +57,13 @@ kcal = 4184 J, or 4186.8 J?
 """
 
 
-def _read_rows(rows: str) -> dict[str, str]:
+def read_rows(rows: str) -> dict[str, str]:
     """Return what stands behind the names in a table such as "metre meter = 1 m; yard = 3 ft"."""
     parts = (row.split(" = ") for row in re.split(r"[;\n]", rows.strip()))
     return {name: meaning for names, meaning in parts for name in names.split()}
 
 
-DEFINITIONS, AMBIGUOUS = _read_rows(_DEFINED), _read_rows(_AMBIGUOUS)
+DEFINITIONS, AMBIGUOUS = read_rows(_DEFINED), read_rows(_AMBIGUOUS)
 
 _PREFIXES = (
     "G giga 9, M mega 6, k kilo 3, h hecto 2, da deca deka 1, d deci -1, c centi -2, "
