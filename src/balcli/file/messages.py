@@ -170,11 +170,11 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
 
 # What people call a key, and keys that mean it; the first that a table has
 _SYNONYMS = """
-conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset
-pin_angles crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
-bank vee_angle = bank_angle; angle = bank_angle throws; diameter = bore; weight = mass piston_mass; piston = piston_mass
-order = firing_order; lambda = ratio; j = inertia throw_inertia; k = stiffness throw_stiffness
-file = indicator
+conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset; pin_angles = throws
+crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
+bank vee_angle = bank_angle; angle = bank_angle throws; diameter = bore; piston = piston_mass
+weight = mass piston_mass; order = firing_order; lambda = ratio; j = inertia throw_inertia
+k = stiffness throw_stiffness; file = indicator
 """
 SYNONYMS = {word: tuple(keys.split()) for word, keys in read_rows(_SYNONYMS).items()}
 _COUNT = (
