@@ -16,14 +16,13 @@ from pydantic_core import ErrorDetails
 
 from ..errors import CONTROL_CHARACTERS, InputError, Problem
 from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
-from ..names import CHAPTER_LISTS, CHAPTERS
+from ..names import CHAPTER_LISTS
 from .fields import printable, shorten
 from .messages import (
     DEVICES,
     ENGINE,
     INSTEAD,
     KNOWN,
-    TABLES,
     TEXTS,
     describe_finding,
     find_inner_table,
@@ -304,16 +303,18 @@ def check_tables(
         if key not in data and not body_alone:
             hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
             reader.problems.append(Problem.of_missing(key, hint))
-    parts: dict[str, Any] = {
-        key: _read_text(reader, key, data[key]) for key in TEXTS if key in data
-    }
-    for key in filter(data.__contains__, (*TABLES, *CHAPTERS)):
-        parts[key] = reader.read_table(key, data[key], import_table(key))
-    for key in filter(data.__contains__, (*DEVICES, *CHAPTER_LISTS)):
-        parts[key] = reader.read_list(key, data[key], import_table(key))
-    if "cylinder" in data:
-        parts["cylinder"] = _read_cylinders(reader, data["cylinder"])
+    parts = {key: _read_part(reader, key, data[key]) for key in KNOWN if key in data}
     return _draft(reader, parts, folder)
+
+
+def _read_part(reader: TableReader, key: str, value: object) -> Any:
+    """Return what stands under a key at the head of the file; None: it has mistakes."""
+    if key in TEXTS:
+        return _read_text(reader, key, value)
+    if key == "cylinder":
+        return _read_cylinders(reader, value)
+    several = key in DEVICES or key in CHAPTER_LISTS
+    return (reader.read_list if several else reader.read_table)(key, value, import_table(key))
 
 
 def change_figures(
@@ -332,10 +333,9 @@ def change_figures(
     own = {path: value for path, value in values.items() if path.partition(".")[0] in tables}
     data = change_tables(model, own)
     reader = TableReader(ENGINE.name, is_engine=True)
-    changed: dict[str, Any] = {}
-    for key in {path.partition(".")[0] for path in own}:
-        read = reader.read_list if isinstance(data[key], list) else reader.read_table
-        changed[key] = read(key, data[key], import_table(key))
+    changed = {
+        key: _read_part(reader, key, data[key]) for key in {p.partition(".")[0] for p in own}
+    }
     if reader.problems:
         raise reader.refusal("")
     return model.model_copy(update=changed)
@@ -391,17 +391,9 @@ def _read_text(reader: TableReader, key: str, value: object) -> str | None:
     characters = CONTROL_CHARACTERS if key == "source" else rf"{CONTROL_CHARACTERS}|[\t\n]"
     strange = None if value.isprintable() else re.search(characters, value)
     if strange:
-        reader.add(
-            key,
-            f"has the control character U+{ord(strange[0]):04X}, which could command a terminal or "
-            "disguise what it shows; leave it out",
-        )
+        reader.add(key, f"has the control character U+{ord(strange[0]):04X}; leave it out")
     elif key == "name" and len(value) > LONGEST_NAME:
-        reader.add(
-            key,
-            f"has {len(value)} characters; it stands in every line of a CSV, at most "
-            f"{LONGEST_NAME} are taken",
-        )
+        reader.add(key, f"has {len(value)} characters; at most {LONGEST_NAME} are taken")
     return value
 
 
