@@ -74,21 +74,21 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
     kind, loc, value = finding["type"], finding["loc"], finding["input"]
     inner, key = find_inner_table(table, loc), str(loc[-1]) if loc else ""
     field = inner.keys().get(key)
-    description, example = document_keys(inner).get(key, KeyDocument())
+    document = document_keys(inner).get(key, KeyDocument())
     place, shown = join_path(path, loc), shorten(value)
     if kind == "missing":
-        text = "{ length = 200 }" if example is None else shorten(example)
-        return Problem.of_missing(place, f"give it, such as {key} = {text}")
+        example = "{ length = 200 }" if document.example is None else shorten(document.example)
+        return Problem.of_missing(place, f"give it, such as {key} = {example}")
     if kind == "value_error":
         message = str(finding["ctx"]["error"])
     elif kind in ("too_short", "too_long"):
-        message = _describe_length(value, finding["ctx"], description)
+        message = _describe_length(value, finding["ctx"], document.description)
     elif kind == "tuple_type" and field and find_table(field.annotation):
         found = "is one of several" if isinstance(value, Mapping) else f"{shown} is no table"
         message = f"{found}; write [[{place}]] in double brackets"
     elif kind == "tuple_type":
-        text = shorten(example or [0, 180])
-        message = f"{shown} is not a list; write it in square brackets, such as {text}"
+        example = shorten(document.example or [0, 180])
+        message = f"{shown} is not a list; write it in square brackets, such as {example}"
     else:
         message = f"{shown} is not a table; write it in braces with its keys"
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):

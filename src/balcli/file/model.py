@@ -215,7 +215,7 @@ class Bobweight(FileTable):
     """Big-end bearing shells of one rod. Example: 0.047"""
     oil: Mass = 0.0
     """Allowance for oil, for each rod. Example: 0.004"""
-    oil_per_pin: Mass = 0.0
+    oil_per_pin: Mass | None = None
     """Allowance for oil of a whole crank pin, as shops write it, instead of oil; its rods share
     it equally. Example: 0.005"""
 

@@ -162,7 +162,7 @@ def list_assumed(model: EngineFile) -> Iterator[str]:
     """
     idle = _list_idle(model)
     for name in _TABLES:
-        table = getattr(model, name)
+        table: FileTable = getattr(model, name)
         for key, field in table.keys().items():
             path = f"{name}.{key}"
             if key in table.model_fields_set or path in idle:
