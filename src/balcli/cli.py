@@ -77,7 +77,7 @@ GROUPS = {
         "check": "Recompute engines and compare with their recorded results; exit status 1 "
         "if anything moved.",
         "tables": "The printed coefficient tables of five books and papers, recomputed, and "
-        "every misprint in them.",
+        "their errata by class: misprints, roundings, errors of equations.",
         "bench": "Run time against error of every way to the same figures, on this "
         "machine; with -o X.svg also as a picture.",
     },

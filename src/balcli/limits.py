@@ -56,7 +56,6 @@ SMALLEST_FLUCTUATION = 1e-9  # of the speed, asked for: less is lost in rounding
 FLUCTUATION = "give (highest - lowest)/mean speed, such as 1/200 or 0.5%"
 FARTHEST_DEVICE_M = 50.0  # place of a shaft or plane: the longest engines have 30
 LARGEST_FACTOR = 2  # share of the reciprocating mass, either way: shops take 0 to 1
-MOST_HOLES = 50  # in one counterweight: none has room for more
 MOST_DIGITS = 15  # of figures in tables: what a floating-point number has
 MOST_FACTORS = 1000  # steps of a range of balance factors
 MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table, and figures of its body

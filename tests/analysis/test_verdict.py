@@ -27,7 +27,7 @@ def test_force_and_moment_of_one_order() -> None:
     )
 
 
-FREE = ["First order: free of force and moment.", "Second order: free of force and moment."]
+FREE = ["First order: force and moment balanced.", "Second order: force and moment balanced."]
 
 
 @cases("analysis/verdict", "what_is_small_beside_one_cylinder_is_negligible", FREE=FREE)

@@ -14,7 +14,7 @@ from support.cases import cases
 from support.commands import refusal, run_here
 
 from balcli.books.answer import NAMES, recompute, select_tables
-from balcli.books.recomputed import Explanation, Table, deviates, parse_crank_ratios, parse_range
+from balcli.books.recomputed import CLASSES, Explanation, Table, deviates, parse_crank_ratios, parse_range
 from balcli.core.mechanisms import slidercrank as sc
 from balcli.errors import BalcliError
 
@@ -34,6 +34,7 @@ ERRATA = {  # printed figures that are not the exact ones rounded
     "liang-examples": 4,
     "torque-examples": 3,
     "series": 3,
+    "statements": 47,  # each of them is one
     "layouts": 0,
 }
 
@@ -62,7 +63,7 @@ def test_numbers_of_errata(name):
     assert len(recompute(name).errata) == ERRATA[name]
 
 
-@pytest.mark.parametrize("name", [n for n in NAMES if n not in ("series", "layouts")])
+@pytest.mark.parametrize("name", [n for n in NAMES if n not in ("series", "statements", "layouts")])
 def test_errata_are_the_figures_that_rounding_does_not_give(name):
     """The rule once more, from the values and texts alone."""
     table, wrong = recompute(name), set()
@@ -206,6 +207,38 @@ def test_errata_of_one_table_and_of_all():
     assert [e["name"] for e in document("kvasnikov-1", "--errata")] == ["kvasnikov-1"] * 2
     assert len(document("--errata")) == sum(ERRATA.values())
     assert "cos 45° taken as 0.706" in run("liu-3", "--errata").out
+
+
+def test_errata_by_class():
+    """22 printed figures of 125 are misprints; each class is explained under the errata."""
+    every = document("--errata")
+    of_figures = [e["class"] for e in every if e["name"] != "statements"]
+    assert len(of_figures) == 125
+    assert of_figures.count("misprint") == 22
+    assert {e["class"] for e in every} == set(CLASSES)
+    for name, meaning in CLASSES.items():
+        assert document("--kind", name) == [e for e in every if e["class"] == name]
+        words = " ".join(run("--kind", name).out.split())
+        assert all(word in words for word in meaning.split())
+    assert run("--kind", "typo").status == 2
+
+
+def test_errata_fit_into_80_columns():
+    assert max(map(len, run("--errata").out.splitlines())) <= 80
+    assert max(map(len, run("statements").out.splitlines())) <= 80
+
+
+def test_errata_name_their_rows():
+    """A crank angle, not the number of the row."""
+    first = document("tsinghua-1-2", "--errata")[0]
+    assert (first["row"], first["label"], first["class"]) == (10, "50", "rounding")
+
+
+def test_the_slider_of_liu_is_four_times_too_heavy():
+    (found,) = (e for e in document("--kind", "error") if e["label"] == "liu, (5.6)")
+    assert found["printed"].startswith("m_zh r_zh = 4 lambda m_h r |Zx|max")
+    assert found["exact"].startswith("m_zh r_zh = lambda m_h r |Zx|max")
+    assert "four times too heavy" in found["kind"]
 
 
 @cases("books/tables", "wrong_names_and_options_are_refused")

@@ -140,7 +140,7 @@ def test_a_polyline_is_exact():
 def test_harmonics_of_a_triangle_wave():
     found = polyline([0, np.pi, TURN], [1, -1, 1]).harmonics(np.arange(10))
     expected = [8 / (np.pi * k) ** 2 if k % 2 else 0 for k in range(10)]
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14)
 
 
 def test_harmonics_are_those_asked_for_in_their_order():

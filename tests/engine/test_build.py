@@ -42,7 +42,8 @@ def test_si_values_of_a_whole_file():
     assert list(c.axis_deg) == [-30, 30]
     assert e.first_axis_deg == -30
     assert e.omega == pytest.approx(100 * math.pi, rel=TIGHT)
-    assert float(e.displacement_m3) == pytest.approx(4 * math.pi / 4 * 0.08**2 * 0.09, rel=TIGHT)
+    stroke = math.sqrt(0.195**2 - 0.003**2) - math.sqrt(0.105**2 - 0.003**2)  # offset 3 mm
+    assert float(e.displacement_m3) == pytest.approx(4 * math.pi / 4 * 0.08**2 * stroke, rel=TIGHT)
     assert list(e.throws_m) == pytest.approx([-0.055, 0.055], rel=TIGHT)
     assert e.reference_m == pytest.approx((0, 0, 0), abs=TIGHT)
     assert e.equal

@@ -197,7 +197,7 @@ def test_mistakes_of_a_diagram(beside, tmp_path, content, told):
 
 def test_a_gauge_pressure_below_vacuum(beside):
     path = beside('indicator = "p.csv"\npressure = "gauge"\n', content=DIAGRAM.replace("30,0.1", "30,-0.2"))
-    assert mistake(path) == ("gas.indicator: p.csv: line 6: the absolute pressure is -0.98675 bar: give 0 or more")
+    assert mistake(path) == ("gas.indicator: p.csv: line 6: the gauge pressure is -0.2 MPa: give at least the vacuum")
 
 
 @cases("engine/gas", "mistakes_of_harmonics")

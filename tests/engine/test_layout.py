@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from support.cases import cases
@@ -13,7 +15,8 @@ from balcli.file.model import Crank, Layout
 
 
 def planned(throws=None, **layout):
-    return plan_cylinders(Crank(stroke=100, throws=throws), Layout(**layout))
+    crank = Crank(stroke=100, throws=throws)
+    return plan_cylinders(SimpleNamespace(crank=crank, layout=Layout(**layout), cylinder={}))
 
 
 def where(found):

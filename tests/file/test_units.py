@@ -12,7 +12,18 @@ from support.cases import cases
 
 from balcli.file import units as unit_table
 from balcli.file.fields import STRING_PATTERN
-from balcli.file.units import ANGLE, INERTIA, LENGTH, PLAIN, convert, read_unit
+from balcli.file.units import (
+    ANGLE,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PLAIN,
+    SPEED,
+    TORQUE,
+    UNBALANCE,
+    convert,
+    read_unit,
+)
 
 A_LENGTH = 'a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'
 AN_ANGLE = 'an angle is wanted: a bare number in deg, or "30 deg" or "1.2 rad" or "1/7 turn"'
@@ -188,6 +199,54 @@ def test_refusals_say_what_is_near(text, dimension, begin):
     assert str(caught.value).startswith(begin)
 
 
-@pytest.mark.parametrize("text", ["pi", "-π", "pi/2", "2π", '3.5"', "5500 min⁻¹", "3 1/2 in", "3-1/2 in", "9 kgf/cm2"])
+@pytest.mark.parametrize(
+    "text",
+    ["pi", "-π", "pi/2", "2π", '3.5"', "5500 min⁻¹", "86 мм", "０,5 Kg", "½ in.", "3 1/2 in", "3-1/2 in", "9 kgf/cm2"],
+)
 def test_editors_take_what_is_read(text):
     assert re.search(STRING_PATTERN, text)
+
+
+SPELLINGS = {  # of one unit, with the dimension of the figure
+    LENGTH: (["mm", "MM", "мм", "㎜", "millimetre"], ["in", "In", "in.", "inches", '"', "″"], ["cm", "см", "CM"]),
+    MASS: (["kg", "Kg", "KG", "кг", "㎏"], ["g", "г", "gram"], ["oz", "Oz", "ounces"]),
+    UNBALANCE: (
+        ["g mm", "gmm", "g·mm", "g.mm", "г·мм"],
+        ["oz in", "ozin", "in-oz", "oz·in"],
+        ["kg cm", "kgcm", "кг·см"],
+    ),
+    SPEED: (["rpm", "RPM", "Rpm", "r.p.m.", "1/min", "min⁻¹", "об/мин"], ["rad/s", "рад/с"]),
+    TORQUE: (["N m", "Nm", "N·m", "Н·м", "Нм"], ["kN m", "kNm", "кН·м", "KN m"], ["lbf ft", "lbfft", "ftlb", "lb-ft"]),
+    INERTIA: (["kg m^2", "kg m²", "kgm2", "кг·м²", "kg*m**2"],),
+}
+GROUPS = [(dimension, group) for dimension, groups in SPELLINGS.items() for group in groups]
+
+
+def numbers_as_people_write_them(number):
+    """Spellings of a number of at most two decimals."""
+    plain = f"{number:.2f}"
+    yield from (plain, plain.replace(".", ","), f"+{plain}", plain.translate({48 + k: 0xFF10 + k for k in range(10)}))
+    yield f"{plain}e0"
+    if number >= 1000:
+        for blank in (" ", "\u00a0", "\u202f", "'"):
+            yield f"{number:,.2f}".replace(",", blank)
+
+
+@given(st.integers(1, 10**9), st.sampled_from(GROUPS), st.data())
+def test_one_figure_in_any_spelling_has_one_value(hundredths, group, data):
+    dimension, units = group
+    number = hundredths / 100
+    expected = convert(f"{number:.2f} {units[0]}", dimension)
+    figure = data.draw(st.sampled_from(list(numbers_as_people_write_them(number))))
+    unit, blank = data.draw(st.sampled_from(units)), data.draw(st.sampled_from(["", " ", "\u00a0"]))
+    if unit == "1/min":
+        blank = " "
+    assert convert(f"{figure}{blank}{unit}", dimension) == expected
+
+
+@given(st.integers(1, 999), st.integers(0, 999), st.sampled_from(GROUPS))
+def test_thousands_with_a_comma_are_asked_back(thousands, rest, group):
+    dimension, units = group
+    with pytest.raises(ValueError, match=f"is {thousands}.{rest:03d} meant, or {thousands}{rest:03d}") as caught:
+        convert(f"{thousands},{rest:03d} {units[0]}", dimension)
+    assert " wanted" in str(caught.value)

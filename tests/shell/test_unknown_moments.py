@@ -45,9 +45,9 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
     assert "Free moment in textbook units" not in out
     assert "moment  –" in out
     told = " ".join(out.partition("\nVerdict\n")[2].split())
-    assert "First order: free of force. Second order: force of" in told
+    assert "First order: force balanced. Second order: force of" in told
     assert UNKNOWN[1:] in told
-    assert "free of moment" not in told
+    assert "moment balanced" not in told
     assert "no moment" not in told
     assert "no free force of orders 1 and 2 (moments are not known)" in told
     brief = balcli("analyze", twin)[1]

@@ -337,3 +337,32 @@ def test_speeds_and_pendulums_count_from_the_crankshaft_with_a_geared_part_forem
     for name in ("pump", "flywheel"):
         one, other = (found[key][name]["half_peak_to_peak_Nm"] for key in ("front", "rear"))
         assert one == pytest.approx(other, rel=1e-12)
+
+
+def test_a_throw_for_each_cylinder_has_the_modes_of_the_pins():
+    """A V8 typed with eight throws, in any order, is the V8 with four pins that share them."""
+    rows = [(n, -45, 100 * n - 260) for n in range(1, 5)]
+    rows += [(n, 45, 100 * n - 640) for n in range(5, 9)]
+    own = "\n".join(f"[cylinder.{n}]\nbank = {bank}\nposition = {z}" for n, bank, z in rows)
+    text = """
+        [crank]
+        stroke = 90
+        throws = [0, 90, 270, 180, 0, 90, 270, 180]
+        [rod]
+        length = 150
+        small_end = 0.2
+        big_end = 0.4
+        [piston]
+        bore = 95
+        mass = 0.5
+        [torsion]
+        throw_stiffness = 1e6
+        throw_inertia = 10000
+        [[torsion.rear]]
+        name = "flywheel"
+        inertia = 200000
+        stiffness = 1.2e6
+        """.replace("        ", "")
+    found = ask_torsion(f"{text}\n{own}")["modes"]
+    frequencies = [mode["frequency_Hz"] for mode in found]
+    assert frequencies == pytest.approx([443.20, 1103.33, 1645.70, 1983.69], rel=1e-5)

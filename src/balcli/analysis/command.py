@@ -150,14 +150,19 @@ def curves(
         case SeriesFormat.CSV:
             text = csv_text([chapter.rows(found)])
         case SeriesFormat.JSON:
-            text = json_text(chapter.document(found))
+            text = json_text(chapter.RENDERER.document(found))
         case _:
             assert_never(form)
     emit(text, output)
 
 
 Phase = Annotated[
-    str, typer.Option(metavar="DEG", help="Crank angle by which the second engine leads.")
+    str,
+    typer.Option(
+        metavar="DEG",
+        help="Crank angle by which the second engine leads, counted from that engine's own x axis: "
+        "with --turn 90 the cranks point the same way at --phase -90.",
+    ),
 ]
 At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Place of the second engine's origin, mm.")]
 Turn = Annotated[str, typer.Option(metavar="DEG", help="How far it is turned about z.")]

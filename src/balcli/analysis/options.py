@@ -39,7 +39,8 @@ SpeedsOption = Annotated[
     str | None,
     optional(
         "RPM|RPM:RPM:STEP|RPM,...",
-        "Crank speed instead of the file's, rpm, or several, such as 60:124:8.",
+        "Crank speed instead of the file's, rpm, or several, such as 60:124:8; the last speed of a "
+        "range is always computed.",
         "--speed",
         "--rpm",
     ),

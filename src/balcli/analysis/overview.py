@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..core.cylinders import Device
 from ..core.phasors import Phasors
 from ..file.messages import ordinal
 from ..file.model import Counterweight, Shaft
@@ -200,8 +201,8 @@ _SWAYS = {"x": "yawing", "y": "pitching"}
 _Row = tuple[int, float]  # index of an order, and the order
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
 _UNEVEN = (
-    "At this uneven speed orders have parts of one another: what cancels an order at steady speed, "
-    "for which balance sizes devices, cancels its parts in all others, too."
+    "The uneven speed mixes the orders. Devices are sized at steady speed; one that cancels an "
+    "order there also cancels what that order adds to others."
 )
 
 
@@ -225,7 +226,12 @@ class _Vector(NamedTuple):
 
 
 def verdict(
-    spectra: Spectra, system: System, single: Mapping[str, float] = _UNKNOWN, *, steady: bool = True
+    spectra: Spectra,
+    system: System,
+    single: Mapping[str, float] = _UNKNOWN,
+    *,
+    steady: bool = True,
+    devices: Sequence[Device] = (),
 ) -> tuple[str, ...]:
     """A sentence for every order that matters; empty if neither forces nor moments were asked for.
 
@@ -234,6 +240,7 @@ def verdict(
             order may be negligible.
         steady: whether the speed is. If not, orders are told without what cancels them: most of an
             order may be what the unevenness makes of another, and goes with that one.
+        devices: Devices of the file, which are not named as what would cancel an order.
     """
     vectors = [
         _Vector(kind.name, phasors, system.unit(kind), single.get(kind.name, 0.0))
@@ -243,14 +250,20 @@ def verdict(
         return ()
     rows = [(k, order) for k, order in enumerate(spectra.orders) if order > 0]
     higher = [(k, order) for k, order in rows if order not in (1, 2)]
-    told = [_tell_low_order(k, int(order), vectors, steady) for k, order in rows if order in (1, 2)]
+    told = [
+        _tell_low_order(k, int(order), vectors, spectra.couple, steady, devices)
+        for k, order in rows
+        if order in (1, 2)
+    ]
     if any(vector.matters(k) for k, _ in rows for vector in vectors):
         told += _tell_high_orders(higher, vectors, steady)
         told += [] if steady else [_UNEVEN]
     elif largest := _tell_largest(higher, vectors):
         told.append(f"Higher orders: negligible, at most {largest}.")
     if higher and not told:
-        told.append(f"The orders shown: free of {' and '.join(v.what for v in vectors)}.")
+        names, couple = [vector.what for vector in vectors], spectra.couple
+        sizes = [] if couple is None else [couple.major[k] for k, _ in higher]
+        told.append(f"The orders shown: {_tell_balanced(names, max(sizes, default=0.0), vectors)}")
     return tuple(told)
 
 
@@ -260,21 +273,39 @@ def _order_name(order: float) -> str:
     return f"{_NAMES[int(order)] if order < len(_NAMES) else ordinal(int(order))} order"
 
 
-def _tell_low_order(k: int, order: int, vectors: list[_Vector], steady: bool) -> str:
+def _tell_low_order(
+    k: int,
+    order: int,
+    vectors: list[_Vector],
+    couple: Phasors | None,
+    steady: bool,
+    devices: Sequence[Device],
+) -> str:
     """Return for order 1 or 2 what is there, which way it turns, and at steady speed what cancels
-    it.
+    it; the roll couple where the moment is balanced.
     """
-    there, free = [], []
+    there, balanced = [], []
     for vector in vectors:
         if vector.phasors.balanced[k]:
-            free.append(vector.what)
+            balanced.append(vector.what)
             continue
-        told, cure = _tell_vector(k, order, vector)
+        told, cure = _tell_vector(k, order, vector, devices)
         there.append(f"{told}: {cure}." if cure and steady else f"{told}.")
+    left = 0.0 if couple is None else float(couple.major[k])
     if not there:
-        return f"{_order_name(order)}: free of {' and '.join(free)}."
-    rest = [*there[1:], *(f"no {what}." for what in free)]
+        return f"{_order_name(order)}: {_tell_balanced(balanced, left, vectors)}"
+    rest = there[1:]
+    if "moment" in balanced and left:
+        rest.append(f"roll couple of {size_text(left, vectors[-1].unit)}.")
+    elif balanced:
+        rest.append(f"no {balanced[0]}.")
     return f"{_order_name(order)}: {' '.join([there[0], *map(capitalized, rest)])}"
+
+
+def _tell_balanced(names: list[str], couple: float, vectors: list[_Vector]) -> str:
+    """Return what is balanced, and the roll couple (N m) which remains about the crank axis."""
+    remains = f"; roll couple of {size_text(couple, vectors[-1].unit)}" if couple else ""
+    return f"{' and '.join(names)} balanced{remains if 'moment' in names else ''}."
 
 
 def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) -> Iterator[str]:
@@ -297,7 +328,8 @@ def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) 
     if others := [(k, order) for k, order, _ in worth[alone:]]:
         first, last = others[0][1], others[-1][1]
         largest = _tell_largest(others, vectors)
-        yield f"{len(others)} more, of orders {first:g} to {last:g}: at most {largest}."
+        span = f"{order_name(first)} to {order_name(last)}"
+        yield f"Orders {span}, {len(others)} more: at most {largest}."
 
 
 def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
@@ -306,14 +338,17 @@ def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
     for vector in vectors if rows else ():
         k, order = max(rows, key=lambda row: vector.phasors.major[row[0]])
         if vector.phasors.major[k]:
-            told.append(f"a {vector.what} of {vector.size(k)} in order {order:g}")
+            told.append(f"a {vector.what} of {vector.size(k)} in order {order_name(order)}")
     return " and ".join(told)
 
 
-def _tell_vector(k: int, order: int, vector: _Vector) -> tuple[str, str]:
-    """One vector of order 1 or 2: its size and how it turns; and what cancels it, nothing where it
-    is negligible.
+def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device]) -> tuple[str, str]:
+    """Return one vector of order 1 or 2: its size and how it turns; and what cancels it, nothing
+    where it is negligible, or where the file has such devices already.
     """
+    own = [device for device in devices if device.order == order]
+    ahead_fitted = any(np.any(device.forward) for device in own)
+    against_fitted = any(np.any(device.backward) for device in own)
     what, phasors, unit, size = vector.what, vector.phasors, vector.unit_at(k), vector.size(k)
     if not vector.matters(k):
         return f"{what} of up to {size}, negligible", ""
@@ -322,13 +357,18 @@ def _tell_vector(k: int, order: int, vector: _Vector) -> tuple[str, str]:
     if backward == 0:
         cure = shafts.format(f"a balancer shaft at +{order}")
         by_weights = "counterweights on the crankshaft cancel it"
-        return f"{what} of {size}, turning with the crank", by_weights if order == 1 else cure
+        cure = by_weights if order == 1 else cure
+        return f"{what} of {size}, turning with the crank", "" if ahead_fitted else cure
     if forward == 0:
         cure = shafts.format(f"a balancer shaft at -{order}")
-        return f"{what} of {size}, turning against the crank", cure
+        return f"{what} of {size}, turning against the crank", "" if against_fitted else cure
     cure = shafts.format(f"two balancer shafts, at +{order} and -{order}")
     if order == 1:
         cure = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
+        if ahead_fitted:
+            cure = "a shaft at -1 times crank speed cancels the second part"
+    if against_fitted or (ahead_fitted and order > 1):
+        cure = ""
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
     parts = f"{ahead} turns with the crank, {against} against it"
     direction = _tell_direction(what, float(phasors.axis_deg[k]))

@@ -1,19 +1,17 @@
-"""Which printed tables there are, and what each may be asked: `tables`.
+"""The registry of printed tables with the ranges that each takes, their errata, and the table of
+common layouts.
 
-Free forces and moments of the common layouts in textbook units, computed from the example
-engines, without the offsets of their piston pins.
-
-F_n = m_rec r omega^2 A_n is the force of order n of one cylinder's reciprocating mass (F_1 with
-A_1 = 1), a the distance of neighbouring throws; moments are about the middle of the crankshaft. All
-else that textbooks leave out, `forces.textbook` takes off.
+The table of layouts has free forces and moments of the example engines in textbook units, without
+the offsets of piston pins: F_n = m_rec r omega^2 A_n is the force of order n of one cylinder's
+reciprocating mass (A_1 = 1), a the distance of neighboring throws; moments are about the middle of
+the crankshaft. `forces.textbook` takes off all else that textbooks leave out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from types import NoneType
-from typing import NamedTuple
 
 import numpy as np
 
@@ -26,15 +24,19 @@ from ..file.model import EngineFile
 from ..forces.textbook import find_textbook
 from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
-from . import (
-    liu,
-    series as kvasnikov,
-    series as series_coefficients,
-    tsinghua,
-    wang,
-    worked_examples,
+from . import liu, series, tsinghua, wang, worked_examples
+from .recomputed import (
+    Erratum,
+    ErratumClass,
+    Print,
+    Ranges,
+    Row,
+    Table,
+    load_print,
+    parse_crank_ratios,
+    parse_range,
+    tabulate_statements,
 )
-from .recomputed import Print, Ranges, Row, Table, load_print, parse_crank_ratios, parse_range
 
 ORDERS = (1, 2, 4, 6)
 
@@ -46,22 +48,11 @@ def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
     return printed.compare(("engine", "layout", "cylinders", *ends), rows, stub=3)
 
 
-class Layouts(NamedTuple):
-    """The table, and the different intervals between firings of each engine, deg, ascending; none
+def find_gaps(name: str) -> tuple[float, ...]:
+    """Return the different intervals between firings of an example engine, deg, ascending; none
     where the file of several cylinders gives no firing order.
     """
-
-    table: Table
-    gaps_deg: Mapping[str, tuple[float, ...]]
-
-
-def add_firing(table: Table) -> Layouts:
-    """The table of layouts with the firing intervals of its engines."""
-    names = [str(row[0]) for row in table.exact]
-    return Layouts(table, {name: _find_gaps(_build(_read(name))) for name in names})
-
-
-def _find_gaps(engine: Engine) -> tuple[float, ...]:
+    engine = _build(_read(name))
     alone = len(engine.numbers) == 1  # and has no order
     fires = [0.0] if alone else [*map(float, engine.fires_deg.values())]
     instants = [*fires, 180.0 * engine.strokes]
@@ -102,11 +93,12 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "liu-2": liu.tabulate_vectors,
     "liu-3": liu.tabulate_sliders,
     "wang-1": wang.tabulate_optimum,
-    "kvasnikov-1": kvasnikov.tabulate_piston,
-    "kvasnikov-2": kvasnikov.tabulate_rod,
+    "kvasnikov-1": series.tabulate_piston,
+    "kvasnikov-2": series.tabulate_rod,
     "liang-examples": worked_examples.tabulate_liang_examples,
     "torque-examples": worked_examples.tabulate_torque_examples,
-    "series": series_coefficients.tabulate_series,
+    "series": series.tabulate_series,
+    "statements": tabulate_statements,
     "layouts": tabulate_layouts,
 }
 NAMES = tuple(TABLES)
@@ -147,6 +139,14 @@ def select_tables(
             others = " and ".join(takes) or "no other range"
             raise BalcliError(f"--{option}: table {names[0]} takes {others}")
     return [TABLES[each](load_print(each), ranges) for each in names]
+
+
+def find_errata(
+    tables: Sequence[Table], category: ErratumClass | None = None
+) -> list[tuple[str, Erratum]]:
+    """Return the errata of these tables, of one class or of all, each with its table's name."""
+    every = [(table.name, erratum) for table in tables for erratum in table.errata]
+    return [each for each in every if category in (None, each[1].category)]
 
 
 def recompute(

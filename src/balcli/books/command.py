@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -31,15 +31,15 @@ Name = Annotated[
 ]
 Errata = Annotated[
     bool,
-    typer.Option("--errata", help="List every printed figure that is not the exact one rounded."),
+    typer.Option("--errata", help="List wrong figures, equations and sentences by class."),
+]
+Kind = Annotated[
+    Literal["misprint", "rounding", "approximation", "method", "error", "copy"] | None,
+    typer.Option(help="Errata of this class alone.", show_default=False),
 ]
 Lam = Annotated[
     str | None,
-    optional(
-        "0.20:0.40:0.01",
-        "Other crank ratios than the printed ones; or a list 0.25,1/3.",
-        "--lambda",
-    ),
+    optional("0.20:0.40:0.01", "Other crank ratios than printed; or a list 0.25,1/3.", "--lambda"),
 ]
 Angle = Annotated[str | None, optional("0:180:5", "Other crank angles (degrees).", "--angle")]
 Power = Annotated[
@@ -62,6 +62,7 @@ Digits = Annotated[
 def tables(
     name: Name = None,
     errata: Errata = False,
+    kind: Kind = None,
     lam: Lam = None,
     angle: Angle = None,
     power: Power = None,
@@ -69,12 +70,13 @@ def tables(
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
-    """The printed coefficient tables of five books and papers, recomputed, and every misprint in
-    them.
+    """The printed coefficient tables of five books and papers (and worked examples of three
+    textbooks), recomputed; their errata by class, with those of equations and text.
 
     \b
     Examples:
       balcli tables tsinghua-1-2
+      balcli tables --errata --kind misprint
       balcli tables --errata --format json
     """
     form = text_format(output, form)
@@ -85,10 +87,10 @@ def tables(
     if angle:
         angle = as_bare_angles("--angle", angle)
     chosen = answer.select_tables(name, lam, angle, power)
-    if errata:
-        show([chosen], pages.ERRATA, form, output)
+    if errata or kind:
+        show([answer.find_errata(chosen, kind)], pages.ERRATA, form, output)
     elif name and chosen[0].name == "layouts" and digits is None:
-        show([answer.add_firing(chosen[0])], pages.LAYOUTS, form, output)
+        show(chosen, pages.LAYOUTS, form, output)
     elif name:
         show([replace(chosen[0], digits=digits)], pages.RENDERER, form, output)
     else:
@@ -106,4 +108,4 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
     form = text_format(output, form)
     from . import answer, show as pages
 
-    show([answer.add_firing(answer.recompute("layouts"))], pages.LAYOUTS, form, output)
+    show([answer.recompute("layouts")], pages.LAYOUTS, form, output)

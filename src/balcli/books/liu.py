@@ -39,10 +39,7 @@ def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
     """Table 1: radii of the two shafts over gamma, their ratio, and the same for their rates."""
     gamma = as_numbers(printed.headings())
     stub = printed.column(printed.columns[0])
-    explanations = [
-        Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough))),
-        Explanation("quotient of the rounded lines above", _quotients(printed)),
-    ]
+    explanations = [Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough)))]
     rows = head_rows(stub, _paths(gamma, _cos))
     return printed.compare(printed.columns, rows, explanations=explanations)
 
@@ -91,17 +88,3 @@ def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> 
         (label, g, *as_cells(line(label, g)))
         for label, g in zip(printed.column("row"), gammas, strict=True)
     )
-
-
-def _quotients(printed: Print) -> tuple[Row, ...]:
-    """Return lines 3 and 6 of Table 1 from the lines before them as printed."""
-    a, b, _, c, d, _ = (as_numbers(word or "" for word in words) for words in printed.rows)
-    nothing: Row = (None,) * len(a)
-    return (nothing, nothing, _divide(a, b), nothing, nothing, _divide(c, d))
-
-
-def _divide(above: Array, below: Array) -> Row:
-    """Return the quotients of cells; None where there is nothing to divide, or to divide by."""
-    known = np.isfinite(above) & np.isfinite(below) & (below != 0)
-    quotients = above / np.where(known, below, 1.0)
-    return tuple(float(q) if k else None for q, k in zip(quotients, known, strict=True))

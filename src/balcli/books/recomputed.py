@@ -1,10 +1,8 @@
-"""A recomputed table next to its print, and the rule that says which printed figures are wrong.
+"""Recomputed tables next to their prints, and the rule for errata: which printed figures are wrong,
+and of what class.
 
-The printed figures: package data, one CSV file a table, headed by its source.
-
-What a reader may ask of a table: other columns and rows than the printed ones.
-
-Ranges are written as on the command line: `0.20:0.40:0.01`, `0.24,0.28,1/3`.
+Each print is a CSV file of the package, headed by its source. A table can have other rows and
+columns than its print: ranges such as `0.20:0.40:0.01` and `0.24,0.28,1/3`.
 """
 
 from __future__ import annotations
@@ -16,11 +14,12 @@ from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
 from importlib.resources import files
-from typing import NamedTuple, TypeAlias
+from typing import Annotated, Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from ..core.phasors import Array
+from ..core.records import WrittenAs
 from ..errors import BalcliError
 from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
 from ..show.result import Result
@@ -28,6 +27,16 @@ from ..show.result import Result
 Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
+ErratumClass = Literal["misprint", "rounding", "approximation", "method", "error", "copy"]
+STATEMENT = "statement"  # the column of errata that are no figures
+CLASSES: dict[ErratumClass, str] = {
+    "misprint": "the print contradicts its own formula",
+    "rounding": "last digits are wrong: cut off, or computed from rounded figures",
+    "approximation": "a rounded constant or a shortened series of the author gives the print",
+    "method": "the author's method does not find what it looks for",
+    "error": "the statement itself is wrong, not its print",
+    "copy": "wrong in the scanned copy that was read; the print may be right",
+}
 
 
 @dataclass(frozen=True)
@@ -40,15 +49,32 @@ class Explanation:
     rows: tuple[Row, ...]
 
 
+def name_class(category: ErratumClass) -> ErratumClass:
+    """Return the class of an erratum, whose key in JSON is a keyword of Python."""
+    return category
+
+
 @dataclass(frozen=True)
 class Erratum:
-    """A printed figure that is not the exact one rounded to as many digits."""
+    """A printed figure that is not the exact one rounded, or a statement that is wrong.
+
+    Attributes:
+        row: Number of the row in its table, from 0.
+        column: Heading of the column.
+        printed: What the source prints.
+        exact: What would be right.
+        kind: How the print came about, or how the right form of a statement is known.
+        label: Name of the row.
+        category: Class of the erratum, a key of `CLASSES`.
+    """
 
     row: int
     column: str
     printed: str
     exact: Cell
     kind: str
+    label: str
+    category: Annotated[ErratumClass, WrittenAs(name_class, "class")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -65,6 +91,7 @@ class Table(Result):
         explanations: Explanations of errata.
         stub: How many leading columns name a row.
         digits: Decimals of the figures that are shown; None: as printed.
+        stated: Errata of a table of statements, which no rule finds.
     """
 
     name: str
@@ -76,6 +103,7 @@ class Table(Result):
     explanations: tuple[Explanation, ...] = ()
     stub: int = 1
     digits: int | None = None
+    stated: tuple[Erratum, ...] = ()
 
     @property
     def summary(self) -> str:
@@ -84,8 +112,8 @@ class Table(Result):
 
     @property
     def errata(self) -> tuple[Erratum, ...]:
-        """Printed cells that are not the exact ones rounded."""
-        return tuple(self._errata())
+        """Printed cells that are not the exact ones rounded, or the wrong statements."""
+        return self.stated or tuple(self._errata())
 
     def label(self, row: int) -> str:
         """Return the name of a row: the cells of its stub."""
@@ -99,7 +127,8 @@ class Table(Result):
                 if text is not None and deviates(value, text):
                     supposed = [(each.kind, each.rows[i][j]) for each in self.explanations]
                     kind = _find_kind(value, text, supposed)
-                    yield Erratum(i, self.columns[j], text, value, kind)
+                    category = _classify(kind)
+                    yield Erratum(i, self.columns[j], text, value, kind, self.label(i), category)
 
 
 def parse_decimal(text: str) -> Decimal | None:
@@ -167,6 +196,15 @@ def _find_kind(value: Cell, text: str, supposed: Sequence[tuple[str, Cell]]) -> 
     error = abs(round_like(value, printed) - printed).scaleb(-_exponent(printed))
     kind = "misprint" if error > 1 else "last digit"
     return kind + (explain_figure(value, text) or "")
+
+
+def _classify(kind: str) -> ErratumClass:
+    """Return the class of a wrong figure from the words of its kind."""
+    if kind.startswith("misprint"):
+        return "misprint"
+    if kind.startswith("author's approximation"):
+        return "approximation"
+    return "rounding" if "last digit" in kind or "rounded" in kind else "method"
 
 
 def _exponent(printed: Decimal) -> int:
@@ -244,6 +282,21 @@ class Print:
             for kind, n, value in others
         ]
         return self.compare(self.columns, rows, explanations=explanations, stub=4)
+
+
+def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
+    """Return the equations and sentences that are wrong: exact is the right form, every row an
+    erratum. The tests compute both forms of each.
+    """
+    cells, words, stated = [], list[Words](), []
+    for i, row in enumerate(printed.rows):
+        source, place, wrong, right, category, known = map(str, row)
+        cells.append((source, place, right, category, known))
+        words.append((source, place, wrong, None, None))
+        label, name = f"{source}, {place}", cast("ErratumClass", category)
+        stated.append(Erratum(i, STATEMENT, wrong, right, known, label, name))
+    shape = ("source", "place", STATEMENT, "class", "known"), tuple(cells), tuple(words)
+    return Table(printed.name, printed.title, printed.source, *shape, stub=2, stated=tuple(stated))
 
 
 def load_print(name: str) -> Print:

@@ -7,23 +7,39 @@ precision. Besides: all errata, the list of tables, and the table of common layo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
 
+from ..core.records import Node, to_document
 from ..show.csv import Rows
 from ..show.formats import Renderer
-from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, number
+from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, Text, number
+from ..show.table import fold
 from ..show.units import System
-from .recomputed import Cell, Erratum, Table, deviates, parse_decimal, parse_number, round_like
-
-if TYPE_CHECKING:
-    from .answer import Layouts
-    from .recomputed import Row
+from .answer import find_gaps
+from .recomputed import (
+    CLASSES,
+    STATEMENT,
+    Cell,
+    Erratum,
+    Row,
+    Table,
+    Words,
+    deviates,
+    parse_decimal,
+    parse_number,
+    round_like,
+)
 
 
 def sheet(table: Table, _system: System) -> Sheet:
     """Return source, the table as printed, and how many figures deviate."""
+    facts = Facts((("source", table.source),))
+    title = f"{table.name}: {table.title}"
+    if table.stated:
+        return Sheet(title, (facts, *map(_lay_out_statement, table.stated), _explain(table.stated)))
     columns = range(len(table.columns))
     rows = tuple(tuple(_shown(table, i, j) for j in columns) for i in range(len(table.exact)))
     wrong = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
@@ -33,21 +49,38 @@ def sheet(table: Table, _system: System) -> Sheet:
         if j == 0 or all(isinstance(row[j], str) and not _is_figure(row[j]) for row in table.exact)
     )
     grid = Grid("", table.columns, rows, note=count_deviations(table), marked=wrong, words=words)
-    return Sheet(f"{table.name}: {table.title}", (Facts((("source", table.source),)), grid))
+    return Sheet(title, (facts, grid))
 
 
-def document(table: Table) -> dict[str, Any]:
+@dataclass(frozen=True, kw_only=True)
+class TableDocument:
+    """A printed table, recomputed.
+
+    Attributes:
+        name: Name of the table.
+        title: Title of the table.
+        source: Book or paper that prints it.
+        columns: Names of the columns.
+        rows: Exact cells of every row.
+        printed: Printed texts of every row; null: not printed.
+        errata: Printed cells that are not the exact ones rounded.
+    """
+
+    format: Literal["balcli.table/1"] = "balcli.table/1"
+    name: str
+    title: str
+    source: str
+    columns: tuple[str, ...]
+    rows: tuple[Row, ...]
+    printed: tuple[Words, ...]
+    errata: tuple[Erratum, ...]
+
+
+def document(table: Table) -> Node:
     """Return `balcli.table/1`: the exact figures, the printed texts, and the errata."""
-    return {
-        "format": "balcli.table/1",
-        "name": table.name,
-        "title": table.title,
-        "source": table.source,
-        "columns": table.columns,
-        "rows": table.exact,
-        "printed": table.printed,
-        "errata": [asdict(e) for e in table.errata],
-    }
+    head = {key: getattr(table, key) for key in ("name", "title", "source", "columns")}
+    found = TableDocument(**head, rows=table.exact, printed=table.printed, errata=table.errata)
+    return to_document(found)
 
 
 def rows(table: Table, _system: System) -> Rows:
@@ -110,30 +143,56 @@ def _round_as_printed(value: float, text: str) -> str:
 RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
 
 
-COLUMNS = ("table", "row", "column", "printed", "exact", "kind")
+_SHOWN_OF_ERRATUM = ("row", "column", "printed", "exact")
+Errata: TypeAlias = Sequence[tuple[str, Erratum]]
+WIDTH = 80  # columns, to which sentences are folded
 
 
-def lay_out_errata(tables: Sequence[Table], _system: System) -> Sheet:
-    """All errata, a row each, and their number."""
-    lines = tuple(_lines(tables))
-    note = f"{len(lines)} printed figures are not the exact ones rounded"
-    return Sheet("Errata", (Grid("", COLUMNS, lines, note=note, words=(0, 1, 2, 5)),))
+def lay_out_errata(errata: Errata, _system: System) -> Sheet:
+    """Return a grid for each table and reason, a paragraph for each statement, and the classes."""
+    groups: dict[tuple[str, str, str], list[Erratum]] = {}
+    for table, e in errata:
+        kind = "" if e.column == STATEMENT else e.kind
+        groups.setdefault((table, e.category, kind), []).append(e)
+    parts: list[Grid | Text] = []
+    for (table, category, kind), members in groups.items():
+        if kind:
+            rows = tuple((e.label, e.column, e.printed, _exact(e)) for e in members)
+            note = _fold(kind if kind != category else "")
+            parts.append(Grid(f"{table}, {category}", _SHOWN_OF_ERRATUM, rows, note))
+        else:
+            parts += map(_lay_out_statement, members)
+    return Sheet("Errata", (*parts, _explain([e for _, e in errata])))
 
 
-def describe_errata(tables: Sequence[Table]) -> list[dict[str, Any]]:
-    """One list, each erratum with its table's name."""
-    return [{"name": t.name, **asdict(e)} for t in tables for e in t.errata]
+def _lay_out_statement(e: Erratum) -> Text:
+    forms = [f"printed: {e.printed}", f"right: {e.exact}", e.kind]
+    return Text(_fold(f"{e.label} ({e.category})"), tuple(map(_fold, forms)))
 
 
-def list_errata(tables: Sequence[Table], _system: System) -> Rows:
-    """CSV: an erratum a line."""
-    return Rows(COLUMNS, _lines(tables))
+def _explain(errata: Sequence[Erratum]) -> Grid:
+    """Return the classes of these errata, with their numbers and what they mean."""
+    counts = Counter(e.category for e in errata)
+    rows = tuple((name, str(counts[name]), text) for name, text in CLASSES.items() if counts[name])
+    figures = sum(e.column != STATEMENT for e in errata)
+    note = f"{figures} printed figures, {len(errata) - figures} equations and sentences"
+    return Grid("Classes", ("class", "errata", "meaning"), rows, note=note, words=(0, 2))
 
 
-def _lines(tables: Sequence[Table]) -> Iterator[tuple[str, ...]]:
-    for t in tables:
-        for e in t.errata:
-            yield t.name, t.label(e.row), e.column, e.printed, _exact(e), e.kind
+def _fold(text: str) -> str:
+    return "\n".join(fold(text, WIDTH))
+
+
+def describe_errata(errata: Errata) -> list[dict[str, Any]]:
+    """Return one list, each erratum with its table's name."""
+    return [{"name": table, **to_document(e)} for table, e in errata]
+
+
+def list_errata(errata: Errata, _system: System) -> Rows:
+    """Return an erratum a line, for CSV."""
+    columns = ("table", *_SHOWN_OF_ERRATUM, "kind", "class")
+    lines = [(t, e.label, e.column, e.printed, _exact(e), e.kind, e.category) for t, e in errata]
+    return Rows(columns, lines)
 
 
 def _exact(erratum: Erratum) -> str:
@@ -149,8 +208,10 @@ _LIST_COLUMNS = ("name", "title", "source", "errata")
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     """A table a row, and what to ask next; where they were printed, by their names' first word."""
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
-    errata = sum(len(t.errata) for t in tables)
-    note = f"{errata} errata; balcli tables NAME shows a table, --errata lists them"
+    errata = [e for t in tables for e in t.errata]
+    misprints = sum(e.category == "misprint" for e in errata)
+    counted = f"{len(errata)} errata, {misprints} of them misprints"
+    note = f"{counted}; --errata lists them, tables NAME a table"
     titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
     sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
     printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))
@@ -182,30 +243,19 @@ _NOTE = (
 )
 
 
-def lay_out_layouts(result: Layouts, _system: System) -> Sheet:
+def lay_out_layouts(table: Table, _system: System) -> Sheet:
     """Force and moment of orders 1 and 2, and how evenly each engine fires."""
-    columns = result.table.columns
-    places = [columns.index(f"{name}_major") for name in _SHOWN]
+    places = [table.columns.index(f"{name}_major") for name in _SHOWN]
 
     def cells(row: Row) -> tuple[str, ...]:
         name, title, *_ = map(str, row)
         multiples = (number(float(row[k] or 0.0), 4) for k in places)
-        gaps = "/".join(f"{gap:g}" for gap in result.gaps_deg[name])  # 90/150: it fires unevenly
+        gaps = "/".join(f"{gap:g}" for gap in find_gaps(name))  # 90/150: it fires unevenly
         return title.partition(" (")[0], *multiples, gaps or UNKNOWN
 
-    rows = tuple(map(cells, result.table.exact))
+    rows = tuple(map(cells, table.exact))
     grid = Grid("", ("engine", *_SHOWN, "fires every"), rows, note=_NOTE)
     return Sheet("Free forces and moments of common engines", (grid,))
 
 
-def describe_layouts(result: Layouts) -> dict[str, Any]:
-    """`balcli.table/1`."""
-    return document(result.table)
-
-
-def list_layouts(result: Layouts, system: System) -> Rows:
-    """CSV: the exact figures of all orders."""
-    return rows(result.table, system)
-
-
-LAYOUTS = Renderer(sheet=lay_out_layouts, document=describe_layouts, rows=list_layouts)
+LAYOUTS = Renderer(sheet=lay_out_layouts, document=document, rows=rows)

@@ -76,12 +76,8 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
         _extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest)
     )
     stub = printed.column(printed.columns[0])
-    return printed.compare(
-        columns,
-        head_rows(stub, np.hstack([approximate, exact])),
-        printed.align_cells(stub, columns),
-        [Explanation("sum of the rounded lines above", _sums(printed, columns))],
-    )
+    rows = head_rows(stub, np.hstack([approximate, exact]))
+    return printed.compare(columns, rows, printed.align_cells(stub, columns))
 
 
 def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
@@ -120,16 +116,6 @@ def _extreme(lam: Array, psi: Array, value: Array) -> Array:
     beta = np.degrees(np.arctan2(*sc.rod_angle(psi, lam)))
     both = alpha + beta
     return np.array([alpha, 360 - alpha, beta, both, 360 - both, value, value * pi / 2])
-
-
-def _sums(printed: Print, columns: tuple[str, ...]) -> tuple[Row, ...]:
-    """Return lines 4 and 5 of Table 1-4 from lines 1 to 3 as printed."""
-    cells = printed.align_cells(printed.column(printed.columns[0])[:3], columns)
-    first, second, beta = (as_numbers(word or "" for word in words) for words in cells)
-    sums = [first + beta, second - beta]
-    nothing: Row = (None,) * len(columns)
-    lines = [tuple(None if np.isnan(x) else float(x) for x in line) for line in sums]
-    return (nothing, nothing, nothing, *lines, nothing, nothing)
 
 
 def _given(text: str | None) -> Cell:

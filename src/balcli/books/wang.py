@@ -17,6 +17,7 @@ from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_num
 SEARCHED = tuple(
     f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg")
 )
+SEARCH = "half-cycle search, theta to 180 deg only: larger forces follow"
 FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
@@ -35,7 +36,7 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
         rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    explained = [Explanation("half-cycle search", search_rows)]
+    explained = [Explanation(SEARCH, search_rows)]
     return printed.compare(columns, rows, explanations=explained)
 
 

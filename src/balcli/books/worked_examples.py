@@ -21,18 +21,9 @@ from ..core.piecewise import polyline, resolved
 from ..core.speed_ripple import surplus
 from ..file import units
 from ..file.units import POUND_FORCE, STANDARD_GRAVITY
-from .recomputed import Print, Ranges, Table
+from .recomputed import Print, Ranges, Table, as_numbers, load_print
 
-# fmt: off
-_UICKER = [  # N m, every 10 deg of two turns
-    0, 17, 812, 963, 1016, 937, 774, 641, 697, 849, 1031, 1027,
-    902, 712, 607, 594, 544, 345, 0, -344, -540, -576, -570, -638,
-    -785, -879, -814, -571, -324, -190, -203, -235, -164, -7, 150, 145,
-    0, -145, -150, 7, 164, 235, 203, 490, 424, 571, 814, 879,
-    785, 638, 570, 576, 540, 344, 0, -344, -540, -577, -572, -643,
-    -793, -893, -836, -605, -379, -264, -300, -368, -334, -198, -56, -2,
-]
-# fmt: on
+_UICKER = as_numbers(load_print("uicker-18-1").column("torque_Nm"))
 
 
 def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
@@ -83,7 +74,7 @@ def _khurmi_zero_side() -> float:
 def _simpson_mean() -> float:
     """N m, by the book's rule."""
     weights = np.tile([2, 4], 36)
-    return float(weights @ np.array(_UICKER)) * np.pi / 18 / 3 / (4 * np.pi)
+    return float(weights @ _UICKER) * np.pi / 18 / 3 / (4 * np.pi)
 
 
 def _uicker_inertia(energy: float) -> float:

@@ -17,30 +17,28 @@ from ..errors import Problem
 from ..file.fields import counted
 from ..file.model import Articulation, EngineFile
 from ..limits import NEAREST_TO_LOCK
-from .assembly import Assembly
 from .layout import Plan
+from .parts import Parts
 
 
 # ------------------------------------------------------------------ what does not fit together
-def check_articulation(parts: Assembly, articulation: Articulation) -> Iterator[Problem]:
+def check_articulation(parts: Parts, articulation: Articulation) -> Iterator[Problem]:
     """Find what contradicts [articulation]: a master rod without a place, knuckle angles that do
     not fit, crank pins of articulated rods.
     """
     if fault := _find_no_place(articulation.master, parts.plan):
         yield fault
         return
-    if parts.knuckle_angles_deg is not None:
-        yield from _check_angles(
-            parts.knuckle_angles_deg, articulation.master - 1, parts.plan.banks
-        )
-    if np.any(np.asarray(parts.splay_deg) != 0):
+    if (angles := parts.find_knuckle_angles()) is not None:
+        yield from _check_angles(angles, articulation.master - 1, parts.plan.banks)
+    if np.any(np.asarray(parts.figures.take("crank.splay", parts.model.crank.splay)) != 0):
         yield Problem(
             "crank.splay",
             "articulated rods hang on the master rod and have no crank pins to split: "
             "leave splay out, or [articulation]",
         )
     for number in parts.masters:
-        if parts.own_of(number).throw_deg is not None:
+        if parts.find_own(number).throw_deg is not None:
             yield Problem(
                 f"cylinder.{number}.throw",
                 f"cylinder {number} has an articulated rod, which hangs on the "

@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..core.cylinders import Cylinders, Device
+import numpy as np
+
+from ..core.cylinders import Cylinders, Device, find_travel
 from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
 from ..core.speed_ripple import RippleLine
@@ -17,11 +20,11 @@ from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import change_tables, list_tables
 from ..names import NOTEBOOK, import_name
-from .assembly import Assembly
 from .devices import build_devices
 from .layout import are_places_known
 from .numbering import doubt_firing, find_fitting_splay, list_inferred
 from .parse import find_contradictions, parse_dict
+from .parts import Parts
 from .rods import Weighed
 
 if TYPE_CHECKING:
@@ -49,6 +52,7 @@ class SilentCylinders(NamedTuple):
 
 
 NONE_SILENT = SilentCylinders()
+_ONE_PLACE = 1e-9  # m
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -184,8 +188,11 @@ class Engine:
 
     @property
     def displacement_m3(self) -> Figure:
-        """Swept volume by bore and twice the crank radius."""
-        return math.pi / 4 * self.bore_m**2 * (2 * self.cylinders.radius) * self.cylinders.count
+        """Swept volume of all cylinders but dummies, which the firing order leaves out."""
+        stroke = find_travel(self.cylinders).stroke
+        burning = [row for row, n in enumerate(self.numbers) if n in (self.fires_deg or {n})]
+        volume: Array = math.pi / 4 * self.bore_m**2 * stroke[burning].sum(axis=0)
+        return volume if volume.ndim else float(volume)
 
     @property
     def first_axis_deg(self) -> Figure:
@@ -220,15 +227,66 @@ class Engine:
         c = self.cylinders
         return c.linkage is not None and c.linkage.turning
 
+    @cached_property
+    def joined_throws(self) -> tuple[tuple[int, ...], ...]:
+        """Throws of the file that are one throw of the crank, from the free end to the flywheel.
+
+        Throws of one angle are one where they stand in one place, and where they are next to each
+        other, nearer than half a bore and on different banks: a file with a throw for each cylinder
+        has such. Throws whose places are unknown each stand alone, in the file's order. Where
+        [crank] places the throws, a cylinder's own position moves its rod alone.
+        """
+        c, z = self.cylinders, np.ravel(self.throws_m)
+        crank = None if self.model is None else self.model.crank
+        if crank is not None and crank.positions is not None:
+            z = np.array(crank.positions) / 1e3
+        elif crank is not None and crank.spacing:
+            z = np.arange(len(z)) * crank.spacing / 1e3
+        if self.rotary or not self.places_known:
+            return tuple((throw,) for throw in range(len(z)))
+        turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360
+        pins, banks = ([{*side[rows].tolist()} for rows in self._rows_by_throw] for side in turned)
+        joined: list[list[int]] = []
+        for throw in sorted(range(len(z)), key=lambda k: (round(float(z[k]), 9), min(pins[k]), k)):
+            before = joined[-1] if joined else []
+            if before and pins[before[0]] == pins[throw]:
+                apart = abs(z[throw] - z[before[-1]])
+                same_bank = any(banks[throw] & banks[each] for each in before)
+                if apart < _ONE_PLACE or (apart < self.bore_m / 2 and not same_bank):
+                    before.append(throw)
+                    continue
+            joined.append([throw])
+        return tuple(map(tuple, joined))
+
+    @property
+    def joined_throws_m(self) -> Array:
+        """Place of each of the `joined_throws`, in the middle of its rods, shape (throws,)."""
+        places = np.ravel(self.throws_m)
+        return np.array([places[[*throws]].mean() for throws in self.joined_throws])
+
+    @property
+    def joined_throw_of_rows(self) -> list[int]:
+        """Index of the one of `joined_throws` that each row of `cylinders` is on."""
+        found = {throw: k for k, throws in enumerate(self.joined_throws) for throw in throws}
+        return [found[weighed.throw] for weighed in self.weighed]
+
+    @property
+    def _rows_by_throw(self) -> list[list[int]]:
+        rows: list[list[int]] = [[] for _ in range(len(self.throws_m))]
+        for row, weighed in enumerate(self.weighed):
+            rows[weighed.throw].append(row)
+        return rows
+
     @property
     def rows_by_pin(self) -> list[list[int]]:
         """Rows of the cylinders on each crank pin, in the order of the throws; split pins are
         several, in their order along the throw.
         """
+        first = [self.joined_throws[k][0] for k in self.joined_throw_of_rows]
         rows = sorted(range(len(self.numbers)), key=self.numbers.__getitem__)
         pins: dict[tuple[int, float], list[int]] = {}
         for row in rows:
-            pin = self.weighed[row].throw, float(self.cylinders.pin_deg[row]) % 360
+            pin = first[row], float(self.cylinders.pin_deg[row]) % 360
             pins.setdefault(pin, []).append(row)
         along = sorted(pins, key=lambda pin: (pin[0], float(self.cylinders.z[pins[pin]].min())))
         return [pins[pin] for pin in along]
@@ -300,11 +358,11 @@ def build(
         fires_deg=parts.fires_deg,
         strokes=model.layout.strokes,
         bore_m=math.nan if bore is None else bore / 1e3,
-        throws_m=parts.throws_m,
+        throws_m=parts.places.throws,
         speed_rpm=parts.figures.take("operation.speed", model.operation.speed),
-        ripple=parts.ripple,
-        reference_m=parts.reference_m,
-        devices=tuple(build_devices(model, parts.figures, parts.axes_deg[1])),
+        ripple=parts.find_ripple(),
+        reference_m=parts.places.reference,
+        devices=tuple(build_devices(model, parts.figures, parts.pins.axes_deg[1])),
         weighed=tuple(parts.weighed[number] for number in parts.numbers),
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
@@ -361,9 +419,9 @@ def assemble(
     *,
     rank: int = 0,
     gas: EngineGas | None = None,
-) -> Assembly:
+) -> Parts:
     """The parts of an engine that fit together; arguments and errors as of `build`."""
-    parts = Assembly(model, varied, rank, known_gas=gas)
+    parts = Parts(model, varied, rank, known_gas=gas)
     if problems := find_contradictions(parts):
         raise InputError(problems)
     return parts
@@ -374,7 +432,7 @@ def _in_si(inertia: Figure | None) -> Figure | None:
     return None if inertia is None else inertia * 1e-6
 
 
-def _find_flywheel(parts: Assembly, table: Flywheel) -> Figure | None:
+def _find_flywheel(parts: Parts, table: Flywheel) -> Figure | None:
     """Moment of inertia of the flywheel, kg m2."""
     take = parts.figures.take_optional
     inertia = take("flywheel.inertia", table.inertia)

@@ -19,17 +19,18 @@ from ..core.gas_cycle import GasCycle, Goal, Process, find_cycle_mistakes, gas_c
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..errors import BalcliError, InputError, Problem
-from ..file.csv_columns import NumberColumns, locate_beside, read_columns
+from ..file.csv_columns import GAUGE_UNITS, Head, NumberColumns, locate_beside, read_columns
 from ..file.doubts import MAX_PRESSURE
 from ..file.gas_tables import DIAGRAM_KEYS, Gas
 from ..file.model import Override
-from ..file.units import BAR, INCH, POUND_FORCE
+from ..file.units import ANGLE, BAR, PRESSURE
 from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
 from .gas import CylinderGas, EngineGas
+from .layout import find_first
 
 if TYPE_CHECKING:
     from ..core.cylinders import Cylinders
-    from .assembly import Assembly
+    from .parts import Parts
 
 
 ATMOSPHERE = 101325.0  # Pa, what gauge pressures lack
@@ -37,17 +38,11 @@ WIDEST_GAP = 30.0  # deg between two rows; beyond, straight lines say nothing ab
 FLAT_GAP = 45.0  # deg; the same while the gas is exchanged, where the pressure hardly changes
 _FLAT = 0.01  # of the highest pressure
 _SAME = 1e-6  # deg; rows so near to one period apart are the two ends of it
-_PSI = POUND_FORCE / float(INCH) ** 2  # Pa
-_GAUGE_HEADS = {"pressure_barg": BAR, "pressure_psig": _PSI}  # over the atmosphere
-_PRESSURE_HEADS = {
-    "pressure_bar": BAR,
-    "pressure_MPa": 1e6,
-    "pressure_kPa": 1e3,
-    "pressure_Pa": 1.0,
-    "pressure_psi": _PSI,
-    **_GAUGE_HEADS,
-}
-HEADS = (("angle_deg",), tuple(_PRESSURE_HEADS))  # of its columns
+_OTHERS = ("MPa", "kPa", "Pa", "psi", *GAUGE_UNITS)
+HEADS = (
+    Head("angle_deg", ANGLE),
+    Head("pressure_bar", PRESSURE, tuple(f"pressure_{unit}" for unit in _OTHERS)),
+)
 LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
 ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
 NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engine is highest
@@ -60,25 +55,53 @@ def build_diagram(gas: Gas, name: str, columns: NumberColumns, strokes: int) -> 
     Raises:
         BalcliError: The first mistake in the file, by its line.
     """
-    angle, pressure = _read(gas, columns)
+    kind = "gauge" if _is_gauge(gas, columns) else "absolute"
+    for below in np.flatnonzero(_absolute(gas, columns) < 0).tolist():
+        right, hint = ("at least the vacuum", "") if kind == "gauge" else ("0 or more", ASK_GAUGE)
+        found = columns.as_written(below, 1)
+        message = f"line {columns.lines[below]}: the {kind} pressure is {found}: give {right}"
+        raise BalcliError(f"{name}: {message}{hint}")
+    angle, pressure, _ = _read(gas, columns, 180.0 * strokes)
     for row, message in find_diagram_mistakes(angle, pressure, strokes=strokes):
         line = "" if row is None else f"line {columns.lines[row]}: "
-        below_zero = row is not None and pressure[row] < 0
-        hint = ASK_GAUGE if below_zero and not _is_gauge(gas, columns) else ""
-        raise BalcliError(f"{name}: {line}{message}{hint}")
+        raise BalcliError(f"{name}: {line}{message}")
     firing = 360.0 if gas.zero == "gas-exchange" else 0.0
     return draw_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
 
 
-def _read(gas: Gas, columns: NumberColumns) -> tuple[Array, Array]:
-    """Return angles, deg, and absolute pressures, Pa, each of shape (rows,)."""
+def _absolute(gas: Gas, columns: NumberColumns) -> Array:
+    """Return the absolute pressures of all rows, Pa."""
     gauge = ATMOSPHERE if _is_gauge(gas, columns) else 0.0
-    pressure = np.array(columns.column(1)) * _PRESSURE_HEADS[columns.heads[1]] + gauge
-    return np.array(columns.column(0)), pressure
+    return np.array(columns.column(1)) * BAR + gauge
+
+
+def _read(gas: Gas, columns: NumberColumns, period: float) -> tuple[Array, Array, int]:
+    """Return angles (deg) and absolute pressures (Pa) of a cycle, and how many the file has: of
+    several, one after the other, the mean at the angles of the first.
+    """
+    angle, pressure = np.array(columns.column(0)), _absolute(gas, columns)
+    steps = np.diff(angle)
+    starts = np.flatnonzero(steps < -period / 2)  # every cycle counts from its own beginning
+    if len(angle) < 2 or not (np.delete(steps, starts) > 0).all():
+        return angle, pressure, 1
+    angle = angle + period * np.searchsorted(starts, np.arange(len(angle)) - 0.5)
+    span = angle[-1] - angle[0]
+    kept = np.append(
+        True, np.diff(angle) > _SAME
+    )  # the end of a cycle is the beginning of the next
+    if not (np.diff(angle) > -_SAME).all():
+        return np.array(columns.column(0)), pressure, 1
+    count = round((span + np.median(steps)) / period)
+    if count < 2 or abs(span - count * period) > 2 * np.median(steps) + _SAME:
+        return angle, pressure, 1
+    first = angle < angle[0] + period - _SAME
+    every = angle[first] + period * np.arange(count)[:, np.newaxis]
+    mean = np.interp(every, angle[kept], pressure[kept]).mean(axis=0)
+    return angle[first], mean, count
 
 
 def _is_gauge(gas: Gas, columns: NumberColumns) -> bool:
-    return gas.pressure == "gauge" or columns.heads[1] in _GAUGE_HEADS
+    return gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS
 
 
 def _is_closed(angle: Array, period: float) -> bool:
@@ -116,8 +139,6 @@ def find_diagram_mistakes(
     if len(angle) < 2:
         yield None, f"has {len(angle)} rows; a cycle of {period:g}° needs more"
         return
-    for row in np.flatnonzero(values < 0).tolist():
-        yield row, f"the absolute pressure is {values[row] / 1e5:g} bar: give 0 or more"
     falling = (np.flatnonzero(np.diff(angle) <= 0) + 1).tolist()
     for row in falling:
         yield row, f"the angle {angle[row]:g}° does not exceed the {angle[row - 1]:g}° before it"
@@ -149,30 +170,35 @@ def list_doubts(
         found: Pressure at cycle angles, Pa.
         imep: Indicated mean effective pressure, Pa.
     """
-    angle, pressure = _read(gas, columns)
-    first, last = pressure[0] / BAR, pressure[-1] / BAR
+    angle, pressure, count = _read(gas, columns, math.degrees(found.period))
+    if count > 1:
+        yield f"{path}: {name}: has {count} cycles; their mean is taken"
+    unit = columns.units[1].removesuffix("g")
+    scale = columns.scales[1] * BAR  # Pa
+    first, last = pressure[0] / scale, pressure[-1] / scale
     if first != last and _is_closed(angle, math.degrees(found.period)):
         yield (
-            f"{path}: {name}: the last row closes the cycle with {last:.4g} bar, the first has "
-            f"{first:.4g} bar; the first is taken"
+            f"{path}: {name}: the last row closes the cycle with {last:.4g} {unit}, the first has "
+            f"{first:.4g} {unit}; the first is taken"
         )
     top, value = find_highest(found)
     if abs(math.degrees(top)) > NEAR_DEG:
         yield (
-            f"{path}: the highest pressure, {value / BAR:.4g} bar, stands at "
+            f"{path}: the highest pressure, {value / scale:.4g} {unit}, stands at "
             f"{math.degrees(top):.4g} deg from the firing dead centre, where within "
             f"{NEAR_DEG:g} is usual; are gas.zero and gas.phase right?"
         )
     if value > MAX_PRESSURE * BAR:
         yield (
-            f"{path}: the highest pressure is {value / BAR:.4g} bar, where at most "
-            f"{MAX_PRESSURE:g} is usual; does the heading of its column name the right unit?"
+            f"{path}: the highest pressure is {value / scale:.4g} {unit}, where at most "
+            f"{MAX_PRESSURE * BAR / scale:.4g} is usual; does the heading of its column "
+            "name the right unit?"
         )
-    lowest = found.extremes()[0].value / BAR
-    if lowest < LOW_PRESSURE:
+    lowest = found.extremes()[0].value / scale
+    if lowest * scale < LOW_PRESSURE * BAR:
         yield (
-            f"{path}: the lowest pressure is {lowest:.4g} bar absolute, where at least "
-            f"{LOW_PRESSURE:g} is usual{ASK_GAUGE}"
+            f"{path}: the lowest pressure is {lowest:.4g} {unit} absolute, where at least "
+            f"{LOW_PRESSURE * BAR / scale:.4g} is usual{ASK_GAUGE}"
         )
     stated, measured = gas.imep if path == "gas.indicator" else None, imep / BAR
     if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
@@ -187,7 +213,7 @@ def list_doubts(
 HEAT_OF_AIR, HEAT_MOST = 34, 40.0
 
 
-def build_gas(parts: Assembly, cylinders: Cylinders | None = None) -> EngineGas:
+def build_gas(parts: Parts, cylinders: Cylinders | None = None) -> EngineGas:
     """Return the gas of an engine whose tables fit together otherwise.
 
     Args:
@@ -222,7 +248,7 @@ class _Own(NamedTuple):
 class _Builder:
     """The gas of an engine while it is put together."""
 
-    def __init__(self, parts: Assembly, cylinders: Cylinders) -> None:
+    def __init__(self, parts: Parts, cylinders: Cylinders) -> None:
         self.parts, self.model, self.cylinders = parts, parts.model, cylinders
         self.gas = self._vary(parts.model.gas or Gas.model_construct())
         self.strokes = parts.model.layout.strokes
@@ -296,7 +322,7 @@ class _Builder:
         heat = heat if indicator is None else None
         return _Own("gas.indicator", indicator, heat, heat_path, share)
 
-    def _columns(self, name: str, wanted: tuple[tuple[str, ...], ...]) -> NumberColumns:
+    def _columns(self, name: str, wanted: tuple[Head, ...]) -> NumberColumns:
         if name not in self._read:
             self._read[name] = read_columns(locate_beside(self.model.folder, name), wanted)
         return self._read[name]
@@ -371,7 +397,7 @@ class _Builder:
         """Return the torque of a builders' table: T/(A r) = a cos n c + b sin n c, c from the
         firing dead centre.
         """
-        columns = self._columns(name, (("order",), ("cos",), ("sin",)))
+        columns = self._columns(name, (Head("order"), Head("cos"), Head("sin")))
         orders, cosines, sines = (np.array(columns.column(k)) for k in range(3))
         if not len(orders):
             raise BalcliError(f"{name}: has no rows; give order,cos,sin in each")
@@ -379,10 +405,14 @@ class _Builder:
         def refuse(rows: NDArray[np.bool_], what: str) -> None:
             for row in np.flatnonzero(rows)[:1].tolist():
                 line = f"{name}: line {columns.lines[row]}"
-                raise BalcliError(f"{line}: {what.format(order=orders[row], sine=sines[row])}")
+                told = {"order": orders[row], "sine": sines[row], "last": orders[row - 1]}
+                raise BalcliError(f"{line}: {what.format(**told)}")
 
         step = 2 / self.strokes
-        refuse(np.append(False, np.diff(orders) <= 0), "orders have to rise")
+        refuse(
+            np.append(False, np.diff(orders) <= 0),
+            "order {order:g} is not above the {last:g} before it",
+        )
         above = f"order {{order:g}} is above {HIGHEST_TABLE_ORDER}, where no table goes"
         refuse(orders > HIGHEST_TABLE_ORDER, above)
         mean = "order 0 has sin {sine:g}; it is the mean, which has no sine: write 0"
@@ -466,17 +496,18 @@ class _Builder:
 
     # -------------------------------------------------------------- firing
     def _find_nominal(self, tops: list[float]) -> list[float]:
-        """Return `CylinderGas.nominal_deg` of each row. Cylinder 1 fires in [-180, 180) deg of
-        crank angle, the others next to when the firing order has them fire.
+        """Return `CylinderGas.nominal_deg` of each row. Cylinder 1 (`find_first`) fires in
+        [-180, 180) deg of crank angle, the others next to when the firing order has them fire.
         """
         parts, cycle = self.parts, 180.0 * self.strokes
-        phi, first = self.cylinders.angle_deg, parts.numbers.index(1)
-        fires = parts.fires_deg if parts.order is not None else {}
+        phi, fires = self.cylinders.angle_deg, parts.fires_deg
+        origin = find_first(fires) if fires else 1
+        first = parts.numbers.index(origin)
         found = []
         for row, number in enumerate(parts.numbers):
             at = 0.0 - float(phi[row])
             top = math.degrees(tops[row] - tops[first])
-            wanted = float(fires[number] - fires[1]) if number in fires else 0.0
+            wanted = float(fires[number] - fires[origin]) if number in fires else 0.0
             at += 360.0 * round((wanted - top - at) / 360.0)
             found.append(at % cycle)
         return found

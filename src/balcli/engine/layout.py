@@ -58,13 +58,14 @@ class Plan(NamedTuple):
         return tuple(cell.number for cell in self.cells)
 
 
-def plan_cylinders(crank: Crank, layout: Layout) -> Plan:
+def plan_cylinders(model: EngineFile) -> Plan:
     """The cylinders of an engine.
 
     Raises:
         InputError: all of: positions, numbering or firing order that do not fit the throws and
         banks.
     """
+    crank, layout = model.crank, model.layout
     banks = count_banks(layout)
     shared = layout.rods == "shared" or banks == 1
     throws = _count_throws(crank, layout, banks if shared else 1)
@@ -81,7 +82,7 @@ def plan_cylinders(crank: Crank, layout: Layout) -> Plan:
                 f'{counted(throws, "throw")}: give more throws, or "shared"',
             )
         )
-    problems += _check_firing_order(layout, sorted(numbers), throws)
+    problems += _check_firing_order(model, sorted(numbers), throws)
     if problems:
         raise InputError(problems)
     cells = tuple(Cell(*place, number) for place, number in zip(places, numbers, strict=True))
@@ -168,14 +169,22 @@ def _number_cylinders(
     return numbers, []
 
 
-def _check_firing_order(layout: Layout, numbers: Sequence[int], throws: int) -> Iterator[Problem]:
-    """Every cylinder stands in the firing order once; where that has one for each throw, and banks
-    share the throws, the mistake says how they do not.
+def _check_firing_order(
+    model: EngineFile, numbers: Sequence[int], throws: int
+) -> Iterator[Problem]:
+    """Every cylinder stands in the firing order once; dummies, which have no gas, may be left out.
+    Where the order has one cylinder for each throw, and banks share the throws, the mistake says
+    how they do not.
     """
-    order = layout.firing_order
-    if order is None or sorted(order) == numbers:
+    layout, order = model.layout, model.layout.firing_order
+    silent = {number for number, own in model.cylinder.items() if own.gas == 0}
+    if order is None or (
+        len({*order}) == len(order) and {*numbers} - silent <= {*order} <= {*numbers}
+    ):
         return
     told = _describe_not_once(order, numbers)
+    if first := next((n for n in numbers if n not in order and n in model.cylinder), 0):
+        told += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
     banks = count_banks(layout)
     if 1 < banks <= throws == len(order) and layout.rods == "shared":
         told += (
@@ -234,11 +243,19 @@ def find_instants(
 def find_pins(
     fires: Mapping[int, Figure], tops: Mapping[int, Figure], sense: int
 ) -> dict[int, Array]:
-    """Crank pin that each cylinder needs, after cylinder 1's, in [0, 360)."""
+    """Crank pin that each cylinder needs, after that of `find_first`, in [0, 360)."""
+    first = find_first(fires)
     return {
-        i: np.remainder((tops[i] - tops[1]) - sense * (f - fires[1]), 360.0)
+        i: np.remainder((tops[i] - tops[first]) - sense * (f - fires[first]), 360.0)
         for i, f in fires.items()
     }
+
+
+def find_first(fires: Mapping[int, Figure]) -> int:
+    """Return the cylinder from which firing angles count: 1, or the first of the firing order where
+    cylinder 1 is a dummy.
+    """
+    return 1 if 1 in fires else next(iter(fires))
 
 
 def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: float) -> list[float]:
@@ -283,13 +300,15 @@ def check_firing(
     """Find the first cylinder that is not at top dead centre when it fires; pins are counted from
     cylinder 1's.
     """
+    first = find_first(fires)
     for i, wanted in find_pins(fires, tops, sense).items():
-        off = float(np.max(np.abs(_centred(pins[i] - wanted))))
+        ahead = pins[i] - pins[first]
+        off = float(np.max(np.abs(_centred(ahead - wanted))))
         if off > TOLERANCE_DEG:
             yield Problem(
                 "layout.firing_order",
                 f"cylinder {i} is not at top dead centre when it fires: its crank pin stands "
-                f"{float(np.ravel(pins[i])[0]) % 360:.6g} deg ahead of cylinder 1's, and would "
+                f"{float(np.ravel(ahead)[0]) % 360:.6g} deg ahead of cylinder {first}'s, and would "
                 f"have to stand at {float(np.ravel(wanted)[0]):.6g} deg (allowed difference "
                 f"{TOLERANCE_DEG:g} deg); change crank.throws, crank.splay, firing_order or "
                 "firing_intervals",

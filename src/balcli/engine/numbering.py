@@ -30,8 +30,8 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
+from ..file.gas_tables import WIEBE_KEYS
 from ..file.model import EngineFile
-from .assembly import Assembly
 from .devices import build_devices
 from .figures import place_in_plane
 from .layout import (
@@ -44,6 +44,7 @@ from .layout import (
     find_instants,
     find_pins,
 )
+from .parts import Parts
 
 LIST_LENGTH = 3  # engines among which a user is asked to choose
 FREE_END = (
@@ -110,9 +111,9 @@ class Candidate:
     splay: float = 0.0
 
     @cached_property
-    def parts(self) -> Assembly:
+    def parts(self) -> Parts:
         """The engine, part by part."""
-        return Assembly(self.model)
+        return Parts(self.model)
 
     def fits(self, least_interval: float = 0.0) -> bool:
         """Return whether every cylinder is at its dead centre when it fires, and no firing follows
@@ -128,7 +129,7 @@ class Candidate:
         """
         turn = TURN if self.model.gas is None else cycle_deg(self.model.layout)
         mine, theirs = (
-            np.array([float(one.parts.fires_deg[c.number]) for c in one.parts.plan.cells])
+            np.array([float(one.parts.fires_deg.get(c.number, 0.0)) for c in one.parts.plan.cells])
             for one in (self, other)
         )
         shifts = theirs - mine
@@ -143,11 +144,11 @@ class Candidate:
         model, orders = self.model, np.array([1.0, 2.0])
         if not self._knows_places:
             model = model.with_table("crank", spacing=100.0)
-        parts = Assembly(model)
-        c, (x, y, z) = parts.cylinders, parts.reference_m
+        parts = Parts(model)
+        c, (x, y, z) = parts.cylinders, parts.places.reference
         needed = find_needed_series(c, {"force", "moment"}, uneven=False)
         few, which = c.find_distinct_harmonics(orders, needed)
-        devices = tuple(build_devices(model, parts.figures, parts.axes_deg[1]))
+        devices = tuple(build_devices(model, parts.figures, parts.pins.axes_deg[1]))
         square = (model.operation.speed * RPM) ** 2
         place, own = place_in_plane(x, y), select_cylinders(few, which)
         loads = Loads(c, devices, place, z, Phases(c, orders), own, square)
@@ -193,7 +194,7 @@ class Candidate:
         return *(float(f"{size:.6g}") for size in left), abs(self.splay), position
 
 
-def find_missed(parts: Assembly) -> list[Problem]:
+def find_missed(parts: Parts) -> list[Problem]:
     """Return what is wrong with the first cylinder that is not at its dead centre when it fires;
     articulated rods may be at their true dead centres, or at their nominal ones.
     """
@@ -203,8 +204,8 @@ def find_missed(parts: Assembly) -> list[Problem]:
         fires = parts.fires_deg
     except InputError as error:
         return list(error.problems)
-    ways = [parts.true_tops_deg, *([parts.tops_deg] if parts.model.articulation else [])]
-    missed = [list(check_firing(fires, parts.leads_deg, tops, parts.sense)) for tops in ways]
+    ways = [parts.true_tops_deg, *([parts.pins.tops_deg] if parts.model.articulation else [])]
+    missed = [list(check_firing(fires, parts.pins.leads_deg, tops, parts.sense)) for tops in ways]
     return min(missed, key=len)
 
 
@@ -212,27 +213,29 @@ def find_fitting_splay(model: EngineFile) -> float | None:
     """`crank.splay` (deg) with which the cylinders of a file fire in its order and at its
     intervals, evenly where it gives none; None where there is none, or no firing order.
     """
-    parts = Assembly(model)
+    parts = Parts(model)
     if parts.order is None or parts.plan.rods_on_throw == 1:
         return None
     fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
-    wanted = find_pins(fires, parts.tops_deg, parts.sense)
+    wanted = find_pins(fires, parts.pins.tops_deg, parts.sense)
     first, second = (c.number for c in parts.plan.cells if c.throw == 0 and c.bank < 2)
+    if not {first, second} <= fires.keys():
+        return None
     lead = np.remainder(wanted[second] - wanted[first] + 180, 360) - 180
     splay = round(float(lead), 3) + 0.0
-    split = Assembly(model.with_table("crank", splay=splay))
-    missed = any(check_firing(fires, split.leads_deg, split.tops_deg, split.sense))
+    split = Parts(model.with_table("crank", splay=splay))
+    missed = any(check_firing(fires, split.pins.leads_deg, split.pins.tops_deg, split.sense))
     return None if missed else splay
 
 
-def _list_gaps(parts: Assembly) -> list[float]:
+def _list_gaps(parts: Parts) -> list[float]:
     """Return the intervals from each firing to the next, deg, through one cycle."""
     times = [*map(float, parts.fires_deg.values()), cycle_deg(parts.model.layout)]
     return [b - a for a, b in pairwise(times)]
 
 
 # ------------------------------------------------------------------ the rules
-def is_open(parts: Assembly) -> bool:
+def is_open(parts: Parts) -> bool:
     """Return whether the file leaves open which cylinder has which number: it has several banks, a
     firing order and no numbering, and gives no cylinder a place of its own.
     """
@@ -249,7 +252,7 @@ def infer_numbering(model: EngineFile) -> EngineFile:
 
     The key counts as not given: it is not in `model_fields_set` and is not written.
     """
-    parts = Assembly(model)
+    parts = Parts(model)
     try:
         if not is_open(parts) or parts.throws_given:
             return model
@@ -263,7 +266,7 @@ def infer_numbering(model: EngineFile) -> EngineFile:
     return changed
 
 
-def check_numbering(parts: Assembly) -> Iterator[Problem]:
+def check_numbering(parts: Parts) -> Iterator[Problem]:
     """Find a firing order that does not fit the crank, or that could mean several engines."""
     missed = find_missed(parts)
     if not is_open(parts):
@@ -291,7 +294,7 @@ def check_numbering(parts: Assembly) -> Iterator[Problem]:
     yield Problem("layout.numbering", "\n    ".join([f"{told}:", *lines, FREE_END]))
 
 
-def find_engines_meant(parts: Assembly) -> tuple[list[Candidate], int]:
+def find_engines_meant(parts: Parts) -> tuple[list[Candidate], int]:
     """Return the engines that the usual numberings of the first tier describe in which any fits,
     the better balanced first, and that tier from 1; none and 0 if none fits.
 
@@ -321,7 +324,7 @@ def _split_pins(one: Candidate) -> Iterator[Candidate]:
         yield Candidate(split, one.numberings, f"crank.splay = {splay:g}", splay)
 
 
-def _find_remedies(parts: Assembly) -> list[Candidate]:
+def _find_remedies(parts: Parts) -> list[Candidate]:
     """Return the engines that fit with the intervals of shared pins, and then those that fit with
     another splay, of the numberings of the first tier; none where the file gives the splay.
     """
@@ -346,7 +349,7 @@ def _find_remedies(parts: Assembly) -> list[Candidate]:
     return [*common[: LIST_LENGTH - bool(split)], *split]
 
 
-def _list_shared_intervals(parts: Assembly) -> Iterator[tuple[float, ...]]:
+def _list_shared_intervals(parts: Parts) -> Iterator[tuple[float, ...]]:
     """Yield the intervals of two rods on one pin: the bank angle and the rest of two even intervals
     in turn, begun with either.
     """
@@ -373,7 +376,7 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
 
 
 # ------------------------------------------------------------------ a numbering that does not fit
-def _suggest(parts: Assembly) -> str:
+def _suggest(parts: Parts) -> str:
     """Return other keys with which every cylinder fires at its dead centre, in words: intervals
     begun one later, throws counted the other way round, other throws, another splay; else empty.
     """
@@ -391,7 +394,7 @@ def _suggest(parts: Assembly) -> str:
         ways.append(Candidate(model.with_table("crank", throws=throws), [], keys))
         if len(throws) > 1:
             free = model.with_table("crank", throws=None)
-            listed = _join(_count_throws_from_first(Assembly(free)))
+            listed = _join(_count_throws_from_first(Parts(free)))
             ways.append(Candidate(free, [], f"crank.throws = [{listed}]"))
     if "splay" not in model.crank.model_fields_set:
         ways += _split_pins(Candidate(model, []))
@@ -400,13 +403,16 @@ def _suggest(parts: Assembly) -> str:
 
 
 # ------------------------------------------------------------------ what a file leaves out
-def list_inferred(parts: Assembly) -> Iterator[str]:
+def list_inferred(parts: Parts) -> Iterator[str]:
     """Yield keys with values that are taken because the file leaves them out, where results depend
     on them: `layout.strokes = 4`.
     """
     model, plan = parts.model, parts.plan
     layout, given = model.layout, model.layout.model_fields_set
-    if parts.order is None or parts.rank:
+    if parts.rank:
+        return
+    yield from _list_defaults(parts)
+    if parts.order is None:
         return
     inferred = not parts.throws_given
     if plan.banks > 1 and "numbering" not in given and (inferred or model.gas is not None):
@@ -420,9 +426,20 @@ def list_inferred(parts: Assembly) -> Iterator[str]:
         yield f"layout.strokes = {layout.strokes}"
 
 
-def _count_throws_from_first(parts: Assembly) -> list[float]:
+def _list_defaults(parts: Parts) -> Iterator[str]:
+    """Yield places and burning of which the file says nothing, with their defaults."""
+    model, gas = parts.model, parts.model.gas
+    together = parts.plan.rods_on_throw > 1 and model.articulation is None
+    if together and "stagger" not in model.layout.model_fields_set:
+        yield "layout.stagger = 0"
+    if gas is not None and gas.cycle == "wiebe":
+        keys = (key for key in WIEBE_KEYS if key not in gas.model_fields_set)
+        yield from (f"gas.{key} = {getattr(gas, key):g}" for key in keys)
+
+
+def _count_throws_from_first(parts: Parts) -> list[float]:
     """Return the angle of each throw after the first one, deg, in [0, 360)."""
-    throws = [float(parts.throws_deg[t]) for t in range(parts.plan.throws)]
+    throws = [float(parts.pins.throws_deg[t]) for t in range(parts.plan.throws)]
     return [round(throw - throws[0], 3) % TURN for throw in throws]
 
 
@@ -443,7 +460,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
     """Yield warnings: a numbering that was inferred, a crank inferred from an order that nobody
     builds, and throws with which all cylinders fire in one revolution of two.
     """
-    parts = Assembly(model)
+    parts = Parts(model)
     if parts.order is None:
         return
     layout, plan = model.layout, parts.plan
@@ -472,7 +489,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
             )
 
 
-def _find_usual_orders(parts: Assembly) -> str:
+def _find_usual_orders(parts: Parts) -> str:
     """Return usual firing orders if nobody builds the crank of this one, else an empty text. The
     usual crank of an engine in line is its own mirror image end for end, or that of a usual five;
     pins of neighbouring cylinders of a flat engine stand 180 deg apart.

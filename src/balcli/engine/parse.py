@@ -24,8 +24,8 @@ from ..file.read import Draft, check_tables, read_tables, refuse
 from ..file.toml import name_file, read_bytes
 from ..limits import MOST_SAMPLES
 from .articulation import check_articulation, check_knuckles
-from .assembly import Assembly
 from .numbering import check_numbering, infer_numbering
+from .parts import Parts
 from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
 
 STANDSTILL = 1e-12  # of the mean speed: rounding
@@ -38,11 +38,11 @@ _PLAN = frozenset(  # which cylinders there are
 class Rule(NamedTuple):
     """A check, and the keys of the file that it needs."""
 
-    check: Callable[[Assembly], Iterator[Problem]]
+    check: Callable[[Parts], Iterator[Problem]]
     needs: frozenset[str]
 
 
-def find_contradictions(parts: Assembly) -> list[Problem]:
+def find_contradictions(parts: Parts) -> list[Problem]:
     """Return what the tables of a file say against each other, as far as they could be read.
 
     All that the first rules that find something find, each mistake once: the others are about
@@ -56,7 +56,7 @@ def find_contradictions(parts: Assembly) -> list[Problem]:
     return []
 
 
-def _apply(rule: Rule, parts: Assembly) -> Iterator[Problem]:
+def _apply(rule: Rule, parts: Parts) -> Iterator[Problem]:
     """The mistakes that a rule finds, or those for which what it looks at cannot be worked out."""
     try:
         yield from rule.check(parts)
@@ -64,7 +64,7 @@ def _apply(rule: Rule, parts: Assembly) -> Iterator[Problem]:
         yield from error.problems
 
 
-def check_cylinders(parts: Assembly) -> Iterator[Problem]:
+def check_cylinders(parts: Parts) -> Iterator[Problem]:
     """Throws and banks make an engine, and tables of single cylinders are of those that it has."""
     count = len(parts.plan.cells)
     made = (
@@ -76,13 +76,13 @@ def check_cylinders(parts: Assembly) -> Iterator[Problem]:
             yield Problem(f"cylinder.{number}", f"there is no cylinder {number}: {made}")
 
 
-def check_masters(parts: Assembly) -> Iterator[Problem]:
+def check_masters(parts: Parts) -> Iterator[Problem]:
     """Articulated rods have a master rod on their throw, and knuckle pins that fit."""
     if parts.model.articulation is not None:
         yield from check_articulation(parts, parts.model.articulation)
 
 
-def check_rods(parts: Assembly) -> Iterator[Problem]:
+def check_rods(parts: Parts) -> Iterator[Problem]:
     """Every rod has a moment of inertia, and lets its crank turn.
 
     How far an articulated rod can follow depends on its master: `check_knuckle_pins`.
@@ -92,10 +92,10 @@ def check_rods(parts: Assembly) -> Iterator[Problem]:
         rod = (number if number in parts.own else 0, articulated)
         if rod not in looked_at:
             looked_at.add(rod)
-            yield from _check_rod(parts, parts.rod_place(number, articulated))
+            yield from _check_rod(parts, parts.find_rod(number, articulated))
 
 
-def _list_rods(parts: Assembly) -> list[tuple[int, bool]]:
+def _list_rods(parts: Parts) -> list[tuple[int, bool]]:
     """Cylinders, and whether their rods are articulated; number 0 stands for what holds for all
     where it is not known which cylinders there are.
     """
@@ -108,7 +108,7 @@ def _list_rods(parts: Assembly) -> list[tuple[int, bool]]:
         return [(number, False) for number in (0, *own)]
 
 
-def _check_rod(parts: Assembly, place: RodPlace) -> Iterator[Problem]:
+def _check_rod(parts: Parts, place: RodPlace) -> Iterator[Problem]:
     one_end = list(check_ends(place))
     yield from one_end
     gear = _weigh_rod(parts, place)
@@ -120,16 +120,16 @@ def _check_rod(parts: Assembly, place: RodPlace) -> Iterator[Problem]:
         yield from check_turning(place, gear, parts.radius)
 
 
-def _weigh_rod(parts: Assembly, place: RodPlace) -> RunningGear | None:
+def _weigh_rod(parts: Parts, place: RodPlace) -> RunningGear | None:
     """A rod with its piston, or without where that is not known; None where its length is not."""
     if parts.legible >= {"crank.stroke", "piston"}:
-        return parts.gear_of(place)
+        return parts.weigh_gear(place)
     if "crank.stroke" in parts.legible:
         return weigh_rod(place.rod, place.rod.length_for(parts.radius))
     return None if place.rod.length is None else weigh_rod(place.rod, place.rod.length)
 
 
-def check_half_orders(parts: Assembly) -> Iterator[Problem]:
+def check_half_orders(parts: Parts) -> Iterator[Problem]:
     """Half orders of an uneven speed come of four strokes, and of the gas that makes them."""
     if parts.model.gas is not None and parts.model.layout.strokes == 4:
         return
@@ -141,12 +141,12 @@ def check_half_orders(parts: Assembly) -> Iterator[Problem]:
             )
 
 
-def check_speed(parts: Assembly) -> Iterator[Problem]:
+def check_speed(parts: Parts) -> Iterator[Problem]:
     """An uneven speed stays above 0."""
-    if not parts.ripple:
+    if not (lines := parts.find_ripple()):
         return
-    orders = [line.order for line in parts.ripple]
-    figures = [figure for line in parts.ripple for figure in (line.amplitude, line.angle_deg)]
+    orders = [line.order for line in lines]
+    figures = [figure for line in lines for figure in (line.amplitude, line.angle_deg)]
     columns = map(np.ravel, np.broadcast_arrays(*figures))
     for variant in zip(*columns, strict=True):
         amplitudes, angles = variant[::2], variant[1::2]
@@ -165,13 +165,13 @@ def check_speed(parts: Assembly) -> Iterator[Problem]:
             return
 
 
-def check_knuckle_pins(parts: Assembly) -> Iterator[Problem]:
+def check_knuckle_pins(parts: Parts) -> Iterator[Problem]:
     """Articulated rods can follow their knuckle pins all the way round."""
     if parts.model.articulation is not None:
         yield from check_knuckles(parts.model, parts.cylinders, parts.numbers)
 
 
-def check_samples(parts: Assembly) -> Iterator[Problem]:
+def check_samples(parts: Parts) -> Iterator[Problem]:
     """Not too many mechanisms differ and are near their lock: they would take minutes."""
     c = parts.cylinders
     if parts.rank or c.count * harmonics.HARDEST <= MOST_SAMPLES:
@@ -186,12 +186,13 @@ def check_samples(parts: Assembly) -> Iterator[Problem]:
         )
 
 
-def check_gas(parts: Assembly) -> Iterator[Problem]:
+def check_gas(parts: Parts) -> Iterator[Problem]:
     """Gas in every cylinder can be worked out; what a cylinder says of it has [gas] to refer to."""
     if parts.model.gas is None:
         for number, own in parts.model.cylinder.items():
             for key in ("gas", "heat", "indicator"):
-                if getattr(own, key) is not None:
+                dummy = key == "gas" and parts.order is not None and number not in parts.order
+                if getattr(own, key) is not None and not dummy:
                     yield Problem(
                         f"cylinder.{number}.{key}",
                         "needs [gas], which says what the gas does in all cylinders",
@@ -267,5 +268,5 @@ def parse_dict(tables: Mapping[str, Any], folder: Path | None = None) -> EngineF
 def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
     if not draft.problems:
         return infer_numbering(draft.model)
-    contradictions = find_contradictions(Assembly(draft.model, legible=draft.legible))
+    contradictions = find_contradictions(Parts(draft.model, legible=draft.legible))
     raise refuse([*draft.problems, *contradictions], name)

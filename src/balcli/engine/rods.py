@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.phasors import Figure
+from ..core.phasors import EPS, Figure
 from ..errors import Problem
 from ..file.units import STANDARD_GRAVITY
 from ..limits import NEAREST_TO_LOCK
@@ -18,6 +18,7 @@ from .figures import PendulumTest, RodFigures, or_nothing
 
 ENDS = ("small_end", "big_end")
 LENGTHS = ("length", "ratio")
+_ROUNDING = 8 * EPS  # of the figures of a rod, of the terms whose difference H is
 
 
 class RunningGear(NamedTuple):
@@ -101,7 +102,9 @@ def weigh_rod(
         spin = whole * arm * (swing - arm)
     else:
         spin = two_masses
-    return RunningGear(length, offset, piston, small, big, spin, two_masses - spin)
+    couple = two_masses - spin
+    couple = couple * (np.abs(couple) > _ROUNDING * (np.abs(two_masses) + np.abs(spin)))
+    return RunningGear(length, offset, piston, small, big, spin, couple)
 
 
 # ------------------------------------------------------------------ what cannot be

@@ -1,4 +1,4 @@
-"""Tables of numbers beside an engine file: CSV with a heading, such as a measured diagram."""
+"""Tables of numbers beside an engine file: columns with a heading, such as a measured diagram."""
 
 from __future__ import annotations
 
@@ -13,6 +13,38 @@ from ..errors import BalcliError
 from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, MOST_ROWS
 from .fields import shorten
 from .toml import read_bytes
+from .units import PLAIN, Dimension, convert
+
+GAUGE_UNITS = ("barg", "psig")  # over the atmosphere
+
+
+class Head(NamedTuple):
+    """A wanted column: `usual` is its head as documents write it, `name` what others begin with.
+
+    Attributes:
+        usual: such as torque_Nm.
+        dimension: of what stands below it; PLAIN: the head is `usual` alone.
+        others: heads that are named to a reader, too.
+    """
+
+    usual: str
+    dimension: Dimension = PLAIN
+    others: tuple[str, ...] = ()
+
+    def read(self, head: str) -> tuple[str, float] | None:
+        """Return the unit in a head, and its size; None: this is another column."""
+        if self.dimension is PLAIN:
+            return ("", 1.0) if head == self.usual else None
+        name, _, _ = self.usual.partition("_")
+        found = re.fullmatch(rf"(?i){name}[\s_]*[\[(/]?\s*([^\])]+?)\s*[\])]?", head)
+        if found is None:
+            return None
+        unit = found[1].replace("_", " ")
+        try:  # gauge pressures are units with a g behind them
+            absolute = unit.removesuffix("g") if unit in GAUGE_UNITS else unit
+            return unit, convert(f"1 {absolute}", self.dimension)
+        except ValueError:
+            return None
 
 
 class NumberColumns(NamedTuple):
@@ -22,15 +54,23 @@ class NumberColumns(NamedTuple):
         heads: as the file has them, in the order in which they were asked for.
         rows: a number for each head.
         lines: of the file, from 1, one for each row.
+        units: of each head, as the file has it; empty where the head has none.
+        scales: size of that unit in the unit of the column's quantity.
     """
 
     heads: tuple[str, ...]
     rows: tuple[tuple[float, ...], ...]
     lines: tuple[int, ...]
+    units: tuple[str, ...] = ()
+    scales: tuple[float, ...] = ()
 
     def column(self, number: int) -> list[float]:
-        """Return all numbers under one of the heads, counted from 0."""
-        return [row[number] for row in self.rows]
+        """Return all numbers under one of the heads, counted from 0, in its quantity's unit."""
+        return [row[number] * self.scales[number] for row in self.rows]
+
+    def as_written(self, row: int, number: int) -> str:
+        """Return a number as the file has it, with the file's unit."""
+        return f"{self.rows[row][number]:.15g} {self.units[number]}".rstrip()
 
 
 def locate_beside(folder: Path, name: str) -> Path:
@@ -55,16 +95,16 @@ def locate_beside(folder: Path, name: str) -> Path:
     return folder / name
 
 
-def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> NumberColumns:
+def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
     """Return some columns of a CSV file.
 
-    Other columns, empty lines and lines that begin with # count for nothing. Where semicolons or
-    tabs part the heading, they part the lines, and decimals may have commas; elsewhere a number to
-    the right of the heading is refused: "0,5,1,3" might be two.
+    Other columns, empty lines and lines that begin with # count for nothing. Where semicolons,
+    tabs or blanks part the heading, they part the lines, and decimals may have commas; elsewhere a
+    number to the right of the heading is refused: "0,5,1,3" might be two.
 
     Args:
         path: of the file.
-        wanted: the names that each column may have.
+        wanted: the columns.
 
     Raises:
         BalcliError: it cannot be read, a column is missing, or a line has no such numbers.
@@ -80,7 +120,7 @@ def read_columns(path: Path, wanted: Sequence[Sequence[str]]) -> NumberColumns:
         raise BalcliError(f"{path}: {error}") from None
 
 
-def _parse(text: str, wanted: Sequence[Sequence[str]]) -> NumberColumns:
+def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     numbered = enumerate(text.splitlines(), 1)
     lines = {n: line for n, line in numbered if line.strip() and not line.lstrip().startswith("#")}
     if len(lines) > MOST_ROWS:
@@ -88,28 +128,37 @@ def _parse(text: str, wanted: Sequence[Sequence[str]]) -> NumberColumns:
     first = next(iter(lines.values()), "")
     # The comma, where none of them is there; tabs after a comma are room.
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
+    if not re.search("[,;\t]", first) and re.search(r"\S\s+\S", first):
+        mark = " "
+        # A unit in brackets may have blanks: "torque [kN m]"
+        first = re.sub(r"[\[(][^\])]*[\])]", lambda unit: unit[0].replace(" ", "_"), first)
+        lines |= {next(iter(lines)): re.sub(r"\s+(?=[\[(])", "_", first.strip())}
+        lines = {n: " ".join(line.split()) for n, line in lines.items()}
     if mark != ",":
         lines = {n: line.replace(",", ".").replace(mark, ",") for n, line in lines.items()}
     numbers, cells = list(lines)[1:], csv.reader(lines.values())
     heading = [cell.strip() for cell in next(cells, [])]
-    places = [_find_head(names, heading, wanted, mark) for names in wanted]
+    found = [_find_head(head, heading, wanted, mark) for head in wanted]
+    places = [place for place, _, _ in found]
     width = len(heading) if mark == "," else None
     rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
-    return NumberColumns(tuple(heading[place] for place in places), rows, tuple(numbers))
+    heads = tuple(heading[place] for place in places)
+    _, units, scales = zip(*found, strict=True)
+    return NumberColumns(heads, rows, tuple(numbers), units, scales)
 
 
 def _find_head(
-    names: Sequence[str], heading: list[str], wanted: Sequence[Sequence[str]], mark: str
-) -> int:
-    """Return where a heading has one of these names; `mark` parts its columns."""
+    wanted: Head, heading: list[str], every: Sequence[Head], mark: str
+) -> tuple[int, str, float]:
+    """Return place, unit and scale of a column; `mark` parts the columns of the heading."""
     for place, head in enumerate(heading):
-        if head in names:
-            return place
-    usual = mark.join(some[0] for some in wanted)
-    others = [name for some in wanted for name in some[1:]]
+        if head_read := wanted.read(head):
+            return (place, *head_read)
+    usual = mark.join(head.usual for head in every)
+    others = [name for head in every for name in head.others]
     also = f" (or {', '.join(others)})" if others else ""
     found = shorten(mark.join(heading))
-    raise ValueError(f"the heading {found} has no {names[0]}; head the file {usual}{also}")
+    raise ValueError(f"the heading {found} has no {wanted.usual}; head the file {usual}{also}")
 
 
 def _read_row(row: list[str], places: list[int], width: int | None, line: int) -> tuple[float, ...]:

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 
-STRING_PATTERN = r"^\s*[+-]?(?:pi|π|(?:[0-9.]|pi|π).*[A-Za-z°µμ²³¹π\"”″0-9])\s*$"
+_DIGITS, _LAST = "0-9０-９¼-¾⅐-⅞", 'A-Za-zА-я°ºµμ²³¹π"”″㎀-㏟'
+STRING_PATTERN = rf"^\s*[+−–-]?\s*(?:pi|π|(?:[{_DIGITS}.]|pi|π).*[{_LAST}{_DIGITS}.])\s*$"
 RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
 
 
@@ -45,6 +46,26 @@ def shorten(value: object) -> str:
     return f"{value:.15g}" if isinstance(value, float) else str(value)[:LONGEST_SHOWN]
 
 
+class WrittenFigure(float):
+    """A figure that a file gives in a unit of its own; `text` is what the file has."""
+
+    text: str
+
+    def __new__(cls, value: float, text: str) -> WrittenFigure:
+        figure = super().__new__(cls, value)
+        figure.text = text
+        return figure
+
+    def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override]
+        return float(self), self.text
+
+
+def as_written(value: float, unit: str) -> str:
+    """Return a figure as its file has it; `unit` is that of a bare number."""
+    text = value.text if isinstance(value, WrittenFigure) else f"{value:g} {unit}"
+    return printable(text.strip())
+
+
 def counted(count: int, what: str) -> str:
     """Return a number with its noun: "1 place", "2 places"."""
     return f"{count} {what}{'s' * (count != 1)}"
@@ -59,7 +80,7 @@ def count_lambda_digits(ratio: float, usual: int = 4) -> int:
 
 def parse_firing_order(value: object) -> object:
     """Return a firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is."""
-    if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-, ]\s*\d{1,5})+\s*", value):
+    if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-–—,; ]\s*\d{1,5})+\s*", value):
         return [int(number) for number in re.findall(r"\d+", value)]
     return value
 
@@ -132,7 +153,7 @@ class Number(_Field):
             raise ValueError(f"{shown} is no finite number; {wanted(self.dimension)}")
         if fault := self._fault(number):
             raise ValueError(f"{shown} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
-        return number
+        return WrittenFigure(number, value) if isinstance(value, str) else number
 
     def _fault(self, number: float) -> tuple[str, str] | None:
         """Return how a number is out of bounds, and its bounds; None if it is within."""
@@ -173,6 +194,8 @@ class Whole(_Field):
             f"a whole number{' or a half' * self.halves} from {self.least:g} to {self.most}"
             f"{'' if self.zero else ', not 0,'} is wanted"
         )
+        if isinstance(value, str) and re.fullmatch(r"\s*[+-]?[0-9]{1,6}\s*", value):
+            value = int(value)
         is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
         if not is_number or (2 * value if self.halves else value) % 1:  # type: ignore[operator]
             kind = "multiple of 1/2" if self.halves else "whole number"

@@ -15,6 +15,9 @@ from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
 from .examples import is_example
 from .fields import nearest
 
+ENGINE_FILE = (
+    "that is TOML text with tables such as [crank], [rod] and [piston]: `balcli new` writes one"
+)
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
 _LONGEST_LINE = 80  # that is shown
@@ -92,9 +95,13 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         message = f"is not UTF-8 text (line {line}); save it as UTF-8"
+        if b"\0" in error.object[:1000] and error.object[:2] not in (b"\xff\xfe", b"\xfe\xff"):
+            message = f"is no text, and no engine file; {ENGINE_FILE}"
     except tomllib.TOMLDecodeError as error:
         decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
         message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, str(error))}"
+        if kind := _find_format(decoded):
+            message = f"is {kind}, no engine file; {ENGINE_FILE}"
     except RecursionError:
         message = (
             "lists or tables are nested too deeply; an engine file needs no more than four levels"
@@ -104,6 +111,21 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
     except ValueError:  # Python reads no more digits
         message = "has a number of thousands of digits"
     raise InputError([Problem("", message)], file)
+
+
+def _find_format(text: str) -> str:
+    """Return the format of a text that is no TOML; empty where it was probably meant as TOML."""
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    first, start = next(iter(lines), ""), text.lstrip()[:1]
+    if start == "{" or (start == "[" and not re.match(r"\[{1,2}[\w. \t-]+\]", first)):
+        return "JSON"
+    if start == "<":
+        return "XML or HTML"
+    toml = re.compile(r"""[\w."' -]+=|\[{1,2}[^\]]|#""")
+    if any(toml.match(line) for line in lines):
+        return ""
+    parted = re.search(r"[,;\t]|\d\s+[-+.\d]", first) is not None
+    return "a table of columns (CSV)" if parted else "a file of another program"
 
 
 def _load_toml(text: str | bytes) -> dict[str, Any]:

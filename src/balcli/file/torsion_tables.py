@@ -1,13 +1,6 @@
-"""Table [torsion] of an engine file: what its crankshaft and all that hangs on it are like when
-they twist.
-
-It is imported for files that have it.
-
-Tables that chains of inertias and shafts share, wherever they are described: a shaft between two
-nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
+"""Table [torsion] of an engine file, and the tables that it shares with chain files: a shaft
+between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
 """
-
-from __future__ import annotations
 
 import math
 from collections.abc import Iterator
@@ -16,10 +9,11 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
-from .fields import RIGID, Number, OneOf, counted, shorten
-from .table import FileTable, GivenInertia, Name, Size, TableRule
+from .fields import RIGID, Number, OneOf, as_written, counted, shorten
+from .table import FileTable, GivenInertia, Name, Size
 from .units import (
     ANGLE,
+    DENSITY,
     INERTIA,
     MASS,
     PLAIN,
@@ -61,6 +55,7 @@ Stiffness = Annotated[float, _Stiffness()]
 Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
 Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
 Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
+Density = Annotated[float, Number(DENSITY, above=0, most=30)]
 StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
 AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
 _RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
@@ -68,32 +63,29 @@ _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
 
 
+STEEL = 7.85  # g/cm3
+
+
 class ShaftKeys(FileTable):
     """What a shaft is like: its stiffness, or the steel that makes it; its section gives stress."""
 
-    stiffness: Stiffness | None = Field(
-        None,
-        examples=[1.25e6],
-        description="torsional stiffness in the shaft's own speed; rigid: a flange or a mesh",
-    )
-    diameter: Size | None = Field(
-        None, examples=[85], description="diameter of the shaft: with it, stress is known"
-    )
-    length: Size | None = Field(
-        None, examples=[400], description="length of a plain shaft, instead of stiffness"
-    )
-    bore: Size | None = Field(
-        None, examples=[30], description="diameter of its bore, if it has one"
-    )
-    shear_modulus: Modulus = Field(
-        79.3, examples=[79.3], description="of what a plain shaft is made of; default: steel"
-    )
-    loss: Loss | None = Field(
-        None, examples=[0.035], description="loss factor, imaginary over real part of the stiffness"
-    )
-    damping: Damping = Field(
-        0.0, examples=[20], description="of a dashpot between the ends of the shaft"
-    )
+    stiffness: Stiffness | None = None
+    """Torsional stiffness in the shaft's own speed; rigid: a flange or a mesh. Example: 1.25e6"""
+    diameter: Size | None = None
+    """Diameter of the shaft: with it, stress is known. Example: 85"""
+    length: Size | None = None
+    """Length of a plain shaft, instead of stiffness. Example: 400"""
+    bore: Size | None = None
+    """Diameter of its bore, if it has one. Example: 30"""
+    shear_modulus: Modulus = 79.3
+    """Of what a plain shaft is made of; default: steel. Example: 79.3"""
+    density: Density | None = None
+    """Of a plain shaft: half of its inertia counts at either end; left out: it has none.
+    Example: 7.85"""
+    loss: Loss | None = None
+    """Loss factor, imaginary over real part of the stiffness. Example: 0.035"""
+    damping: Damping = 0.0
+    """Of a dashpot between the ends of the shaft. Example: 20"""
 
     def _check_length(self) -> Iterator[str]:
         if self.stiffness is not None and self.length is not None:
@@ -108,14 +100,17 @@ class ShaftKeys(FileTable):
 
     def _check_bore(self) -> Iterator[str]:
         if self.bore is not None and (self.diameter is None or self.bore >= self.diameter):
-            outer = "no diameter" if self.diameter is None else f"a diameter of {self.diameter:g}"
-            yield f"has a bore of {self.bore:g} mm and {outer}; the bore is the smaller of both"
+            outer = (
+                "no diameter"
+                if self.diameter is None
+                else f"a diameter of {as_written(self.diameter, 'mm')}"
+            )
+            message = f"has a bore of {as_written(self.bore, 'mm')} and {outer}; "
+            yield message + "the bore is the smaller of both"
 
-    rules = (
-        TableRule(_check_length, {"stiffness", "length"}),
-        TableRule(_check_stiffness, {"stiffness", "length", "diameter"}),
-        TableRule(_check_bore, {"bore", "diameter"}),
-    )
+    def _check_density(self) -> Iterator[str]:
+        if self.density is not None and (self.length is None or self.diameter is None):
+            yield "has a density, and no length and diameter of a plain shaft that has it"
 
 
 _KEYS_OF_KIND = {
@@ -128,22 +123,23 @@ _KEYS_OF_KIND = {
 class Damper(FileTable):
     """A damper on a node."""
 
-    kind: Annotated[str, OneOf(*_KEYS_OF_KIND)] = Field(
-        examples=["viscous"],
-        description="viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing "
-        "in the field of rotation",
-    )
-    inertia: GivenInertia | None = Field(None, examples=[30000], description="of the ring")
-    damping: _RingDamping | None = Field(None, examples=[12], description="of the oil film")
-    stiffness: _RingStiffness | None = Field(None, examples=[40000], description="of the rubber")
-    loss: Loss | None = Field(None, examples=[0.15], description="loss factor of the rubber")
-    mass: _PendulumMass | None = Field(None, examples=[2], description="of all pendulums")
-    radius: Size | None = Field(
-        None, examples=[60], description="from the axis to where a pendulum hangs"
-    )
-    length: Size | None = Field(
-        None, examples=[2.4], description="of a pendulum, from there to its centre of mass"
-    )
+    kind: Annotated[str, OneOf(*_KEYS_OF_KIND)]
+    """Viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing in the field
+    of rotation. Example: 'viscous'"""
+    inertia: GivenInertia | None = None
+    """Of the ring. Example: 30000"""
+    damping: _RingDamping | None = None
+    """Of the oil film. Example: 12"""
+    stiffness: _RingStiffness | None = None
+    """Of the rubber. Example: 40000"""
+    loss: Loss | None = None
+    """Loss factor of the rubber. Example: 0.15"""
+    mass: _PendulumMass | None = None
+    """Of all pendulums. Example: 2"""
+    radius: Size | None = None
+    """From the axis to where a pendulum hangs. Example: 60"""
+    length: Size | None = None
+    """Of a pendulum, from there to its centre of mass. Example: 2.4"""
 
     def _check_keys(self) -> Iterator[str]:
         wanted = _KEYS_OF_KIND[self.kind]
@@ -153,46 +149,49 @@ class Damper(FileTable):
         if strange := sorted(given - set(wanted)):
             yield f"is {self.kind}, which has no {' and no '.join(strange)}"
 
-    rules = (TableRule(_check_keys, {"kind"}),)
-
 
 class NodeKeys(FileTable):
     """What a node is like: its name, its inertia, and its damper."""
 
-    name: Name = Field(examples=["flywheel"], description="what to call it; each its own")
-    inertia: NodeInertia | None = Field(
-        None, examples=[2.075e6], description="moment of inertia; left out: a massless node"
-    )
-    damper: Damper | None = Field(
-        None,
-        examples=[{"kind": "viscous", "inertia": 30000, "damping": 12}],
-        description="a damper that it has",
-    )
+    name: Name
+    """What to call it; each its own. Example: 'flywheel'"""
+    inertia: NodeInertia | None = None
+    """Moment of inertia; left out: a massless node. Example: 2.075e6"""
+    damper: Damper | None = None
+    """A damper that it has. Example: { kind = 'viscous', inertia = 30000, damping = 12 }"""
 
 
 class ChainKeys(FileTable):
     """What holds for a whole chain: the loss of its shafts, and limits."""
 
-    loss: Loss = Field(
-        0.0, examples=[0.035], description="loss factor of every shaft that names none"
-    )
-    limit: StressLimit | None = Field(
-        None, examples=[40], description="stress of a shaft above which a speed is barred"
-    )
-    angle_limit: AngleLimit | None = Field(
-        None,
-        examples=[0.3],
-        description="angle by which the first node may swing either way; above, a speed is barred",
-    )
+    loss: Loss = 0.0
+    """Loss factor of every shaft that names none. Example: 0.035"""
+    limit: StressLimit | None = None
+    """Stress of a shaft above which a speed is barred. Example: 40"""
+    angle_limit: AngleLimit | None = None
+    """Angle by which the free end (of a chain the first node) may swing either way; above, a
+    speed is barred. Example: 0.3"""
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:
     """Torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
-    if shaft.stiffness is not None or shaft.diameter is None or shaft.length is None:
+    if shaft.stiffness is not None or shaft.length is None:
         return math.inf if shaft.stiffness is None else shaft.stiffness
-    outer, inner = shaft.diameter / 1e3, (shaft.bore or 0.0) / 1e3
-    modulus = shaft.shear_modulus * 1e9
-    return modulus * math.pi * (outer**4 - inner**4) / 32 / (shaft.length / 1e3)
+    return shaft.shear_modulus * 1e9 * _find_polar_moment(shaft) / (shaft.length / 1e3)
+
+
+def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
+    """Moment of inertia of a plain shaft of this density (g/cm3), kg m2; 0 without one, and of a
+    shaft given by its stiffness.
+    """
+    length = (shaft.length or 0.0) / 1e3
+    return (density or 0.0) * 1e3 * _find_polar_moment(shaft) * length if length else 0.0
+
+
+def _find_polar_moment(shaft: ShaftKeys) -> float:
+    """Polar moment of the section, m4; 0 without a diameter."""
+    outer, inner = (shaft.diameter or 0.0) / 1e3, (shaft.bore or 0.0) / 1e3
+    return math.pi * (outer**4 - inner**4) / 32
 
 
 class SpeedRatio(Number):
@@ -234,21 +233,14 @@ class Part(ShaftKeys, NodeKeys):
     it from the throws.
     """
 
-    gear: Annotated[float, SpeedRatio()] | None = Field(
-        None,
-        description="speed over that of the crank; left out: as fast as what it hangs on. The mesh "
-        "sits there, and the shaft turns with this part",
-        examples=[0.5],
-    )
-    of: Name | None = Field(
-        None,
-        description="what it hangs on, a part or throw 1, throw 2, ...; left out: the part before "
-        "it in the list, the first on the nearest throw",
-        examples=["throw 1"],
-    )
-    node_damping: Damping = Field(
-        0.0, description="of the part against ground, as water damps a propeller", examples=[5]
-    )
+    gear: Annotated[float, SpeedRatio()] | None = None
+    """Speed over that of the crank; left out: as fast as what it hangs on. The mesh sits there,
+    and the shaft turns with this part. Example: 0.5"""
+    of: Name | None = None
+    """What it hangs on, a part or throw 1, throw 2, ...; left out: the part before it in the
+    list, the first on the nearest throw. Example: 'throw 1'"""
+    node_damping: Damping = 0.0
+    """Of the part against ground, as water damps a propeller. Example: 5"""
 
 
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
@@ -257,34 +249,25 @@ _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
 class Torsion(ChainKeys):
     """Torsional vibration: a node for each throw, and the parts before and behind them."""
 
-    throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = Field(
-        None,
-        description="torsional stiffness between neighbouring throws, or a list of all",
-        examples=[1.25e6],
-    )
-    throw_inertia: Annotated[tuple[float, ...], _EachOrAll(INERTIA)] | None = Field(
-        None,
-        description="moment of inertia of the crankshaft at each throw, its own mass and "
-        "counterweights included, without rods and pistons; or a list of all; left out: an equal "
-        "share of crank.inertia",
-        examples=[46700],
-    )
-    throw_diameter: Size | None = Field(
-        None,
-        description="diameter of the crankshaft between throws: with it, stress is known",
-        examples=[85],
-    )
-    throw_bore: Size | None = Field(
-        None, description="diameter of its bore, if it has one", examples=[30]
-    )
-    damping: Damping = Field(0.0, description="at every cylinder, against ground", examples=[2])
-    front: _Parts = Field((), description="parts before the first throw, outward")
-    rear: _Parts = Field((), description="parts behind the last throw, outward")
+    throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = None
+    """Torsional stiffness between neighbouring throws, or a list of all. Example: 1.25e6"""
+    throw_inertia: Annotated[tuple[float, ...], _EachOrAll(INERTIA)] | None = None
+    """Moment of inertia of the crankshaft at each throw, its own mass and counterweights
+    included, without rods and pistons; or a list of all; left out: an equal share of
+    crank.inertia. Example: 46700"""
+    throw_diameter: Size | None = None
+    """Diameter of the crankshaft between throws: with it, stress is known. Example: 85"""
+    throw_bore: Size | None = None
+    """Diameter of its bore, if it has one. Example: 30"""
+    damping: Damping = 0.0
+    """At every cylinder, against ground. Example: 2"""
+    front: _Parts = ()
+    """Parts before the first throw, outward."""
+    rear: _Parts = ()
+    """Parts behind the last throw, outward."""
 
     def _check_bore(self) -> Iterator[str]:
         if self.throw_bore is not None and (
             self.throw_diameter is None or self.throw_bore >= self.throw_diameter
         ):
             yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"
-
-    rules = (TableRule(_check_bore, {"throw_bore", "throw_diameter"}),)

@@ -1,143 +1,83 @@
 """Figures with a unit, as an engine file may give them: "3.5 in", "1/7 turn", "8.1 lb in^2".
 
-A figure is matched by a regular expression first and nothing is ever evaluated. The arithmetic is
-exact (fractions), so that a figure is rounded once. Most units are told by others, in a table that
-is read as far as a figure needs it.
+A figure is first written in one spelling (`_normalize`), then matched by a regular expression;
+nothing is ever evaluated. The arithmetic is exact (fractions), so that a figure is rounded once.
+Most units are defined by others, in a table of which a figure reads the rows that it needs.
 
-The units that a figure may have: each is told by others, down to the few of `units.py`.
-
-Sources: the SI brochure (2019) for what is metric; the international yard and pound (1959) for the
-inch and the pound, which `units.py` has, and all that is made of them; CGPM 1901 for standard
-gravity; NIST SP 811 (2008), appendix B, for the rest.
+Sources: the SI brochure (2019) for metric units; the international yard and pound (1959) for the
+inch, the pound and the units made of them; CGPM 1901 for standard gravity; NIST SP 811 (2008),
+appendix B, for the rest.
 """
 
 from __future__ import annotations
 
 import re
+from collections import defaultdict
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
+from unicodedata import normalize
 
 from ..limits import LONGEST_FIGURE
 
-_ROWS = {
-    # length
-    "metre meter": "1 m",
-    "micron": "1 um",
-    "inch inches": "1 in",
-    "mil thou": "0.001 in",
-    "ft foot feet": "12 in",
-    "yd yard": "3 ft",
-    # mass
-    "gram gramme": "1 g",
-    "t tonne": "1000 kg",
-    "pound lbm": "1 lb",
-    "oz ozm ounce": "1/16 lb",
-    "stone": "14 lb",
-    "grain": "1/7000 lb",
-    "slug": "1 lbf s^2/ft",
-    "slinch blob": "1 lbf s^2/in",
-    # time
-    "sec second": "1 s",
-    "min minute": "60 s",
-    "h hr hour": "3600 s",
-    "d day": "24 h",
-    # angle; r, U (German Umdrehung) and tr (French tour) are revolutions
-    "rev revolution r U tr": "1 turn",
-    "radian": "1 rad",
-    "pi": "1/2 turn",
-    "deg degree °": "1/360 turn",
-    "arcmin arcminute": "1/60 deg",
-    "arcsec arcsecond": "1/3600 deg",
-    "gon gradian": "1/400 turn",
-    # speed of rotation, frequency
-    "rpm": "1 turn/min",
-    "rps": "1 turn/s",
-    "Hz hertz": "1 s^-1",
-    # force
-    "N newton": "1 kg m/s^2",
-    "dyn dyne": "1e-5 N",
-    "kgf kp kilopond": "1 kg g_n",
-    "gf pond": "1 g g_n",
-    "tf": "1 t g_n",
-    "lbf": "1 lb g_n",
-    "ozf": "1 oz g_n",
-    "kip": "1000 lbf",
-    "pdl poundal": "1 lb ft/s^2",
-    # pressure and stress
-    "Pa pascal": "1 N/m^2",
-    "bar bara": "100000 Pa",
-    "atm atmosphere": "101325 Pa",
-    "at": "1 kgf/cm^2",
-    "torr Torr": "1/760 atm",
-    "mmHg": "133.322387415 Pa",  # 13 595.1 kg/m3, standard gravity
-    "inHg": "25.4 mmHg",
-    "psi psia": "1 lbf/in^2",
-    "psf": "1 lbf/ft^2",
-    "ksi": "1000 psi",
-    "Msi": "1000000 psi",
-    # torque, energy, power
-    "J joule": "1 N m",
-    "erg": "1e-7 J",
-    "Wh": "3600 J",
-    "Btu BTU": "1055.05585262 J",  # of the International Table
-    "W watt": "1 J/s",
-    "hp": "550 ft lbf/s",
-    "PS ch cv": "75 kgf m/s",
-    # written together
-    "Nm": "1 N m",
-    "Nmm": "1 N mm",
-    "Ns": "1 N s",
-    "Nms": "1 N m s",
-    "gmm": "1 g mm",
-    # volume: no field has it, but people know it
-    "l L litre liter": "1 dm^3",
-    "cc ccm": "1 cm^3",
-    # known, but no field has anything to do with them
-    "K kelvin °C degC celsius °F degF fahrenheit": "1 of_another_kind",
-    "A amp ampere V volt ohm mol mole cd candela": "1 of_another_kind",
-}
-DEFINITIONS = {name: figure for names, figure in _ROWS.items() for name in names.split()}
+# Names, and the figure that defines them; r, U (German Umdrehung) and tr (French tour) are
+# revolutions, mmHg is 13 595.1 kg/m3 at standard gravity, Btu is of the International Table. No
+# key has a volume, a temperature or a current, but people know their units.
+_DEFINED = """
+metre meter = 1 m; micron = 1 um; inch inches = 1 in; mil thou = 0.001 in; ft foot feet = 12 in
+yd yard = 3 ft
+gram gramme = 1 g; t tonne = 1000 kg; pound lbm = 1 lb; oz ozm ounce = 1/16 lb; stone = 14 lb
+grain = 1/7000 lb; slug = 1 lbf s^2/ft; slinch blob = 1 lbf s^2/in
+sec second = 1 s; min minute = 60 s; h hr hour = 3600 s; d day = 24 h
+rev revolution r U tr = 1 turn; radian = 1 rad; pi = 1/2 turn; deg degree ° = 1/360 turn
+arcmin arcminute = 1/60 deg; arcsec arcsecond = 1/3600 deg; gon gradian = 1/400 turn
+rpm = 1 turn/min; rps = 1 turn/s; Hz hertz = 1 s^-1
+N newton = 1 kg m/s^2; dyn dyne = 1e-5 N; kgf kp kilopond = 1 kg g_n; gf pond = 1 g g_n
+tf = 1 t g_n; lbf = 1 lb g_n; ozf = 1 oz g_n; kip = 1000 lbf; pdl poundal = 1 lb ft/s^2
+Pa pascal = 1 N/m^2; bar bara = 100000 Pa; atm atmosphere = 101325 Pa; at = 1 kgf/cm^2
+torr Torr = 1/760 atm; mmHg = 133.322387415 Pa; inHg = 25.4 mmHg
+psi psia = 1 lbf/in^2; psf = 1 lbf/ft^2; ksi = 1000 psi; Msi = 1000000 psi
+J joule = 1 N m; erg = 1e-7 J; Wh = 3600 J; Btu BTU = 1055.05585262 J
+W watt = 1 J/s; hp = 550 ft lbf/s; PS ch cv = 75 kgf m/s
+Nm = 1 N m; Nmm = 1 N mm; Ns = 1 N s; Nms = 1 N m s; gmm = 1 g mm
+l L litre liter = 1 dm^3; cc ccm = 1 cm^3
+K kelvin °C degC celsius °F degF fahrenheit = 1 of_another_kind
+A amp ampere V volt ohm mol mole cd candela = 1 of_another_kind
+"""
 
-AMBIGUOUS = {
-    "gr": "g, or grain (65 mg)?",
-    "gm": "g, or gigametre?",
-    "Mm": "mm, or megametre?",
-    "MG": "mg, or Mg (1000 kg)?",
-    "NM": "N m, or nanometre?",
-    "ton": "t (1000 kg), or 2000 lb, or 2240 lb?",
-    "cwt": "100 lb, or 112 lb?",
-    "barg": "bar over the atmosphere? Absolute it is 1.01325 bar more;",
-    "psig": "psi over the atmosphere? Absolute it is 14.696 psi more;",
-    "grad": "deg, or gon (0.9 deg)?",
-    "grade": "deg, or gon (0.9 deg)?",
-    "cycle": "turn, or the two of a four-stroke engine?",
-    "cpm": "rpm, or cycles of two turns in a minute?",
-    "cal": "4.184 J, or 4.1868 J?",
-    "kcal": "4184 J, or 4186.8 J?",
-}
+_AMBIGUOUS = """
+gr = g, or grain (65 mg)?; gm = g, or gigametre?; Mm = mm, or megametre?; MG = mg, or Mg (1000 kg)?
+NM = N m, or nanometre?; ton = t (1000 kg), or 2000 lb, or 2240 lb?; cwt = 100 lb, or 112 lb?
+barg = bar over the atmosphere? Absolute it is 1.01325 bar more,
+psig = psi over the atmosphere? Absolute it is 14.696 psi more,
+grad grade = deg, or gon (0.9 deg)?; cycle = turn, or the two of a four-stroke engine?
+cpm = rpm, or cycles of two turns in a minute?; cal = 4.184 J, or 4.1868 J?
+kcal = 4184 J, or 4186.8 J?
+"""
 
-_PREFIXES = {
-    "G giga": 9,
-    "M mega": 6,
-    "k kilo": 3,
-    "h hecto": 2,
-    "da deca deka": 1,
-    "d deci": -1,
-    "c centi": -2,
-    "m milli": -3,
-    "µ μ u micro": -6,
-    "n nano": -9,
-}
+
+def read_rows(rows: str) -> dict[str, str]:
+    """Return what stands behind the names in a table such as "metre meter = 1 m; yard = 3 ft"."""
+    parts = (row.split(" = ") for row in re.split(r"[;\n]", rows.strip()))
+    return {name: meaning for names, meaning in parts for name in names.split()}
+
+
+DEFINITIONS, AMBIGUOUS = read_rows(_DEFINED), read_rows(_AMBIGUOUS)
+
+_PREFIXES = (
+    "G giga 9, M mega 6, k kilo 3, h hecto 2, da deca deka 1, d deci -1, c centi -2, "
+    "m milli -3, µ μ u micro -6, n nano -9"
+)
 _SYMBOLS = "m g s rad N Pa bar J W Wh Hz Nm Ns Nms psi rpm"
 _WORDS = "metre meter gram gramme second radian newton pascal bar joule watt hertz"
 
 
 # "kPa" -> (3, "Pa"), "millimetre" -> (-3, "metre")
 PREFIXED = {
-    prefix + unit: (power, unit)
-    for prefixes, power in _PREFIXES.items()
-    for prefix in prefixes.split()
+    prefix + unit: (int(power), unit)
+    for *prefixes, power in map(str.split, _PREFIXES.split(","))
+    for prefix in prefixes
     for unit in (_SYMBOLS if len(prefix) < 3 else _WORDS).split()
 }
 
@@ -231,6 +171,7 @@ TORSIONAL_STIFFNESS = Dimension(
 TORSIONAL_DAMPING = Dimension(
     "N m s/rad", "a torsional damping", ("2 N m s/rad", "18 lbf in s/rad")
 )
+DENSITY = Dimension("g/cm^3", "a density", ("7.85 g/cm^3", "7850 kg/m^3"))
 SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", ("79.3 GPa", "11.5e6 psi"))
 STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number")
@@ -246,24 +187,62 @@ _KINDS = (  # how one speaks of what has these units; the first that has the pow
     Dimension("m/s", "a velocity"),
 )
 
+# One spelling for what is written in several ways and can mean one thing only
+_SIGNS = str.maketrans("−–º˚“”″⁄’", '--°°"""/\'')
+_CYRILLIC = dict(
+    pair.split(":")
+    for pair in """
+    мкм:um мм:mm см:cm дм:dm м:m мг:mg г:g кг:kg т:t мс:ms с:s сек:s мин:min ч:h
+    рад:rad град:deg об:turn Гц:Hz кГц:kHz Н:N кН:kN МН:MN Нм:Nm кНм:kNm кгм:kgm гмм:gmm гсм:gcm
+    кгс:kgf тс:tf ат:at атм:atm бар:bar Па:Pa кПа:kPa МПа:MPa ГПа:GPa
+    Дж:J кДж:kJ МДж:MJ Вт:W кВт:kW л:l
+    """.split()  # noqa: SIM905
+)
+_SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+_RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"(\d?)\s*([¼-¾⅐-⅞])", lambda m: f"{m[1]} {normalize('NFKC', m[2])}"),
+    (r"[\uff01-\uff5e\u3380-\u33df\u00a0\u2007\u2009\u202f]", lambda m: normalize("NFKC", m[0])),
+    (r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS)),
+    (r".+", lambda m: m[0].translate(_SIGNS)),
+    (r"(?i)\br\.p\.m\.?", "rpm"),
+    (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
+    (r"[а-яёА-ЯЁ]+", lambda m: _CYRILLIC.get(m[0], m[0])),
+    (r"(?<=\d)\s*[x×·⋅*]\s*10\^([+-]?\d{1,3})\b", r"e\1"),
+    (
+        r"^(\s*[+-]?[1-9]\d{0,2})((?:[ '_]\d{3})+)(?![\d/]| \d{3}|\s*/\s*\d)",
+        lambda m: m[1] + re.sub(r"[ '_]", "", m[2]),
+    ),
+    # A decimal comma, unless three digits behind it might be thousands
+    (r"^(\s*[+-]?(?:0|\d{4,}|\d+(?=,(?:\d{1,2}|\d{4,})(?!\d)))),(\d+)(?![\d,.])", r"\1.\2"),
+    (r'^([^"]*\d)\s*"\s*$', r"\1 in"),
+)
+
+
+def _normalize(figure: str) -> str:
+    """Return a figure in one spelling: Latin units, a decimal point, no blanks in numbers."""
+    for pattern, new in _RESPELT:
+        figure = re.sub(pattern, new, figure)
+    return figure
+
+
 # Compiled when a string is met
 BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
-_FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³23])?"
+_FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[23])?"
 _JOINT = r"\s*[*·⋅/]\s*|[.-]|\s+"
 _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
 _WHOLE = r"(\d+)(?:\s+|-)(?=[1-9]\d*\s*/)"  # of "3 1/2" and "3-1/2"
 FIGURE = rf"\s*([+-]?)(?:{_WHOLE})?({_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"
 _LARGE_AND_SMALL = r"\s*([+-]?)(\d+ *[A-Za-z]+) +(\d.*[A-Za-z])\s*"  # 1 lb 4 oz, 3 ft 2 1/2 in
-_INCH_MARK = r'^([^"”″]*\d)\s*["”″]\s*$'  # 3.5"
-# A crank speed counts turns, said or not. 1/s stays out: it is as often meant as rad/s.
-_PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1|\s*min⁻¹)\s*$"
+# A crank speed counts turns, said or not. 1/s is asked back: it is as often meant as rad/s.
+_PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1)\s*$"
+_PER_SECOND = r"\d\.?(?:(?:\s+1)?\s*/\s*|\s*(?=\w+(?:\^|\*\*)?-))s(?:ec)?(?:(?:\^|\*\*)?-1)?\s*$"
 _HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
 # pi/2, -3*pi/4 rad
 _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
-_POUND = r"(?i)\b(?:lbs?|pounds?)\b"  # a force where only that fits: 24 lb in/rad, 0.3 lb in s2
-_PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([²³23]))?"
-_RAISED = {"²": 2, "³": 3, "2": 2, "3": 3}
+# A force where only that fits: 24 lb in/rad, 0.3 lb in s2
+_POUND = r"(?i)(?:\b|(?<=ft|in))(?:lbs?|pounds?)(?=\b|ft|in)"
+_PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([23]))?"
 
 
 def convert(text: str, dimension: Dimension) -> float:
@@ -285,9 +264,8 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
     """
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
-    figure = re.sub(_INCH_MARK, r"\1 in", text)
     try:
-        exact = _measure(figure, dimension) / read_unit(dimension.unit, dimension).scale
+        exact = _measure(_normalize(text), dimension) / read_unit(dimension.unit, dimension).scale
         float(exact)
     except ZeroDivisionError:
         raise ValueError("divides by zero") from None
@@ -298,6 +276,9 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
 
 def _measure(figure: str, dimension: Dimension) -> Fraction:
     """The figure in m, kg, s and turns; a large unit and a small one add up ("1 lb 4 oz")."""
+    if dimension is SPEED and re.search(_PER_SECOND, figure):
+        message = 'has the unit "1/s": rad/s, or turns per second (Hz)?'
+        raise ValueError(f"{message} {wanted(dimension)}")
     found = _split(_spell_out(figure, dimension))
     both = None if found else re.fullmatch(_LARGE_AND_SMALL, figure, re.ASCII)
     if both:
@@ -308,10 +289,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
             raise ValueError(f'has "{small}" after "{large}", which is not less than "{one}"')
         return -(whole + rest) if sign == "-" else whole + rest
     if found is None:
-        comma = re.search(r"\d,\d", figure)
-        hint = " decimals take a point, thousands no comma;" if comma else ""
-        hint += " a minus sign is a hyphen;" if re.match(r"\s*[−–]", figure) else ""
-        raise ValueError(f"is not a number followed by a unit;{hint} {wanted(dimension)}")
+        raise ValueError(f"{_explain(figure)} {wanted(dimension)}")
     number, names = found
     if not names:
         plain = f": {float(number):.6g}" if dimension is PLAIN else ""
@@ -327,6 +305,20 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
     return number * unit.scale
 
 
+def _explain(figure: str) -> str:
+    """Return why a figure cannot be read, up to the words that say what is wanted."""
+    if strange := re.search(r"[а-яёА-ЯЁ]+", figure):
+        return f'has "{strange[0]}" in Cyrillic letters, which is no unit; write it in Latin ones;'
+    hint = ""
+    if comma := re.match(r"\s*[+-]?(\d+),(\d{3})(?![\d,.])", figure):
+        hint = f" is {comma[1]}.{comma[2]} meant, or {comma[1]}{comma[2]}?"
+    elif re.search(r"\d,\d", figure):
+        hint = " decimals take a point, thousands no comma;"
+    elif re.match(r"\s*[RrØø⌀ΦφD]\s*\d", figure):
+        hint = " write nothing before the number;"
+    return f"is not a number followed by a unit;{hint}"
+
+
 def _measure_part(part: str, dimension: Dimension) -> Fraction:
     """Return `_measure` of one figure of two; errors name it."""
     try:
@@ -336,12 +328,10 @@ def _measure_part(part: str, dimension: Dimension) -> Fraction:
 
 
 def _spell_out(figure: str, dimension: Dimension) -> str:
-    """A speed or an angle with its turns said; the kgm2 of a moment of inertia in two words."""
+    """Return a speed or an angle with its turns written out."""
     if dimension is SPEED:  # "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm
         counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", figure)
         return re.sub(_PER_MINUTE, r"\1 rpm", counted)
-    if dimension is INERTIA:
-        return re.sub(r"kg(?=[cm]?m(?:\^|\*\*)?[2²])", "kg ", figure)
     # "3 pi/4 rad" -> "3/4 pi", half a turn being the unit
     parts = re.fullmatch(_PI, figure, re.ASCII) if dimension is ANGLE else None
     return f"{parts[1]}{parts[2] or 1}/{parts[3] or 1} pi" if parts else figure
@@ -377,7 +367,9 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     for joint, name, power, raised in re.findall(_PART, names, re.ASCII):
         if question := AMBIGUOUS.get(name) or AMBIGUOUS.get(name.removesuffix("s")):
             raise ValueError(f'has the unit "{name}": {question} {wanted(dimension)}')
-        part = _find(name) or (_find(name.lower()) if name.isupper() and name[1:] else None)
+        part, before = _find(name), None
+        if part is None and (pair := _find_pair(name)):
+            before, part = pair
         if part is None:
             near = find_near_name(name)
             alone = _find(near) if name == names.strip() else None
@@ -385,9 +377,12 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
                 near = ""
             hint = f" did you mean {near}?" if near else ""
             raise ValueError(f'has the unknown unit "{name}";{hint} {wanted(dimension)}')
-        exponent = int(power or _RAISED.get(raised, 1)) * (-1 if joint == "/" else 1)
-        scale *= part.scale**exponent
-        powers = Powers(*(p + exponent * q for p, q in zip(powers, part.powers, strict=True)))
+        sign = -1 if joint == "/" else 1
+        for unit, exponent in ((before, sign), (part, sign * int(power or raised or 1))):
+            if unit is not None:
+                scale *= unit.scale**exponent
+                each = zip(powers, unit.powers, strict=True)
+                powers = Powers(*(p + exponent * q for p, q in each))
     return Unit(scale, powers)
 
 
@@ -405,7 +400,35 @@ def _find(name: str) -> Unit | None:
         unit = read_unit(of_which, PLAIN)
         return Unit(Fraction(10) ** power * unit.scale, unit.powers)
     one = name.removesuffix("s")
-    return _find(one) if one != name and len(one) > 1 and name.islower() else None
+    if one != name and len(one) > 1 and name.islower():
+        return _find(one)
+    if name.isupper() and name[1:] and (found := _find(name.lower())):
+        return found
+    alike = _by_lower_case()[name.lower()] - {name} if name[1:] else set()  # Kg, KPa, Rpm
+    return _find(alike.pop()) if len(alike) == 1 else None
+
+
+@cache
+def _by_lower_case() -> defaultdict[str, set[str]]:
+    """Return the names of units by their lower case."""
+    found = defaultdict[str, set[str]](set)
+    for name in (*_BASE, *DEFINITIONS, *PREFIXED):
+        found[name.lower()].add(name)
+    return found
+
+
+@cache
+def _find_pair(name: str) -> tuple[Unit, Unit] | None:
+    """Return a mass or force and a length that are written in one word: ozin, gcm, Ncm, lbft."""
+    length, loads = LENGTH.powers, ((0, 1, 0, 0), (1, 1, -2, 0))
+    pairs = {
+        (first, second)
+        for cut in range(1, len(name))
+        if (first := _find(name[:cut])) and (second := _find(name[cut:]))
+        if (first.powers in loads and second.powers == length)
+        or (first.powers == length and second.powers in loads)
+    }
+    return pairs.pop() if len(pairs) == 1 else None
 
 
 def ask_unit(unit: str, *others: str) -> str:

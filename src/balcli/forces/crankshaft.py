@@ -119,7 +119,7 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
         orders = every[mark_considerable(bending) | (every <= 2)]
     _refuse_too_many_results(len(orders), len(z))
     bearings = None
-    if (span := place_bearings(engine.throws_m)) is not None:
+    if (span := place_bearings(engine.joined_throws_m)) is not None:
         shares = share_by_lever(z, span)
         bearings = _with_peaks(span, _sum_weighted(loads, shares, shares), orders)
     return InnerLoads(
@@ -304,7 +304,7 @@ def place_main_bearings(engine: Engine) -> Array:
         )
     if not engine.places_known:
         raise BearingsUnknownError("crank.spacing is missing, so that no bearing is known to stand")
-    span = place_bearings(engine.throws_m)
+    span = place_bearings(engine.joined_throws_m)
     if span is None:
         raise BearingsUnknownError("a crank with one throw does not say where its bearings stand")
     return span

@@ -30,7 +30,7 @@ from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders, select_orders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
-from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
+from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, unit
 from ..engine.build import Engine
 from ..engine.figures import place_in_plane
 from ..engine.gas import CylinderGas, EngineGas
@@ -263,14 +263,25 @@ def _compute_uneven(
     w, dense = _mix_orders(engine, orders)
     steady, loads = _compute_steady(engine, dense, parts, apart)
     found = {name: phasors.drop_noise() for name, phasors in steady.items()}
+    crank = _find_crankshaft(engine) / (engine.cylinders.count if apart else 1)
     for name, phasors in found.items():
         if name == "torque":
-            uneven = ripple.apply_to_torque(phasors, w, loads.mean_inertia)
+            uneven = ripple.apply_to_torque(phasors, w, loads.mean_inertia + crank)
         else:
-            mean = loads.mean_momentum if name == "couple" else 0.0
+            mean = loads.mean_momentum + crank if name == "couple" else 0.0
             uneven = ripple.apply_to_force(phasors, w, mean)
         found[name] = uneven.select_orders(orders)
     return found
+
+
+def _find_crankshaft(engine: Engine) -> Figure:
+    """Return what `crank.inertia` has beyond the unbalanced masses of the throws, which turn with
+    the pins, times the square of the speed, N m; 0 where the file does not give it.
+    """
+    if engine.crank_inertia is None or engine.rotary:
+        return 0.0
+    throws = sum(weighed.share for weighed in engine.weighed) * engine.cylinders.radius**2
+    return (engine.crank_inertia - throws) * engine.omega**2
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
@@ -362,15 +373,15 @@ def find_relevant_orders(engine: Engine) -> Array:
     return dense_orders(highest + 2 * max(lines), lines)
 
 
-def list_gas_orders(engine: Engine) -> Array:
-    """Orders of gas torque that are worth showing unless others are asked for: multiples of 1/2 (of
-    1 in two-stroke engines) up to HIGHEST_GAS_ORDER_UNASKED, shape (orders,). Of so many cylinders
-    that all of these may cancel, also the order of their firing, and its double.
+def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) -> Array:
+    """Return orders of gas torque up to the highest, shape (orders,): multiples of 1/2 (of 1 in
+    two-stroke engines). Of so many cylinders that all of these may cancel, also the order of their
+    firing, and its double.
     """
     step = 2 / engine.strokes
-    firing = step * len(engine.numbers)
-    higher = [firing, 2 * firing] if firing > HIGHEST_GAS_ORDER_UNASKED else []
-    return np.array([*np.arange(step, HIGHEST_GAS_ORDER_UNASKED + step, step), *higher])
+    firing = step * len(engine.fires_deg or engine.numbers)
+    higher = [firing, 2 * firing] if firing > highest else []
+    return np.array([*np.arange(step, highest + step / 2, step), *higher])
 
 
 def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
@@ -382,12 +393,12 @@ def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
     return np.asarray(large & (phasors.orders <= HIGHEST_ORDER_UNASKED))
 
 
-def choose_orders(found: Spectra, *engines: Engine) -> Array:
-    """The orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable, of gas
-    those that are listed for one of the engines.
+def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
+    """Return the orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable,
+    of gas those that are listed.
     """
     due = (found.orders <= 2) & (found.orders % 1 == 0)
-    listed = set(merge_orders(*map(list_gas_orders, engines)).tolist())
+    listed = set(merge_orders(listed).tolist())
     for kind, phasors in found.items():
         worth = mark_considerable(phasors)
         if kind.name in GAS_KINDS:

@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.vibration import Complex, Modes, Real, modal_loss
-from ..engine.assembly import Assembly
 from ..engine.build import Engine
 from ..engine.load import build_named
 from ..engine.parse import find_contradictions
+from ..engine.parts import Parts
 from ..errors import InputError, Problem
 from ..file.doubts import NO_DISTANCE, doubt_losses
 from ..file.fields import printable, shorten
@@ -224,7 +224,7 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
     faults = list(find_mounting_faults(draft.model, draft.legible))
     has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
     if draft.problems or faults:
-        whole = Assembly(draft.model, legible=draft.legible)
+        whole = Parts(draft.model, legible=draft.legible)
         contradictions = find_contradictions(whole) if has_engine and draft.problems else []
         raise refuse([*draft.problems, *contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None

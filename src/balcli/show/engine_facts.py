@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..core.cylinders import Device, DeviceKind, find_travel
 from ..core.phasors import Figure
 from ..engine.build import Engine, SilentCylinders
 from ..file.fields import count_lambda_digits
@@ -50,6 +51,8 @@ def engine_facts(
         reference = "moments are not known: crank.spacing is missing"
     orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
     devices = f"{len(engine.devices)} of the file are included" if engine.devices else ""
+    if any(map(_has_arm, engine.devices)):
+        devices += "; a slider whose path misses the crank axis changes couple and roll"
     cylinders = f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
     pairs = (
         ("cylinders", cylinders),
@@ -69,9 +72,17 @@ def engine_facts(
     return Facts(tuple((name, value) for name, value in pairs if value))
 
 
+def _has_arm(device: Device) -> bool:
+    """Return whether a slider moves on a line beside the crank axis."""
+    if device.kind != DeviceKind.SLIDER:
+        return False
+    along = device.place**2 * np.conj(device.forward * device.backward)  # positive: through it
+    return bool(abs(along - abs(along)) > 1e-12 * abs(along))
+
+
 def _tell_inferred(engine: Engine) -> str:
-    """Keys that the file leaves out; throws and intervals without their values, which stand in
-    lines of their own.
+    """Return keys that the file leaves out; throws and intervals without their values, which stand
+    in lines of their own.
     """
     shown = {"crank.throws", "layout.firing_intervals"}
     pairs = (line.split(" = ") for line in engine.inferred)
@@ -130,7 +141,8 @@ def _bore(engine: Engine, system: System) -> str:
     if math.isnan(bore_m):
         return ""
     bore = number(system.length.of(bore_m))
-    stroke = number(system.length.of(2 * float(engine.cylinders.radius)))
+    first = find_travel(engine.cylinders).stroke[engine.numbers.index(1)]
+    stroke = number(system.length.of(float(first)))
     volume = system.volume.fit(float(engine.displacement_m3))
     size = f"{number(volume.of(float(engine.displacement_m3)), 4)} {volume.name}"
     return f", bore × stroke {bore} × {stroke} {system.length.name}, {size}"
@@ -186,7 +198,7 @@ def _firing(engine: Engine) -> str:
     intervals, even, splay = f"every {gaps[0]:.4g}", "", engine.splay_for_even_firing
     if max(gaps) - min(gaps) >= EVEN_DEG:
         intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)}"
-        even = "" if splay is None else f" (evenly with crank.splay = {splay:g})"
+        even = "" if splay is None else f" (crank.splay = {splay:g} makes it even)"
     order = "-".join(map(str, engine.fires_deg))
     return f"{order}, {intervals} deg{even}, {tell_strokes(engine)}"
 

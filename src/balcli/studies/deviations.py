@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import NamedTuple
 
-from ..engine.assembly import Assembly
 from ..engine.build import assemble, build
+from ..engine.parts import Parts
 from ..file.model import Counterweight, EngineFile, Shaft, Slider, label_table
 from ..file.torsion_tables import Part, find_stiffness
 
@@ -70,7 +70,7 @@ def spell_out_throws(model: EngineFile) -> EngineFile:
     """Return the file with an angle for every throw, as far as the firing order gives them."""
     if model.crank.throws is not None:
         return model
-    return model.with_table("crank", throws=tuple(assemble(model).throws_deg.values()))
+    return model.with_table("crank", throws=tuple(assemble(model).pins.throws_deg.values()))
 
 
 def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
@@ -83,13 +83,13 @@ def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     parts = assemble(model)
     yield from _list_masses(model, parts, within.mass)
     for n in sorted(parts.numbers):
-        rod = parts.rod_place(n, n in parts.masters).rod
+        rod = parts.find_rod(n, n in parts.masters).rod
         length = 1e3 * float(rod.length_for(parts.radius))
         yield _relative(f"rod length {n}", within.length, {f"cylinder.{n}.rod_length": length})
-    for k, angle in parts.throws_deg.items():
+    for k, angle in parts.pins.throws_deg.items():
         lines = {f"crank.throws.{k + 1}": Line(float(angle), 1.0)}
         numbers = [cell.number for cell in parts.plan.cells if cell.throw == k]
-        pins = {n: parts.own_of(n).throw_deg for n in numbers}
+        pins = {n: parts.find_own(n).throw_deg for n in numbers}
         lines |= {
             f"cylinder.{n}.throw": Line(float(pin), 1.0)
             for n, pin in pins.items()
@@ -99,14 +99,14 @@ def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
         yield Source(f"throw angle {k + 1}", within.angle_deg, lines, relative=False)
 
 
-def _list_masses(model: EngineFile, parts: Assembly, mass: float) -> Iterator[Source]:
+def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Source]:
     """Yield the masses of pistons, rods and throws, as far as there are some."""
     engine = build(model)
     numbers = sorted(engine.numbers)
     weighed = dict(zip(engine.numbers, engine.weighed, strict=True))
     masses: dict[int, dict[str, float]] = {n: {} for n in numbers}
     for n in numbers:
-        rod = parts.rod_place(n, n in parts.masters).rod
+        rod = parts.find_rod(n, n in parts.masters).rod
         for key, unit in _ROD_UNITS.items():
             if (given := getattr(rod, key)) is not None:
                 masses[n][f"cylinder.{n}.rod_{key}"] = unit * float(given)

@@ -51,7 +51,7 @@ def find_numbers(model: EngineFile) -> dict[str, Number]:
     """How each number is read that an engine file has or might have, by dotted name; members of
     lists count from 1.
     """
-    plan = plan_cylinders(model.crank, model.layout)
+    plan = plan_cylinders(model)
     tables = dict(model.tables())
     for number in plan.numbers:
         tables.setdefault(f"cylinder.{number}", Override.model_construct())
@@ -74,7 +74,7 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
     own = [path for path in numbers if path.startswith("cylinder.")]
     if model.gas is None:
         return [path for path in own if path.endswith((".gas", ".heat"))]
-    cylinders = {*plan_cylinders(model.crank, model.layout).numbers}
+    cylinders = {*plan_cylinders(model).numbers}
     with_diagram = {n for n, table in model.cylinder.items() if table.indicator is not None}
     if model.gas.indicator is not None:
         with_diagram = cylinders

@@ -13,7 +13,8 @@ from ..core.phases import RPM
 from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
 from ..core.speed_ripple import surplus
 from ..errors import BalcliError
-from ..file.csv_columns import read_columns
+from ..file.csv_columns import Head, read_columns
+from ..file.units import ANGLE, TORQUE
 from ..forces.spectrum import check_orders
 from ..limits import (
     FARTHEST_DEG,
@@ -21,12 +22,12 @@ from ..limits import (
     HIGHEST_HARMONIC,
     MOST_HARMONICS_UNASKED,
 )
+from ..show.figures import list_coefficients
 from .flywheel import find_flywheel
 from .records import (
     TorqueAnalysis,
     TorqueOrder,
     Torques,
-    list_harmonics,
     measure_curve,
     measure_energy,
     write_whole,
@@ -39,13 +40,13 @@ _WHOLE = 1e-4  # of itself, by which a period in a file may be rounded: 102.86 d
 
 
 def read_curve(path: Path) -> PiecewiseCurve:
-    """Return a torque from CSV headed angle_deg,torque_Nm: straight lines between rows, the last of
-    which closes the period.
+    """Return a torque from CSV headed angle_deg,torque_Nm (or in other units): straight lines
+    between rows, the last of which closes the period.
 
     Raises:
         BalcliError: The file is none of that kind, or angles do not rise.
     """
-    columns = read_columns(path, (("angle_deg",), ("torque_Nm",)))
+    columns = read_columns(path, (Head("angle_deg", ANGLE), Head("torque_Nm", TORQUE)))
     angle, torque = np.array(columns.column(0)), np.array(columns.column(1))
     if len(angle) < 2 or not angle[-1] > angle[0]:
         raise BalcliError(f"{path}: has no two angles; the last row has to close the period")
@@ -54,8 +55,8 @@ def read_curve(path: Path) -> PiecewiseCurve:
     if len(falling := np.flatnonzero(np.diff(angle) < 0)):
         row = falling[0] + 1
         raise BalcliError(
-            f"{path}: line {columns.lines[row]}: the angle {angle[row]:g} deg is below the "
-            f"{angle[row - 1]:g} deg before it"
+            f"{path}: line {columns.lines[row]}: the angle {columns.as_written(row, 0)} is below "
+            f"the {columns.as_written(row - 1, 0)} before it"
         )
     return polyline(np.radians(angle), torque)
 
@@ -101,7 +102,7 @@ def analyze_curve(
     every = _choose_harmonics(turns, orders)
     found = torque.harmonics(every)
     found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)
-    shown = list_harmonics(every / turns, found, found == 0)
+    shown = list_coefficients(every / turns, found, found == 0)
     above, extremes = surplus(net), measure_curve(torque)
     shares = None
     if load is not None:

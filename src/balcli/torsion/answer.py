@@ -199,10 +199,11 @@ class TorsionAnalysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What is unlikely of the response, in words: swings beyond what is computed here, a stress
-        that breaks the shaft.
+        """What is unlikely of system and response, in words: shafts without inertia, swings beyond
+        what is computed here, a stress that breaks the shaft.
         """
-        return () if self.response is None else tuple(_find_doubts(self.system, self.response))
+        found = () if self.response is None else _find_doubts(self.system, self.response)
+        return *self.system.doubts, *found
 
     @property
     def summary(self) -> str:
@@ -232,7 +233,7 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
         )
     elif swing.half_swing_deg > ASTOUNDING:
         yield (
-            f"{printable(system.nodes[0])} would swing by {swing.half_swing_deg:.4g} deg at "
+            f"{printable(system.free_end)} would swing by {swing.half_swing_deg:.4g} deg at "
             f"{swing.speed_rpm:.5g} rpm, which is too far for what is computed here, small swings; "
             f"is an inertia missing, or the speed too low? {question.capitalize()}"
         )
@@ -307,7 +308,7 @@ def _tabulate(
             raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
         omega = modes[asked.mode - 1].omega
     # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
-    first, end = (system.last, 0) if chain.clamped[0] else (0, system.last)
+    first, end = system.ends[::-1] if chain.clamped[0] else system.ends
     try:
         table = tabulate_holzer(chain, omega, first, end)
     except ValueError as error:

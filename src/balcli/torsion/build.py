@@ -9,6 +9,7 @@ mean inertia of what moves on it, and one for each part before and behind.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
@@ -24,7 +25,15 @@ from ..engine.build import Engine
 from ..errors import InputError, Problem
 from ..file.fields import counted, printable, shorten, suggest_nearest
 from ..file.model import EngineFile
-from ..file.torsion_tables import Damper, Part, Torsion, find_stiffness
+from ..file.torsion_tables import (
+    STEEL,
+    Damper,
+    Part,
+    ShaftKeys,
+    Torsion,
+    find_shaft_inertia,
+    find_stiffness,
+)
 from ..forces.spectrum import compute_each_cylinder, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
 from .chain import (
@@ -41,6 +50,8 @@ from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, Viscou
 from .tables import ChainFile, ChainShaft as ShaftTable, Gear
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
+_LIGHT = 0.05  # of the smaller neighbor: an inertia of a shaft that nobody misses
+_MOST_NAMED = 4  # shafts, in a message
 
 
 class PlannedNode(NamedTuple):
@@ -53,13 +64,72 @@ class PlannedNode(NamedTuple):
 
 
 class PlannedShaft(NamedTuple):
-    """A shaft between two nodes, with its loss factor, dashpot (N m s/rad) and diameters."""
+    """A shaft between two nodes, with its loss factor, dashpot (N m s/rad), diameters, its inertia
+    (kg m2), and that which nothing counts, as the file gives no density.
+    """
 
     name: str
     shaft: ChainShaft
     loss: float = 0.0
     dashpot: float = 0.0
     section: ShaftSection | None = None
+    inertia: float = 0.0
+    lost: float = 0.0
+
+
+def _plan_shaft(name: str, table: ShaftKeys, joined: ChainShaft, loss: float) -> PlannedShaft:
+    """Return a shaft of a file.
+
+    Args:
+        name: Its name.
+        table: What the file says of it.
+        joined: Its ends and ratio.
+        loss: Loss factor of shafts that name none.
+    """
+    own, section = table.loss, find_section(table.diameter, table.bore)
+    lost = find_shaft_inertia(table, STEEL) if table.density is None else 0.0
+    return PlannedShaft(
+        name,
+        joined._replace(stiffness=find_stiffness(table)),
+        loss if own is None else own,
+        table.damping,
+        section,
+        find_shaft_inertia(table, table.density),
+        lost,
+    )
+
+
+def _load_nodes(nodes: Sequence[PlannedNode], shafts: Sequence[PlannedShaft]) -> list[PlannedNode]:
+    """Return the nodes with half of the inertia of every shaft on either end."""
+    found = list(nodes)
+    for each in shafts:
+        for end, ratio in ((each.shaft.start, each.shaft.ratio), (each.shaft.end, 1.0)):
+            more = each.inertia / 2 * ratio**2
+            found[end] = found[end]._replace(inertia=found[end].inertia + more)
+    return found
+
+
+def _doubt_light_shafts(
+    nodes: Sequence[PlannedNode], shafts: Sequence[PlannedShaft], clamped: Sequence[int]
+) -> Iterator[str]:
+    """Yield a warning of plain shafts without a density whose inertia would count."""
+    heavy = []
+    for each in shafts:
+        start, end = (
+            math.inf if k in clamped else nodes[k].inertia
+            for k in (each.shaft.start, each.shaft.end)
+        )
+        if each.lost > _LIGHT * min(start / each.shaft.ratio**2, end):
+            heavy.append(each)
+    if heavy:
+        names = [shorten(each.name) for each in heavy[:_MOST_NAMED]] + ["..."] * (
+            len(heavy) > _MOST_NAMED
+        )
+        yield (
+            f"{counted(len(heavy), 'plain shaft')} without a density ({', '.join(names)}): an "
+            f"inertia of {sum(each.lost for each in heavy):.4g} kg m2, as of steel, counts "
+            f"nowhere; give density = {STEEL} (g/cm3), and half of it counts at either end"
+        )
 
 
 def assemble_system(
@@ -73,9 +143,9 @@ def assemble_system(
     """Return the system; its rubber rings are nodes and shafts after all others.
 
     Args:
-        nodes: Front to rear.
+        nodes: Front to rear, with the inertia of their shafts.
         shafts: Between them.
-        limits: Stress (N/mm2) and half swing of the first node (deg) above which a speed is barred;
+        limits: Stress (N/mm2) and half swing of the free end (deg) above which a speed is barred;
             None: no limit.
         clamped: Nodes that are held.
         fitted: Dampers by the name of their node, in place of those that nodes have.
@@ -114,6 +184,7 @@ def assemble_system(
         limit_pa=None if stress is None else stress * 1e6,
         angle_limit=None if angle is None else float(np.radians(angle)),
         last=len(nodes) - 1,
+        doubts=tuple(_doubt_light_shafts(nodes, shafts, clamped)),
         **others,
     )
 
@@ -150,10 +221,8 @@ def build_chain(
         if isinstance(each, Gear):
             shafts.append(PlannedShaft(label, ChainShaft(start, end, np.inf, each.ratio)))
             continue
-        loss, section = each.loss, find_section(each.diameter, each.bore)
-        shaft = ChainShaft(start, end, find_stiffness(each))
-        loss = file.loss if loss is None else loss
-        shafts.append(PlannedShaft(label, shaft, loss, each.damping, section))
+        shafts.append(_plan_shaft(label, each, ChainShaft(start, end, 0.0), file.loss))
+    nodes = _load_nodes(nodes, shafts)
     clamped = [index[each] for each in file.fixed]
     paths = [f"shaft.{k}" for k, _ in enumerate(file.shaft, 1)]
     paths += [f"gear.{k}" for k, _ in enumerate(file.gear, 1)]
@@ -168,6 +237,7 @@ def build_chain(
         clamped,
         fitted,
         name=file.name or "",
+        ends=(0, len(nodes) - 1),
         excitation=excitation,
         file=name,
     )
@@ -285,7 +355,7 @@ def build_engine_system(
     if torsion is None:
         hint = "write [torsion] with throw_stiffness and throw_inertia, and [[torsion.rear]]"
         raise InputError([Problem.of_missing("torsion", hint)], name)
-    throws = [f"throw {k}" for k, _ in enumerate(engine.throws_m, 1)]
+    throws = _name_throws(engine)
     if problems := list(_find_misfits(torsion, model, engine, throws)):
         raise InputError(problems, name)
     nodes = [
@@ -293,31 +363,32 @@ def build_engine_system(
         *_plan_throws(torsion, engine, throws),
         *map(_plan_part, torsion.rear),
     ]
-    front, joints = len(torsion.front), _join_parts(torsion, throws)
+    front, joints = len(torsion.front), _join_parts(torsion, len(throws))
     place, gears = {node.name: k for k, node in enumerate(nodes)}, _find_gears(joints, throws)
     leading = []  # shaft of every part from what it hangs on, stiff in its own speed
     for _, part, of in joints:
         ratio = gears[part.name] / gears[of]
-        shaft = ChainShaft(place[of], place[part.name], find_stiffness(part), ratio)
-        loss, section = part.loss, find_section(part.diameter, part.bore)
-        loss = torsion.loss if loss is None else loss
-        leading.append(PlannedShaft(part.name, shaft, loss, part.damping, section))
+        joined = ChainShaft(place[of], place[part.name], 0.0, ratio)
+        leading.append(_plan_shaft(part.name, part, joined, torsion.loss))
     section = find_section(torsion.throw_diameter, torsion.throw_bore)
     stiffness = _each(torsion.throw_stiffness or (), len(throws) - 1)
     between = [
         PlannedShaft(label, ChainShaft(front + k, front + k + 1, each), torsion.loss, 0.0, section)
         for k, (label, each) in enumerate(zip(_name_between(throws), stiffness, strict=True))
     ]
+    shafts = [*reversed(leading[:front]), *between, *leading[front:]]
+    foremost = find_free_end(torsion, len(throws))
     own_speed = "speed" in model.operation.model_fields_set
     return assemble_system(
-        nodes,
-        [*reversed(leading[:front]), *between, *leading[front:]],
+        _load_nodes(nodes, shafts),
+        shafts,
         (torsion.limit, torsion.angle_limit),
         fitted=fitted,
         name=engine.name,
         excitation=excitation,
         rated_rpm=model.operation.speed if own_speed else None,
         reference=front,
+        ends=(place[foremost], place[_find_end(joints[front:], throws[-1])]),
         silent=engine.silent,
         file=name,
     )
@@ -329,12 +400,17 @@ def _plan_part(part: Part) -> PlannedNode:
 
 def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
     """Yield a node for each throw, with what runs on it and the damping of every cylinder."""
-    gear, on_throw = weigh_running_gear(engine), [weighed.throw for weighed in engine.weighed]
-    bare = _weigh_throws(torsion, engine, len(throws))
+    gear, on_throw = weigh_running_gear(engine), engine.joined_throw_of_rows
+    bare = _weigh_throws(torsion, engine)
     for throw, name in enumerate(throws):
         here = np.equal(on_throw, throw)
         inertia = bare[throw] + float(gear[here].sum())
         yield PlannedNode(name, inertia, torsion.damping * int(here.sum()))
+
+
+def _name_throws(engine: Engine) -> list[str]:
+    """Return the names of the nodes of throws, front to rear."""
+    return [f"throw {k}" for k, _ in enumerate(engine.joined_throws, 1)]
 
 
 def _name_between(throws: Sequence[str]) -> list[str]:
@@ -346,12 +422,12 @@ def _each(values: Sequence[float], count: int) -> list[float]:
     return list(values) * count if len(values) == 1 else list(values)
 
 
-def _join_parts(torsion: Torsion, throws: Sequence[str]) -> list[_Joint]:
+def _join_parts(torsion: Torsion, throws: int) -> list[_Joint]:
     """Return every part with what it hangs on: front parts first, each list outward."""
     found = []
     for key, parts, before in (
-        ("front", torsion.front, throws[0]),
-        ("rear", torsion.rear, throws[-1]),
+        ("front", torsion.front, "throw 1"),
+        ("rear", torsion.rear, f"throw {throws}"),
     ):
         for k, part in enumerate(parts, 1):
             found.append(_Joint(f"torsion.{key}.{k}", part, part.of or before))
@@ -372,6 +448,29 @@ def _find_gears(joints: Sequence[_Joint], throws: Sequence[str]) -> dict[str, fl
     return gears
 
 
+def find_free_end(torsion: Torsion, throws: int) -> str:
+    """Return the name of the foremost part, at the end of the main line: what hangs on it by gears
+    is a branch. Without such a part, that of the first throw.
+    """
+    names = [f"throw {k}" for k in range(1, throws + 1)]
+    joints = _join_parts(torsion, throws)
+    gears = _find_gears(joints, names)
+    own = [j for j in joints[: len(torsion.front)] if abs(gears[j.part.name] - 1) <= SAME_RATIO]
+    return _find_end(own, names[0])
+
+
+def _find_end(joints: Sequence[_Joint], start: str) -> str:
+    """Return the name of the node that most shafts lead to from a start; of several as far, that
+    of most inertia. The order of the joints does not count.
+    """
+    steps = {start: (0, 0.0, start)}
+    for _ in joints:
+        for _, part, of in joints:
+            if of in steps and part.name not in steps:
+                steps[part.name] = (steps[of][0] + 1, part.inertia or 0.0, part.name)
+    return max(steps.values())[2]
+
+
 # ------------------------------------------------------------------ inertia and excitation
 def weigh_running_gear(engine: Engine) -> Real:
     """Mean moment of inertia (cylinders,) in kg m2 of what each cylinder moves, without the throw:
@@ -387,12 +486,17 @@ def weigh_running_gear(engine: Engine) -> Real:
     return np.broadcast_to(moving, own.shape) + np.broadcast_to(turning, own.shape)
 
 
-def _weigh_throws(torsion: Torsion, engine: Engine, throws: int) -> Sequence[float]:
-    """Return the moment of inertia of the crankshaft at each throw, kg m2."""
-    if torsion.throw_inertia is not None:
-        return [each / 1e6 for each in _each(torsion.throw_inertia, throws)]
+def _weigh_throws(torsion: Torsion, engine: Engine) -> Sequence[float]:
+    """Return the moment of inertia of the crankshaft at each throw, kg m2, front to rear: the sum
+    of those of the file's throws that are one.
+    """
+    joined, throws = engine.joined_throws, len(engine.throws_m)
     whole = 0.0 if engine.crank_inertia is None else float(engine.crank_inertia)
-    return [whole / throws] * throws
+    given = torsion.throw_inertia or [whole * 1e6 / throws]
+    if len(given) == len(joined) < throws:  # already those of the throws of the crank
+        return [each / 1e6 for each in given]
+    by_throw = _each(given, throws)
+    return [sum(by_throw[throw] for throw in together) / 1e6 for together in joined]
 
 
 def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
@@ -404,7 +508,7 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
             `list_gas_orders` that of firing.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
-    nodes = front + np.array([weighed.throw for weighed in engine.weighed])
+    nodes = front + np.array(engine.joined_throw_of_rows)
     engine = replace(engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
     if orders is None and engine.gas is None:
         orders = np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1)
@@ -426,8 +530,8 @@ def _find_misfits(
     if engine.rotary:
         yield Problem("torsion", "is for crankshafts that turn; that of a rotary stands still")
         return
-    yield from _check_throws(torsion, model, len(throws))
-    joints = _join_parts(torsion, throws)
+    yield from _check_throws(torsion, model, len(throws), len(engine.throws_m))
+    joints = _join_parts(torsion, len(throws))
     names = [*throws, *(joint.part.name for joint in joints)]
     reserved = {*throws, *_name_between(throws)}
     led = _find_gears([j if j.of in names else j._replace(of=throws[0]) for j in joints], throws)
@@ -445,14 +549,18 @@ def _find_misfits(
             yield Problem(f"{path}.of", text)
 
 
-def _check_throws(torsion: Torsion, model: EngineFile, throws: int) -> Iterator[Problem]:
+def _check_throws(
+    torsion: Torsion, model: EngineFile, throws: int, in_file: int
+) -> Iterator[Problem]:
+    """Check the keys of throws; `in_file`: as many as the file has, before some are one."""
     places = throws - 1
     if torsion.throw_stiffness is None and places:
         hint = f"give that between neighbours of {counted(throws, 'throw')}, such as "
         yield Problem.of_missing("torsion.throw_stiffness", f"{hint}throw_stiffness = 1.25e6")
-    for key, count in (("throw_stiffness", places), ("throw_inertia", throws)):
+    counts = {"throw_stiffness": (places, places), "throw_inertia": (throws, in_file)}
+    for key, (count, also) in counts.items():
         values = getattr(torsion, key)
-        if values is not None and len(values) not in (1, count):
+        if values is not None and len(values) not in (1, count, also):
             yield Problem(
                 f"torsion.{key}",
                 f"has {counted(len(values), 'value')}, but {counted(throws, 'throw')} need "

@@ -18,7 +18,13 @@ from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
 from ..forces.gas_torque import silence
-from .build import NO_DAMPERS, build_chain, build_engine_system, excite_engine
+from .build import (
+    NO_DAMPERS,
+    build_chain,
+    build_engine_system,
+    excite_engine,
+    find_free_end,
+)
 from .read import describes_chain, read_chain_tables
 from .system import Excitation, TorsionalSystem
 from .tables import ChainFile
@@ -69,7 +75,12 @@ class Source:
         if isinstance(self.model, ChainFile):
             return {node.name: node.damper for node in self.model.node}
         torsion = self.model.torsion
-        parts = () if torsion is None else (*reversed(torsion.front), *torsion.rear)
+        if torsion is None or self.engine is None:
+            return {}
+        first = find_free_end(torsion, len(self.engine.joined_throws))
+        parts = sorted(
+            (*reversed(torsion.front), *torsion.rear), key=lambda part: part.name != first
+        )
         return {part.name: part.damper for part in parts}
 
 

@@ -284,7 +284,7 @@ def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
     """Return what swings, and the heat of dampers, at speeds (speeds,), rpm.
 
     Returns:
-        Phasors (orders, speeds, curves) of torques of all shafts (N m), the angle of the first node
+        Phasors (orders, speeds, curves) of torques of all shafts (N m), the angle of the free end
         and those of pendulums (rad), and heat (speeds, dampers), W.
     """
     work = len(system.require_excitation().orders) * (len(system.nodes) + len(system.shafts))
@@ -292,7 +292,7 @@ def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
     curves, heat = [], []
     for start in range(0, max(len(rpm), 1), size):
         motion = move(system, rpm[start : start + size])
-        parts = motion.torque, motion.angle[:, :, :1], motion.pendulums
+        parts = motion.torque, motion.angle[:, :, system.ends[:1]], motion.pendulums
         curves.append(np.concatenate(parts, axis=-1))
         heat.append(motion.heat.sum(axis=0))
     return np.concatenate(curves, axis=1), np.concatenate(heat)

@@ -176,7 +176,7 @@ def _draw_torque(
 
 
 def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
-    """Draw the half swing of the first node, and its largest orders."""
+    """Draw the half swing of the free end, and its largest orders."""
     worst, speeds = response.free_end_worst, response.speeds_rpm
     rpm, swing = _put_in(speeds, response.free_end_deg, worst.speed_rpm, worst.half_swing_deg)
     _, swings = _put_in(speeds, response.swings_deg, worst.speed_rpm, response.worst_swings_deg)
@@ -186,7 +186,7 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) ->
         label = f"order {order_name(float(response.orders[k]))}"
         ax.plot(rpm, swings[k], line, color=colour, linewidth=1, label=label)
     _finish(ax, response, "deg")
-    ax.set_title(f"Half swing of {fit_name(result.system.nodes[0], 30)}", pad=30)
+    ax.set_title(f"Half swing of {fit_name(result.system.free_end, 30)}", pad=30)
     put_legend_above(ax, 3)
     _shade_barred(ax, result)
 

@@ -59,7 +59,7 @@ def find_largest(
     """Return where each column is largest, and how large, between the first and last of the speeds.
 
     The columns are half of peak to peak of the torque of each shaft (N m), half of the swing of the
-    first node and of each pendulum (rad), and the heat of each damper (W).
+    free end and of each pendulum (rad), and the heat of each damper (W).
 
     Args:
         system: With an excitation.
@@ -290,13 +290,13 @@ class TorsionResponse:
     Attributes:
         speeds_rpm: Speeds.
         shafts: Torque of each shaft.
-        free_end_deg: Half of the swing of the first node, by speed.
-        free_end_worst: Largest swing of the first node.
+        free_end_deg: Half of the swing of the free end, by speed.
+        free_end_worst: Largest swing of the free end.
         dampers: Heat of dampers, rings in oil first; left out without any.
         pendulums: Swing of pendulums; left out without any.
         orders: Orders of the excitation.
-        swings_deg: Amplitude of the first node by order and speed.
-        worst_swings_deg: Amplitude of the first node by order, where it swings most.
+        swings_deg: Amplitude of the free end by order and speed.
+        worst_swings_deg: Amplitude of the free end by order, where it swings most.
         looked_at_rpm: Every speed that was looked at for the largest values.
     """
 

@@ -376,8 +376,8 @@ def _name_gas(excitation: Excitation, where_counted: str = "") -> str:
 
 
 def _describe_swings(result: TorsionAnalysis, response: TorsionResponse) -> str:
-    """Return the largest swing of the first node and of pendulums, and where."""
-    parts = [(result.system.nodes[0], "swings", response.free_end_worst)]
+    """Return the largest swing of the free end and of pendulums, and where."""
+    parts = [(result.system.free_end, "swings", response.free_end_worst)]
     for each in response.pendulums or ():
         parts.append((f"The pendulums of {each.node}", "swing", each.worst))
     return " ".join(
@@ -405,7 +405,7 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         rings = system.nodes[system.last + 1 :]  # rubber has no section
         bare = [s for s, section, k in each if not section and math.isfinite(k) and s not in rings]
     if system.angle_limit is not None:
-        limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.nodes[0]}")
+        limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.free_end}")
     if limits:
         yield "limit", " and ".join(limits)
     if result.barred_rpm is not None:

@@ -95,8 +95,10 @@ class TorsionalSystem:
         rings, pendulums: dampers that are no nodes.
         excitation: what shakes it; None: nothing.
         limit_pa: stress above which a speed is barred.
-        angle_limit: half swing of the first node, rad, above which a speed is barred.
-        last: node at which Holzer's table ends.
+        angle_limit: half swing of the free end, rad, above which a speed is barred.
+        last: last node that is no rubber ring.
+        ends: nodes at which the main line begins and ends: the free end, and the one at the rear.
+        doubts: what is unlikely of it, in words.
         reference: node whose speed and orders are those of the system.
         rated_rpm: speed of the file's own; None: it gives none.
         silent: cylinders of the engine that do not fire.
@@ -115,6 +117,8 @@ class TorsionalSystem:
     limit_pa: float | None = None
     angle_limit: float | None = None
     last: int = -1
+    ends: tuple[int, int] = (0, -1)
+    doubts: tuple[str, ...] = ()
     rated_rpm: float | None = None
     reference: int = 0
     silent: SilentCylinders = NONE_SILENT
@@ -146,6 +150,11 @@ class TorsionalSystem:
         if not len(excitation.orders):
             raise self.refusal("nothing excites it at the orders asked for")
         return replace(self, excitation=excitation)
+
+    @property
+    def free_end(self) -> str:
+        """Name of the node at the free end."""
+        return self.nodes[self.ends[0]]
 
     @cached_property
     def gears(self) -> Real:

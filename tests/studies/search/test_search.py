@@ -124,7 +124,7 @@ def test_limits_are_kept() -> None:
     free = search_least(file, "throws", "moment.1.major").results
     kept = search_least(file, "throws", "moment.1.major", ["moment.2.major<1"]).results
     assert free[0].design != kept[0].design
-    assert kept[0].figures["moment.2.major"] < 1
+    assert kept[0].quantities["moment.2.major"] < 1
     with pytest.raises(BalcliError, match="no throws can keep these limits"):
         search_least(file, "throws", "moment.1.major", ["force.4.major<1e-9"])
 
@@ -209,7 +209,7 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
 
 
 def _images(order: tuple[int, ...], file: EngineFile) -> list[tuple[int, ...]]:
-    cells = {(c.bank, c.throw): c.number for c in plan_cylinders(file.crank, file.layout).cells}
+    cells = {(c.bank, c.throw): c.number for c in plan_cylinders(file).cells}
     last = max(throw for _, throw in cells)
     other_end = {n: cells.get((bank, last - throw), n) for (bank, throw), n in cells.items()}
     ends = [order, tuple(other_end[n] for n in order)]

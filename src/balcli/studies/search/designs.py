@@ -10,13 +10,14 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any, NamedTuple, TypeAlias
+from typing import Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array
+from ...core.records import INLINE
 from ...engine.build import Engine, build
 from ...engine.figures import ranked
 from ...engine.layout import TOLERANCE_DEG, cycle_deg, plan_cylinders
@@ -46,12 +47,20 @@ NOTE = "found by balcli"
 SAME = 1e-9  # relative difference of the objectives of mirror images
 
 
-class Found(NamedTuple):
-    """One arrangement, the value of its objective, and its figures by name of quantity."""
+@dataclass(frozen=True)
+class Found:
+    """One arrangement.
 
-    design: Design
+    Attributes:
+        design: What is arranged, such as `throws`, `firing_order`, `bank_angle` or the dotted name
+            of a number, and its value.
+        objective: Value of the objective.
+        quantities: Value of each quantity by its name.
+    """
+
+    design: Annotated[Design, INLINE]
     objective: float
-    figures: Mapping[str, float]
+    quantities: Mapping[str, float]
 
 
 def list_changes(design: Design) -> dict[str, Any]:
@@ -64,7 +73,7 @@ def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Fo
     """Yield the arrangements without those that are an earlier one seen from the other end of the
     crank, or turning the other way, with the same objective.
     """
-    cells = plan_cylinders(model.crank, model.layout).cells
+    cells = plan_cylinders(model).cells
     numbers = {(cell.bank, cell.throw): cell.number for cell in cells}
     last = max(cell.throw for cell in cells)
     other_end = {c.number: numbers.get((c.bank, last - c.throw), c.number) for c in cells}
@@ -339,7 +348,7 @@ def find_unevenness(engine: Engine, model: EngineFile) -> Array:
     shape (candidates,).
     """
     c = engine.cylinders
-    # of plain slider-cranks, as `Assembly.tops_deg`; articulated pins are set for their lead
+    # of plain slider-cranks, as `Pins.tops_deg`; articulated pins are set for their lead
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
     tops = np.asarray(c.axis_of_each_deg + late - c.pin_deg)
     tops = tops - tops[engine.numbers.index(1)]
@@ -356,7 +365,7 @@ def fires_evenly(engine: Engine, model: EngineFile) -> NDArray[np.bool_]:
 
 def drop_firing_order(model: EngineFile) -> EngineFile:
     """Return the file without its firing order and with some throws, so that any can be tried."""
-    throws = model.crank.throws or (0.0,) * plan_cylinders(model.crank, model.layout).throws
+    throws = model.crank.throws or (0.0,) * plan_cylinders(model).throws
     model = model.with_table("crank", throws=throws)
     return model.with_table("layout", firing_order=None, firing_intervals=None)
 

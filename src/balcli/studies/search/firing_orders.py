@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 
@@ -132,8 +132,8 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     Raises:
         BalcliError: cylinders with throws of their own; there is no even firing order.
     """
-    layout = plan_cylinders(model.crank, model.layout)
-    top_deg = assemble(model).tops_deg
+    layout = plan_cylinders(model)
+    top_deg = assemble(model).pins.tops_deg
     if any(own.throw is not None for own in model.cylinder.values()):
         raise BalcliError(
             "cylinders with throws of their own leave no firing order to look for: give "
@@ -164,4 +164,4 @@ def search_firing_order(model: EngineFile, objective: Objective) -> Iterator[Fou
     slots, cranks = find_slots(model)
     for one in rank_throws(drop_firing_order(model), cranks, objective):
         for order in slots.find_orders(one.design["throws"]):
-            yield one._replace(design={"firing_order": [*order], **one.design})
+            yield replace(one, design={"firing_order": [*order], **one.design})

@@ -95,7 +95,7 @@ def give_throws(model: EngineFile) -> EngineFile:
             "give crank.throws and splay alone"
         )
     if model.crank.throws is None and model.layout.firing_order:
-        found = assemble(model).throws_deg
+        found = assemble(model).pins.throws_deg
         model = model.with_table("crank", throws=[float(found[t]) for t in range(len(found))])
     if len(model.crank.throws or ()) < 2:
         raise BalcliError(
@@ -153,7 +153,7 @@ def tabulate_contributions(
     """Return what the quantities need; throw `fixed` (cylinder 1's) stands at 0, the others at any
     of `angles` (deg).
     """
-    throw_of = {c.number: c.throw for c in plan_cylinders(model.crank, model.layout).cells}
+    throw_of = {c.number: c.throw for c in plan_cylinders(model).cells}
     count = 1 + max(throw_of.values())
     paths = {f"crank.throws.{t + 1}": 0.0 if t == fixed else angles for t in range(count)}
     engine = build(model, paths)
@@ -269,7 +269,7 @@ class _Tree:
         self._model, self._objective, self._allowed = model, objective, allowed
         self._levels, times = np.unique(angles, return_counts=True)
         self.left: Left = (int(times[0]) - 1, *map(int, times[1:]))
-        cells = plan_cylinders(model.crank, model.layout).cells
+        cells = plan_cylinders(model).cells
         self._fixed = next(cell.throw for cell in cells if cell.number == 1)
         self._free = [t for t in range(len(angles)) if t != self._fixed]
         # The last throws add the same whatever the crank begins with: other orders of the same

@@ -1,0 +1,449 @@
+"""From the tables of an engine file to its parts, in six stages: plan, rods, pins, firing, places,
+cylinders.
+
+Each stage is a function of the stages before it. `Parts` runs a stage when it is first needed, and
+once: a file with mistakes has the stages that its readable tables allow, and a numbering on trial
+needs none beyond its pins.
+
+What belongs to a cylinder is keyed by its number. Angles count from x in the sense of rotation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import cached_property
+from itertools import chain
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..core.cylinders import Cylinders, find_travel
+from ..core.mechanisms.linkage import Articulated, Rotary
+from ..core.phasors import Array, Figure, unit
+from ..core.speed_ripple import RippleLine
+from ..errors import InputError, Problem
+from ..file.model import ONE_BY_ONE, Articulation, EngineFile
+from .figures import (
+    NOTHING,
+    FileFigures,
+    OwnFigures,
+    RodFigures,
+    column,
+    either,
+    or_nothing,
+    own_figures,
+    rod_figures,
+    shared_column,
+)
+from .layout import (
+    Cell,
+    Plan,
+    bank_angles,
+    cycle_deg,
+    find_dead_centres,
+    find_instants,
+    find_intervals,
+    find_pins,
+    plan_cylinders,
+)
+from .rods import RodPlace, RunningGear, Weighed, weigh_rod
+
+if TYPE_CHECKING:
+    from ..core.mechanisms.linkage import Linkage
+    from .gas import EngineGas
+
+# Keys of a file without mistakes that can be relied on (`file.read.Draft`).
+ALL_KEYS = frozenset(EngineFile.model_fields) | {
+    f"{path}.{key}" for path, table in ONE_BY_ONE.items() for key in table.model_fields
+}
+PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
+
+
+# ------------------------------------------------------------------ pistons and rods
+def find_masters(parts: Parts) -> dict[int, int]:
+    """Return the cylinder with the master rod of each articulated cylinder."""
+    table, cells = parts.model.articulation, parts.plan.cells
+    if table is None:
+        return {}
+    on_throw = {c.throw: c.number for c in cells if c.bank == table.master - 1}
+    each = ((c.number, on_throw.get(c.throw, c.number)) for c in cells)
+    return {number: master for number, master in each if number != master}
+
+
+def find_gears(parts: Parts) -> dict[int, RunningGear]:
+    """Return piston and rod of each cylinder."""
+    return {n: parts.weigh_gear(parts.find_rod(n, n in parts.masters)) for n in parts.plan.numbers}
+
+
+# ------------------------------------------------------------------ crank pins and firing
+class Pins(NamedTuple):
+    """Axes and crank pins.
+
+    Attributes:
+        axes_deg: Axis of each cylinder.
+        tops_deg: Angle of each cylinder's crank pin at top dead centre. With articulated rods that
+            of the axis: all cylinders of a throw fire evenly only by these nominal dead centres.
+        throws_deg: Angle of each throw (from 0), as given or as the firing order needs it.
+        leads_deg: Crank pin of each cylinder, from cylinder 1's pin.
+    """
+
+    axes_deg: dict[int, Figure]
+    tops_deg: dict[int, Figure]
+    throws_deg: Mapping[int, Figure]
+    leads_deg: dict[int, Figure]
+
+
+def set_pins(parts: Parts) -> Pins:
+    """Return axes, dead centres, throws and crank pins."""
+    model, figures, cells = parts.model, parts.figures, parts.plan.cells
+    banks = bank_angles(model.layout, figures)
+    axes = {c.number: either(parts.find_own(c.number).bank_deg, banks[c.bank]) for c in cells}
+    tops = axes
+    if model.articulation is None:
+        gears, radius = parts.gears, parts.radius
+        tops = {n: axis + parts.sense * gears[n].top_deg(radius) for n, axis in axes.items()}
+    splay = figures.take("crank.splay", model.crank.splay)
+    if parts.throws_given or parts.order is None:
+        throws = dict(enumerate(figures.take_each("crank.throws", model.crank.throws or (0.0,))))
+    else:
+        fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
+        wanted = find_pins(fires, tops, parts.sense)
+        firing = [c for c in reversed(cells) if c.number in wanted]
+        throws = {c.throw: wanted[c.number] - c.bank * splay for c in firing}
+        if silent := [c.number for c in cells if c.throw not in throws]:
+            told = f"no firing order says where the throw of dummy piston {silent[0]} stands"
+            raise InputError([Problem.of_missing("crank.throws", told)])
+    pins = {
+        c.number: either(parts.find_own(c.number).throw_deg, throws[c.throw] + c.bank * splay)
+        for c in cells
+    }
+    return Pins(axes, tops, throws, {number: pin - pins[1] for number, pin in pins.items()})
+
+
+def find_true_tops(parts: Parts) -> Mapping[int, Figure]:
+    """Return the angle of each crank pin at top dead centre: with articulated rods as the motion of
+    the piston has it, else `Pins.tops_deg`.
+    """
+    pins = parts.pins
+    if parts.model.articulation is None or parts.rank:
+        return pins.tops_deg
+    tops = zip(parts.numbers, find_travel(parts.cylinders).top_deg, strict=True)
+    return {n: pins.axes_deg[n] + parts.sense * float(top) for n, top in tops}
+
+
+def find_fires(parts: Parts) -> dict[int, Figure]:
+    """Return when each cylinder fires, after the first of the firing order; empty without one.
+
+    Raises:
+        InputError: The order takes more than a cycle.
+    """
+    layout = parts.model.layout
+    if parts.order is None:
+        return {}
+    intervals, cycle = layout.firing_intervals, cycle_deg(layout)
+    if intervals is None and parts.throws_given:
+        leads = {number: float(lead) for number, lead in parts.pins.leads_deg.items()}
+        tops = {number: float(top) for number, top in parts.true_tops_deg.items()}
+        intervals = tuple(
+            find_intervals(parts.order, find_dead_centres(leads, tops, parts.sense), cycle)
+        )
+    return find_instants(parts.order, intervals, cycle)
+
+
+def weigh_cylinders(parts: Parts) -> dict[int, Weighed]:
+    """Return the masses of each cylinder as a workshop weighs them."""
+    take, bobweight = parts.figures.take, parts.model.bobweight
+    share = take("crank.throw_mass", parts.model.crank.throw_mass) / parts.plan.rods_on_throw
+    rod_bearing = take("bobweight.rod_bearing", bobweight.rod_bearing)
+    oil = parts.figures.take_optional("bobweight.oil", bobweight.oil)
+    oil_per_pin = parts.figures.take_optional("bobweight.oil_per_pin", bobweight.oil_per_pin)
+    piston, weighed = tuple(parts.find_piston_masses().items()), {}
+    for cell in parts.plan.cells:
+        number, hung = cell.number, cell.number in parts.masters
+        gear, own = parts.gears[number], parts.find_own(number).piston_mass
+        shared = 0.0 if hung or oil_per_pin is None else oil_per_pin / _count_on_pin(parts, cell)
+        weighed[number] = Weighed(
+            cell.throw,
+            piston=gear.piston,
+            piston_parts=piston if own is None else (("mass", own),),
+            small_end=gear.small_end,
+            big_end=gear.big_end,
+            share=share,
+            rod_bearing=0.0 if hung else rod_bearing,
+            oil=0.0 if hung else or_nothing(oil) + shared,
+        )
+    return weighed
+
+
+def _count_on_pin(parts: Parts, cell: Cell) -> Figure:
+    """Return how many rods are on the crank pin of a cylinder."""
+    leads = parts.pins.leads_deg
+    rods = [c.number for c in parts.plan.cells if c.throw == cell.throw]
+    apart = (leads[n] - leads[cell.number] for n in rods if n not in parts.masters)
+    together = (np.abs((angle + 180) % 360 - 180) < 1e-9 for angle in apart)
+    return sum((np.asarray(each, float) for each in together), 0.0)
+
+
+# ------------------------------------------------------------------ places along the crank
+class Places(NamedTuple):
+    """Places along the crank, m.
+
+    Attributes:
+        z: Of each cylinder.
+        throws: Of each throw, in the middle of its rods, shape (throws, *trailing).
+        reference: x, y, z of the point of moments: the file's, or on the crank axis half-way
+            between the first and the last throw.
+    """
+
+    z: dict[int, Figure]
+    throws: Array
+    reference: tuple[Figure, Figure, Figure]
+
+
+def find_places(parts: Parts) -> Places:
+    """Return the places of cylinders and throws."""
+    model, take, plan = parts.model, parts.figures.take, parts.plan
+    if model.crank.positions is None or parts.figures.is_displaced("crank.positions"):
+        spacing = take("crank.spacing", model.crank.spacing or 0.0)
+        along = tuple((throw - (plan.throws - 1) / 2) * spacing for throw in range(plan.throws))
+    else:
+        along = parts.figures.take_each("crank.positions", model.crank.positions)
+    stagger = take("layout.stagger", model.layout.stagger) if plan.rods_on_throw > 1 else 0.0
+    z: dict[int, Figure] = {}
+    middles: dict[int, Figure] = dict.fromkeys(range(plan.throws), 0.0)
+    for c in plan.cells:
+        beside = (
+            (c.bank - (plan.rods_on_throw - 1) / 2) * stagger if plan.rods_on_throw > 1 else 0.0
+        )
+        z[c.number] = either(parts.find_own(c.number).position_mm, along[c.throw] + beside) / 1e3
+        middles[c.throw] = middles[c.throw] + (z[c.number] - beside / 1e3)  # of any shape
+    throws = column([middle / plan.rods_on_throw for middle in middles.values()], parts.rank)
+    if model.frame.reference is None:
+        return Places(z, throws, (0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2))
+    x, y, height = (
+        figure / 1e3 for figure in parts.figures.take_each("frame.reference", model.frame.reference)
+    )
+    return Places(z, throws, (x, y, height))
+
+
+# ------------------------------------------------------------------ arrays
+def group_banks(parts: Parts) -> dict[int, list[int]]:
+    """Return the numbers of the cylinders with one axis at every variant, by the first of them, in
+    the order of the plan. The cylinders of a rotary engine have one axis where their crank pins
+    stand still together.
+    """
+    banks: dict[bytes, list[int]] = {}
+    for number, axis in _turn(parts)[0].items():
+        value = np.asarray(axis, float) + 0.0  # +0.0 for -0.0
+        banks.setdefault(value.tobytes(), []).append(number)
+    return {bank[0]: bank for bank in banks.values()}
+
+
+def _turn(parts: Parts) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
+    """Return axes and crank pins after cylinder 1's; where the cylinders turn and the pins stand
+    still, the two change places (`core.mechanisms.linkage.Rotary`).
+    """
+    axes, leads = parts.pins.axes_deg, parts.pins.leads_deg
+    if not parts.model.layout.rotary:
+        return axes, leads
+    return {n: axes[1] + lead for n, lead in leads.items()}, {
+        n: axis - axes[1] for n, axis in axes.items()
+    }
+
+
+def arrange_cylinders(parts: Parts) -> Cylinders:
+    """Return the arrays of all cylinders, one row each, sorted by bank (`Parts.numbers`)."""
+    (axes, pins), numbers, rank = _turn(parts), parts.numbers, parts.rank
+    gears, weighed, radius = parts.gears, parts.weighed, parts.radius
+    one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder has figures of its own
+
+    def of_each(find: Callable[[int], Figure]) -> Array:
+        """A figure of piston and rod, one row for all where they are equal."""
+        return shared_column([find(n) for n in (numbers[:1] if one else numbers)], rank)
+
+    def turns_at_pin(number: int) -> Figure:
+        return weighed[number].share + (
+            0.0 if number in parts.masters else weighed[number].rotating
+        )
+
+    at_pistons = of_each(lambda n: weighed[n].reciprocating)
+    linkage = _link(parts, at_pistons)
+    turning = linkage is not None and linkage.turning
+    banks = list(parts.banks.values())
+    return Cylinders(
+        axis_deg=column([axes[bank[0]] for bank in banks], rank),
+        pin_deg=column([pins[n] for n in numbers], rank),
+        starts=np.cumsum([0, *map(len, banks[:-1])]),
+        first=next(k for k, bank in enumerate(banks) if 1 in bank),
+        z=column([parts.places.z[n] for n in numbers], rank),
+        radius=column([radius], rank)[0],
+        lam=of_each(lambda n: radius / gears[n].length),
+        eps=of_each(lambda n: gears[n].offset / gears[n].length),
+        reciprocating=0 * at_pistons if turning else at_pistons,
+        rotating=of_each(lambda n: 0.0 if turning else turns_at_pin(n)),
+        couple=of_each(lambda n: gears[n].couple),
+        linkage=linkage,
+    )
+
+
+def _link(parts: Parts, at_pistons: Array) -> Linkage | None:
+    """Return the mechanism of articulated rods or turning cylinders; None for plain slider-cranks.
+
+    Args:
+        parts: The stages before.
+        at_pistons: Masses at the piston pins, kg, one row a cylinder or one for all.
+    """
+    table, rotary = parts.model.articulation, parts.model.layout.rotary
+    if table is None:
+        return Rotary(at_pistons) if rotary else None
+    hung = _hang_rods(parts, table)
+    if not rotary:
+        return hung
+    both = at_pistons + hung.mass
+    return Rotary(both, hung, hung.mass / np.where(both == 0, 1.0, both))
+
+
+def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
+    """Return the mechanism of master and articulated rods. Seen from turning cylinders all angles
+    are mirrored.
+    """
+    numbers, masters, axes, rank = parts.numbers, parts.masters, parts.pins.axes_deg, parts.rank
+    angles = {n: axes[n] - axes[master] for n, master in masters.items()}
+    if (given := parts.find_knuckle_angles()) is not None:
+        angles = {c.number: given[c.bank] for c in parts.plan.cells if c.number in masters}
+    radius_mm = parts.figures.take("articulation.knuckle_radius", table.knuckle_radius)
+    ratio = radius_mm / (parts.figures.take("crank.stroke", parts.model.crank.stroke) / 2)
+    pins_deg = column([parts.sense * angles.get(n, 0.0) for n in numbers], rank)
+    of_master = [masters.get(n, n) for n in numbers]
+    leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
+    masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
+    ratios = column([ratio if n in masters else 0.0 for n in numbers], rank)
+    return Articulated(
+        mass=column(masses, rank),
+        master=np.array([numbers.index(master) for master in of_master]),
+        knuckle=ratios * unit(pins_deg),
+        lead_deg=column(leads, rank),
+    )
+
+
+# ------------------------------------------------------------------ the stages together
+class Parts:
+    """The parts of an engine, or of variants of it.
+
+    Args:
+        model: The file.
+        varied: Arrays of variants in place of some figures, by dotted name.
+        rank: Trailing axes of the engine, if more than `varied` has.
+        legible: Keys of the file that can be relied on (`file.read.Draft`). A stage that needs
+            others must not be asked for.
+        known_gas: Gas of the cylinders, if that is known; else the rules build it.
+    """
+
+    plan: cached_property[Plan] = cached_property(lambda self: plan_cylinders(self.model))
+    masters = cached_property(find_masters)
+    gears = cached_property(find_gears)
+    pins = cached_property(set_pins)
+    fires_deg = cached_property(find_fires)
+    true_tops_deg = cached_property(find_true_tops)
+    weighed = cached_property(weigh_cylinders)
+    places = cached_property(find_places)
+    banks = cached_property(group_banks)
+    cylinders = cached_property(arrange_cylinders)
+
+    def __init__(
+        self,
+        model: EngineFile,
+        varied: Mapping[str, Figure] | None = None,
+        rank: int = 0,
+        legible: Iterable[str] = ALL_KEYS,
+        known_gas: EngineGas | None = None,
+    ) -> None:
+        self.model, self.gas = model, known_gas
+        self.figures = FileFigures(varied or {}, model)
+        self.varies = bool(varied)
+        self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
+        self.legible = frozenset(legible)
+        # In which the crank turns, seen from a cylinder.
+        self.sense = -1 if model.layout.rotary else 1
+        given = "crank.throws" in self.legible and model.crank.throws is not None
+        # Beside given throws a firing order would have to fit every variant; only the gas of a
+        # single one needs it.
+        needed = model.gas is not None and not self.rank
+        self.order = None if varied and given and not needed else model.layout.firing_order
+        tables = self.figures.cylinder_tables(model)
+        self.own = {
+            number: own_figures(self.figures, number, own) for number, own in tables.items()
+        }
+        self._gears: dict[tuple[int, bool], RunningGear] = {}
+
+    @property
+    def numbers(self) -> tuple[int, ...]:
+        """Cylinder of each row of `cylinders`."""
+        return tuple(chain.from_iterable(self.banks.values()))
+
+    @property
+    def throws_given(self) -> bool:
+        """Whether the crank is known without the firing order: the file gives its throws, or it has
+        one, at 0.
+        """
+        return self.model.crank.throws is not None or (self.plan.throws == 1 and not self.rank)
+
+    @property
+    def radius(self) -> Figure:
+        """Crank radius, m."""
+        return self.figures.take("crank.stroke", self.model.crank.stroke) / 2e3
+
+    @cached_property
+    def _general_rods(self) -> tuple[RodFigures, RodFigures]:
+        """Figures that hold for all rods on crank pins, and for all articulated ones."""
+        rod, table = rod_figures(self.figures, self.model.rod), self.model.articulation
+        return rod, RodFigures() if table is None else rod_figures(
+            self.figures, table.rod, "articulation.rod"
+        )
+
+    def find_own(self, number: int) -> OwnFigures:
+        """Return what the file says of one cylinder alone."""
+        return self.own.get(number, NOTHING)
+
+    def find_rod(self, number: int, articulated: bool = False) -> RodPlace:
+        """Return the figures of a cylinder's rod; number 0 stands for what holds for all."""
+        own, general = self.find_own(number).rod, self._general_rods[articulated]
+        return RodPlace(number, articulated, general.with_own(own), own, general)
+
+    def find_piston_masses(self) -> dict[str, Figure]:
+        """Return the masses of the parts of all pistons, kg, by their keys; `mass` of pistons
+        weighed whole.
+        """
+        table, take = self.model.piston, self.figures.take_optional
+        given = {key: take(f"piston.{key}", getattr(table, key)) for key in PISTON_PARTS}
+        return {key: mass for key, mass in given.items() if mass is not None}
+
+    def weigh_gear(self, place: RodPlace) -> RunningGear:
+        """Return piston and rod of one cylinder; those without figures of their own share one."""
+        key = (place.number if place.number in self.own else 0, place.articulated)
+        if key not in self._gears:
+            own = self.find_own(place.number)
+            offset = self.figures.take("piston.offset", self.model.piston.offset) / 1e3
+            self._gears[key] = weigh_rod(
+                place.rod,
+                place.rod.length_for(self.radius),
+                either(own.piston_offset, offset),
+                either(own.piston_mass, sum(self.find_piston_masses().values())),
+            )
+        return self._gears[key]
+
+    def find_ripple(self) -> tuple[RippleLine, ...]:
+        """Return the lines of the uneven speed; none of a steady one."""
+        take, lines = self.figures.take, []
+        for k, line in enumerate(self.model.operation.speed_ripple, 1):
+            path = f"operation.speed_ripple.{k}"
+            amplitude = take(f"{path}.amplitude", line.amplitude)
+            lines.append(RippleLine(line.order, amplitude, take(f"{path}.angle", line.angle)))
+        return tuple(lines)
+
+    def find_knuckle_angles(self) -> tuple[Figure, ...] | None:
+        """Return the angle of each bank's knuckle pin, deg; None where the file gives none."""
+        table = self.model.articulation
+        if table is None or table.knuckle_angles is None:
+            return None
+        return self.figures.take_each("articulation.knuckle_angles", table.knuckle_angles)

@@ -1,0 +1,125 @@
+"""Diagrams and torque curves as people have them, and files that are no engine files."""
+
+import numpy as np
+import pytest
+from support.commands import run_here
+from support.gas_engines import PETROL_FOUR
+from support.paths import write
+
+from balcli import load
+from balcli.errors import BalcliError
+from balcli.file.toml import parse_toml
+from balcli.torque.given_curve import read_curve
+
+ANGLES = np.arange(0.0, 720.0, 5)
+BAR = 1 + 60 * np.exp(-(((ANGLES - 370) / 40) ** 2))
+ENGINE = PETROL_FOUR[: PETROL_FOUR.index("[gas]")] + '[gas]\nindicator = "p.csv"\nzero = "gas-exchange"\n'
+
+
+def diagram(mark=",", heading=("angle_deg", "pressure_bar"), angles=ANGLES, values=BAR, point="."):
+    rows = [heading, *((f"{a!r}", f"{b!r}") for a, b in zip(angles.tolist(), values.tolist(), strict=True))]
+    return "\n".join(mark.join(cells).replace(".", point) for cells in rows) + "\n"
+
+
+def torque_of(folder, text):
+    write(folder / "p.csv", text)
+    engine = load(write(folder / "engine.toml", ENGINE))
+    return engine.gas.cylinders[0].torque.imep, engine.unlikely
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        {"mark": " "},
+        {"mark": "   ", "point": ","},
+        {"mark": "\t"},
+        {"mark": ";", "point": ","},
+        {"heading": ("angle_deg", "pressure_MPa"), "values": BAR / 10},
+        {"heading": ("Angle [deg]", "Pressure [kPa]"), "values": BAR * 100},
+        {"mark": "  ", "heading": ("angle [deg]", "pressure (bar)")},
+        {"heading": ("angle_rad", "pressure_bar"), "angles": np.radians(ANGLES)},
+    ],
+)
+def test_a_diagram_in_any_form_is_the_same(tmp_path, form):
+    text = diagram(**form)
+    assert torque_of(tmp_path, text)[0] == pytest.approx(torque_of(tmp_path, diagram())[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("restarts", [True, False])
+def test_of_several_cycles_the_mean_is_taken_and_said(tmp_path, restarts):
+    every = [ANGLES + (0 if restarts else 720 * k) for k in range(3)]
+    values = [BAR, BAR * 1.1, BAR * 0.9]
+    found, doubts = torque_of(tmp_path, diagram(angles=np.concatenate(every), values=np.concatenate(values)))
+    assert found == pytest.approx(torque_of(tmp_path, diagram())[0], rel=1e-12)
+    assert "gas.indicator: p.csv: has 3 cycles; their mean is taken" in doubts
+
+
+def test_a_mistake_of_a_diagram_shows_what_the_file_has(tmp_path):
+    with pytest.raises(BalcliError, match=r"line 10: the absolute pressure is -0\.4 MPa: give 0 or more"):
+        torque_of(tmp_path, diagram(heading=("angle_deg", "pressure_MPa"), values=np.where(ANGLES == 40, -0.4, BAR)))
+
+
+@pytest.mark.parametrize(
+    ("head", "size"),
+    [
+        ("torque_Nm", 1.0),
+        ("torque_kNm", 1e3),
+        ("torque [kN m]", 1e3),
+        ("Torque (N·m)", 1.0),
+        ("torque_lb_ft", 1.3558179483314004),
+        ("torque [lb ft]", 1.3558179483314004),
+        ("torque [Н·м]", 1.0),
+    ],
+)
+@pytest.mark.parametrize("mark", [",", ";", "\t", "  "])
+def test_a_torque_has_the_unit_of_its_heading(tmp_path, head, size, mark):
+    text = f"angle_deg{mark}{head}\n0{mark}25\n180{mark}5\n360{mark}25\n"
+    assert read_curve(write(tmp_path / "torque.csv", text)).mean == pytest.approx(15 * size, rel=1e-14)
+
+
+def test_orders_that_do_not_rise_are_named(tmp_path):
+    write(tmp_path / "t.csv", "order,cos,sin\n0,3,0\n2,1,1\n1.5,1,1\n")
+    text = ENGINE.replace('indicator = "p.csv"\nzero = "gas-exchange"', 'harmonics = "t.csv"')
+    with pytest.raises(BalcliError, match=r"line 4: order 1\.5 is not above the 2 before it"):
+        load(write(tmp_path / "engine.toml", text))
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ('{"crank": {"stroke": 86}}', "JSON"),
+        ("[1, 2]\n", "JSON"),
+        ('<?xml version="1.0"?>\n<engine stroke="86"/>\n', "XML or HTML"),
+        ("angle_deg,torque_Nm\n0,1\n", "a table of columns (CSV)"),
+        ("a;b\n0;1\n", "a table of columns (CSV)"),
+        ("stroke: 86\nrod: 144\n", "a file of another program"),
+    ],
+)
+def test_a_file_of_another_format_is_named_in_one_line(text, kind):
+    with pytest.raises(BalcliError, match="balcli new") as caught:
+        parse_toml(text, "file")
+    assert str(caught.value).startswith(f"file: is {kind}, no engine file; ")
+    assert "\n" not in str(caught.value)
+
+
+def test_a_bore_is_shown_in_the_unit_of_the_file():
+    text = PETROL_FOUR + '[torsion]\nthrow_stiffness = 1e6\n[[torsion.rear]]\nname = "w"\ninertia = 1e5\n'
+    err = run_here("torsion", "-", stdin=text + 'diameter = "2 in"\nlength = 100\nbore = "6 cm"\n').err
+    assert "has a bore of 6 cm and a diameter of 2 in" in err
+
+
+@pytest.mark.parametrize("splay", [0, 30])
+def test_oil_of_a_pin_is_shared_by_its_rods(splay):
+    layout = "[layout]\nbank_angle = 90\n"
+    text = f"[crank]\nstroke = 90\nsplay = {splay}\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n{layout}"
+    text += '[bobweight]\noil_per_pin = "10 g"\n'
+    assert [one.oil for one in load(text).weighed] == [0.01 if splay else 0.005] * 2
+    with pytest.raises(BalcliError, match="has oil and oil_per_pin; give either"):
+        load(text + "oil = 0.005\n")
+
+
+def test_a_firing_order_may_be_of_strings():
+    text = (
+        '[layout]\nfiring_order = ["1", "3", "4", "2"]\n[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n'
+    )
+    assert load(text).weighed == load(text.replace('["1", "3", "4", "2"]', "[1, 3, 4, 2]")).weighed
