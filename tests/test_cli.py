@@ -25,6 +25,7 @@ from support.paths import ENGINES, ROOT, write
 
 from balcli import __version__
 from balcli.cli import COMMANDS
+from balcli.files import replacing
 from balcli.show.formats import Format
 
 I4 = str(ENGINES / "i4.toml")
@@ -313,6 +314,18 @@ def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, file
     assert balcli("analyze", *({"good": good, "bad": bad}[f] for f in files), "-o", target)[0] == 2
     assert target.read_text() == "what was there before"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["bad.toml", "good.toml", "out.json"]
+
+
+def test_nobody_else_reads_the_new_content_of_a_private_file_before_it_is_in_place(tmp_path):
+    """The temporary file is private from the start, whatever the umask, not only when it is whole."""
+    target = write(tmp_path / "out.txt", "old")
+    target.chmod(0o600)
+    before = os.umask(0)
+    try:
+        with replacing(target) as place:
+            assert place.stat().st_mode & 0o777 == 0o600
+    finally:
+        os.umask(before)
 
 
 def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(balcli, good, tmp_path, monkeypatch):
