@@ -237,13 +237,13 @@ def _list_gaps(parts: Parts) -> list[float]:
 # ------------------------------------------------------------------ the rules
 def is_open(parts: Parts) -> bool:
     """Return whether the file leaves open which cylinder has which number: it has several banks, a
-    firing order and no numbering, and gives no cylinder a place of its own.
+    firing order and no numbering, and gives no cylinder a bank or throw of its own.
     """
     layout = parts.model.layout
     own = parts.model.cylinder.values()
-    free = any(c.bank is not None or c.throw is not None or c.position is not None for c in own)
+    free = any(c.bank is not None or c.throw is not None for c in own)
     unsaid = layout.numbering is None and parts.order is not None and not free
-    return unsaid and not parts.varies and parts.plan.banks > 1
+    return unsaid and parts.plan.banks > 1
 
 
 def infer_numbering(model: EngineFile) -> EngineFile:
@@ -267,9 +267,13 @@ def infer_numbering(model: EngineFile) -> EngineFile:
 
 
 def check_numbering(parts: Parts) -> Iterator[Problem]:
-    """Find a firing order that does not fit the crank, or that could mean several engines."""
+    """Find a firing order that does not fit the crank, or that could mean several engines; which
+    engine is meant does not depend on what varies.
+    """
     missed = find_missed(parts)
-    if not is_open(parts):
+    if is_open(parts):
+        parts = Parts(parts.model) if parts.varies and not parts.throws_given else parts
+    else:
         yield from (p._replace(message=p.message + _suggest(parts)) for p in missed)
         return
     if parts.throws_given and not missed:
