@@ -9,8 +9,8 @@ file has.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
-from itertools import chain
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -204,6 +204,12 @@ class Layout(FileTable):
                 f"{counted(len(order), 'firing')}; give one for each, the last one "
                 "back to the first cylinder"
             )
+        elif gaps := _list_gaps(intervals, cycle):
+            yield (
+                "firing_intervals look like angles that count from the first firing: "
+                f"{join_words([f'{angle:g}' for angle in intervals])}; give the angle from each "
+                f"firing to the next: [{', '.join(f'{gap:g}' for gap in gaps)}]"
+            )
         elif abs(sum(intervals) - cycle) > INTERVAL_TOLERANCE_DEG:
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
@@ -216,6 +222,17 @@ class Layout(FileTable):
         TableRule(_check_numbering, {"numbering"}),
         TableRule(_check_intervals, {"firing_intervals", "firing_order", "strokes"}),
     )
+
+
+def _list_gaps(angles: Sequence[float], cycle: float) -> list[float]:
+    """Return the interval after each firing if these numbers rise from 0 or to the whole cycle, as
+    angles that count from the first firing do; else an empty list.
+    """
+    first = angles[0] == 0
+    gaps = [b - a for a, b in pairwise([*angles, cycle] if first else [0, *angles])]
+    rises = min(gaps) > 0 and (first or angles[-1] == cycle) and len(angles) > 1
+    fits = sum(angles) == cycle and max(gaps) > min(gaps) + INTERVAL_TOLERANCE_DEG
+    return gaps if rises and not fits else []
 
 
 def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
