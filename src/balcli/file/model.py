@@ -8,6 +8,7 @@ file has.
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from itertools import chain
@@ -304,10 +305,15 @@ class Device(FileTable):
 
     choices = (Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),)
 
-    unbalance: Unbalance | None = key("mass times radius", 9000)
+    unbalance: Unbalance | None = key('mass times radius; "fit": balcli balance finds it', 9000)
     mass: Mass | None = key("with radius, instead of unbalance", 0.5)
     radius: Distance | None = key("with mass, instead of unbalance", 40)
     position: Length = key("axial place (z)", 0, default=0.0)
+
+    @property
+    def to_fit(self) -> bool:
+        """Whether its unbalance is "fit", for `balcli balance` to find."""
+        return self.unbalance is not None and math.isnan(self.unbalance)
 
 
 class Counterweight(Device):
