@@ -44,7 +44,8 @@ HIGHEST_TABLE_ORDER = 100  # of tangential pressure: builders' tables end at 12 
 HIGHEST_ORDER_SOUGHT = 8  # where a scheme looks for something to balance: engines have it below
 MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are told one by one
 MOST_RESULTS_ALONG_CRANK = 1 << 15  # loads x orders, whose peaks are looked for place by place
-MOST_FORCES_OVER_CYCLE = 1 << 24  # forces along the crank x angles of a cycle: 16 bytes each
+MOST_FORCES_OVER_CYCLE = 1 << 23  # forces along the crank x angles of a cycle: half a minute
+MOST_DIFFERENT_GAS = 200  # cycles that are computed or read one by one: 10 to 40 ms each
 MOST_LOADS_APART = 1_100_000  # loads x orders kept one by one, and half as many at uneven speed
 
 # Figures asked for on the command line -------------------------------------------------------

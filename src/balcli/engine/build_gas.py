@@ -24,7 +24,7 @@ from ..file.doubts import MAX_PRESSURE
 from ..file.gas_tables import DIAGRAM_KEYS, Gas
 from ..file.model import Override
 from ..file.units import ANGLE, BAR, PRESSURE
-from ..limits import HIGHEST_TABLE_ORDER
+from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
 from .gas import CylinderGas, EngineGas
 from .layout import find_first
 
@@ -269,6 +269,11 @@ class _Builder:
         for row, mechanism in enumerate(mechanisms):
             key = (*mechanism, own[row].indicator, own[row].heat)
             like.append(first.setdefault(key, row))
+        if len(first) > MOST_DIFFERENT_GAS:
+            most = f"at most {MOST_DIFFERENT_GAS} are computed"
+            many = f"{len(first)} cylinders differ in mechanism, heat or diagram; {most}"
+            self.problems.append(Problem("gas", f"{many}: give more of them the same figures"))
+            self._refuse()
         torques = {row: self._find_torque(row, found[row]) for row in first.values()}
         self._refuse()
         self.doubts += self._list_idle()
