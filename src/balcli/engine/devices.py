@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
+from ..errors import InputError, Problem
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from .figures import AS_GIVEN, FileFigures, or_nothing, place_in_plane
 
@@ -53,7 +54,10 @@ def build_device(
 
 
 def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
-    """Mass x radius, kg m."""
+    """Mass x radius, kg m; InputError for one that is still to be fitted."""
+    if device.to_fit:
+        command = "run balcli balance FILE --write OUT, which puts a figure in its place"
+        raise InputError([Problem("", f'{path}.unbalance is "fit": {command}')])
     unbalance = figures.take_optional(f"{path}.unbalance", device.unbalance)
     if unbalance is not None:
         return unbalance / 1e6

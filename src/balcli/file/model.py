@@ -6,6 +6,7 @@ from a pendulum) is computed by the package `engine`. A validator is built only 
 file has.
 """
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, pairwise
@@ -316,13 +317,18 @@ class Device(FileTable):
     choices = (Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),)
 
     unbalance: Unbalance | None = None
-    """Mass times radius. Example: 9000"""
+    """Mass times radius; "fit": `balcli balance` finds it. Example: 9000"""
     mass: Mass | None = None
     """With radius, instead of unbalance. Example: 0.5"""
     radius: Distance | None = None
     """With mass, instead of unbalance. Example: 40"""
     position: Length = 0.0
     """Axial place (z). Example: 0"""
+
+    @property
+    def to_fit(self) -> bool:
+        """Whether its unbalance is "fit", for `balcli balance` to find."""
+        return self.unbalance is not None and math.isnan(self.unbalance)
 
 
 class Counterweight(Device):

@@ -98,6 +98,23 @@ class InnerLoads:
     obstacle: str = ""
 
 
+@dataclass(frozen=True)
+class CrankLoads:
+    """Largest inertia loads within a crankshaft with throws in several planes.
+
+    Attributes:
+        main_N: Largest load of a main bearing.
+        main_mm: Axial place of this bearing.
+        inner_moment_Nm: Largest bending moment.
+        inner_mm: Axial place of this moment.
+    """
+
+    main_N: float
+    main_mm: float
+    inner_moment_Nm: float
+    inner_mm: float
+
+
 def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoads:
     """Forces and moments within the crankshaft, for some orders, and their peaks over all orders.
 
@@ -125,6 +142,24 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     return InnerLoads(
         _with_peaks(sections, shear, orders), _with_peaks(sections, bending, orders), bearings
     )
+
+
+def find_crank_loads(engine: Engine) -> CrankLoads | None:
+    """Return the largest inertia loads within the crankshaft of an engine with its counterweights;
+    None where all throws stand in one plane, where positions are not known, and where there are too
+    many loads to keep apart.
+    """
+    if not engine.places_known or len(set(engine.joined_throws_m.tolist())) < 2:
+        return None
+    try:
+        inner = compute_inner_loads(engine)
+    except BalcliError:
+        return None
+    if inner.bearings is None:
+        return None
+    each = ((along, along.largest) for along in (inner.bearings, inner.bending))
+    figures = [(along.peaks[most].value, 1e3 * float(along.z_m[most])) for along, most in each]
+    return CrankLoads(*figures[0], *figures[1])
 
 
 def _refuse_too_many_results(orders: int, loads: int) -> None:
