@@ -14,7 +14,8 @@ from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
 from balcli.analysis.answer import QUANTITIES, Analysis, analyze
-from balcli.engine.build import Engine, build
+from balcli.engine.build import build
+from balcli.engine.engine import Engine
 from balcli.engine.parse import read
 from balcli.errors import BalcliError
 from balcli.forces.kinds import KINDS

@@ -11,7 +11,7 @@ import numpy as np
 from ..core.cylinders import Travel, find_travel
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
-from ..engine.build import Engine, check_engine
+from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.spectrum import (

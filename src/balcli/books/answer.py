@@ -15,7 +15,8 @@ from types import NoneType
 
 import numpy as np
 
-from ..engine.build import Engine, build
+from ..engine.build import build
+from ..engine.engine import Engine
 from ..engine.parse import parse
 from ..errors import BalcliError, check_type
 from ..file.examples import folder

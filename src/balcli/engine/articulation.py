@@ -9,23 +9,24 @@ from typing import cast
 
 import numpy as np
 
-from ..core.cylinders import Cylinders
 from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
 from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Figure
 from ..errors import Problem
 from ..file.fields import counted
-from ..file.model import Articulation, EngineFile
+from ..file.model import EngineFile
 from ..limits import NEAREST_TO_LOCK
 from .layout import Plan
 from .parts import Parts
 
 
 # ------------------------------------------------------------------ what does not fit together
-def check_articulation(parts: Parts, articulation: Articulation) -> Iterator[Problem]:
-    """Find what contradicts [articulation]: a master rod without a place, knuckle angles that do
-    not fit, crank pins of articulated rods.
+def check_articulation(parts: Parts) -> Iterator[Problem]:
+    """Check that articulated rods have a master rod on their throw, one knuckle angle for each
+    bank, and no crank pins of their own.
     """
+    if (articulation := parts.model.articulation) is None:
+        return
     if fault := _find_no_place(articulation.master, parts.plan):
         yield fault
         return
@@ -38,7 +39,7 @@ def check_articulation(parts: Parts, articulation: Articulation) -> Iterator[Pro
             "leave splay out, or [articulation]",
         )
     for number in parts.masters:
-        if parts.find_own(number).throw_deg is not None:
+        if parts.overrides_of(number).throw_deg is not None:
             yield Problem(
                 f"cylinder.{number}.throw",
                 f"cylinder {number} has an articulated rod, which hangs on the "
@@ -80,15 +81,13 @@ def _check_angles(angles_deg: Sequence[Figure], master: int, banks: int) -> Iter
         )
 
 
-def check_knuckles(
-    model: EngineFile, cylinders: Cylinders, numbers: Sequence[int]
-) -> Iterator[Problem]:
-    """Articulated cylinders whose rod cannot follow its knuckle pin all the way round.
-
-    Args:
-        model: the file of an engine with articulated rods, for the place of the figure.
-        cylinders, numbers: of that engine; of variants the worst counts.
+def check_knuckles(parts: Parts) -> Iterator[Problem]:
+    """Check that every articulated rod can follow its knuckle pin through a revolution, for the
+    worst of all variants.
     """
+    if parts.model.articulation is None:
+        return
+    cylinders, numbers = parts.cylinders, parts.numbers
     linkage = cast(Linkage, cylinders.linkage)
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     leans = _sample_leans(hung, cylinders.lam, cylinders.eps)
@@ -97,7 +96,7 @@ def check_knuckles(
         worst = int(leans[row].argmax())
         lean = leans[row, worst] + _rise_above(leans[row], worst)
         if hung.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
-            yield _lock(model, number, lean, (360 / STEPS * worst - turned[row]) % 360)
+            yield _lock(parts.model, number, lean, (360 / STEPS * worst - turned[row]) % 360)
 
 
 def _sample_leans(hung: Articulated, lam: Array, eps: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
-from .figures import AS_GIVEN, FileFigures, or_nothing, place_in_plane
+from .figures import AS_GIVEN, FileFigures, or_zero, place_in_plane
 
 
 def build_devices(
@@ -57,5 +57,5 @@ def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | 
     unbalance = figures.take_optional(f"{path}.unbalance", device.unbalance)
     if unbalance is not None:
         return unbalance / 1e6
-    mass = or_nothing(figures.take_optional(f"{path}.mass", device.mass))
-    return mass * or_nothing(figures.take_optional(f"{path}.radius", device.radius)) / 1e3
+    mass = or_zero(figures.take_optional(f"{path}.mass", device.mass))
+    return mass * or_zero(figures.take_optional(f"{path}.radius", device.radius)) / 1e3

@@ -146,7 +146,7 @@ class RodFigures(NamedTuple):
         return self._replace(**changes)
 
 
-class OwnFigures(NamedTuple):
+class Overrides(NamedTuple):
     """What is said of one cylinder alone: kg, m, deg, its place along the crank in mm; or None."""
 
     piston_mass: Figure | None = None
@@ -157,21 +157,21 @@ class OwnFigures(NamedTuple):
     position_mm: Figure | None = None
 
 
-NOTHING = OwnFigures()
+NO_OVERRIDES = Overrides()
 _SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors of keys of [rod]
 
 
-def either(own: Figure | None, general: Figure) -> Figure:
+def value_or(own: Figure | None, general: Figure) -> Figure:
     """What is said of one cylinder, or else what holds for all."""
     return general if own is None else own
 
 
-def or_nothing(figure: Figure | None) -> Figure:
+def or_zero(figure: Figure | None) -> Figure:
     """A figure, or 0 where nothing is said of it."""
     return 0.0 if figure is None else figure
 
 
-def over(figure: Figure | None, divisor: float) -> Figure | None:
+def divide(figure: Figure | None, divisor: float) -> Figure | None:
     """A figure in another unit, if there is one."""
     return None if figure is None else figure / divisor
 
@@ -187,7 +187,7 @@ def rod_figures(
         return figures.take_optional(f"{path}.{prefix}{key}", getattr(table, prefix + key))
 
     given: dict[str, Any] = {
-        key: over(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]
+        key: divide(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]
     }
     pendulum = getattr(table, f"{prefix}pendulum")
     if pendulum is not None and not figures.is_displaced(f"{path}.{prefix}pendulum"):
@@ -196,12 +196,12 @@ def rod_figures(
     return RodFigures(**given)
 
 
-def own_figures(figures: FileFigures, number: int, own: Override) -> OwnFigures:
+def override_figures(figures: FileFigures, number: int, own: Override) -> Overrides:
     """What the table of one cylinder says."""
     path, take = f"cylinder.{number}", figures.take_optional
-    return OwnFigures(
+    return Overrides(
         piston_mass=take(f"{path}.piston_mass", own.piston_mass),
-        piston_offset=over(take(f"{path}.piston_offset", own.piston_offset), 1e3),
+        piston_offset=divide(take(f"{path}.piston_offset", own.piston_offset), 1e3),
         rod=rod_figures(figures, own, path, "rod_"),
         bank_deg=take(f"{path}.bank", own.bank),
         throw_deg=take(f"{path}.throw", own.throw),

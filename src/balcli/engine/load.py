@@ -8,14 +8,15 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from ..errors import naming_file, wrong_type
+from ..errors import InputError, naming_file, wrong_type
 from ..file.examples import text
 from ..file.model import EngineFile
-from ..file.plain_tables import take_tables
+from ..file.plain_tables import change_tables, take_tables
 from ..file.toml import name_file
-from .build import Engine, build
+from .build import build
+from .engine import Engine, take_model
 from .gas import EngineGas
-from .parse import parse, parse_tables
+from .parse import parse, parse_dict, parse_tables
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
@@ -78,6 +79,38 @@ def load_example(name: str) -> Engine:
     if not isinstance(name, str):
         raise wrong_type("load_example", name, 'give the name of an example, such as "i4"')
     return build(parse(text(name), name))
+
+
+# ------------------------------------------------------------------ variants of an engine
+_NO_FIRING_ORDER: dict[str, Any] = {"layout.firing_order": None, "layout.firing_intervals": None}
+
+
+def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
+    """Return the engine of the same file with other values of some keys, by dotted names; errors as
+    for `Engine.vary`.
+    """
+    for path in changes:
+        if not isinstance(path, str):
+            raise wrong_type("vary", path, 'name a key of the engine file, such as "rod.length"')
+    model = take_model(engine)
+    name = f"{engine.name or 'engine'} with {', '.join(changes)}"
+
+    def build_with(changes: Mapping[str, Any]) -> Engine:
+        with naming_file(name):
+            return build(parse_dict(change_tables(model, changes), model.folder))
+
+    try:
+        return build_with(changes)
+    except InputError as error:
+        needed = model.crank.throws is None or model.gas is not None
+        named = _NO_FIRING_ORDER.keys() & changes.keys()
+        if needed or named or model.layout.firing_order is None:
+            raise
+        mistakes = error
+    try:
+        return build_with(_NO_FIRING_ORDER | {**changes})
+    except InputError:
+        raise mistakes from None
 
 
 _WHOLE = frozenset({"gas", "layout", "articulation"})  # tables all of whose figures count

@@ -14,7 +14,7 @@ from ..core.phasors import EPS, Figure
 from ..errors import Problem
 from ..file.units import STANDARD_GRAVITY
 from ..limits import NEAREST_TO_LOCK
-from .figures import PendulumTest, RodFigures, or_nothing
+from .figures import PendulumTest, RodFigures, or_zero
 
 ENDS = ("small_end", "big_end")
 LENGTHS = ("length", "ratio")
@@ -46,7 +46,7 @@ class RunningGear(NamedTuple):
         return np.degrees(np.arcsin(self.offset / (radius + self.length)))
 
 
-class Weighed(NamedTuple):
+class CylinderMasses(NamedTuple):
     """Masses of one cylinder as a shop weighs them, kg.
 
     Attributes:
@@ -87,9 +87,9 @@ def weigh_rod(
     An end of which nothing is said beside the other, a mistake, counts as weightless here.
     """
     if rod.small_end is not None or rod.big_end is not None:
-        small, big = or_nothing(rod.small_end), or_nothing(rod.big_end)
+        small, big = or_zero(rod.small_end), or_zero(rod.big_end)
     else:
-        mass, from_big_end = or_nothing(rod.mass), or_nothing(rod.cg)
+        mass, from_big_end = or_zero(rod.mass), or_zero(rod.cg)
         small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
     whole = small + big
     share = small / np.where(whole == 0, 1.0, whole)  # s_b / l
@@ -153,7 +153,7 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         yield Problem(place.path("pendulum"), _describe_pendulum(pendulum, gear))
         return
     length_mm = np.min(gear.length) * 1e3
-    cg_mm = np.max(or_nothing(place.rod.cg)) * 1e3
+    cg_mm = np.max(or_zero(place.rod.cg)) * 1e3
     # A cylinder's own length may be what the centre of mass of all rods does not fit
     path, what = place.path("cg"), ""
     if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:

@@ -30,7 +30,7 @@ from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import merged_breaks
 from ..core.vectors_over_cycle import Vectors, find_panels
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError
 from ..limits import MOST_FORCES_OVER_CYCLE, MOST_RESULTS_ALONG_CRANK

@@ -19,7 +19,7 @@ from ..core.cylinders import find_travel
 from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Complex, unit
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
 

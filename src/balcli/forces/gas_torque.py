@@ -15,7 +15,7 @@ import numpy as np
 from ..core.cylinder_pressure import crank_torque
 from ..core.phasors import Array
 from ..core.piecewise import Function, PiecewiseCurve, resolved
-from ..engine.build import Engine, find_row
+from ..engine.engine import Engine, find_row
 from ..engine.gas import EngineGas
 from .curves import compute_inertia_torque, compute_moving_inertia
 from .spectrum import compute_spectra, find_relevant_orders, take_gas

@@ -13,7 +13,8 @@ from functools import partial
 import numpy as np
 
 from ..core.phasors import Array, Phasors
-from ..engine.build import Engine, build
+from ..engine.build import build
+from ..engine.engine import Engine
 from ..engine.load import FiguresOfVariants
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import EngineFile

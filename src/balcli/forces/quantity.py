@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Phasors
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.fields import shorten, suggest_nearest
 from ..limits import HIGHEST_ORDER

@@ -25,7 +25,7 @@ import numpy as np
 
 from ..core.mechanisms.motion import PointMass
 from ..core.phasors import Array, Complex, unit
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from .curves import EngineMotion, as_rows
 from .spectrum import take_gas

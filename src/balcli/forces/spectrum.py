@@ -31,7 +31,7 @@ from ..core.loads import Loads, find_device_force, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders, select_orders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
 from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, unit
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
 from ..engine.gas import CylinderGas, EngineGas
 from ..errors import NO_GAS, BalcliError, wrong_type

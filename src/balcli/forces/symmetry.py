@@ -16,7 +16,7 @@ from operator import attrgetter
 import numpy as np
 
 from ..core.phasors import Array
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.gas import EngineGas
 from .kinds import KINDS
 from .spectrum import Spectra, compute_each_cylinder, compute_spectra, merge_orders

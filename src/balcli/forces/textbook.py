@@ -18,7 +18,7 @@ import numpy as np
 
 from ..core.mechanisms import harmonics
 from ..core.phasors import Array
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from .kinds import Kind
 from .spectrum import Spectra, compute_spectra
 

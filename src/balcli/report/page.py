@@ -19,7 +19,7 @@ from ..balancing.answer import Balance, balance_engine
 from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError, warn
 from ..file.model import EngineFile
 from ..forces.gas_torque import find_torque_curves

@@ -27,7 +27,7 @@ from ..file.toml import find_near_file, name_file, read_bytes
 from .options import WORDS_OF_ONLY
 
 if TYPE_CHECKING:
-    from ..engine.build import Engine
+    from ..engine.engine import Engine
     from ..file.model import EngineFile
 
 

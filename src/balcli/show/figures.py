@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.peaks import Peak
 from ..core.phasors import Phasors
-from ..engine.build import Engine, SilentCylinders
+from ..engine.engine import Engine, SilentCylinders
 from ..forces.kinds import EVERY_KIND, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number

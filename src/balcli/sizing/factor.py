@@ -15,7 +15,7 @@ from ..core.extrema import find_least
 from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR

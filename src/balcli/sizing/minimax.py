@@ -22,7 +22,7 @@ from ..core.cylinders import DeviceKind
 from ..core.peaks import find_near_peaks
 from ..core.phasors import EPS, Complex, Phasors
 from ..core.vibration import Real
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from .factor import find_curve, find_factor_peaks
 from .fitting import Fitting, Slot, size_unbalances

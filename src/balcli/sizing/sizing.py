@@ -11,7 +11,7 @@ import cmath
 from collections.abc import Callable
 
 from ..core.phasors import wrap_degrees
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from .factor import size_by_factor
 from .fitting import (

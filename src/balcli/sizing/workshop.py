@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from ..core.phasors import wrap_degrees
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError, check_number
 from ..file.model import Counterweight, Shaft, Slider
 from ..limits import MOST_HOLES

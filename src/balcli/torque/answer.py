@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
-from ..engine.build import Engine, check_engine, find_row
+from ..engine.engine import Engine, check_engine, find_row
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.gas_torque import find_constant_inertia, find_moving_inertia, find_torque_curves
 from ..forces.spectrum import (

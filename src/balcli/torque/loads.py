@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.phasors import Array, Complex
 from ..core.vectors_over_cycle import Vectors, find_panels
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..forces.crankshaft import (
     NOTHING,
     BearingsUnknownError,

@@ -8,7 +8,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from ..engine.build import Engine, build
+from ..engine.build import build
+from ..engine.engine import Engine
 from ..engine.load import FiguresOfVariants
 from ..errors import BalcliError
 from ..file.model import EngineFile

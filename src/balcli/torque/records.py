@@ -12,7 +12,7 @@ from ..core.phasors import Array, Complex
 from ..core.piecewise import PiecewiseCurve
 from ..core.records import HIDDEN, INLINE, angle_deg
 from ..core.speed_ripple import Surplus
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..forces.spectrum import Spectra
 from ..show.result import Result
 from .flywheel import Flywheel, degrees_in_cycle

@@ -21,7 +21,7 @@ from ..core.loads import find_inertia, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import InputError, Problem
 from ..file.fields import counted, printable, shorten, suggest_nearest
 from ..file.model import EngineFile

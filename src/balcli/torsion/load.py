@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..core.vibration import Real
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import BalcliError
