@@ -18,7 +18,6 @@ from ..forces.spectrum import (
     Spectra,
     check_orders,
     choose_orders,
-    compute_each_cylinder,
     compute_spectra,
     find_relevant_orders,
     list_gas_orders,
@@ -257,7 +256,7 @@ def _analyze_cylinders(
             f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are {count} "
             f"results, and at most {MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
-    own = compute_each_cylinder(engine, orders, kinds)
+    own = compute_spectra(engine, orders, kinds, each=True)
     return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
 
 

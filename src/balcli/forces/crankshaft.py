@@ -38,7 +38,7 @@ from .curves import compute_device_forces, compute_piecemeal, find_crank_speed
 from .rod_forces import compute_rod_forces, list_hung_rows
 from .spectrum import (
     compute_device_force,
-    compute_each_cylinder,
+    compute_spectra,
     find_relevant_orders,
     list_gas_orders,
     mark_considerable,
@@ -153,7 +153,7 @@ def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """
     counterweights = [device for device in engine.devices if is_counterweight(device)]
     refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
-    each = compute_each_cylinder(engine, orders, ["force"])["force"]
+    each = compute_spectra(engine, orders, ["force"], each=True)["force"]
     more = [compute_device_force(engine, device, orders) for device in counterweights]
     vectors = np.concatenate([each.vectors, *(force.vectors[..., None] for force in more)], axis=2)
     noises = [np.broadcast_to(force.noise, force.forward.shape) for force in (each, *more)]

@@ -1,27 +1,33 @@
-"""Curves over the crank angle by direct evaluation: nothing here is a sum of orders.
+"""Curves over the crank angle, by direct evaluation: nothing here is a sum of orders.
 
-From momentum G, moment of momentum h and inertia I of each cylinder at crank speed 1. With crank
-speed omega, crank acceleration xi and a prime for the derivative with respect to the crank angle:
-force -(omega^2 G' + xi G), couple -(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I). As
-everywhere, what lies within the rounding error of the parts that are added up (docs/theory.md) is
-exactly 0.
+Inertia: each cylinder has momentum G, moment of momentum h and inertia I at crank speed 1. With
+crank speed omega, crank acceleration xi and a prime for the derivative by the crank angle, the
+force is -(omega^2 G' + xi G), the couple -(omega^2 h' + xi h) and the inertia torque -(1/2 I'
+omega^2 + xi I). Whatever is below the rounding error of the terms that are added up
+(docs/theory.md) is 0.
+
+Gas: torque of all cylinders on the crank over the cycle, with and without the inertia torque.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar
+from dataclasses import replace
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.cylinder_pressure import crank_torque
 from ..core.cylinders import find_travel
 from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Complex, unit
-from ..engine.engine import Engine
+from ..core.piecewise import Function, PiecewiseCurve, resolved
+from ..engine.engine import Engine, find_row
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
+from .spectrum import compute_spectra, find_relevant_orders, take_gas
 
 Number = TypeVar("Number", np.float64, np.complex128)
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
@@ -161,3 +167,99 @@ def _inertia_of_cylinders(motion: EngineMotion) -> Array:
 def as_rows(values: Array) -> Array:
     """One row a cylinder (or one for all), before the axis of angles."""
     return np.asarray(values, float).reshape(-1, 1)
+
+
+# ------------------------------------------------------------------ gas and inertia over the cycle
+class TorqueCurves(NamedTuple):
+    """Torque on the crank at crank angles (rad) of one cycle, N m, at the mean speed.
+
+    Attributes:
+        gas: of all cylinders' gas.
+        total: with the inertia torque.
+        gas_once: the gas torque until everything repeats itself, inertia too: after one interval of
+            equal cylinders that fire evenly, else after the cycle.
+    """
+
+    gas: PiecewiseCurve
+    total: PiecewiseCurve
+    gas_once: PiecewiseCurve
+
+
+def find_torque_curves(engine: Engine) -> TorqueCurves:
+    """Return the torque of an engine without trailing axes, as if its speed were even.
+
+    Raises:
+        BalcliError: The engine has no gas.
+    """
+    gas, times = take_gas(engine), count_repeats(engine)
+    cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
+    once = crank_torque(cylinders, gas.cycle / times)
+    inertia = find_inertia_torque(engine)
+    total = resolved(lambda angle: once.at(angle) + inertia(angle), once.breaks)
+    return TorqueCurves(once.repeated(times), total.repeated(times), once)
+
+
+def count_repeats(engine: Engine) -> int:
+    """Return how often everything repeats itself in a cycle: as often as equal cylinders fire, if
+    they fire evenly to the last digit. One interval takes a quarter of the time of a cycle.
+    """
+    gas, c = take_gas(engine), engine.cylinders
+    columns = (c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
+    gas_is_equal = len(gas.group_equal()) == len(set(gas.shares.tolist())) == 1
+    if not gas_is_equal or c.linkage is not None or any(len(column) > 1 for column in columns):
+        return 1
+    count = len(gas.cylinders)
+    fires = sorted(cylinder.nominal_deg for cylinder in gas.cylinders)
+    even = [k * gas.cycle_deg / count for k in range(count)]
+    return count if np.allclose(fires, even, rtol=0, atol=1e-12) else 1
+
+
+def find_inertia_torque(engine: Engine) -> Function:
+    """Return the inertia torque (N m) at crank angles (rad) of any shape, at the mean speed; 0
+    everywhere where cylinders cancel each other's to rounding errors.
+    """
+    steady = replace(engine, ripple=())
+    torque = compute_spectra(steady, find_relevant_orders(steady), ("torque",))["torque"]
+    if torque.major.sum() <= torque.noise.sum():
+        return np.zeros_like
+    return _at_radians(lambda degrees: compute_inertia_torque(steady, degrees))
+
+
+def find_moving_inertia(engine: Engine) -> Function:
+    """Return the moment of inertia about the crank (kg m2) of pistons, rods and throw masses, at
+    crank angles (rad) of any shape. Throw masses are left out where the crankshaft's own inertia is
+    given, which has them; those of a rotary engine stand still.
+    """
+    if engine.crank_inertia is not None and not engine.rotary:
+        c = engine.cylinders
+        throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
+        engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
+    return _at_radians(lambda degrees: compute_moving_inertia(engine, degrees))
+
+
+def find_constant_inertia(engine: Engine) -> float | None:
+    """Return the moment of inertia of crankshaft and flywheel, kg m2; None where the file gives
+    neither. The crankshaft of a rotary engine stands still.
+    """
+    crank = None if engine.rotary else engine.crank_inertia
+    given = [v for v in (crank, engine.flywheel_inertia) if v is not None]
+    return float(sum(given)) if given else None
+
+
+def silence(engine: Engine, number: int) -> Engine:
+    """Return the engine with a cylinder whose gas does nothing.
+
+    Raises:
+        BalcliError: The engine has no gas, or no such cylinder.
+    """
+    share = take_gas(engine).without_share_of(find_row(engine, number, "--misfire"))
+    return replace(engine, gas=share, model=None)
+
+
+def _at_radians(function: Function) -> Function:
+    """Return a function of degrees in one axis as one of radians of any shape."""
+
+    def at(angle: Array) -> Array:
+        return function(np.degrees(angle.reshape(-1))).reshape(angle.shape)
+
+    return at

@@ -21,7 +21,7 @@ from ..file.model import EngineFile
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER
 from .quantity import Subject, TargetQuantity, parse_target_quantity
 from .spectrum import (
-    compute_each_cylinder,
+    compute_spectra,
     find_relevant_orders,
     list_gas_orders,
     mark_considerable,
@@ -67,7 +67,7 @@ def compute_guide_moments(
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
     every = _find_orders(engine) if orders is None else orders
-    rolls = compute_each_cylinder(about_crank, every, [roll])[roll]
+    rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
     z = np.ravel(engine.cylinders.z)
     h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
     due = mark_considerable(h)

@@ -19,7 +19,7 @@ from ..core.phasors import Array
 from ..engine.engine import Engine
 from ..engine.gas import EngineGas
 from .kinds import KINDS
-from .spectrum import Spectra, compute_each_cylinder, compute_spectra, merge_orders
+from .spectrum import Spectra, compute_spectra, merge_orders
 from .textbook import Textbook, find_textbook, without_devices
 
 # Kinds that are judged together, by the name of their group, and this name in words.
@@ -154,7 +154,10 @@ def _find_reasons(
     engine: Engine, orders: Array, groups: Mapping[str, tuple[str, ...]]
 ) -> Iterator[Reason]:
     parts = [part for own in groups.values() for part in own]
-    book, each = find_textbook(engine, orders, parts), compute_each_cylinder(engine, orders, parts)
+    book, each = (
+        find_textbook(engine, orders, parts),
+        compute_spectra(engine, orders, parts, each=True),
+    )
     redrawn = [compute_spectra(other, orders, parts) for other in _draw(engine)]
     for group, own in groups.items():
         for row, order in enumerate(orders.tolist()):

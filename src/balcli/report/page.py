@@ -22,7 +22,7 @@ from ..core.phasors import Array, Phasors
 from ..engine.engine import Engine
 from ..errors import BalcliError, warn
 from ..file.model import EngineFile
-from ..forces.gas_torque import find_torque_curves
+from ..forces.curves import find_torque_curves
 from ..forces.kinds import MOMENT, VECTORS
 from ..forces.spectrum import take_gas
 from ..mounts import show as mounts

@@ -198,7 +198,7 @@ def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> En
     if not numbers:
         return engine
     require_gas(engine, path)
-    from ..forces.gas_torque import silence  # for those who ask
+    from ..forces.curves import silence  # for those who ask
 
     for number in numbers:
         engine = silence(engine, number)
