@@ -16,7 +16,7 @@ from balcli.core.mechanisms import closed_form
 from balcli.file.examples import folder
 from balcli.forces.kinds import FORCE, MOMENT
 from balcli.forces.spectrum import compute_spectra
-from balcli.forces.textbook import (
+from balcli.forces.symmetry import (
     TextbookUnits,
     find_textbook,
     find_textbook_units,

@@ -23,8 +23,7 @@ from ..forces.spectrum import (
     list_gas_orders,
     merge_orders,
 )
-from ..forces.symmetry import Symmetry, explain_symmetry
-from ..forces.textbook import Textbook, find_textbook
+from ..forces.symmetry import Symmetry, Textbook, explain_symmetry, find_textbook
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..show.result import Result
 from ..sizing.remedy import Remedy, fit_devices
