@@ -18,7 +18,6 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .analysis import show as renderer
 from .analysis.answer import analyze
 from .analysis.curves import compute_engine_curves
 from .core.records import to_document
@@ -165,7 +164,7 @@ def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
 
 def _is_record(path: Path) -> bool:
     try:
-        return bool(_read(path)["format"] == renderer.FORMAT)
+        return bool(_read(path)["format"] == "balcli.analysis/1")
     except _BROKEN:
         return False
 
@@ -212,7 +211,7 @@ def _describe(
     """Return the record of an engine, and the phasors of the orders in it."""
     only = RECORDED if engine.gas is None else (*RECORDED, GAS.name)
     found = analyze(engine, orders, only)
-    document = renderer.document(found) | _describe_chapters(engine)
+    document = to_document(found) | _describe_chapters(engine)
     return document, found.spectra
 
 
@@ -400,7 +399,7 @@ def _reach_same_peak(
     if path[0] != "peak":
         return False
     kind, unit = ("force", "N") if path[-1] == "force_deg" else ("moment", "Nm")
-    values = compute_engine_curves(engine, np.array(degrees)).values
+    values = compute_engine_curves(engine, np.array(degrees)).curves
     sizes = np.hypot(values[f"{kind}_x_{unit}"], values[f"{kind}_y_{unit}"])
     return bool(abs(sizes[0] - sizes[1]) <= 4 * allowed)
 

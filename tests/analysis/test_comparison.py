@@ -80,7 +80,7 @@ def test_inner_guide_and_sizing_stand_side_by_side() -> None:
     bending = tuple(float(one.inner.bending.phasors.major[0].max()) for one in alone)
     assert lines["bending", 2] == pytest.approx(bending, rel=1e-12)
     assert lines["guide_h", 2] == pytest.approx([float(one.guide.h.major[0]) for one in alone])
-    left = [one.sizing.after.force.value for one in alone]
+    left = [one.sizing.after.peak.force.value for one in alone]
     assert lines["force with devices", None] == pytest.approx(left)
     assert {"shear", "bearing", "guide_x", "moment with devices"} <= {name for name, _ in lines}
 

@@ -248,7 +248,7 @@ def test_a_speed_of_half_orders_mixes_into_half_orders_as_the_curves_over_the_an
     single = engine(gas=gas, piston={"mass": 1, "bore": 90}, operation=operation)
     assert single.period_revolutions == 2
     angles = np.arange(0.0, 720.0, 11.0)
-    direct = compute_engine_curves(single, angles).values
+    direct = compute_engine_curves(single, angles).curves
     spectra = compute_spectra(single, find_relevant_orders(single), ["force", "torque"])
     assert spectra.force.balanced.sum() == 0
     assert spectra.force.orders[:3].tolist() == [0, 0.5, 1]

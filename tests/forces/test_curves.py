@@ -10,12 +10,13 @@ from support.engines import build_text
 from support.paths import ENGINES
 
 from balcli.analysis.curves import compute_cylinder_curves, compute_engine_curves
+from balcli.core.records import write_each
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.errors import BalcliError
 from balcli.forces.curves import divide_revolution
 from balcli.forces.spectrum import compute_spectra, find_relevant_orders
-from balcli.show.figures import order_entries
+from balcli.show.figures import list_orders
 
 RELATIVE = 1e-12  # of the largest parts that are added up
 
@@ -80,7 +81,7 @@ def scale(subject):
 )
 def test_direct_evaluation_is_the_sum_of_all_orders(name):
     subject, angles = engine(name), divide_revolution(7.5)
-    direct, orders = compute_engine_curves(subject, angles).values, summed(engine(name), angles)
+    direct, orders = compute_engine_curves(subject, angles).curves, summed(engine(name), angles)
     assert set(direct) == set(orders)
     for quantity, curve in direct.items():
         assert np.abs(curve - orders[quantity]).max() <= RELATIVE * scale(subject)[quantity.endswith("_N")], quantity
@@ -93,7 +94,7 @@ def test_force_of_a_single_at_top_dead_centre():
     m, rot, r, lam = (float(np.ravel(x)[0]) for x in (c.reciprocating, c.rotating, c.radius, c.lam))
     expected = subject.omega**2 * r * (m * (1 + lam) + rot)
     expected += sum((d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices)
-    assert compute_engine_curves(subject, np.zeros(1)).values["force_x_N"][0] == pytest.approx(expected, rel=1e-14)
+    assert compute_engine_curves(subject, np.zeros(1)).curves["force_x_N"][0] == pytest.approx(expected, rel=1e-14)
 
 
 @pytest.mark.parametrize("name", ["single", "i4", "v6_60", "v12_60", "boxer6", "radial7"])
@@ -102,7 +103,7 @@ def test_what_is_zero_is_exactly_zero(name):
     their parts.
     """
     subject = engine(name)
-    curves = compute_engine_curves(subject, divide_revolution(15)).values
+    curves = compute_engine_curves(subject, divide_revolution(15)).curves
     for quantity, curve in curves.items():
         small = np.abs(curve) <= 1e-13 * scale(subject)[quantity.endswith("_N")]
         assert not curve[small].any(), quantity
@@ -112,7 +113,7 @@ def test_what_is_zero_is_exactly_zero(name):
 
 
 def test_a_piston_stands_still_at_its_dead_centres():
-    found = compute_cylinder_curves(engine("single"), 1, np.array([0.0, 180.0])).values
+    found = compute_cylinder_curves(engine("single"), 1, np.array([0.0, 180.0])).curves
     assert found["velocity_m_per_s"].tolist() == found["rod_angle_deg"].tolist() == [0, 0]
 
 
@@ -121,8 +122,8 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
     y without them.
     """
     subject, angles = engine("uneven"), divide_revolution(0.5)
-    (order,) = order_entries(compute_spectra(subject, [0]))
-    mean = {name: float(curve.mean()) for name, curve in compute_engine_curves(subject, angles).values.items()}
+    (order,) = write_each(list_orders(compute_spectra(subject, [0])))
+    mean = {name: float(curve.mean()) for name, curve in compute_engine_curves(subject, angles).curves.items()}
     force, couple = order["force_N"], order["couple_Nm"]
     assert force["forward"] == pytest.approx([mean["force_x_N"], mean["force_y_N"]], rel=1e-9)
     assert [force[axis] for axis in "xy"] == [{"amplitude": abs(v), "phase_deg": None} for v in force["forward"]]
@@ -137,7 +138,7 @@ def test_piston_motion_is_consistent_with_its_derivatives():
     """
     subject, h = engine("i4"), 1e-3
     angles = divide_revolution(30)
-    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h))
+    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d).curves for d in (0, -h, h))
     dt = np.radians(h) / subject.omega
     stroke = 2 * float(np.ravel(subject.cylinders.radius)[0])
     assert mid["travel_m"][0] == 0
@@ -152,7 +153,7 @@ def test_cylinders_follow_their_cranks():
     """Throws at 0, 90, 270, 180 degrees: cylinder 4 is at its top half a turn from cylinder 1."""
     subject = engine("i4_crossplane")
     lowest = {
-        n: int(compute_cylinder_curves(subject, n, divide_revolution()).values["travel_m"].argmin()) for n in (1, 4)
+        n: int(compute_cylinder_curves(subject, n, divide_revolution()).curves["travel_m"].argmin()) for n in (1, 4)
     }
     assert lowest[1] == 0
     assert lowest[4] == 180
@@ -184,7 +185,7 @@ def test_other_mechanisms_by_differences(name):
     subject, fine = build_text(text), divide_revolution(0.05)
     omega, step = float(subject.omega), np.radians(0.05)
     for number in (1, 6):
-        curve = compute_cylinder_curves(subject, number, fine).values
+        curve = compute_cylinder_curves(subject, number, fine).curves
         travel = curve["travel_m"]
         assert 0 <= travel.min() < 1e-7
         slope = (np.roll(travel, -1) - np.roll(travel, 1)) / (2 * step) * omega
@@ -198,7 +199,7 @@ def test_a_piston_at_uneven_speed_accelerates_as_its_velocity_changes_in_time():
     text = TEXTS["uneven"]
     subject, h = build_text(text), 1e-3
     angles = divide_revolution(15)
-    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d).values for d in (0, -h, h))
+    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d).curves for d in (0, -h, h))
     omega = subject.omega * (1 + 0.02 * np.cos(np.radians(2 * angles - 40)))
     for name, slope_of in (("velocity_m_per_s", "travel_m"), ("acceleration_m_per_s2", "velocity_m_per_s")):
         slope = (after[slope_of] - before[slope_of]) / (2 * np.radians(h)) * omega

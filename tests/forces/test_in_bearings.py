@@ -159,7 +159,7 @@ def test_beyond_the_ends_shaft_and_block_bear_the_free_force():
     angles = np.arange(0.0, 720.0, 7.0)
     forces = compute_forces_along(found, angles)
     total = forces.on_shaft.sum(axis=0) + forces.on_block.sum(axis=0)
-    curves = compute_engine_curves(found, angles).values
+    curves = compute_engine_curves(found, angles).curves
     size = np.abs(forces.on_shaft).max()
     assert total.real == pytest.approx(curves["force_x_N"], abs=1e-10 * size)
     assert total.imag == pytest.approx(curves["force_y_N"], abs=1e-10 * size)

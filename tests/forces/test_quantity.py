@@ -37,7 +37,7 @@ def test_they_are_what_analyze_gives() -> None:
     assert force is not None
     assert moment is not None
     assert roll is not None
-    assert found.force is not None
+    assert found.peak is not None
     expected = {
         "force.2.major": force.major[1],
         "force.1.minor": force.minor[0],
@@ -47,7 +47,7 @@ def test_they_are_what_analyze_gives() -> None:
         "force.2.x": abs(force.x[1]),
         "force.2.y": abs(force.y[1]),
         "roll.2.amplitude": roll.major[1],
-        "peak.force": found.force.value,
+        "peak.force": found.peak.force.value,
     }
     values = dict(zip(expected, evaluate_quantities(engine, parse_quantities(",".join(expected))), strict=True))
     assert {name: float(v) for name, v in values.items()} == pytest.approx(

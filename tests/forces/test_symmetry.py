@@ -12,7 +12,7 @@ from support.engines import build_text
 from support.paths import ENGINE_FILES
 
 from balcli.analysis import answer as analysis
-from balcli.analysis.show import document as analysis_document
+from balcli.core.records import to_document as analysis_document
 from balcli.engine import build as engine, parse as enginefile
 from balcli.forces import spectrum
 from balcli.forces.symmetry import explain_symmetry

@@ -11,12 +11,15 @@ import numpy as np
 from jsonschema import Draft202012Validator
 from numpy.typing import NDArray
 
+from balcli.core.peaks import Peak
 from balcli.core.records import (
     HIDDEN,
     INLINE,
     Axes,
     Figure,
     Polar,
+    Reached,
+    WrittenAs,
     angle_deg,
     describe_record,
     find_unit,
@@ -123,3 +126,35 @@ def test_units_are_the_endings_of_names() -> None:
     assert find_unit("form") == ""
     assert remove_unit("inertia_kg_m2") == "inertia"
     assert angle_deg(1 - 1e-300j) == 0.0
+
+
+def in_words(numbers: list[int]) -> list[Piece]:
+    """Return a piece for each number."""
+    return [Piece(weight=complex(number)) for number in numbers]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Marked:
+    """Values that are written as something else."""
+
+    top: Annotated[Peak, Reached("top_N", "top_deg"), INLINE]
+    rest: Annotated[Peak, Reached("peak", "peak_deg")]
+    numbers: Annotated[list[int], WrittenAs(in_words, "pieces")]
+    pair: complex
+    more: Annotated[dict[str, float], INLINE]
+
+
+def test_peaks_other_records_pairs_and_further_keys() -> None:
+    marked = Marked(top=Peak(2.0, math.pi), rest=Peak(0.0, 0.0), numbers=[1], pair=1 - 2j, more={"x": 3.0})
+    found = to_document(marked)
+    assert found == {
+        "top_N": 2.0,
+        "top_deg": 180.0,
+        "rest": {"peak": 0.0, "peak_deg": None},
+        "pieces": [{"weight": 1.0, "angle_deg": 0.0}],
+        "pair": [1.0, -2.0],
+        "x": 3.0,
+    }
+    schema = describe_record(Marked)
+    Draft202012Validator(schema).validate(found)
+    assert schema["required"] == ["top_N", "top_deg", "rest", "pieces", "pair"]

@@ -323,8 +323,8 @@ def test_scale(stroke, mass, speed):
         p, o = getattr(one.spectra, q), getattr(other.spectra, q)
         assert np.array_equal(p.balanced, o.balanced)
         assert np.abs(o.forward / by - p.forward).max() <= BOUNDS["scale"] * EPS * p.major.max()
-    assert other.force.value == pytest.approx(one.force.value * size, rel=1e-14)
-    assert other.sizing.after.force.value <= other.force.value
+    assert other.peak.force.value == pytest.approx(one.peak.force.value * size, rel=1e-14)
+    assert other.sizing.after.peak.force.value <= other.peak.force.value
 
 
 def test_a_microgram_beside_a_million_tonnes():

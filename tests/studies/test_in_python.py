@@ -103,11 +103,11 @@ def test_weights_and_limits_of_a_search():
     weighed = {"moment.1.major": 1, "moment.2.major": np.float64(0.5)}
     for one in balcli.search(V8, "throws", weighed, limits={"moment.2.major": 1000.0}).results:
         assert one.objective == pytest.approx(
-            one.figures["moment.1.major"] + 0.5 * one.figures["moment.2.major"], rel=CLOSE
+            one.quantities["moment.1.major"] + 0.5 * one.quantities["moment.2.major"], rel=CLOSE
         )
-        assert one.figures["moment.2.major"] < 1000
+        assert one.quantities["moment.2.major"] < 1000
     both = balcli.search(V8, "throws", ["moment.1.major", "moment.2.major"])
-    assert both.results[0].figures.keys() == weighed.keys()
+    assert both.results[0].quantities.keys() == weighed.keys()
 
 
 def test_angles_of_a_search_are_numbers_of_a_frame():
@@ -196,9 +196,9 @@ def test_curves_of_an_engine_and_of_a_piston():
     assert len(found.rows()) == 72
     spectra = balcli.analyze(FOUR, range(1, 33), only="force").spectra
     wanted = spectra.force.values(np.radians(found.crank_deg)).real
-    assert found.values["force_x_N"] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+    assert found.curves["force_x_N"] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
     piston = balcli.curves(FOUR, 90, cylinder=2)
-    assert piston.values["travel_m"].max() == pytest.approx(2 * FOUR.cylinders.radius)
+    assert piston.curves["travel_m"].max() == pytest.approx(2 * FOUR.cylinders.radius)
     assert "travel_m" in piston.to_pandas()
     assert len(balcli.curves(balcli.load_example("i4_wiebe"), 90).rows()) == 8
     with pytest.raises(balcli.BalcliError, match=r"in-line four, 2 litres has the cylinders 1, 2, 3, 4$"):
@@ -281,8 +281,8 @@ def test_what_is_wrong_is_told(kind, call, message):
 @pytest.mark.parametrize("cylinder", [None, 2])
 def test_curves_with_gas_do_not_depend_on_how_many_angles_are_computed_at_a_time(cylinder, monkeypatch):
     engine = balcli.load_example("i4_wiebe")
-    at_once = balcli.curves(engine, 7, cylinder=cylinder).values
+    at_once = balcli.curves(engine, 7, cylinder=cylinder).curves
     monkeypatch.setattr(force_curves, "AT_ONCE", 4 * 10)  # ten angles of four cylinders
-    in_pieces = balcli.curves(engine, 7, cylinder=cylinder).values
+    in_pieces = balcli.curves(engine, 7, cylinder=cylinder).curves
     for name, values in at_once.items():
         np.testing.assert_allclose(in_pieces[name], values, rtol=0, atol=1e-12 * np.abs(values).max())

@@ -26,12 +26,12 @@ def test_gas_does_the_same_in_a_cylinder_that_turns(name):
     """At rest but for a hundredth of a turn in a minute. All that acts across counts to where the
     crank pin goes after top dead centre, the angle of the rod too.
     """
-    plain, turning = of_cylinder().values[name], of_cylinder(rotary=True).values[name]
+    plain, turning = of_cylinder().curves[name], of_cylinder(rotary=True).curves[name]
     np.testing.assert_allclose(turning, plain, atol=1e-6 * np.abs(plain).max())
 
 
 def test_while_gas_presses_the_piston_leans_away_from_the_crank_pin():
-    found = of_cylinder(rotary=True).values
+    found = of_cylinder(rotary=True).curves
     burning = slice(1, 9)  # 15 to 120 degrees
     assert (found["rod_angle_deg"][burning] > 0).all()
     assert (found["side_thrust_N"][burning] < 0).all()

@@ -41,7 +41,7 @@ def test_what_pins_walls_and_heads_feel_is_the_free_force(ripple):
     found = build_text(text + WIEBE + more)
     forces = compute_rod_forces(found, ANGLES)
     total = (forces.pin + 1j * forces.thrust + forces.gas).sum(axis=0)
-    curves = compute_engine_curves(found, ANGLES).values
+    curves = compute_engine_curves(found, ANGLES).curves
     size = np.abs(forces.pin).max()
     assert total.real == pytest.approx(curves["force_x_N"], abs=1e-10 * size)
     assert total.imag == pytest.approx(curves["force_y_N"], abs=1e-10 * size)

@@ -246,7 +246,7 @@ def test_overbalance_optimum_of_both_orders(lam, peak, k):
     """
     engine = single(lam)
     (weight,) = size(engine, "minimax").counterweights
-    found = analyze(fit_scheme(engine, "minimax"), only=["peak"]).force.value / (M * R * engine.omega**2)
+    found = analyze(fit_scheme(engine, "minimax"), only=["peak"]).peak.force.value / (M * R * engine.omega**2)
     rest = sum(abs(float(a)) for a in closed_form.piston([4, 6, 8], lam)) + abs(
         float(closed_form.piston([2], lam)[0]) - lam
     )

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Annotated, Literal, TypedDict
 
 import numpy as np
 
-from ..core.cylinders import Travel, find_travel
+from ..core.cylinders import find_travel
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
+from ..core.records import INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, check_number, check_type, list_words
+from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
+from ..forces.guide import GuideMoments, compute_guide_moments
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
 from ..forces.spectrum import (
     Spectra,
@@ -25,14 +28,26 @@ from ..forces.spectrum import (
 )
 from ..forces.symmetry import Symmetry, Textbook, explain_symmetry, find_textbook
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
+from ..show.figures import (
+    EngineState,
+    Peaks,
+    describe_state,
+    list_assumed,
+    list_orders,
+    measure_engine,
+)
 from ..show.result import Result
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size_auto
-
-if TYPE_CHECKING:
-    from ..forces.crankshaft import InnerLoads
-    from ..forces.guide import GuideMoments
-
+from .records import (
+    CylinderShare,
+    PeaksAndOrders,
+    Stroke,
+    describe_guide,
+    describe_inner,
+    list_strokes,
+    name_devices,
+)
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
 QUANTITIES = (*UNASKED, "sizing")
@@ -40,43 +55,38 @@ EXTRAS = ("inner", "guide")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
-class Sizing(NamedTuple):
-    """The devices that a scheme fits, and what is left with them."""
-
-    remedy: Remedy
-    after: Analysis
-
-
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(Result):
-    """What an engine does to its frame. Whatever was not asked for is None.
+    """Free forces and moments of an engine, order by order. Whatever was not asked for is None.
 
     Attributes:
-        engine: as analysed.
-        spectra: phasors of the orders shown.
-        force: largest `value` over a revolution (N), of all orders, and its crank angle `theta`
-            (rad).
-        moment: likewise (N m).
-        sizing: devices of the scheme `auto`, and the analysis with them.
-        cylinders: phasors of each cylinder alone (no devices), by cylinder number.
-        why: whether the orders shown are balanced by symmetry.
-        inner: shear force and bending moment along the crankshaft; of an engine with gas, in its
-            bearings and in the block, too.
+        engine: Engine as analyzed.
+        state: Speed, cylinders without gas and point of reference.
+        spectra: Orders shown.
+        assumed: What is taken because the engine file leaves it out.
+        peak: Largest values over a revolution, all orders together.
+        sizing: Devices of the scheme `auto`, and what is left with them.
+        cylinders: Each cylinder alone, without devices.
+        inner: Shear force and bending moment along the crankshaft; of an engine with gas, in its
+            bearings and in the block as well.
         guide: H- and X-type guide-force moments.
-        travel: strokes and dead centres of articulated cylinders and of the masters, by rows of
-            `engine.numbers`; None where all cylinders are plain slider-cranks.
+        travel: Strokes and dead centers of articulated cylinders and of the masters; left out where
+            all cylinders are plain slider-cranks.
+        why: Whether the orders shown are balanced by symmetry.
     """
 
-    engine: Engine
-    spectra: Spectra
-    force: Peak | None = None
-    moment: Peak | None = None
+    format: Literal["balcli.analysis/1"] = "balcli.analysis/1"
+    engine: Annotated[Engine, WrittenAs(measure_engine)]
+    state: Annotated[EngineState, INLINE]
+    spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
+    assumed: tuple[str, ...] | None = None
+    peak: Peaks | None = None
     sizing: Sizing | None = None
-    cylinders: tuple[tuple[int, Spectra], ...] = ()
+    cylinders: tuple[CylinderShare, ...] | None = None
+    inner: Annotated[InnerLoads | None, WrittenAs(describe_inner)] = None
+    guide: Annotated[GuideMoments | None, WrittenAs(describe_guide)] = None
+    travel: tuple[Stroke, ...] | None = None
     why: Symmetry | None = None
-    inner: InnerLoads | None = None
-    guide: GuideMoments | None = None
-    travel: Travel | None = None
 
     @property
     def summary(self) -> str:
@@ -92,8 +102,7 @@ class Analysis(Result):
     @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
         """Each kind whose peak was asked for, with its peak."""
-        found = [(kind, getattr(self, kind.name)) for kind in VECTORS]
-        return [(kind, peak) for kind, peak in found if peak is not None]
+        return [] if self.peak is None else self.peak.items()
 
     @property
     def moments_known(self) -> bool:
@@ -131,6 +140,25 @@ class Analysis(Result):
             "moment": force * length,
             **{kind.name: force * radius for kind in SCALARS},
         }
+
+
+def shorten(analysis: Analysis) -> PeaksAndOrders:
+    """Return peaks, which must have been asked for, and orders alone."""
+    assert analysis.peak is not None
+    return PeaksAndOrders(analysis.peak, analysis.spectra)
+
+
+@dataclass(frozen=True)
+class Sizing:
+    """Devices of the scheme `auto`, and what is left with them.
+
+    Attributes:
+        remedy: The devices.
+        after: Analysis with the devices.
+    """
+
+    remedy: Annotated[Remedy, WrittenAs(name_devices), INLINE]
+    after: Annotated[Analysis, WrittenAs(shorten)]
 
 
 def analyze(
@@ -179,11 +207,12 @@ def analyze(
     visible, whole = _compute_visible_and_whole(engine, computed, asked, shown, peaked)
     visible = visible.select_orders(choose_orders(visible, engine) if asked is None else asked)
     return Analysis(
-        engine,
-        visible,
-        find_peak(whole["force"]) if peaked else None,
-        find_peak(whole["moment"]) if peaked else None,
-        cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else (),
+        engine=engine,
+        state=describe_state(engine),
+        spectra=visible,
+        assumed=list_assumed(engine.places_known, engine.inferred),
+        peak=Peaks(find_peak(whole["force"]), find_peak(whole["moment"])) if peaked else None,
+        cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
         **_compute_chapters(engine, asked, wanted, guide_height_m),
         why=_explain(engine, visible.orders, shown) if reasons else None,
     )
@@ -248,7 +277,7 @@ def _compute_visible_and_whole(
 
 def _analyze_cylinders(
     engine: Engine, orders: Array, kinds: Collection[str]
-) -> tuple[tuple[int, Spectra], ...]:
+) -> tuple[CylinderShare, ...]:
     count = len(orders) * len(engine.numbers)
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
@@ -256,15 +285,22 @@ def _analyze_cylinders(
             f"results, and at most {MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
     own = compute_spectra(engine, orders, kinds, each=True)
-    return tuple((n, own.select_place(engine.numbers.index(n))) for n in sorted(engine.numbers))
+    rows = ((n, engine.numbers.index(n)) for n in sorted(engine.numbers))
+    return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
 
 
-# ------------------------------------------------------------------ chapters, loaded on request
+class _Chapters(TypedDict, total=False):
+    sizing: Sizing
+    inner: InnerLoads
+    guide: GuideMoments
+    travel: tuple[Stroke, ...]
+
+
 def _compute_chapters(
     engine: Engine, asked: Array | None, wanted: Collection[str], guide_height_m: float | None
-) -> dict[str, Any]:
+) -> _Chapters:
     """Return sizing, inner loads, guide moments and travel, as far as they are wanted or exist."""
-    found: dict[str, Any] = {}
+    found: _Chapters = {}
     if "sizing" in wanted:
         remedy = size_auto(engine)
         left = {*wanted, "force", "moment", "peak"} - {"sizing"}
@@ -272,11 +308,9 @@ def _compute_chapters(
     if "inner" in wanted:
         found["inner"] = find_inner_loads(engine, asked)
     if "guide" in wanted:
-        from ..forces.guide import compute_guide_moments
-
         found["guide"] = compute_guide_moments(engine, asked, guide_height_m)
     if engine.cylinders.linkage is not None:
-        found["travel"] = find_travel(engine.cylinders)
+        found["travel"] = list_strokes(find_travel(engine.cylinders), engine.numbers)
     return found
 
 
@@ -290,8 +324,6 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
     """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
-    from ..forces.crankshaft import add_gas_loads, compute_inner_loads
-
     inner = compute_inner_loads(engine, asked)
     if engine.gas is None:
         return inner

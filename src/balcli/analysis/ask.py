@@ -14,7 +14,7 @@ from ..forces.kinds import GAS, ROLL
 from ..shell.inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
 from ..shell.output import show
 from ..show.csv import Rows, name_cell
-from ..show.formats import Format, Renderer, Units
+from ..show.formats import Format, Renderer, Units, write_named
 from ..show.sheet import NamedResult, Sheet, View
 from ..show.units import System
 from . import show as chapter
@@ -29,11 +29,6 @@ def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
     return chapter.sheet(one.result, system, one.view)
 
 
-def document(one: NamedResult[Analysis]) -> dict[str, Any]:
-    """`balcli.analysis/1`."""
-    return chapter.document(one.result)
-
-
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
     """CSV: the rows of the analysis, each after the engine's name."""
     devices = "sizing" in one.view.parts
@@ -41,7 +36,7 @@ def rows(one: NamedResult[Analysis], system: System) -> Rows:
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 
 
 def answer(
@@ -74,19 +69,17 @@ def _choose_result(
     asked: Request, for_people: bool
 ) -> tuple[Callable[[Engine], Any], Renderer[NamedResult[Any]]]:
     """Return what is found of an engine, and how it is shown."""
-    if not (asked.marine or asked.over_speed):
-        return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
     from . import speeds  # for those who ask for several
 
     if asked.marine:
-
-        def find_sheet(engine: Engine) -> Any:
-            height, rpm = asked.height_m, asked.speeds_rpm
-            return speeds.find_marine_sheet(
-                engine, rpm, asked.orders, height, every_order=asked.whole
-            )
-
-        return find_sheet, speeds.MARINE
+        sheets = partial(
+            speeds.find_marine_sheet,
+            speeds_rpm=asked.speeds_rpm,
+            orders=asked.orders,
+            guide_height_m=asked.height_m,
+            every_order=asked.whole,
+        )
+        return sheets, speeds.MARINE
     if asked.over_speed:
 
         def find_series(engine: Engine) -> Any:

@@ -150,7 +150,7 @@ def curves(
         case SeriesFormat.CSV:
             text = csv_text([chapter.rows(found)])
         case SeriesFormat.JSON:
-            text = json_text(chapter.document(found))
+            text = json_text(chapter.RENDERER.document(found))
         case _:
             assert_never(form)
     emit(text, output)

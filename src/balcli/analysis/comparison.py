@@ -10,7 +10,7 @@ from math import nan
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from ..core.phasors import Array
-from ..core.records import HIDDEN, to_document
+from ..core.records import HIDDEN
 from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, list_words, wrong_type
 from ..forces.kinds import EVERY_KIND, GAS, MOMENT, TORQUE, VECTORS, Kind
@@ -309,11 +309,6 @@ def _check_names(names: object) -> list[str]:
 TITLES = {TORQUE: "inertia torque"}
 
 
-def document(result: Comparison) -> dict[str, Any]:
-    """Return `balcli.compare/1`: SI, ratios to the first engine (null where that has none)."""
-    return to_document(result)
-
-
 def rows(result: Comparison, system: System) -> Rows:
     """CSV: a figure a line, a column an engine."""
     header = ("quantity", "order", "unit", *map(name_cell, result.engines))
@@ -409,4 +404,4 @@ def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
     )
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Literal
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from ..forces.rod_forces import compute_rod_forces
 from ..forces.spectrum import take_gas
 from ..shell.arguments import check_count, tell_arguments
 from ..show.csv import Columns, Rows
-from ..show.figures import assumptions
+from ..show.figures import list_assumed
 from ..show.formats import Columnar
 from ..show.result import Result
 
@@ -36,34 +36,35 @@ _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Curves(Result):
     """Figures over the crank angle.
 
     Attributes:
-        name: of the engine.
-        speed_rpm: its crank speed.
-        crank_deg: shape (angles,).
-        values: by name with unit (`force_x_N`), each of the shape of `crank_deg`.
-        moments_known: whether the engine file says where the throws stand; else moments are of
-            throws in one plane.
+        engine: Name of the engine.
+        speed_rpm: Crank speed.
+        crank_deg: Crank angles, shape (angles,).
+        curves: Figures by name with unit (`force_x_N`), each of the shape of `crank_deg`.
+        assumed: What is taken because the engine file leaves it out: moments are those of throws in
+            one plane where it does not say where the throws stand.
     """
 
-    name: str
+    format: Literal["balcli.curves/1"] = "balcli.curves/1"
+    engine: str
     speed_rpm: float
     crank_deg: Array
-    values: Mapping[str, Array]
-    moments_known: bool = True
+    curves: Mapping[str, Array]
+    assumed: tuple[str, ...] | None = None
 
     @property
     def summary(self) -> str:
         """Of what, and at how many angles."""
-        return f"of {self.name or 'an engine'}: {len(self.crank_deg)} crank angles"
+        return f"of {self.engine or 'an engine'}: {len(self.crank_deg)} crank angles"
 
     def known(self) -> dict[str, Array]:
-        """The values without moments that are not known."""
-        unknown = () if self.moments_known else _MOMENTS
-        return {name: values for name, values in self.values.items() if name not in unknown}
+        """The curves without moments that are not known."""
+        unknown = () if self.assumed is None else _MOMENTS
+        return {name: values for name, values in self.curves.items() if name not in unknown}
 
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
@@ -75,7 +76,7 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
         crank_deg: shape (angles,).
     """
     curves = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
-    return replace(curves, moments_known=engine.places_known)
+    return replace(curves, assumed=list_assumed(engine.places_known))
 
 
 def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
@@ -113,10 +114,14 @@ def _sum_parts(
         crank_deg,
         lambda angles: {name: parts.sum(axis=0) for name, parts in compute(angles).items()},
     )
-    values = {
-        name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in sums.items()
-    }
-    return Curves(engine.name, float(engine.speed_rpm), crank_deg, values)
+    return Curves(
+        engine=engine.name,
+        speed_rpm=float(engine.speed_rpm),
+        crank_deg=crank_deg,
+        curves={
+            name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in sums.items()
+        },
+    )
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
@@ -193,9 +198,9 @@ def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
         engine, curves.crank_deg, lambda angles: {GAS.key: _find_gas_torque(engine, angles)}
     )[GAS.key]
     gas = _settle(gas)
-    inertia, roll = curves.values[TORQUE.key], curves.values[ROLL.key]
+    inertia, roll = curves.curves[TORQUE.key], curves.curves[ROLL.key]
     added = {GAS.key: gas, TORQUE_TOTAL.key: inertia + gas, ROLL_TOTAL.key: roll - gas}
-    return replace(curves, values={**curves.values, **added})
+    return replace(curves, curves={**curves.curves, **added})
 
 
 def _find_gas_torque(engine: Engine, crank_deg: Array) -> Array:
@@ -217,8 +222,8 @@ def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
     of_gas = compute_piecemeal(
         engine, curves.crank_deg, lambda angles: _find_cylinder_gas(engine, row, angles)
     )
-    settled = {name: _settle(values) for name, values in {**curves.values, **of_gas}.items()}
-    return replace(curves, values=settled)
+    settled = {name: _settle(values) for name, values in {**curves.curves, **of_gas}.items()}
+    return replace(curves, curves=settled)
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
@@ -287,7 +292,7 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
             wanted, with its pressure if there is gas; default: the whole engine.
 
     Returns:
-        `crank_deg` and, by name with unit (`force_x_N`), `values` of the same shape (angles,).
+        `crank_deg` and, by name with unit (`force_x_N`), `curves` of the same shape (angles,).
         Those of a cylinder count along it, outward, and across it, to the side to which the crank
         pin moves after top dead centre; travel towards the crank (docs/json.md).
 
@@ -309,18 +314,6 @@ def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float
     return compute_curves(engine, cylinder, divide_revolution(step_deg, engine.cycle_revolutions))
 
 
-def document(curves: Curves) -> dict[str, Any]:
-    """`balcli.curves/1`: one list a quantity, all of the length of `crank_deg`."""
-    return {
-        "format": "balcli.curves/1",
-        "engine": curves.name,
-        "speed_rpm": curves.speed_rpm,
-        "crank_deg": curves.crank_deg.tolist(),
-        "curves": {name: y.tolist() for name, y in curves.values.items()},
-        **assumptions(curves),
-    }
-
-
 def columns(curves: Curves) -> Columns:
     """Crank angles, and each quantity that is known; units stand in the names."""
     return Columns({"crank_deg": curves.crank_deg, **curves.known()})
@@ -333,4 +326,4 @@ def rows(curves: Curves) -> Rows:
     return Rows(("crank_deg", *known), zip(*columns, strict=True))
 
 
-RENDERER = Columnar(document=document, columns=columns)
+RENDERER = Columnar(columns=columns)

@@ -12,6 +12,7 @@ from ..limits import MOST_HOLES
 from ..show.sheet import UNKNOWN, Grid, degrees, given, number
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
+from .records import KEYS, find_value
 
 if TYPE_CHECKING:
     from ..show.units import ShownUnit, System
@@ -22,16 +23,6 @@ ANGLES = (
     "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
     "counterweights from cylinder 1's crank pin, of shafts from x."
 )
-# Figures of a device by the fields of the engine file, with their units; in the order of CSV.
-_KEYS = {
-    "ratio": "ratio",
-    "order": "order",
-    "unbalance": "unbalance_kg_m",
-    "angle": "angle_deg",
-    "direction": "direction_deg",
-    "position": "position_mm",
-    "at": "at_mm",
-}
 
 
 # ------------------------------------------------------------------ for people
@@ -161,21 +152,6 @@ def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit)
 
 
 # ------------------------------------------------------------------ for programs
-def device_entries(remedy: Remedy) -> dict[str, list[dict[str, Any]]]:
-    """Return new devices in JSON, as an engine file would describe them."""
-    entries: dict[str, list[dict[str, Any]]] = {f"{kind.__name__.lower()}s": [] for kind in FIELDS}
-    for device, free in zip(remedy.devices, remedy.free, strict=True):
-        entry = {_KEYS[field]: _find_value(device, field) for field in FIELDS[type(device)]}
-        if isinstance(device, Shaft):
-            entry["free"] = free
-        entries[f"{name_kind(device)}s"].append(entry)
-    return entries
-
-
-def _find_value(device: DeviceTable, field: str) -> Any:
-    return find_unbalance(device) if field == "unbalance" else getattr(device, field)
-
-
 def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:
     """Yield each device with its name among those of its kind: `shaft 2`."""
     numbers: Counter[str] = Counter()
@@ -187,10 +163,10 @@ def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, Device
 
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:
     """Yield name, value and unit of every figure of a device, as an engine file has it."""
-    for field, key in _KEYS.items():
+    for field, key in KEYS.items():
         if field not in FIELDS[type(device)]:
             continue
-        value = _find_value(device, field)
+        value = find_value(device, field)
         if field == "at":
             for axis, coordinate in zip("xy", value, strict=True):
                 yield f"at_{axis}", system.length.of(coordinate / 1e3), system.length.name

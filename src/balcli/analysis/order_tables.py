@@ -90,7 +90,7 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
         for _, phasors, unit in vectors:
             for c in (phasors.x[k], phasors.y[k]):
                 yield size_cell(abs(c), unit)
-                yield degrees(phase_deg(complex(c))) if c else ""
+                yield degrees(float(phase_deg(c))) if c else ""
 
     axes = [kind.symbol + axis for kind, _, _ in vectors for axis in "xy"]
     units = ", ".join(unit.name for _, _, unit in vectors)
@@ -216,8 +216,7 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
 
 def show_peak_deg(c: complex, order: float) -> str:
     """Where an amplitude is reached first, or a dash of a mean."""
-    at = peak_deg(c, order)
-    return UNKNOWN if at is None else degrees(at)
+    return degrees(float(peak_deg(c, order)))
 
 
 def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
@@ -281,8 +280,8 @@ def gas_grid(
         yield order_name(order)
         for phasors in (inertia, gas, total, roll):
             yield size_cell(size_or_mean(complex(phasors.x[k]), order), unit)
-        at = peak_deg(complex(roll.x[k]), order)
-        yield "" if at is None else degrees(at)
+        at = float(peak_deg(roll.x[k], order))
+        yield "" if math.isnan(at) else degrees(at)
 
     shown = [
         k

@@ -10,19 +10,12 @@ Why each order is balanced or is not: as sentences and as rows.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..show.figures import (
-    FigureRow,
-    clean,
-    order_rows,
-    peak_angle_deg,
-    peak_rows,
-    scalar_entries,
-    vector_entries,
-)
+from ..core.records import write_each
+from ..show.figures import FigureRow, clean, order_rows, peak_rows
 from ..show.sheet import (
     NOTHING,
     UNKNOWN,
@@ -32,19 +25,19 @@ from ..show.sheet import (
     degrees,
     number,
     order_name,
-    order_number,
     size_cell,
     size_text,
 )
 from .order_tables import fit_largest
+from .records import describe_guide, list_load_orders
 
 if TYPE_CHECKING:
-    from ..core.cylinders import Travel
     from ..core.phasors import Array, Phasors
     from ..forces.crankshaft import AlongCrank, InnerLoads
     from ..forces.guide import GuideMoments
     from ..forces.symmetry import Symmetry
     from ..show.units import ShownUnit, System
+    from .records import Stroke
 
 
 _OPEN_END = (
@@ -112,41 +105,6 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
         yield Text("", (f"{_TOGETHER} Inside, it is not known: {inner.obstacle}.",))
 
 
-def document(inner: InnerLoads) -> dict[str, Any]:
-    """Return `inner` of `balcli.analysis/1`: an entry a section of the shaft, and one a bearing."""
-    found = _bent_entries(inner.shear, inner.bending)
-    if inner.bearings is not None:
-        found["bearings"] = _entries(load_N=inner.bearings)
-    if (gas := inner.with_gas) is not None:
-        found["with_gas"] = {
-            "crankshaft": _bent_entries(gas.shear, gas.bending),
-            "bearings": _entries(load_N=gas.bearings),
-            "block": _bent_entries(gas.block_shear, gas.block_bending),
-        }
-    if inner.obstacle:
-        found["obstacle"] = inner.obstacle
-    return found
-
-
-def _bent_entries(shear: AlongCrank, bending: AlongCrank) -> dict[str, Any]:
-    """Return shear force and bending moment at the same sections, and the largest moment."""
-    most = bending.largest
-    return {
-        "largest_bending_Nm": clean(bending.peaks[most].value),
-        "largest_at_mm": clean(bending.z_m[most] * 1e3),
-        "sections": _entries(shear_N=shear, bending_Nm=bending),
-    }
-
-
-def _entries(**loads: AlongCrank) -> list[dict[str, Any]]:
-    """Return an entry a place, with the loads there."""
-    places = next(iter(loads.values())).z_m
-    return [
-        {"position_mm": clean(z * 1e3), **{key: _entry(load, k) for key, load in loads.items()}}
-        for k, z in enumerate(places)
-    ]
-
-
 def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
     """Yield the figures of every place. Places are numbered along the crank: `shear 1` has its
     position as a figure.
@@ -154,11 +112,11 @@ def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
     length = system.length
     for name, along, unit, *_ in _list_loads(inner, system):
         for k, z in enumerate(along.z_m):
-            here, place = along.at(k), f"{name} {k + 1}"
+            here, place = write_each(list_load_orders(along.at(k))), f"{name} {k + 1}"
             yield FigureRow(0, place, None, "position", clean(length.of(z)), length.name)
             yield from peak_rows(place, along.peaks[k], unit)
-            for n, entry in zip(here.orders, vector_entries(here), strict=True):
-                yield from order_rows(place, n, entry, unit)
+            for entry in here:
+                yield from order_rows(place, entry.pop("order"), entry, unit)
 
 
 def _grid(load: _Load, length: ShownUnit, note: str) -> Grid:
@@ -186,19 +144,6 @@ def _largest_bending(bending: AlongCrank, system: System) -> str:
     moment = size_text(bending.peaks[most].value, system.moment, 5)
     place = number(system.length.of(float(bending.z_m[most])))
     return f"{moment} at {place} {system.length.name}"
-
-
-def _entry(along: AlongCrank, k: int) -> dict[str, Any]:
-    """What JSON says of the k-th place."""
-    peak, here = along.peaks[k], along.at(k)
-    return {
-        "peak": clean(peak.value),
-        "peak_deg": peak_angle_deg(peak),
-        "orders": [
-            {"order": order_number(n)} | entry
-            for n, entry in zip(here.orders, vector_entries(here), strict=True)
-        ],
-    }
 
 
 _ALONE = "of inertia alone, without gas"
@@ -229,28 +174,12 @@ def define_guide_moments(height_m: Array, system: System) -> str:
     )
 
 
-def describe_guide(guide: GuideMoments) -> dict[str, Any]:
-    """`guide` in `balcli.analysis/1`: an entry an order."""
-    orders: list[dict[str, Any]] = [{"order": order_number(n)} for n in guide.h.orders]
-    for key, moment in (("h_Nm", guide.h), ("x_Nm", guide.x)):
-        if moment is not None:
-            for order, entry in zip(orders, scalar_entries(moment), strict=True):
-                order[key] = entry
-    return {
-        "includes": "inertia and gas" if guide.with_gas else "inertia, without gas",
-        "height_m": [clean(height) for height in guide.height_m],
-        "orders": orders,
-    }
-
-
 def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
     """The figures of every order, first of the H-type, then of the X-type."""
-    columns = [("guide_h", scalar_entries(guide.h))]
-    if guide.x is not None:
-        columns.append(("guide_x", scalar_entries(guide.x)))
-    for k, order in enumerate(guide.h.orders):
-        for name, entries in columns:
-            yield from order_rows(name, order, entries[k], system.moment)
+    for entry in write_each(describe_guide(guide).orders):
+        for name, key in (("guide_h", "h_Nm"), ("guide_x", "x_Nm")):
+            if key in entry:
+                yield from order_rows(name, entry["order"], entry[key], system.moment)
 
 
 def _heights(height_m: Array, system: System) -> str:
@@ -260,45 +189,34 @@ def _heights(height_m: Array, system: System) -> str:
     return f"{' to '.join(texts)} {system.length.name}"
 
 
-def lay_out_strokes(travel: Travel, numbers: Sequence[int], system: System) -> Iterator[Grid]:
-    """Yield one table, a cylinder a row.
-
-    Args:
-        travel: Strokes and dead centres.
-        numbers: Numbers of the cylinders, in the order of its arrays.
-        system: Units.
-    """
+def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Iterator[Grid]:
+    """Yield one table, a cylinder a row."""
+    length = system.length
     yield Grid(
         "Strokes and dead centres",
-        ("cylinder", f"stroke, {system.length.name}", "top, deg", "bottom, deg"),
+        ("cylinder", f"stroke, {length.name}", "top, deg", "bottom, deg"),
         tuple(
-            (str(n), number(system.length.of(stroke), 7), f"{top:.3f}", f"{bottom:.3f}")
-            for n, stroke, top, bottom in _list_travel(travel, numbers)
+            (
+                str(one.cylinder),
+                number(length.of(one.stroke_m), 7),
+                f"{one.top_deg:.3f}",
+                f"{one.bottom_deg:.3f}",
+            )
+            for one in travel
         ),
         note="Dead centres: crank degrees after the pin lies along the cylinder's axis, and half "
         "a turn later.",
     )
 
 
-def describe_strokes(travel: Travel, numbers: Sequence[int]) -> list[dict[str, Any]]:
-    """Return `travel` of `balcli.analysis/1`: an entry a cylinder."""
-    keys = ("cylinder", "stroke_m", "top_deg", "bottom_deg")
-    return [dict(zip(keys, line, strict=True)) for line in _list_travel(travel, numbers)]
-
-
-def list_strokes(travel: Travel, numbers: Sequence[int], system: System) -> Iterator[FigureRow]:
+def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow]:
     """Yield three figures a cylinder."""
     length = system.length
-    for n, stroke, top, bottom in _list_travel(travel, numbers):
-        yield FigureRow(n, "travel", None, "stroke", length.of(stroke), length.name)
-        yield FigureRow(n, "travel", None, "top_deg", top, "deg")
-        yield FigureRow(n, "travel", None, "bottom_deg", bottom, "deg")
-
-
-def _list_travel(travel: Travel, numbers: Sequence[int]) -> list[tuple[int, float, float, float]]:
-    """Return number, stroke (m) and dead centres (deg) of the cylinders in rising order."""
-    arrays = (travel.stroke, travel.top_deg, travel.bottom_deg)
-    return sorted(zip(numbers, *((values + 0.0).tolist() for values in arrays), strict=True))
+    for one in travel:
+        about = one.cylinder, "travel", None
+        yield FigureRow(*about, "stroke", length.of(one.stroke_m), length.name)
+        yield FigureRow(*about, "top_deg", one.top_deg, "deg")
+        yield FigureRow(*about, "bottom_deg", one.bottom_deg, "deg")
 
 
 UNITS = (
@@ -321,7 +239,7 @@ def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:
         yield FigureRow(*about, "why_size", clean(reason.size), "of one cylinder")
         if reason.reciprocating is not None:
             yield FigureRow(*about, "why_reciprocating", clean(reason.reciprocating), reason.unit)
-            yield FigureRow(*about, "why_built", clean(reason.built), reason.unit)
+            yield FigureRow(*about, "why_built", reason.built, reason.unit)
     if why.scope:
         yield FigureRow(0, "scope", None, "why", why.scope, "")
     if why.firing:

@@ -4,30 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
-from ..core.records import to_document
+from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
 from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
-from ..show.figures import (
-    FigureRow,
-    assumptions,
-    describe_engine,
-    describe_state,
-    figure_rows,
-    order_entries,
-    peak_entries,
-)
+from ..show.figures import FigureRow, figure_rows
 from ..show.formats import Renderer
 from ..show.sheet import IN_BRIEF, NAMELESS, Facts, Grid, Sheet, Text, View, sentence
 from ..show.units import System
 from . import sections
 from .answer import Analysis, Sizing
-from .devices_show import device_entries, device_grid, device_rows, number_devices
+from .devices_show import device_grid, device_rows, number_devices
 from .order_tables import (
     cylinder_table,
     direction_tables,
@@ -68,8 +60,9 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield from _chosen_order_parts(result, system, view)
     else:
         yield from _order_parts_in_brief(result, system, view)
-    for n, share in result.cylinders:
-        yield cylinder_table(n, share.with_moment_if(result.moments_known), system)
+    for share in result.cylinders or ():
+        spectra = share.spectra.with_moment_if(result.moments_known)
+        yield cylinder_table(share.cylinder, spectra, system)
     yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
     if result.sizing is not None:
         if view.whole or view.parts:
@@ -81,7 +74,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
     """What there is only of some engines, or where it was asked for."""
     if result.travel is not None and whole:
-        yield from sections.lay_out_strokes(result.travel, result.engine.numbers, system)
+        yield from sections.lay_out_strokes(result.travel, system)
     if result.inner is not None:
         yield from sections.sheet_parts(result.inner, system)
     if result.guide is not None:
@@ -170,50 +163,12 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
     yield peak_facts(after, system, "Largest with these devices")
 
 
-FORMAT = "balcli.analysis/1"
-
-
-def document(result: Analysis) -> dict[str, Any]:
-    """`balcli.analysis/1`."""
-    engine = result.engine
-    found: dict[str, Any] = {
-        "format": FORMAT,
-        "engine": describe_engine(engine),
-        **describe_state(engine),
-        "orders": order_entries(result.spectra),
-        **assumptions(result, engine.inferred),
-    }
-    if largest := peak_entries(result):
-        found["peak"] = largest
-    if result.sizing is not None:
-        found["sizing"] = {
-            "scheme": result.sizing.remedy.scheme,
-            **device_entries(result.sizing.remedy),
-            "after": brief_document(result.sizing.after),
-        }
-    if result.cylinders:
-        found["cylinders"] = [
-            {"cylinder": number, "orders": order_entries(spectra)}
-            for number, spectra in result.cylinders
-        ]
-    if result.inner is not None:
-        found["inner"] = sections.document(result.inner)
-    if result.guide is not None:
-        found["guide"] = sections.describe_guide(result.guide)
-    if result.travel is not None:
-        found["travel"] = sections.describe_strokes(result.travel, result.engine.numbers)
-    if result.why is not None:
-        found["why"] = to_document(result.why)
-    return found
-
-
 def columns(result: Analysis) -> Columns:
     """An order a row: sizes and directions of each kind, named as the quantities of sweeps without
     their order.
     """
     spectra = result.spectra.with_moment_if(result.moments_known)
-    orders = result.orders.tolist()
-    values: dict[str, Any] = {"order": orders}
+    values: dict[str, Array] = {"order": result.orders}
     units: dict[str, str] = {}
     for kind, phasors in spectra.items():
         parts = {"amplitude": phasors.major, "cos": phasors.x.real, "sin": -phasors.x.imag}
@@ -231,11 +186,6 @@ def columns(result: Analysis) -> Columns:
     return Columns(values, units)
 
 
-def brief_document(result: Analysis) -> dict[str, Any]:
-    """Peaks and orders alone, where the engine is known."""
-    return {"peak": peak_entries(result), "orders": order_entries(result.spectra)}
-
-
 def rows(result: Analysis, system: System, *, devices: bool = True) -> Rows:
     """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve.
 
@@ -247,13 +197,14 @@ def rows(result: Analysis, system: System, *, devices: bool = True) -> Rows:
 
 
 def _all_rows(result: Analysis, system: System, *, devices: bool) -> Iterator[FigureRow]:
-    yield from figure_rows(result, system)
+    shares = {share.cylinder: share.spectra for share in result.cylinders or ()}
+    yield from figure_rows(result, system, shares)
     if devices and result.sizing is not None:
         for part, device in number_devices(result.sizing.remedy.devices):
             for figure, value, unit in device_rows(device, system):
                 yield FigureRow(0, part, None, figure, value, unit)
     if result.travel is not None:
-        yield from sections.list_strokes(result.travel, result.engine.numbers, system)
+        yield from sections.list_strokes(result.travel, system)
     if result.inner is not None:
         yield from sections.rows(result.inner, system)
     if result.guide is not None:
@@ -262,4 +213,4 @@ def _all_rows(result: Analysis, system: System, *, devices: bool) -> Iterator[Fi
         yield from sections.list_symmetry(result.why)
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows, columns=columns)
+RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)

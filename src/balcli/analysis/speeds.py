@@ -8,21 +8,21 @@ called vertical, too: M1V is My of order 1, M1H its Mx.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import astuple, dataclass, field, fields, replace
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.records import remove_unit
+from ..core.records import HIDDEN, WrittenAs, remove_unit
 from ..engine.engine import Engine
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import engine_facts
-from ..show.figures import clean, clean_each
-from ..show.formats import Renderer
+from ..show.figures import clean, name_engine
+from ..show.formats import Renderer, write_named
 from ..show.sheet import (
     NAMELESS,
     NEGLIGIBLE,
@@ -38,7 +38,7 @@ from ..show.sheet import (
     size_cell,
     size_text,
 )
-from . import sections, show as analysis_document
+from . import sections, show as analysis_show
 from .answer import Analysis, analyze
 from .comparison import (
     TITLES,
@@ -49,6 +49,7 @@ from .comparison import (
     list_lines,
     show_sizes,
 )
+from .records import Includes, name_included
 from .sections import define_guide_moments
 
 if TYPE_CHECKING:
@@ -56,16 +57,20 @@ if TYPE_CHECKING:
     from ..show.units import ShownUnit, System
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class SpeedSeries:
     """Analyses of one engine by the same orders, a speed each, as the speeds were asked for.
 
     Attributes:
-        every_order: whether orders were asked for, so that none of them is left out.
+        engine: The engine.
+        analyses: Analysis at each speed.
+        every_order: Whether orders were asked for, so that none of them is left out.
     """
 
+    format: Literal["balcli.speeds/1"] = "balcli.speeds/1"
+    engine: Annotated[Engine, WrittenAs(name_engine)]
     analyses: tuple[Analysis, ...]
-    every_order: bool = False
+    every_order: Annotated[bool, HIDDEN] = False
 
     @property
     def speeds_rpm(self) -> list[float]:
@@ -96,48 +101,115 @@ def analyze_speeds(
     """
     engines = [replace(engine, speed_rpm=speed) for speed in speeds_rpm]
     asked = None if orders is None else list(orders)
-    return SpeedSeries(analyze_alike(engines, asked, analyze_one), asked is not None)
+    return SpeedSeries(
+        engine=engine,
+        analyses=analyze_alike(engines, asked, analyze_one),
+        every_order=asked is not None,
+    )
 
 
-FIGURES = (
-    "force_v_N",
-    "force_h_N",
-    "moment_v_Nm",
-    "moment_h_Nm",
-    "guide_h_Nm",
-    "guide_x_Nm",
-    "torque_Nm",
-)
+@dataclass(frozen=True)
+class MarineOrder:
+    """Amplitudes of one order; null: not known.
+
+    Attributes:
+        order: Times the crank speed.
+        force_v_N: External force along x.
+        force_h_N: External force along y.
+        moment_v_Nm: External moment of the forces along x.
+        moment_h_Nm: External moment of the forces along y.
+        guide_h_Nm: H-type guide-force moment.
+        guide_x_Nm: X-type guide-force moment.
+        torque_Nm: Torque on the crank, of inertia, and of the gas where the engine has some.
+    """
+
+    order: float
+    force_v_N: float
+    force_h_N: float
+    moment_v_Nm: float
+    moment_h_Nm: float
+    guide_h_Nm: float
+    guide_x_Nm: float
+    torque_Nm: float
 
 
-@dataclass(frozen=True, eq=False)
+FIGURES = tuple(each.name for each in fields(MarineOrder))[1:]
+
+
+@dataclass(frozen=True)
+class MarineSpeed:
+    """All orders at one speed.
+
+    Attributes:
+        speed_rpm: Crank speed.
+        orders: Amplitudes by order.
+    """
+
+    speed_rpm: float
+    orders: tuple[MarineOrder, ...]
+
+
+@dataclass(frozen=True)
+class CountedEngine:
+    """An engine and its cylinders.
+
+    Attributes:
+        name: Name of the engine.
+        cylinders: How many cylinders it has.
+    """
+
+    name: str
+    cylinders: int
+
+
+def count_cylinders(engine: Engine) -> CountedEngine:
+    """Return name and number of cylinders."""
+    return CountedEngine(engine.name, engine.cylinders.count)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class MarineSheet:
-    """Amplitudes by speed and order.
+    """External forces and moments and guide-force moments, as builders of marine engines list
+    them.
 
     Attributes:
         engine: Engine at the first of the speeds.
-        speeds_rpm: Speeds, shape (speeds,).
-        orders: Orders, ascending, shape (orders,).
-        figures: Amplitudes by their names in `FIGURES`, shape (speeds, orders); nan: not known.
-            force_v, force_h: external forces along x and y; moment_v, moment_h: external moments of
-            the forces along x and along y; guide_h, guide_x: H- and X-type guide-force moments;
-            torque: on the crank, of inertia, and of the gas where the engine has some.
+        includes: Whether the gas has a part in guide-force moments and torque.
+        axes: Axes that are called vertical and horizontal.
         height_m: Distance from the crankshaft to the middle of each cylinder's guide, by its
-            number, shape (cylinders,).
+            number.
+        speeds: Amplitudes by speed and order.
         force_of_one: Force of one cylinder at each speed, N, next to which an external force may be
             negligible, shape (speeds,).
         moment_of_one: Moment of one cylinder, N m, shape (speeds,).
-        every_order: Whether people are shown orders that are negligible, too.
+        every_order: Whether people are shown orders that are negligible as well.
     """
 
-    engine: Engine
-    speeds_rpm: Array
-    orders: Array
-    figures: dict[str, Array]
+    format: Literal["balcli.marine/1"] = "balcli.marine/1"
+    engine: Annotated[Engine, WrittenAs(count_cylinders)]
+    includes: Includes
+    axes: Mapping[str, str] = field(default_factory={"v": "x", "h": "y"}.copy)
     height_m: Array
-    force_of_one: Array
-    moment_of_one: Array
-    every_order: bool = False
+    speeds: tuple[MarineSpeed, ...]
+    force_of_one: Annotated[Array, HIDDEN]
+    moment_of_one: Annotated[Array, HIDDEN]
+    every_order: Annotated[bool, HIDDEN] = False
+
+    @property
+    def speeds_rpm(self) -> Array:
+        """Speeds, shape (speeds,)."""
+        return np.array([speed.speed_rpm for speed in self.speeds])
+
+    @property
+    def orders(self) -> Array:
+        """Orders, ascending, shape (orders,)."""
+        return np.array([each.order for each in self.speeds[0].orders])
+
+    @cached_property
+    def figures(self) -> dict[str, Array]:
+        """Amplitudes by their names in `FIGURES`, shape (speeds, orders); nan: not known."""
+        table = np.array([[astuple(each)[1:] for each in speed.orders] for speed in self.speeds])
+        return dict(zip(FIGURES, np.moveaxis(table, 2, 0), strict=True))
 
 
 def find_marine_sheet(
@@ -167,31 +239,34 @@ def find_marine_sheet(
     )
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
     found = analyze_alike([replace(engine, speed_rpm=speed) for speed in speeds], orders, ask)
-    each = [_list_amplitudes(one, torque.name) for one in found]
     guide = found[0].guide
     return MarineSheet(
-        replace(engine, speed_rpm=speeds[0]),
-        np.array(speeds),
-        found[0].orders,
-        {name: np.stack(sizes) for name, *sizes in zip(FIGURES, *each, strict=True)},
-        np.array([]) if guide is None else guide.height_m,
-        np.array([one.of_one_cylinder["force"] for one in found]),
-        np.array([one.of_one_cylinder["moment"] for one in found]),
-        every_order or orders is not None,
+        engine=replace(engine, speed_rpm=speeds[0]),
+        includes=name_included(engine.gas is not None),
+        height_m=np.array([]) if guide is None else guide.height_m,
+        speeds=tuple(
+            MarineSpeed(speed, _list_amplitudes(one, torque.name))
+            for speed, one in zip(speeds, found, strict=True)
+        ),
+        force_of_one=np.array([one.of_one_cylinder["force"] for one in found]),
+        moment_of_one=np.array([one.of_one_cylinder["moment"] for one in found]),
+        every_order=every_order or orders is not None,
     )
 
 
-def _list_amplitudes(one: Analysis, torque: str) -> tuple[Array, ...]:
-    """Return amplitudes at one speed in the order of `FIGURES`, each of shape (orders,)."""
+def _list_amplitudes(one: Analysis, torque: str) -> tuple[MarineOrder, ...]:
+    """Return amplitudes at one speed by order."""
     spectra = one.spectra.with_moment_if(one.moments_known)
     force, moment = spectra["force"], spectra["moment"]
     guides = (None, None) if one.guide is None else (one.guide.h, one.guide.x)
     unknown = np.full(one.orders.shape, np.nan)
-    return (
+    columns = (
         *(np.abs(component) for component in (force.x, force.y, moment.y, moment.x)),
         *(unknown if guide is None else guide.major for guide in guides),
         np.abs(spectra[torque].x),
     )
+    listed = (column.tolist() for column in columns)
+    return tuple(map(MarineOrder, map(order_number, one.orders), *listed))
 
 
 def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
@@ -200,19 +275,10 @@ def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
     return Sheet(engine.name or NAMELESS, tuple(_parts(one, system)))
 
 
-def document(one: NamedResult[SpeedSeries]) -> dict[str, Any]:
-    """`balcli.speeds/1`: the analysis at each speed, as `balcli.analysis/1`."""
-    return {
-        "format": "balcli.speeds/1",
-        "engine": {"name": one.result.analyses[0].engine.name},
-        "analyses": [analysis_document.document(each) for each in one.result.analyses],
-    }
-
-
 def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
     """CSV: the rows of each analysis after the engine's name and the speed."""
     devices = "sizing" in one.view.parts
-    every = [analysis_document.rows(each, system, devices=devices) for each in one.result.analyses]
+    every = [analysis_show.rows(each, system, devices=devices) for each in one.result.analyses]
     lines = (
         (name_cell(one.name), speed, *line)
         for speed, rows_of_one in zip(one.result.speeds_rpm, every, strict=True)
@@ -258,7 +324,7 @@ def _kind_part(
     return Grid(title, ("rpm", *heads), table, words=())
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 
 
 _NAMES = (
@@ -298,27 +364,6 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
     grids = (draw(title, names, result, system) for title, names in groups.items())
     notes = (_tell_axes(result), define_guide_moments(result.height_m, system))
     return Sheet(result.engine.name or NAMELESS, (head, *grids, Text("", notes)))
-
-
-def describe_marine(one: NamedResult[MarineSheet]) -> dict[str, Any]:
-    """Return `balcli.marine/1`: SI."""
-    result = one.result
-
-    def entry(i: int, k: int) -> dict[str, Any]:
-        figures = {name: clean(values[i, k]) for name, values in result.figures.items()}
-        return {"order": order_number(result.orders[k]), **figures}
-
-    return {
-        "format": "balcli.marine/1",
-        "engine": {"name": result.engine.name, "cylinders": result.engine.cylinders.count},
-        "includes": "inertia, without gas" if result.engine.gas is None else "inertia and gas",
-        "axes": {"v": "x", "h": "y"},
-        "height_m": clean_each(result.height_m),
-        "speeds": [
-            {"speed_rpm": speed, "orders": [entry(i, k) for k in range(len(result.orders))]}
-            for i, speed in enumerate(result.speeds_rpm.tolist())
-        ],
-    }
 
 
 def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
@@ -426,4 +471,4 @@ def _tell_axes(result: MarineSheet) -> str:
     return f"V is along x, from which bank angles count ({what}), H along y."
 
 
-MARINE = Renderer(sheet=lay_out_marine, document=describe_marine, rows=list_marine)
+MARINE = Renderer(sheet=lay_out_marine, document=write_named, rows=list_marine)

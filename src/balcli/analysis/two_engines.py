@@ -5,17 +5,18 @@ sum is shown.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
 import numpy as np
 
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors, unit
+from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..core.speed_ripple import RippleLine
 from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, check_number, check_type
-from ..forces.kinds import EVERY_KIND, GAS, KINDS, VECTORS, Kind
+from ..forces.kinds import EVERY_KIND, GAS, KINDS, Kind
 from ..forces.spectrum import (
     Spectra,
     add_parts,
@@ -31,13 +32,14 @@ from ..shell.arguments import read_position, tell_arguments
 from ..show.csv import Rows
 from ..show.engine_facts import tell_pivot, tell_speed
 from ..show.figures import (
-    assumptions,
-    clean,
-    describe_engine,
+    EngineSize,
+    EngineState,
+    Peaks,
     describe_state,
     figure_rows,
-    order_entries,
-    peak_entries,
+    list_assumed,
+    list_orders,
+    measure_engine,
 )
 from ..show.formats import Renderer
 from ..show.result import Result
@@ -51,6 +53,31 @@ if TYPE_CHECKING:
 
 Load = Literal["first", "second", "both"]
 LOADS: tuple[str, ...] = get_args(Load)
+
+
+def as_millimetres(place_m: tuple[float, ...]) -> tuple[float, ...]:
+    """Return a place in mm."""
+    return tuple(1e3 * float(v) for v in place_m)
+
+
+@dataclass(frozen=True)
+class EngineOfTwo:
+    """One of two engines.
+
+    Attributes:
+        size: Its name and size.
+        gas: Whether its file has gas; left out where neither has.
+    """
+
+    size: Annotated[EngineSize, INLINE]
+    gas: bool | None = None
+
+
+def measure_engines(engines: tuple[Engine, ...]) -> tuple[EngineOfTwo, ...]:
+    """Return names and sizes, and which engines have gas if any has."""
+    has_gas = [engine.gas is not None for engine in engines]
+    sizes = map(measure_engine, engines)
+    return tuple(map(EngineOfTwo, sizes, has_gas if any(has_gas) else [None] * len(has_gas)))
 
 
 @dataclass(frozen=True)
@@ -70,7 +97,7 @@ class Arrangement:
     """
 
     phase_deg: float = 0.0
-    at_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    at_m: Annotated[tuple[float, ...], WrittenAs(as_millimetres, "at_mm")] = (0.0, 0.0, 0.0)
     turn_deg: float = 0.0
     reverse: bool = False
     load: str = "first"
@@ -97,7 +124,7 @@ class Arrangement:
             )
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Combined(Result):
     """What two engines do to their common frame, about the first one's point of reference.
 
@@ -110,21 +137,21 @@ class Combined(Result):
     Attributes:
         engines: as they were given.
         arrangement: where the second one stands, how it leads, and who drives the load.
-        spectra: phasors of the orders shown, of both together.
-        force: largest `value` over a revolution (N), of all orders, and its crank angle `theta`
-            (rad).
-        moment: likewise (N m).
-        cylinders: none; each engine's own analysis has them.
+        state: Speed and point of reference of both.
+        spectra: Orders shown, of both together.
+        assumed: What is taken because an engine file leaves it out.
+        peak: Largest values over a revolution, all orders together.
         every_order: whether orders were asked for, so that none of them is left out.
     """
 
-    engines: tuple[Engine, Engine]
+    format: Literal["balcli.sum/1"] = "balcli.sum/1"
+    engines: Annotated[tuple[Engine, Engine], WrittenAs(measure_engines)]
     arrangement: Arrangement
-    spectra: Spectra
-    force: Peak
-    moment: Peak
-    cylinders: tuple[tuple[int, Spectra], ...] = ()
-    every_order: bool = False
+    state: Annotated[EngineState, INLINE]
+    spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
+    assumed: tuple[str, ...] | None = None
+    peak: Peaks
+    every_order: Annotated[bool, HIDDEN] = False
 
     @property
     def summary(self) -> str:
@@ -145,7 +172,7 @@ class Combined(Result):
     @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
         """Force and moment, with their peaks."""
-        return list(zip(VECTORS, (self.force, self.moment), strict=True))
+        return self.peak.items()
 
 
 def combine_engines(
@@ -177,11 +204,12 @@ def combine_engines(
         whole = _compute_sum(one, other, arrangement, computed)
     shown = choose_orders(visible, first, second) if asked is None else asked
     return Combined(
-        given,
-        arrangement,
-        visible.select_orders(shown),
-        find_peak(whole["force"]),
-        find_peak(whole["moment"]),
+        engines=given,
+        arrangement=arrangement,
+        state=describe_state(first),
+        spectra=visible.select_orders(shown),
+        assumed=list_assumed(first.places_known and second.places_known),
+        peak=Peaks(find_peak(whole["force"]), find_peak(whole["moment"])),
         every_order=asked is not None,
     )
 
@@ -295,7 +323,7 @@ def combine(
 
     Returns:
         `spectra` of both together about the first one's point of reference (N, N m), as of
-        `analyze`, and the peaks `force` and `moment`.
+        `analyze`, and the largest values in `peak`.
 
     Raises:
         BalcliError: something infinite or too far, an unknown load, or one that makes no
@@ -303,7 +331,7 @@ def combine(
         TypeError: what is no engine, no number, no place.
 
     Example:
-        >>> combine(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).force.value
+        >>> combine(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).peak.force
     """
     checked = check_engine("combine", first), check_engine("combine", second)
     phase = check_number("phase_deg", phase_deg, "give an angle in degrees")
@@ -325,24 +353,6 @@ _GAS = {  # whose gas counts, by whether the first and the second have some
     (True, False): "of the first alone; the file of the second has no [gas]",
     (False, True): "of the second alone; the file of the first has no [gas]",
 }
-
-
-def document(result: Combined) -> dict[str, Any]:
-    """Return `balcli.sum/1`: orders and peak as in `balcli.analysis/1`."""
-    how = asdict(result.arrangement)
-    place = {"at_mm": [clean(v * 1e3) for v in how.pop("at_m")]}
-    engines = [describe_engine(engine) for engine in result.engines]
-    if any(result.has_gas):
-        engines = [e | {"gas": gas} for e, gas in zip(engines, result.has_gas, strict=True)]
-    return {
-        "format": "balcli.sum/1",
-        "engines": engines,
-        "arrangement": {"phase_deg": how.pop("phase_deg"), **place, **how},
-        **describe_state(result.engines[0]),
-        "orders": order_entries(result.spectra),
-        **assumptions(result),
-        "peak": peak_entries(result),
-    }
 
 
 def rows(result: Combined, system: System) -> Rows:
@@ -390,4 +400,4 @@ def _tell_place(point: Iterable[Any], unit: ShownUnit) -> str:
     return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)

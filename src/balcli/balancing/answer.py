@@ -111,7 +111,7 @@ def balance_engine(
         TypeError: what is no engine; options or tools that are none.
 
     Example:
-        >>> balance(load("i3.toml"), "counterweights").after.moment.value
+        >>> balance(load("i3.toml"), "counterweights").after.peak.moment.value
     """
     check_engine("balance", engine)
     check_type("balance", scheme, str, 'give the name of a scheme, such as "counterweights"')

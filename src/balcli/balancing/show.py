@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
+from ..analysis.answer import shorten
 from ..analysis.devices_show import (
-    device_entries,
     device_grid,
     device_rows,
     holes_grid,
@@ -17,13 +18,13 @@ from ..analysis.devices_show import (
 )
 from ..analysis.order_tables import fit_largest
 from ..analysis.overview import find_orders_that_matter, name_column, tell_others
-from ..analysis.show import brief_document
+from ..analysis.records import Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
-from ..core.records import list_figures, remove_unit, to_document, write_each
+from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..show.csv import Columns, Rows
-from ..show.figures import assumptions, figure_rows
+from ..show.figures import figure_rows, list_assumed
 from ..show.formats import Renderer
 from ..show.sheet import (
     NAMELESS,
@@ -43,7 +44,8 @@ from ..show.sheet import (
 )
 from ..show.units import SI, ShownUnit, System
 from ..sizing.planes import find_unbalance, name_kind
-from .answer import Balance
+from ..sizing.workshop import Practical
+from .answer import Balance, PermittedUnbalance
 from .scheme_show import details_document, details_parts, tell_growing_rolls
 
 _TURNING_WEIGHTS = (
@@ -194,25 +196,52 @@ def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
 
 
 # ------------------------------------------------------------------ JSON and CSV
-def document(result: Balance) -> dict[str, Any]:
+@dataclass(frozen=True, kw_only=True)
+class BalanceDocument:
+    """Devices that a scheme fits, and what shakes without and with them.
+
+    Attributes:
+        scheme: Name of the scheme.
+        order: Order that the scheme balances; null where it is none in particular.
+        devices: The devices.
+        reasons: Why these devices.
+        practical: The workshop's figures of each device.
+        details: Further figures of the scheme, under names that end in the unit.
+        assumed: What is taken because the engine file leaves it out.
+        before: Peaks and orders without the devices.
+        after: Peaks and orders with the devices.
+        permitted: What a balance grade permits in each plane.
+    """
+
+    format: Literal["balcli.balance/1"] = "balcli.balance/1"
+    scheme: str
+    order: int | None
+    devices: Annotated[Devices, INLINE]
+    reasons: tuple[str, ...]
+    practical: tuple[Practical, ...]
+    details: dict[str, Any]
+    assumed: tuple[str, ...] | None = None
+    before: PeaksAndOrders
+    after: PeaksAndOrders
+    permitted: PermittedUnbalance | None = None
+
+
+def document(result: Balance) -> Node:
     """Return `balcli.balance/1`."""
-    remedy, permitted = result.remedy, result.permitted
-    document: dict[str, Any] = {
-        "format": "balcli.balance/1",
-        "scheme": remedy.scheme,
-        "order": remedy.order,
-        **device_entries(remedy),
-        "reasons": remedy.reasons,
-        "practical": result.practical,
-        "details": details_document(result),
-        **assumptions(result.before),
-        "before": brief_document(result.before),
-        "after": brief_document(result.after),
-    }
-    if permitted is not None:
-        document["permitted"] = permitted
-    found: dict[str, Any] = write_each(document)
-    return found
+    remedy = result.remedy
+    described = BalanceDocument(
+        scheme=remedy.scheme,
+        order=remedy.order,
+        devices=describe_devices(remedy),
+        reasons=remedy.reasons,
+        practical=result.practical,
+        details=details_document(result),
+        assumed=list_assumed(result.before.moments_known),
+        before=shorten(result.before),
+        after=shorten(result.after),
+        permitted=result.permitted,
+    )
+    return to_document(described)
 
 
 def columns(result: Balance) -> Columns:

@@ -10,15 +10,16 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
 from importlib.resources import files
-from typing import Literal, NamedTuple, TypeAlias, cast
+from typing import Annotated, Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from ..core.phasors import Array
+from ..core.records import WrittenAs
 from ..errors import BalcliError
 from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
 from ..show.result import Result
@@ -48,6 +49,11 @@ class Explanation:
     rows: tuple[Row, ...]
 
 
+def name_class(category: ErratumClass) -> ErratumClass:
+    """Return the class of an erratum, whose key in JSON is a keyword of Python."""
+    return category
+
+
 @dataclass(frozen=True)
 class Erratum:
     """A printed figure that is not the exact one rounded, or a statement that is wrong.
@@ -58,8 +64,8 @@ class Erratum:
         printed: What the source prints.
         exact: What would be right.
         kind: How the print came about, or how the right form of a statement is known.
-        category: Class of the erratum, a key of `CLASSES`.
         label: Name of the row.
+        category: Class of the erratum, a key of `CLASSES`.
     """
 
     row: int
@@ -67,13 +73,8 @@ class Erratum:
     printed: str
     exact: Cell
     kind: str
-    category: ErratumClass
     label: str
-
-    def describe(self) -> dict[str, Cell]:
-        """Return the erratum as JSON has it, the category as `class`."""
-        fields = asdict(self)
-        return fields | {"class": fields.pop("category")}
+    category: Annotated[ErratumClass, WrittenAs(name_class, "class")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -127,7 +128,7 @@ class Table(Result):
                     supposed = [(each.kind, each.rows[i][j]) for each in self.explanations]
                     kind = _find_kind(value, text, supposed)
                     category = _classify(kind)
-                    yield Erratum(i, self.columns[j], text, value, kind, category, self.label(i))
+                    yield Erratum(i, self.columns[j], text, value, kind, self.label(i), category)
 
 
 def parse_decimal(text: str) -> Decimal | None:
@@ -293,7 +294,7 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
         cells.append((source, place, right, category, known))
         words.append((source, place, wrong, None, None))
         label, name = f"{source}, {place}", cast("ErratumClass", category)
-        stated.append(Erratum(i, STATEMENT, wrong, right, known, name, label))
+        stated.append(Erratum(i, STATEMENT, wrong, right, known, label, name))
     shape = ("source", "place", STATEMENT, "class", "known"), tuple(cells), tuple(words)
     return Table(printed.name, printed.title, printed.source, *shape, stub=2, stated=tuple(stated))
 

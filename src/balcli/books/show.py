@@ -9,8 +9,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
 
+from ..core.records import Node, to_document
 from ..show.csv import Rows
 from ..show.formats import Renderer
 from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, Text, number
@@ -22,15 +24,14 @@ from .recomputed import (
     STATEMENT,
     Cell,
     Erratum,
+    Row,
     Table,
+    Words,
     deviates,
     parse_decimal,
     parse_number,
     round_like,
 )
-
-if TYPE_CHECKING:
-    from .recomputed import Row
 
 
 def sheet(table: Table, _system: System) -> Sheet:
@@ -51,18 +52,35 @@ def sheet(table: Table, _system: System) -> Sheet:
     return Sheet(title, (facts, grid))
 
 
-def document(table: Table) -> dict[str, Any]:
+@dataclass(frozen=True, kw_only=True)
+class TableDocument:
+    """A printed table, recomputed.
+
+    Attributes:
+        name: Name of the table.
+        title: Title of the table.
+        source: Book or paper that prints it.
+        columns: Names of the columns.
+        rows: Exact cells of every row.
+        printed: Printed texts of every row; null: not printed.
+        errata: Printed cells that are not the exact ones rounded.
+    """
+
+    format: Literal["balcli.table/1"] = "balcli.table/1"
+    name: str
+    title: str
+    source: str
+    columns: tuple[str, ...]
+    rows: tuple[Row, ...]
+    printed: tuple[Words, ...]
+    errata: tuple[Erratum, ...]
+
+
+def document(table: Table) -> Node:
     """Return `balcli.table/1`: the exact figures, the printed texts, and the errata."""
-    return {
-        "format": "balcli.table/1",
-        "name": table.name,
-        "title": table.title,
-        "source": table.source,
-        "columns": table.columns,
-        "rows": table.exact,
-        "printed": table.printed,
-        "errata": [e.describe() for e in table.errata],
-    }
+    head = {key: getattr(table, key) for key in ("name", "title", "source", "columns")}
+    found = TableDocument(**head, rows=table.exact, printed=table.printed, errata=table.errata)
+    return to_document(found)
 
 
 def rows(table: Table, _system: System) -> Rows:
@@ -167,7 +185,7 @@ def _fold(text: str) -> str:
 
 def describe_errata(errata: Errata) -> list[dict[str, Any]]:
     """Return one list, each erratum with its table's name."""
-    return [{"name": table, **e.describe()} for table, e in errata]
+    return [{"name": table, **to_document(e)} for table, e in errata]
 
 
 def list_errata(errata: Errata, _system: System) -> Rows:

@@ -13,9 +13,11 @@ Rules:
 
 * An attribute with the default None is optional: where it is None, its key is left out.
 * A number that is not finite becomes null; a negative zero becomes 0.
-* Marks in `Annotated`: `Polar` writes a complex number as magnitude and angle, `Axes(2)` is an
-  array of two axes (no mark: one), `INLINE` puts the keys of a value beside those of the other
-  attributes, `HIDDEN` keeps an attribute for Python alone.
+* A complex number becomes a list of its real and imaginary part.
+* Marks in `Annotated`: `Polar` writes a complex number as magnitude and angle, `Reached` a peak as
+  its value and its crank angle, `WrittenAs` a value as the record that a function makes of it,
+  `Axes(2)` is an array of two axes (no mark: one), `INLINE` puts the keys of a value beside those
+  of the other attributes (of a dict, any keys), `HIDDEN` keeps an attribute for Python alone.
 
 Example::
 
@@ -38,7 +40,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
 from inspect import cleandoc
@@ -80,6 +82,30 @@ class Polar(NamedTuple):
         }
 
 
+class Reached(NamedTuple):
+    """Mark of a peak (`core.peaks.Peak`): the keys of its value and of its first crank angle.
+
+    The angle is in degrees, and null where the value is 0.
+    """
+
+    value: str
+    angle: str
+
+    def split(self, peak: Any) -> Node:
+        """Return the JSON object of a peak."""
+        at = math.degrees(peak.theta) if peak.value else None
+        return {self.value: write_each(peak.value), self.angle: at}
+
+
+class WrittenAs(NamedTuple):
+    """Mark of a value that is written as the record, or list of records, that a function makes of
+    it; what this function returns, by its annotation, is described in the schema.
+    """
+
+    make: Callable[[Any], Any]
+    key: str = ""  # in JSON; empty: the name of the attribute
+
+
 class Axes(NamedTuple):
     """Mark of an array: how many axes it has."""
 
@@ -98,24 +124,32 @@ def angle_deg(value: complex) -> float:
 
 class _Attribute(NamedTuple):
     name: str
+    key: str  # in JSON
     kind: Any  # annotation without marks
     optional: bool
-    marks: tuple[Any, ...]
-
-    @property
-    def polar(self) -> Polar | None:
-        return next((mark for mark in self.marks if isinstance(mark, Polar)), None)
+    inline: bool
+    axes: int
+    split: Polar | Reached | None
+    make: Callable[[Any], Any] | None
 
 
 @cache
 def _list_attributes(record: type) -> tuple[_Attribute, ...]:
     """Return the attributes that documents show, in their order."""
     hints = get_type_hints(record, include_extras=True)
-    found = (
-        _Attribute(each.name, hints[each.name], each.default is None, _find_marks(hints[each.name]))
-        for each in fields(record)
+    found = ((each, hints[each.name], _find_marks(hints[each.name])) for each in fields(record))
+    return tuple(
+        _read_marks(each.name, kind, each.default is None, marks)
+        for each, kind, marks in found
+        if HIDDEN not in marks
     )
-    return tuple(each for each in found if HIDDEN not in each.marks)
+
+
+def _read_marks(name: str, kind: Any, optional: bool, marks: tuple[Any, ...]) -> _Attribute:
+    split = next((mark for mark in marks if isinstance(mark, (Polar, Reached))), None)
+    axes = next((mark.number for mark in marks if isinstance(mark, Axes)), 1)
+    make, key = next((mark for mark in marks if isinstance(mark, WrittenAs)), (None, ""))
+    return _Attribute(name, key or name, kind, optional, INLINE in marks, axes, split, make)
 
 
 def _find_marks(annotation: Any) -> tuple[Any, ...]:
@@ -135,27 +169,28 @@ def to_document(record: Any) -> Node:
     document: Node = {}
     for each in _list_attributes(record.__class__):
         value = getattr(record, each.name)
-        if value is not None or not each.optional:
-            written = write_each(value, each.polar)
-            document |= written if INLINE in each.marks else {each.name: written}
+        if value is None and each.optional:
+            continue
+        written = write_each(value if each.make is None else each.make(value), each.split)
+        document |= written if each.inline else {each.key: written}
     return document
 
 
-def write_each(value: Any, polar: Polar | None = None) -> Any:
+def write_each(value: Any, split: Polar | Reached | None = None) -> Any:
     """Return a number, word, record, or list or dict of these, as JSON has it."""
     if hasattr(value, "tolist"):  # an array or number of numpy, which is not imported here
         value = value.tolist()
-    if isinstance(value, (list, tuple)) and not hasattr(value, "_fields"):
-        return [write_each(item, polar) for item in value]
-    if isinstance(value, Mapping):
-        return {key: write_each(item, polar) for key, item in value.items()}
-    if polar is not None and value is not None:
-        return polar.split(value)
-    if is_dataclass(value):
-        return to_document(value)
     if isinstance(value, float):
         return value + 0.0 if math.isfinite(value) else None
-    return value
+    if isinstance(value, (list, tuple)) and not hasattr(value, "_fields"):
+        return [write_each(item, split) for item in value]
+    if isinstance(value, Mapping):
+        return {key: write_each(item, split) for key, item in value.items()}
+    if split is not None and value is not None:
+        return split.split(value)
+    if is_dataclass(value):
+        return to_document(value)
+    return [value.real + 0.0, value.imag + 0.0] if isinstance(value, complex) else value
 
 
 # ------------------------------------------------------------------ CSV
@@ -224,20 +259,24 @@ def _describe_class(record: type, definitions: Node) -> Node:
     summary, _, rest = cleandoc(record.__doc__ or "").partition("\n\n")
     texts = dict(_ATTRIBUTE.findall(rest.partition("Attributes:\n")[2]))
     properties: Node = {}
+    further: Node = {}
     required: list[str] = []
     for each in _list_attributes(record):
-        node = _describe(each.kind, each, definitions)
-        inline = INLINE in each.marks
-        if inline and "$ref" in node:
+        kind = each.kind if each.make is None else get_type_hints(each.make)["return"]
+        node = _describe(kind, each, definitions)
+        if each.inline and "$ref" in node:
             node = definitions[node["$ref"].rpartition("/")[2]]
-        for key, part in (node["properties"] if inline else {each.name: node}).items():
+        elif each.inline and "properties" not in node:  # a dict of any keys
+            further |= node
+            continue
+        for key, part in (node["properties"] if each.inline else {each.key: node}).items():
             unit = find_unit(key)
-            text = "" if inline else " ".join(texts.get(each.name, "").split())
+            text = "" if each.inline else " ".join(texts.get(each.name, "").split())
             text = " ".join(filter(None, (text, unit and f"[{unit}]")))
             properties[key] = {"description": text} | part if text else part
         if not each.optional:
-            required += node.get("required", ()) if inline else (each.name,)
-    return {
+            required += node.get("required", ()) if each.inline else (each.key,)
+    return further | {
         "type": "object",
         "description": " ".join(summary.split()),
         "properties": properties,
@@ -259,8 +298,8 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
         return {"type": "string"} | ({"const": arguments[0]} if one else {"enum": [*arguments]})
     if origin is not None:
         return _describe_many(origin, arguments, each, definitions)
-    if each.polar is not None and kind is not NoneType:
-        properties = dict.fromkeys(each.polar, _NUMBER)
+    if each.split is not None and kind is not NoneType:
+        properties = dict.fromkeys(each.split, _NUMBER)
         return {"type": "object", "properties": properties, "required": [*properties]}
     if is_dataclass(kind):
         name = kind.__name__  # type: ignore[union-attr]
@@ -268,6 +307,10 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
             definitions[name] = {}  # stands there while its attributes are described
             definitions[name] = _describe_class(kind, definitions)  # type: ignore[arg-type]
         return {"$ref": f"#/$defs/{name}"}
+    if kind is Any:
+        return {}
+    if kind is complex:
+        return {"type": "array", "items": _NUMBER}
     return {"type": _SIMPLE[kind]} if kind in _SIMPLE else _NUMBER
 
 
@@ -277,7 +320,7 @@ def _describe_many(origin: Any, arguments: Any, each: _Attribute, definitions: N
 
     if issubclass(origin, np.ndarray):
         node = _describe(float, each, definitions)
-        for _ in range(next((mark.number for mark in each.marks if isinstance(mark, Axes)), 1)):
+        for _ in range(each.axes):
             node = {"type": "array", "items": node}
         return node
     if issubclass(origin, Mapping):

@@ -1,41 +1,186 @@
-"""The figures of a result by name, as JSON nests them and CSV lists them."""
+"""The figures of an engine as records (orders, peaks, the engine itself), and as lines of CSV."""
 
 from __future__ import annotations
 
-import cmath
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, NamedTuple, Protocol
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Annotated, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..core.peaks import Peak
-from ..core.phasors import Phasors
+from ..core.phasors import Array, Complex, Figure, Phasors
+from ..core.records import INLINE, Node, Reached, write_each
 from ..engine.engine import Engine, SilentCylinders
-from ..forces.kinds import EVERY_KIND, MOMENT, Kind
+from ..file.model import EngineFile
+from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.spectrum import Spectra
 from .sheet import order_number
 from .units import ShownUnit, System
 
 
-class Located(Protocol):
-    """A result of an engine whose file may say where its throws stand."""
+@dataclass(frozen=True)
+class Component:
+    """One order along an axis: amplitude * cos(order * angle - phase).
+
+    Attributes:
+        amplitude: Amplitude.
+        phase_deg: Phase; null for a mean and where there is no amplitude.
+    """
+
+    amplitude: float
+    phase_deg: float
+
+
+@dataclass(frozen=True)
+class Vector:
+    """One order of a force or moment: F = forward e^(i order angle) + backward e^(-i order angle),
+    whose tip runs round an ellipse.
+
+    Attributes:
+        forward: Part that turns with the crank: real and imaginary part.
+        backward: Part that turns against the crank: real and imaginary part.
+        major: Longer semi-axis of the ellipse: the largest value.
+        minor: Shorter semi-axis; 0 for a straight line.
+        axis_deg: Direction of the major axis from x; null for a circle and a point.
+        x: Component along x.
+        y: Component along y.
+        balanced: Whether nothing is left but rounding.
+    """
+
+    forward: complex
+    backward: complex
+    major: float
+    minor: float
+    axis_deg: float
+    x: Component
+    y: Component
+    balanced: bool
+
+
+@dataclass(frozen=True)
+class Harmonic:
+    """One order of a torque: cos * cos(order * angle) + sin * sin(order * angle).
+
+    Attributes:
+        cos: Cosine part, N·m.
+        sin: Sine part, N·m.
+        amplitude: Amplitude, N·m.
+        peak_deg: First crank angle of the largest value; null for a mean and where there is none.
+        balanced: Whether nothing is left but rounding.
+    """
+
+    cos: float
+    sin: float
+    amplitude: float
+    peak_deg: float
+    balanced: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class OrderFigures:
+    """One order of all that was computed and is known.
+
+    Attributes:
+        order: Times the crank speed; halves of four-stroke engines.
+        force_N: Free force.
+        moment_Nm: Free moment about the point of reference.
+        couple_Nm: Free couple about the crank's axis.
+        inertia_torque_Nm: Torque of the inertia on the crank.
+        roll_Nm: Roll of the frame: couple less inertia torque.
+        gas_torque_Nm: Torque of the gas on the crank.
+        torque_Nm: Torque of inertia and gas on the crank.
+        roll_total_Nm: Roll of the frame with gas.
+    """
+
+    order: float
+    force_N: Vector | None = None
+    moment_Nm: Vector | None = None
+    couple_Nm: Harmonic | None = None
+    inertia_torque_Nm: Harmonic | None = None
+    roll_Nm: Harmonic | None = None
+    gas_torque_Nm: Harmonic | None = None
+    torque_Nm: Harmonic | None = None
+    roll_total_Nm: Harmonic | None = None
+
+
+@dataclass(frozen=True)
+class Peaks:
+    """Largest values over a revolution, all orders together, and the first crank angles at which
+    they are reached.
+
+    Attributes:
+        force: Free force, N.
+        moment: Free moment, N·m.
+    """
+
+    force: Annotated[Peak, Reached("force_N", "force_deg"), INLINE]
+    moment: Annotated[Peak, Reached("moment_Nm", "moment_deg"), INLINE]
+
+    def items(self) -> list[tuple[Kind, Peak]]:
+        """Each kind with its peak."""
+        return [(FORCE, self.force), (MOMENT, self.moment)]
+
+
+@dataclass(frozen=True)
+class EngineSize:
+    """An engine.
+
+    Attributes:
+        name: Name of the engine.
+        cylinders: How many cylinders it has.
+        displacement_m3: Displacement; null where the file gives no bore.
+    """
+
+    name: str
+    cylinders: int
+    displacement_m3: float
+
+
+@dataclass(frozen=True)
+class EngineName:
+    """An engine by its name.
+
+    Attributes:
+        name: Name of the engine.
+    """
+
+    name: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class EngineState:
+    """What an engine does while it is analyzed.
+
+    Attributes:
+        speed_rpm: Mean speed of the crank.
+        no_gas_in: Cylinders without gas force.
+        no_burning_in: Cylinders that compress and burn nothing.
+        reference_mm: Point of reference: x, y, z.
+    """
+
+    speed_rpm: float
+    no_gas_in: tuple[int, ...] | None = None
+    no_burning_in: tuple[int, ...] | None = None
+    reference_mm: tuple[float, ...]
+
+
+class OrdersAndPeaks(Protocol):
+    """A result with orders and peaks, of an engine whose file may say where its throws stand: an
+    analysis, or the sum of two engines.
+    """
 
     @property
     def moments_known(self) -> bool: ...
-
-
-class OrdersAndPeaks(Located, Protocol):
-    """A result with orders and peaks: an analysis, or the sum of two engines."""
 
     @property
     def spectra(self) -> Spectra: ...
 
     @property
     def peaks(self) -> list[tuple[Kind, Peak]]: ...
-
-    @property
-    def cylinders(self) -> tuple[tuple[int, Spectra], ...]: ...
 
 
 class FigureRow(NamedTuple):
@@ -49,91 +194,80 @@ class FigureRow(NamedTuple):
     unit: str
 
 
-def describe_engine(engine: Engine) -> dict[str, Any]:
-    """Return the entry `engine` of JSON."""
-    return {
-        "name": engine.name,
-        "cylinders": engine.cylinders.count,
-        "displacement_m3": clean(engine.displacement_m3),
-    }
+def measure_engine(engine: Engine) -> EngineSize:
+    """Return name and size of an engine without trailing axes."""
+    return EngineSize(engine.name, engine.cylinders.count, float(engine.displacement_m3))
 
 
-def describe_state(engine: Engine) -> dict[str, Any]:
-    """Return the entries of JSON on its speed, cylinders without gas, and point of reference."""
-    return {
-        "speed_rpm": clean(engine.speed_rpm),
+def name_engine(engine: Engine | EngineFile) -> EngineName:
+    """Return the name of an engine, or of its file."""
+    return EngineName(engine.name)
+
+
+def describe_state(engine: Engine) -> EngineState:
+    """Return speed, cylinders without gas and point of reference of an engine."""
+    return EngineState(
+        speed_rpm=float(engine.speed_rpm),
         **silent_entries(engine.silent),
-        "reference_mm": [clean(v * 1e3) for v in engine.reference_m],
-    }
+        reference_mm=tuple(float(v) * 1e3 for v in engine.reference_m),
+    )
 
 
-def assumptions(result: Located, inferred: Sequence[str] = ()) -> dict[str, list[str]]:
-    """Return the entry `assumed` of JSON: what is taken because the engine file leaves it out."""
-    listed = [*inferred, *([] if result.moments_known else ["crank.spacing = 0"])]
-    return {"assumed": listed} if listed else {}
+def list_assumed(known: bool, inferred: Sequence[str] = ()) -> tuple[str, ...] | None:
+    """Return what is taken because the engine file leaves it out; None: nothing.
+
+    Args:
+        known: Whether the file says where the throws stand.
+        inferred: What else was taken.
+    """
+    return (*inferred, *([] if known else ["crank.spacing = 0"])) or None
 
 
-def silent_entries(silent: SilentCylinders) -> dict[str, list[int]]:
+def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:
     """Numbers of the cylinders without gas, and of those that compress and burn nothing."""
     each = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
-    return {key: list(numbers) for key, numbers in each.items() if numbers}
+    return {key: numbers for key, numbers in each.items() if numbers}
 
 
-def clean(value: Any) -> float | None:
+def clean(value: Figure) -> float | None:
     """A plain float; None for nan, and no negative zero."""
     number = float(value)
     return None if math.isnan(number) else number + 0.0
 
 
-def clean_each(values: Iterable[Any]) -> list[float | None]:
-    """Plain floats; None for nan, and no negative zero."""
-    return [clean(value) for value in values]
-
-
-Entry = dict[str, Any]  # the figures of one order of one kind, as JSON nests them
-
-
-def kind_entries(kind: Kind, phasors: Phasors) -> list[Entry]:
-    """All figures of a kind, SI and degrees, an entry an order."""
-    return vector_entries(phasors) if kind.vector else scalar_entries(phasors)
-
-
-def vector_entries(phasors: Phasors) -> list[Entry]:
-    """Return forces or moments as JSON has them, an entry an order."""
-    columns = (phasors.forward, phasors.backward, phasors.x, phasors.y, phasors.major)
-    others = (phasors.minor, phasors.axis_deg, phasors.orders, phasors.balanced)
-    rows = zip(*(column.tolist() for column in (*columns, *others)), strict=True)
+# ------------------------------------------------------------------ order by order
+def list_orders(spectra: Spectra) -> list[OrderFigures]:
+    """Return one record an order, with the kinds that were computed."""
+    columns: Node = {kind.key: list_vectors(phasors) for kind, phasors in spectra.vectors()}
+    columns |= {kind.key: list_harmonics(phasors) for kind, phasors in spectra.scalars()}
     return [
-        {
-            "forward": [clean(forward.real), clean(forward.imag)],
-            "backward": [clean(backward.real), clean(backward.imag)],
-            "major": clean(major),
-            "minor": clean(minor),
-            "axis_deg": clean(axis_deg),
-            "x": _component_entry(x, order),
-            "y": _component_entry(y, order),
-            "balanced": balanced,
-        }
-        for forward, backward, x, y, major, minor, axis_deg, order, balanced in rows
+        OrderFigures(order=order, **{key: column[k] for key, column in columns.items()})
+        for k, order in enumerate(map(order_number, spectra.orders))
     ]
 
 
-def scalar_entries(phasors: Phasors) -> list[Entry]:
-    """Couples, torques or rolls as JSON has them, an entry an order."""
-    columns = phasors.x, phasors.orders, phasors.balanced
-    rows = zip(*(column.tolist() for column in columns), strict=True)
-    return [scalar_entry(c, order, balanced) for c, order, balanced in rows]
+def list_vectors(phasors: Phasors) -> list[Vector]:
+    """Return forces or moments, one an order."""
+    p = phasors
+    columns = (column.tolist() for column in (p.forward, p.backward, p.major, p.minor, p.axis_deg))
+    along = (list(map(Component, *_find_parts(c, p.orders))) for c in (p.x, p.y))
+    return list(map(Vector, *columns, *along, p.balanced.tolist()))
 
 
-def scalar_entry(c: complex, order: float, balanced: bool) -> Entry:
-    """One order of a torque and its like as JSON has it, of value `Re(c e^{i n theta})`."""
-    return {
-        "cos": clean(c.real),
-        "sin": clean(-c.imag),
-        "amplitude": clean(abs(c)),
-        "peak_deg": peak_deg(c, order),
-        "balanced": balanced,
-    }
+def _find_parts(c: Complex, orders: Array) -> tuple[list[float], list[float]]:
+    phases = np.where((c != 0) & (orders > 0), phase_deg(c), np.nan)
+    return np.abs(c).tolist(), phases.tolist()
+
+
+def list_harmonics(phasors: Phasors) -> list[Harmonic]:
+    """Return couples, torques or rolls, one an order."""
+    return list_coefficients(phasors.orders, phasors.x, phasors.balanced)
+
+
+def list_coefficients(orders: Array, c: Complex, balanced: NDArray[np.bool_]) -> list[Harmonic]:
+    """Return the orders of `Re sum c_n e^{i n theta}`, each argument of shape (orders,)."""
+    columns = (c.real, -c.imag, np.abs(c), peak_deg(c, orders), balanced)
+    return list(map(Harmonic, *(column.tolist() for column in columns)))
 
 
 def size_or_mean(c: complex, order: float) -> float:
@@ -141,73 +275,55 @@ def size_or_mean(c: complex, order: float) -> float:
     return abs(c) if order else c.real
 
 
-def peak_deg(c: complex, order: float) -> float | None:
-    """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; None if it
-    vanishes or is a mean.
+def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
+    """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; nan if it
+    vanishes or is a mean; of one shape.
     """
-    if c == 0 or order == 0:
-        return None
-    angle = float(np.degrees(-np.angle(c)) % 360 / order)
-    return clean(angle if angle < 360 / order else 0.0)
+    there = np.not_equal(c, 0) & np.greater(orders, 0)
+    n = np.where(there, orders, 1.0)
+    angle = np.degrees(-np.angle(c)) % 360 / n
+    return np.where(there, np.where(angle < 360 / n, angle, 0.0), np.nan)
 
 
-def _component_entry(c: complex, order: float) -> dict[str, float | None]:
-    """Return `amplitude cos(n theta - phase)`."""
-    return {"amplitude": clean(abs(c)), "phase_deg": phase_deg(c) if c and order else None}
-
-
-def phase_deg(c: complex) -> float:
+def phase_deg(c: complex | Complex) -> Array:
     """Return the angle in (-180, 180] of `amplitude cos(n theta - angle)`."""
-    angle = 0.0 - math.degrees(cmath.phase(c))
-    return angle + 360 if angle <= -180 else angle
-
-
-def order_entries(spectra: Spectra) -> list[Entry]:
-    """What JSON says order by order: all kinds by their keys."""
-    columns = [(kind.key, kind_entries(kind, phasors)) for kind, phasors in spectra.items()]
-    return [
-        {"order": order_number(order)} | {key: entries[k] for key, entries in columns}
-        for k, order in enumerate(spectra.orders)
-    ]
-
-
-def peak_entries(result: OrdersAndPeaks) -> dict[str, float | None]:
-    """What JSON says of the largest values over a revolution."""
-    found: dict[str, float | None] = {}
-    for kind, peak in result.peaks:
-        found[kind.key] = clean(peak.value)
-        found[f"{kind.name}_deg"] = peak_angle_deg(peak)
-    return found
-
-
-def peak_angle_deg(peak: Peak) -> float | None:
-    """The crank angle of the largest value, None where that is 0."""
-    return clean(np.degrees(peak.theta)) if peak.value else None
+    angle = -np.degrees(np.angle(c))
+    return np.where(angle <= -180, angle + 360, angle)
 
 
 # ------------------------------------------------------------------ as a list
-def figure_rows(result: OrdersAndPeaks, system: System) -> Iterator[FigureRow]:
-    """Every figure of the orders and the peaks, one a row; none of moments that are not known."""
-    told = [kind for kind in EVERY_KIND.values() if result.moments_known or kind is not MOMENT]
-    for cylinder, spectra in ((0, result.spectra), *result.cylinders):
-        columns = [(kind, kind_entries(kind, p)) for kind, p in spectra.items() if kind in told]
-        for k, order in enumerate(spectra.orders):
-            for kind, entries in columns:
-                unit = system.unit(kind)
-                yield from order_rows(kind.name, order, entries[k], unit, cylinder)
+def figure_rows(
+    result: OrdersAndPeaks, system: System, shares: Mapping[int, Spectra] = MappingProxyType({})
+) -> Iterator[FigureRow]:
+    """Every figure of the orders and the peaks, one a row; none of moments that are not known.
+
+    Args:
+        result: Analysis, or sum of two engines.
+        system: Units.
+        shares: Phasors of single cylinders, by number.
+    """
+    unknown = () if result.moments_known else (MOMENT,)
+    for cylinder, spectra in ((0, result.spectra), *shares.items()):
+        entries, kinds = write_each(list_orders(spectra)), [kind for kind, _ in spectra.items()]
+        for entry in entries:
+            for kind in kinds:
+                if kind not in unknown:
+                    unit, figures = system.unit(kind), entry[kind.key]
+                    yield from order_rows(kind.name, entry["order"], figures, unit, cylinder)
     for kind, peak in result.peaks:
-        if kind in told:
+        if kind not in unknown:
             yield from peak_rows(kind.name, peak, system.unit(kind))
 
 
 def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]:
     """The largest value over a revolution, and its crank angle."""
+    found = Reached("peak", "peak_deg").split(peak)
     yield FigureRow(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
-    yield FigureRow(0, quantity, None, "peak_deg", peak_angle_deg(peak), "deg")
+    yield FigureRow(0, quantity, None, "peak_deg", found["peak_deg"], "deg")
 
 
 def order_rows(
-    quantity: str, order: float, entry: Entry, unit: ShownUnit, cylinder: int = 0
+    quantity: str, order: float, entry: Node, unit: ShownUnit, cylinder: int = 0
 ) -> Iterator[FigureRow]:
     """All figures of one order; the entry is SI as in JSON, the rows are in the unit."""
     for figure in _flattened(entry, unit):
@@ -215,7 +331,7 @@ def order_rows(
 
 
 def _flattened(
-    entry: Entry, unit: ShownUnit, prefix: str = ""
+    entry: Node, unit: ShownUnit, prefix: str = ""
 ) -> Iterator[tuple[str, float | bool | None, str]]:
     """Name, value and unit of every figure of an entry: `x_amplitude` from `x` and `amplitude`."""
     for name, value in entry.items():

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, assert_never
 
+from ..core.records import Node, to_document
 from .csv import csv_text, json_text
 from .table import markdown, plain_text
 
 if TYPE_CHECKING:
     from .csv import Columns, Rows
-    from .sheet import Sheet
+    from .sheet import NamedResult, Sheet
     from .units import System
 
 
@@ -35,16 +36,21 @@ class Units(StrEnum):
 Shown = TypeVar("Shown")
 
 
+def write_named(one: NamedResult[Any]) -> Node:
+    """Return the JSON document of a result, which has the engine's own name."""
+    return to_document(one.result)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Columnar(Generic[Shown]):
     """How results of one kind become documents and columns.
 
     Attributes:
-        document: Makes what JSON says, in SI units.
+        document: Makes the JSON document, in SI units; default: the record's.
         columns: Makes the columns of DataFrames; None: those of the rows of CSV.
     """
 
-    document: Callable[[Shown], Any]
+    document: Callable[[Shown], Any] = to_document
     columns: Callable[[Shown], Columns] | None = None
 
 

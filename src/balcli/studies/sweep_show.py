@@ -4,18 +4,21 @@ of the first and the last; the columns of kept ones; pictures over one parameter
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import cycle, product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
 from ..core.phasors import Array
+from ..core.records import Axes, Node, WrittenAs, to_document
 from ..errors import BalcliError
+from ..file.model import EngineFile
 from ..limits import MOST_PICTURE_VARIANTS
 from ..show import plot_style as style
-from ..show.csv import Columns, stamp
+from ..show.csv import Columns, json_text
+from ..show.figures import name_engine
 from ..show.formats import Columnar
 from ..show.sheet import NAMELESS, Grid, Sheet, given, number, tell_assumed_speed
 from ..show.units import ShownUnit, name_with_unit, unit_of_name
@@ -30,12 +33,21 @@ if TYPE_CHECKING:
 FIRST = 20  # rows of a table of many
 
 
-def _head(sweep: Sweep) -> dict[str, Any]:
-    return {
-        "format": "balcli.sweep/1",
-        "engine": {"name": sweep.file.name},
-        "columns": sweep.columns,
-    }
+@dataclass(frozen=True, kw_only=True)
+class SweepDocument:
+    """Variants of an engine, a row each: the figures that vary, in the units of the file, then the
+    quantities, in those of `balcli numbers`; null: what has no value, such as the axis of a circle.
+
+    Attributes:
+        engine: The engine file.
+        columns: Names of the figures that vary, then of the quantities.
+        rows: One row a variant.
+    """
+
+    format: Literal["balcli.sweep/1"] = "balcli.sweep/1"
+    engine: Annotated[EngineFile, WrittenAs(name_engine)]
+    columns: list[str]
+    rows: Annotated[Array, Axes(2)]
 
 
 def columns(result: Swept) -> Columns:
@@ -46,11 +58,11 @@ def columns(result: Swept) -> Columns:
     return Columns(dict(zip(sweep.columns, every, strict=True)), sweep.units)
 
 
-def document(result: Swept) -> dict[str, Any]:
-    """Return `balcli.sweep/1`: columns, and one row a variant."""
-    cells = np.column_stack([*columns(result).values.values()]).astype(object)
-    cells[cells != cells] = None
-    return {**_head(result.sweep), "rows": cells.tolist()}
+def document(result: Swept) -> Node:
+    """Return `balcli.sweep/1`."""
+    cells = np.column_stack([*columns(result).values.values()])
+    sweep = result.sweep
+    return to_document(SweepDocument(engine=sweep.file, columns=sweep.columns, rows=cells))
 
 
 def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
@@ -64,7 +76,8 @@ def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
     """Yield `balcli.sweep/1` as text."""
-    yield json.dumps(stamp(_head(sweep)), ensure_ascii=False)[:-1] + ', "rows": ['
+    head = SweepDocument(engine=sweep.file, columns=sweep.columns, rows=np.empty((0, 0)))
+    yield json_text(to_document(head)).removesuffix("]}")
     before = ""
     for chunk in chunks:
         yield before + ",\n".join(f"[{line}]" for line in _lines(sweep, chunk, "null"))

@@ -22,12 +22,12 @@ from ..limits import (
     HIGHEST_HARMONIC,
     MOST_HARMONICS_UNASKED,
 )
+from ..show.figures import list_coefficients
 from .flywheel import find_flywheel
 from .records import (
     TorqueAnalysis,
     TorqueOrder,
     Torques,
-    list_harmonics,
     measure_curve,
     measure_energy,
     write_whole,
@@ -102,7 +102,7 @@ def analyze_curve(
     every = _choose_harmonics(turns, orders)
     found = torque.harmonics(every)
     found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)
-    shown = list_harmonics(every / turns, found, found == 0)
+    shown = list_coefficients(every / turns, found, found == 0)
     above, extremes = surplus(net), measure_curve(torque)
     shares = None
     if load is not None:

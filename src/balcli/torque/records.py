@@ -5,37 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..core.phasors import Array, Complex
 from ..core.piecewise import PiecewiseCurve
-from ..core.records import HIDDEN, INLINE, angle_deg
+from ..core.records import HIDDEN, INLINE
 from ..core.speed_ripple import Surplus
 from ..engine.engine import Engine
 from ..forces.spectrum import Spectra
+from ..show.figures import Harmonic, list_harmonics
 from ..show.result import Result
 from .flywheel import Flywheel, degrees_in_cycle
 from .loads import CycleLoads
-
-
-@dataclass(frozen=True, kw_only=True)
-class Harmonic:
-    """One order of a torque: cos * cos(order * angle) + sin * sin(order * angle).
-
-    Attributes:
-        cos: Cosine part, N·m.
-        sin: Sine part, N·m.
-        amplitude: Amplitude, N·m.
-        peak_deg: First crank angle of the largest value; null for a mean and where there is none.
-        balanced: Whether nothing is left but rounding.
-    """
-
-    cos: float
-    sin: float
-    amplitude: float
-    peak_deg: float | None
-    balanced: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -181,26 +159,9 @@ def measure_energy(surplus: Surplus, period: float, work: float) -> Energy:
     return Energy(surplus_J=surplus.energy, from_deg=start, to_deg=end, work_J=work)
 
 
-def list_harmonics(orders: Array, c: Complex, balanced: NDArray[np.bool_]) -> list[Harmonic]:
-    """Return the orders of a torque `Re sum c_n e^{i n theta}`, N m, each of shape (orders,)."""
-    return [
-        Harmonic(
-            cos=value.real,
-            sin=-value.imag,
-            amplitude=abs(value),
-            peak_deg=angle_deg(value.conjugate()) / order if value and order else None,
-            balanced=none,
-        )
-        for order, value, none in zip(orders, c.tolist(), balanced.tolist(), strict=True)
-    ]
-
-
 def list_torques(spectra: Spectra) -> list[Torques]:
     """Return the torques of every order."""
-    kinds = {
-        kind.key: list_harmonics(spectra.orders, phasors.x, phasors.balanced)
-        for kind, phasors in spectra.items()
-    }
+    kinds = {kind.key: list_harmonics(phasors) for kind, phasors in spectra.items()}
     rows = zip(*kinds.values(), strict=True)
     return [Torques(**dict(zip(kinds, row, strict=True))) for row in rows]
 

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..core.records import find_unit, list_figures, remove_unit, to_document as document
+from ..core.records import find_unit, list_figures, remove_unit, to_document
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.csv import Rows
 from ..show.engine_facts import list_silent, tell_speed, tell_strokes
-from ..show.figures import FigureRow, order_rows
+from ..show.figures import FigureRow, Harmonic, order_rows
 from ..show.formats import Renderer
 from ..show.sheet import (
     NAMELESS,
-    UNKNOWN,
     Facts,
     Grid,
     Sheet,
@@ -28,9 +27,7 @@ from ..show.sheet import (
 from ..show.units import ShownUnit, System
 from .flywheel import Flywheel
 from .loads import CycleLoad
-from .records import Harmonic, TorqueAnalysis, write_whole
-
-__all__ = ["document", "rows", "sheet"]
+from .records import TorqueAnalysis, write_whole
 
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
 _PARTS = ("torque", "energy", "flywheel", "loads", "orders")
@@ -42,7 +39,7 @@ def rows(result: TorqueAnalysis, system: System) -> Rows:
     cycle.
     """
     header = ("cylinder", "quantity", "order", "figure", "value", "unit")
-    return Rows(header, _list_rows(result, document(result), system))
+    return Rows(header, _list_rows(result, to_document(result), system))
 
 
 def _list_rows(
@@ -257,8 +254,7 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
         yield order_name(n) if is_engine else f"{n:g}"
         for harmonic in line[: len(keys)]:
             yield size(harmonic, n, 5)
-            peak = UNKNOWN if harmonic.peak_deg is None else degrees(harmonic.peak_deg)
-            yield peak if harmonic.amplitude else ""
+            yield degrees(harmonic.peak_deg) if harmonic.amplitude else ""
         yield from (size(harmonic, n, 4) for harmonic in line[len(keys) :])
 
     shown = [
@@ -269,4 +265,4 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     return Grid(f"Torque by order, {unit.name}", ("order", *heads), tuple(shown), note)
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -124,7 +124,7 @@ def test_limits_are_kept() -> None:
     free = search_least(file, "throws", "moment.1.major").results
     kept = search_least(file, "throws", "moment.1.major", ["moment.2.major<1"]).results
     assert free[0].design != kept[0].design
-    assert kept[0].figures["moment.2.major"] < 1
+    assert kept[0].quantities["moment.2.major"] < 1
     with pytest.raises(BalcliError, match="no throws can keep these limits"):
         search_least(file, "throws", "moment.1.major", ["force.4.major<1e-9"])
 

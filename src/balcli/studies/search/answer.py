@@ -8,11 +8,12 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
-from typing import NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
 from ...core.phases import TURN
+from ...core.records import HIDDEN, WrittenAs
 from ...engine.build import build
 from ...engine.engine import Engine, check_engine, take_model
 from ...engine.layout import plan_cylinders
@@ -26,6 +27,7 @@ from ...forces.quantity import refuse_unknown
 from ...limits import MOST_FOUND
 from ...process import Tell, tell_nobody
 from ...shell.arguments import Words, check_count, check_mapping, join_names, tell_arguments
+from ...show.figures import name_engine
 from ...show.result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
 from ..quantities import choose_of_engine, refuse_unknown_of_chapters
@@ -72,27 +74,28 @@ class SearchRange(NamedTuple):
         return float(self.number.values.min()), float(self.number.values.max())
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Search(Result):
     """The best arrangements of an engine file, best first.
 
     Attributes:
-        model: the engine file.
-        over: what was arranged: `throws`, or numbers with commas between.
-        objective: the quantities, their weights and limits.
-        results: best first, each with its `design`, the value of its `objective` and its `figures`.
-        ranges: the numbers that were searched over.
-        constant: whether the numbers change nothing of the objective.
-        refused: values of the numbers that make no engine, and why; empty if all do.
+        model: The engine file.
+        over: What was arranged: `throws`, `firing_order`, or numbers with commas between.
+        results: Arrangements, best first.
+        objective: The quantities, their weights and limits.
+        ranges: The numbers that were searched over.
+        constant: Whether the numbers change nothing of the objective.
+        refused: Values of the numbers that make no engine, and why; empty if all do.
     """
 
-    model: EngineFile
+    format: Literal["balcli.search/1"] = "balcli.search/1"
+    model: Annotated[EngineFile, WrittenAs(name_engine, "engine")]
     over: str
-    objective: Objective
     results: tuple[Found, ...]
-    ranges: tuple[SearchRange, ...] = ()
-    constant: bool = False
-    refused: str = ""
+    objective: Annotated[Objective, HIDDEN]
+    ranges: Annotated[tuple[SearchRange, ...], HIDDEN] = ()
+    constant: Annotated[bool, HIDDEN] = False
+    refused: Annotated[str, HIDDEN] = ""
 
     @property
     def at_ends(self) -> tuple[str, ...]:
@@ -184,7 +187,15 @@ def search_arrangements(
         asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         words = named if "." in named else named.replace("_", " ")
         raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
-    return Search(model, named, objective, found, ranges, constant, refused)
+    return Search(
+        model=model,
+        over=named,
+        results=found,
+        objective=objective,
+        ranges=ranges,
+        constant=constant,
+        refused=refused,
+    )
 
 
 # ------------------------------------------------------------------ throws and firing orders
@@ -342,7 +353,7 @@ def search(
         even_firing: only what can fire at even intervals.
 
     Returns:
-        The arrangements, best first: `result.results[0].design`, `.objective` and `.figures`;
+        The arrangements, best first: `result.results[0].design`, `.objective` and `.quantities`;
         `result.engine(1)` is the engine with the first.
 
     Raises:

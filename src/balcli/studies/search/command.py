@@ -29,19 +29,6 @@ if TYPE_CHECKING:
     from .designs import Found
 
 
-def document(result: Search) -> dict[str, Any]:
-    """`balcli.search/1`."""
-    return {
-        "format": "balcli.search/1",
-        "engine": {"name": result.model.name},
-        "over": result.over,
-        "results": [
-            {**one.design, "objective": one.objective, "quantities": dict(one.figures)}
-            for one in result.results
-        ],
-    }
-
-
 def columns(result: Search) -> Columns:
     """An arrangement a row: angles as numbers, throws and firing orders with hyphens between."""
     first = result.results[0]
@@ -50,7 +37,7 @@ def columns(result: Search) -> Columns:
         settings = [one.design[key] for one in result.results]
         found[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
     found["objective"] = [one.objective for one in result.results]
-    found |= {name: [one.figures[name] for one in result.results] for name in first.figures}
+    found |= {name: [one.quantities[name] for one in result.results] for name in first.quantities}
     units = {q.name: q.unit for q in result.objective.quantities}
     set_in = {key: unit for key in first.design if (unit := result.find_unit(key))}
     return Columns(found, units | set_in)
@@ -71,7 +58,7 @@ def sheet(result: Search, _system: System) -> Sheet:
     heads = [
         *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design),
         *(["objective"] if _is_sum(result) else []),
-        *(name_with_unit(name, units[name]) for name in first.figures),
+        *(name_with_unit(name, units[name]) for name in first.quantities),
     ]
     grid = Grid(
         f"Best {_in_words(result.over)}",
@@ -110,7 +97,7 @@ def _cells(result: Search, one: Found) -> tuple[str, ...]:
     return (
         *map(_setting, one.design.values()),
         *([number(one.objective)] if _is_sum(result) else []),
-        *map(number, one.figures.values()),
+        *map(number, one.quantities.values()),
     )
 
 
@@ -131,7 +118,7 @@ def _exactly(value: float | list[float] | list[int]) -> str:
     return "-".join(repr(number).removesuffix(".0") for number in numbers)
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows, columns=columns)
+RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)
 
 
 def search(

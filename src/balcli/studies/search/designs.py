@@ -10,13 +10,14 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any, NamedTuple, TypeAlias
+from typing import Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array
+from ...core.records import INLINE
 from ...engine.build import build
 from ...engine.engine import Engine
 from ...engine.figures import ranked
@@ -47,12 +48,20 @@ NOTE = "found by balcli"
 SAME = 1e-9  # relative difference of the objectives of mirror images
 
 
-class Found(NamedTuple):
-    """One arrangement, the value of its objective, and its figures by name of quantity."""
+@dataclass(frozen=True)
+class Found:
+    """One arrangement.
 
-    design: Design
+    Attributes:
+        design: What is arranged, such as `throws`, `firing_order`, `bank_angle` or the dotted name
+            of a number, and its value.
+        objective: Value of the objective.
+        quantities: Value of each quantity by its name.
+    """
+
+    design: Annotated[Design, INLINE]
     objective: float
-    figures: Mapping[str, float]
+    quantities: Mapping[str, float]
 
 
 def list_changes(design: Design) -> dict[str, Any]:

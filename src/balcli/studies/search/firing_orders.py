@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 
@@ -164,4 +164,4 @@ def search_firing_order(model: EngineFile, objective: Objective) -> Iterator[Fou
     slots, cranks = find_slots(model)
     for one in rank_throws(drop_firing_order(model), cranks, objective):
         for order in slots.find_orders(one.design["throws"]):
-            yield one._replace(design={"firing_order": [*order], **one.design})
+            yield replace(one, design={"firing_order": [*order], **one.design})

@@ -1,0 +1,384 @@
+"""The parts of an analysis as records: each cylinder's share, loads along the crank, guide-force
+moments, strokes, and the devices of the scheme `auto`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from ..core.cylinders import Travel
+from ..core.peaks import Peak
+from ..core.phasors import Array, Phasors
+from ..core.records import INLINE, Reached, WrittenAs
+from ..file import model
+from ..forces.crankshaft import AlongCrank, InnerLoads
+from ..forces.guide import GuideMoments
+from ..forces.spectrum import Spectra
+from ..show.figures import (
+    Harmonic,
+    Peaks,
+    Vector,
+    list_harmonics,
+    list_orders,
+    list_vectors,
+)
+from ..show.sheet import order_number
+from ..sizing.planes import FIELDS, DeviceTable, find_unbalance
+from ..sizing.remedy import Remedy
+
+
+@dataclass(frozen=True)
+class CylinderShare:
+    """One cylinder's share, by itself.
+
+    Attributes:
+        cylinder: Number of the cylinder.
+        spectra: Orders of its forces and moments.
+    """
+
+    cylinder: int
+    spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
+
+
+@dataclass(frozen=True)
+class PeaksAndOrders:
+    """Peaks and orders of an engine that is known.
+
+    Attributes:
+        peak: Largest values over a revolution.
+        spectra: All orders that were computed.
+    """
+
+    peak: Peaks
+    spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
+
+
+# ------------------------------------------------------------------ along the crank
+@dataclass(frozen=True)
+class LoadOrder:
+    """One order of a load at one place.
+
+    Attributes:
+        order: Times the crank speed.
+        vector: The load.
+    """
+
+    order: float
+    vector: Annotated[Vector, INLINE]
+
+
+def list_load_orders(load: Phasors) -> list[LoadOrder]:
+    """Return the orders of a load at one place."""
+    return list(map(LoadOrder, map(order_number, load.orders), list_vectors(load)))
+
+
+@dataclass(frozen=True)
+class Load:
+    """A load at one place: its largest value over the cycle, and its orders.
+
+    Attributes:
+        peak: Largest value and its crank angle.
+        phasors: Orders of the load.
+    """
+
+    peak: Annotated[Peak, Reached("peak", "peak_deg"), INLINE]
+    phasors: Annotated[Phasors, WrittenAs(list_load_orders, "orders")]
+
+
+@dataclass(frozen=True)
+class Section:
+    """Shear force and bending moment just behind one load.
+
+    Attributes:
+        position_mm: Place along the crank.
+        shear_N: Shear force.
+        bending_Nm: Bending moment.
+    """
+
+    position_mm: float
+    shear_N: Load
+    bending_Nm: Load
+
+
+@dataclass(frozen=True)
+class Bent:
+    """A shaft, or the block, section by section.
+
+    Attributes:
+        largest_bending_Nm: Largest bending moment of all sections.
+        largest_at_mm: Place of the largest bending moment.
+        sections: All sections, from the free end.
+    """
+
+    largest_bending_Nm: float
+    largest_at_mm: float
+    sections: tuple[Section, ...]
+
+
+@dataclass(frozen=True)
+class BearingLoad:
+    """The load of one main bearing.
+
+    Attributes:
+        position_mm: Place of the bearing along the crank.
+        load_N: Load of the bearing.
+    """
+
+    position_mm: float
+    load_N: Load
+
+
+@dataclass(frozen=True)
+class WithGas:
+    """Loads of inertia and gas, which bends crankshaft and block one against the other.
+
+    Attributes:
+        crankshaft: The crankshaft, cut in each main bearing.
+        bearings: Main bearings.
+        block: The block.
+    """
+
+    crankshaft: Bent
+    bearings: tuple[BearingLoad, ...]
+    block: Bent
+
+
+@dataclass(frozen=True)
+class Inner:
+    """Loads along the crankshaft.
+
+    Attributes:
+        inertia: Loads of inertia alone.
+        bearings: Inertia loads of the main bearings; left out for a crank with one throw.
+        with_gas: Loads of inertia and gas.
+        obstacle: Why those with gas are not known.
+    """
+
+    inertia: Annotated[Bent, INLINE]
+    bearings: tuple[BearingLoad, ...] | None = None
+    with_gas: WithGas | None = None
+    obstacle: str | None = None
+
+
+def describe_inner(inner: InnerLoads) -> Inner:
+    """Return the loads along the crankshaft, place by place."""
+    gas = inner.with_gas
+    return Inner(
+        _describe_bent(inner.shear, inner.bending),
+        None if inner.bearings is None else tuple(map(BearingLoad, *_list_loads(inner.bearings))),
+        None
+        if gas is None
+        else WithGas(
+            _describe_bent(gas.shear, gas.bending),
+            tuple(map(BearingLoad, *_list_loads(gas.bearings))),
+            _describe_bent(gas.block_shear, gas.block_bending),
+        ),
+        inner.obstacle or None,
+    )
+
+
+def _describe_bent(shear: AlongCrank, bending: AlongCrank) -> Bent:
+    """Return shear force and bending moment at the same sections, and the largest moment."""
+    (places, forces), (_, moments), most = _list_loads(shear), _list_loads(bending), bending.largest
+    sections = tuple(map(Section, places, forces, moments))
+    return Bent(bending.peaks[most].value, places[most], sections)
+
+
+def _list_loads(along: AlongCrank) -> tuple[list[float], list[Load]]:
+    """Return the places, mm, and the loads there."""
+    loads = [Load(peak, along.at(k)) for k, peak in enumerate(along.peaks)]
+    return (along.z_m * 1e3).tolist(), loads
+
+
+# ------------------------------------------------------------------ guides and strokes
+Includes = Literal["inertia and gas", "inertia, without gas"]
+
+
+@dataclass(frozen=True)
+class GuideOrder:
+    """Guide-force moments of one order.
+
+    Attributes:
+        order: Times the crank speed.
+        h_Nm: H-type: sum of the roll moments of all cylinders.
+        x_Nm: X-type: sum of each times its distance, over the height of the guides; left out where
+            all cylinders stand at one place, or at places that are not known.
+    """
+
+    order: float
+    h_Nm: Harmonic
+    x_Nm: Harmonic | None = None
+
+
+@dataclass(frozen=True)
+class Guide:
+    """Guide-force moments.
+
+    Attributes:
+        includes: Whether the gas has a part in them.
+        height_m: Height of the guide of each cylinder, by its number.
+        orders: Moments by order.
+    """
+
+    includes: Includes
+    height_m: Array
+    orders: tuple[GuideOrder, ...]
+
+
+def describe_guide(guide: GuideMoments) -> Guide:
+    """Return guide-force moments order by order."""
+    columns = [list_harmonics(moment) for moment in (guide.h, guide.x) if moment is not None]
+    orders = map(GuideOrder, map(order_number, guide.h.orders), *columns)
+    return Guide(name_included(guide.with_gas), guide.height_m, tuple(orders))
+
+
+def name_included(with_gas: bool) -> Includes:
+    """Return what moments are of, by whether the gas has a part in them."""
+    return "inertia and gas" if with_gas else "inertia, without gas"
+
+
+@dataclass(frozen=True, order=True)
+class Stroke:
+    """Stroke and dead centers of one piston.
+
+    Attributes:
+        cylinder: Number of the cylinder.
+        stroke_m: Stroke.
+        top_deg: Crank angle of the top dead center, from where the pin lies along the axis.
+        bottom_deg: Crank angle of the bottom dead center, from half a turn later.
+    """
+
+    cylinder: int
+    stroke_m: float
+    top_deg: float
+    bottom_deg: float
+
+
+def list_strokes(travel: Travel, numbers: Sequence[int]) -> tuple[Stroke, ...]:
+    """Return strokes and dead centers by the numbers of the cylinders, in rising order."""
+    columns = ((values + 0.0).tolist() for values in travel)
+    return tuple(sorted(map(Stroke, numbers, *columns)))
+
+
+# ------------------------------------------------------------------ devices
+@dataclass(frozen=True, kw_only=True)
+class Counterweight:
+    """Unbalance fixed to the crankshaft.
+
+    Attributes:
+        unbalance_kg_m: Unbalance.
+        angle_deg: Angle from cylinder 1's crank pin.
+        position_mm: Place along the crank.
+    """
+
+    unbalance_kg_m: float
+    angle_deg: float
+    position_mm: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shaft:
+    """A balancer shaft, as it stands at crank angle 0.
+
+    Attributes:
+        ratio: Speed over crank speed; negative: it turns against the crank.
+        unbalance_kg_m: Unbalance.
+        angle_deg: Angle from x, in the sense in which the shaft turns.
+        at_mm: Place of its axis: x, y.
+        position_mm: Place along the crank.
+        free: Whether it may stand anywhere.
+    """
+
+    ratio: int
+    unbalance_kg_m: float
+    angle_deg: float
+    at_mm: tuple[float, ...]
+    position_mm: float
+    free: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Slider:
+    """A mass that runs to and fro.
+
+    Attributes:
+        order: Times the crank speed.
+        unbalance_kg_m: Mass times amplitude.
+        direction_deg: Direction of its path from x.
+        angle_deg: Phase at crank angle 0.
+        at_mm: Place of its path: x, y.
+        position_mm: Place along the crank.
+    """
+
+    order: int
+    unbalance_kg_m: float
+    direction_deg: float
+    angle_deg: float
+    at_mm: tuple[float, ...]
+    position_mm: float
+
+
+@dataclass(frozen=True)
+class Devices:
+    """Devices that a scheme fits, as an engine file would describe them.
+
+    Attributes:
+        counterweights: Counterweights on the crankshaft.
+        shafts: Balancer shafts.
+        sliders: Masses that run to and fro.
+    """
+
+    counterweights: tuple[Counterweight, ...]
+    shafts: tuple[Shaft, ...]
+    sliders: tuple[Slider, ...]
+
+
+@dataclass(frozen=True)
+class SizedDevices:
+    """Devices of a scheme.
+
+    Attributes:
+        scheme: Name of the scheme.
+        devices: The devices.
+    """
+
+    scheme: str
+    devices: Annotated[Devices, INLINE]
+
+
+# Figures of a device by the fields of the engine file, with their units; in the order of CSV.
+KEYS = {
+    "ratio": "ratio",
+    "order": "order",
+    "unbalance": "unbalance_kg_m",
+    "angle": "angle_deg",
+    "direction": "direction_deg",
+    "position": "position_mm",
+    "at": "at_mm",
+}
+
+
+def name_devices(remedy: Remedy) -> SizedDevices:
+    """Return the scheme and its devices."""
+    return SizedDevices(remedy.scheme, describe_devices(remedy))
+
+
+def describe_devices(remedy: Remedy) -> Devices:
+    """Return the devices of a remedy by their kinds."""
+    each = [*zip(remedy.devices, remedy.free, strict=True)]
+    return Devices(
+        tuple(Counterweight(**_list_fields(d)) for d in remedy.counterweights),
+        tuple(Shaft(**_list_fields(d), free=f) for d, f in each if isinstance(d, model.Shaft)),
+        tuple(Slider(**_list_fields(d)) for d in remedy.sliders),
+    )
+
+
+def _list_fields(device: DeviceTable) -> dict[str, Any]:
+    return {KEYS[field]: find_value(device, field) for field in FIELDS[type(device)]}
+
+
+def find_value(device: DeviceTable, field: str) -> Any:
+    """Return a figure of a device by its field in the engine file; the unbalance in kg m."""
+    return find_unbalance(device) if field == "unbalance" else getattr(device, field)
