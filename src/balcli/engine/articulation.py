@@ -39,7 +39,7 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
             "leave splay out, or [articulation]",
         )
     for number in parts.masters:
-        if parts.overrides_of(number).throw_deg is not None:
+        if parts.override(number, "throw") is not None:
             yield Problem(
                 f"cylinder.{number}.throw",
                 f"cylinder {number} has an articulated rod, which hangs on the "

@@ -174,7 +174,7 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
     """
     checked = set()
     for number, articulated in _list_rods(parts):
-        rod = (number if number in parts.own else 0, articulated)
+        rod = (number if number in parts.tables else 0, articulated)
         if rod not in checked:
             checked.add(rod)
             yield from _check_rod(parts, parts.find_rod(number, articulated))
@@ -189,7 +189,7 @@ def _list_rods(parts: Parts) -> list[tuple[int, bool]]:
     try:
         return [(number, number in parts.masters) for number in parts.plan.numbers]
     except InputError:
-        own = () if parts.model.articulation else parts.own
+        own = () if parts.model.articulation else parts.tables
         return [(number, False) for number in (0, *own)]
 
 

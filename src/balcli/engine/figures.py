@@ -146,18 +146,6 @@ class RodFigures(NamedTuple):
         return self._replace(**changes)
 
 
-class Overrides(NamedTuple):
-    """What is said of one cylinder alone: kg, m, deg, its place along the crank in mm; or None."""
-
-    piston_mass: Figure | None = None
-    piston_offset: Figure | None = None
-    rod: RodFigures = RodFigures()
-    bank_deg: Figure | None = None
-    throw_deg: Figure | None = None
-    position_mm: Figure | None = None
-
-
-NO_OVERRIDES = Overrides()
 _SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors of keys of [rod]
 
 
@@ -194,19 +182,6 @@ def rod_figures(
         period = figures.take(f"{path}.{prefix}pendulum.period", pendulum.period)
         given["pendulum"] = PendulumTest(pendulum.pivot, period)
     return RodFigures(**given)
-
-
-def override_figures(figures: FileFigures, number: int, own: Override) -> Overrides:
-    """What the table of one cylinder says."""
-    path, take = f"cylinder.{number}", figures.take_optional
-    return Overrides(
-        piston_mass=take(f"{path}.piston_mass", own.piston_mass),
-        piston_offset=divide(take(f"{path}.piston_offset", own.piston_offset), 1e3),
-        rod=rod_figures(figures, own, path, "rod_"),
-        bank_deg=take(f"{path}.bank", own.bank),
-        throw_deg=take(f"{path}.throw", own.throw),
-        position_mm=take(f"{path}.position", own.position),
-    )
 
 
 _ROUNDING = 1e-9  # share of the largest by which rounding may set equal values apart

@@ -24,13 +24,10 @@ from ..core.speed_ripple import RippleLine
 from ..errors import InputError, Problem
 from ..file.model import ONE_BY_ONE, Articulation, EngineFile
 from .figures import (
-    NO_OVERRIDES,
     FileFigures,
-    Overrides,
     RodFigures,
     column,
     or_zero,
-    override_figures,
     rod_figures,
     shared_column,
     value_or,
@@ -97,7 +94,7 @@ def set_pins(parts: Parts) -> Pins:
     """Return axes, dead centres, throws and crank pins."""
     model, figures, cells = parts.model, parts.figures, parts.plan.cells
     banks = bank_angles(model.layout, figures)
-    axes = {c.number: value_or(parts.overrides_of(c.number).bank_deg, banks[c.bank]) for c in cells}
+    axes = {c.number: value_or(parts.override(c.number, "bank"), banks[c.bank]) for c in cells}
     tops = axes
     if model.articulation is None:
         gears, radius = parts.gears, parts.radius
@@ -114,7 +111,7 @@ def set_pins(parts: Parts) -> Pins:
             told = f"no firing order says where the throw of dummy piston {silent[0]} stands"
             raise InputError([Problem.of_missing("crank.throws", told)])
     pins = {
-        c.number: value_or(parts.overrides_of(c.number).throw_deg, throws[c.throw] + c.bank * splay)
+        c.number: value_or(parts.override(c.number, "throw"), throws[c.throw] + c.bank * splay)
         for c in cells
     }
     return Pins(axes, tops, throws, {number: pin - pins[1] for number, pin in pins.items()})
@@ -160,7 +157,7 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
     piston, weighed = tuple(parts.find_piston_masses().items()), {}
     for cell in parts.plan.cells:
         number, hung = cell.number, cell.number in parts.masters
-        gear, own = parts.gears[number], parts.overrides_of(number).piston_mass
+        gear, own = parts.gears[number], parts.override(number, "piston_mass")
         shared = 0.0 if hung or oil_per_pin is None else oil_per_pin / _count_on_pin(parts, cell)
         weighed[number] = CylinderMasses(
             cell.throw,
@@ -202,28 +199,26 @@ class Places(NamedTuple):
 
 def find_places(parts: Parts) -> Places:
     """Return the places of cylinders and throws."""
-    model, take, plan = parts.model, parts.figures.take, parts.plan
-    if model.crank.positions is None or parts.figures.is_displaced("crank.positions"):
-        spacing = take("crank.spacing", model.crank.spacing or 0.0)
+    model, figures, plan = parts.model, parts.figures, parts.plan
+    if model.crank.positions is None or figures.is_displaced("crank.positions"):
+        spacing = figures.take("crank.spacing", model.crank.spacing or 0.0)
         along = tuple((throw - (plan.throws - 1) / 2) * spacing for throw in range(plan.throws))
     else:
-        along = parts.figures.take_each("crank.positions", model.crank.positions)
-    stagger = take("layout.stagger", model.layout.stagger) if plan.rods_on_throw > 1 else 0.0
+        along = figures.take_each("crank.positions", model.crank.positions)
+    stagger = figures.take("layout.stagger", model.layout.stagger)
     z: dict[int, Figure] = {}
     middles: dict[int, Figure] = dict.fromkeys(range(plan.throws), 0.0)
     for c in plan.cells:
-        beside = (
-            (c.bank - (plan.rods_on_throw - 1) / 2) * stagger if plan.rods_on_throw > 1 else 0.0
-        )
-        z[c.number] = (
-            value_or(parts.overrides_of(c.number).position_mm, along[c.throw] + beside) / 1e3
-        )
-        middles[c.throw] = middles[c.throw] + (z[c.number] - beside / 1e3)  # of any shape
+        shared = plan.rods_on_throw > 1
+        offset = (c.bank - (plan.rods_on_throw - 1) / 2) * stagger if shared else 0.0
+        own = parts.override(c.number, "position")
+        z[c.number] = value_or(own, along[c.throw] + offset) / 1e3
+        middles[c.throw] = middles[c.throw] + (z[c.number] - offset / 1e3)  # of any shape
     throws = column([middle / plan.rods_on_throw for middle in middles.values()], parts.rank)
     if model.frame.reference is None:
         return Places(z, throws, (0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2))
     x, y, height = (
-        figure / 1e3 for figure in parts.figures.take_each("frame.reference", model.frame.reference)
+        each / 1e3 for each in figures.take_each("frame.reference", model.frame.reference)
     )
     return Places(z, throws, (x, y, height))
 
@@ -372,10 +367,7 @@ class Parts:
         # single one needs it.
         needed = model.gas is not None and not self.rank
         self.order = None if varied and given and not needed else model.layout.firing_order
-        tables = self.figures.cylinder_tables(model)
-        self.own = {
-            number: override_figures(self.figures, number, own) for number, own in tables.items()
-        }
+        self.tables = self.figures.cylinder_tables(model)  # of single cylinders, by number
         self._gears: dict[tuple[int, bool], RunningGear] = {}
 
     @property
@@ -403,13 +395,18 @@ class Parts:
             self.figures, table.rod, "articulation.rod"
         )
 
-    def overrides_of(self, number: int) -> Overrides:
-        """Return what the file says of one cylinder alone."""
-        return self.own.get(number, NO_OVERRIDES)
+    def override(self, number: int, key: str) -> Figure | None:
+        """Return a figure of [cylinder.N] in the unit of the file; None where it gives none."""
+        table = self.tables.get(number)
+        if table is None:
+            return None
+        return self.figures.take_optional(f"cylinder.{number}.{key}", getattr(table, key))
 
     def find_rod(self, number: int, articulated: bool = False) -> RodPlace:
         """Return the figures of a cylinder's rod; number 0 stands for what holds for all."""
-        own, general = self.overrides_of(number).rod, self._general_rods[articulated]
+        general, own = self._general_rods[articulated], RodFigures()
+        if (table := self.tables.get(number)) is not None:
+            own = rod_figures(self.figures, table, f"cylinder.{number}", "rod_")
         return RodPlace(number, articulated, general.with_own(own), own, general)
 
     def find_piston_masses(self) -> dict[str, Figure]:
@@ -422,15 +419,16 @@ class Parts:
 
     def weigh_gear(self, place: RodPlace) -> RunningGear:
         """Return piston and rod of one cylinder; those without figures of their own share one."""
-        key = (place.number if place.number in self.own else 0, place.articulated)
+        number = place.number if place.number in self.tables else 0
+        key = number, place.articulated
         if key not in self._gears:
-            own = self.overrides_of(place.number)
-            offset = self.figures.take("piston.offset", self.model.piston.offset) / 1e3
+            offset = self.figures.take("piston.offset", self.model.piston.offset)
+            mass = sum(self.find_piston_masses().values())
             self._gears[key] = weigh_rod(
                 place.rod,
                 place.rod.length_for(self.radius),
-                value_or(own.piston_offset, offset),
-                value_or(own.piston_mass, sum(self.find_piston_masses().values())),
+                value_or(self.override(number, "piston_offset"), offset) / 1e3,
+                value_or(self.override(number, "piston_mass"), mass),
             )
         return self._gears[key]
 
