@@ -1,6 +1,4 @@
-"""Articulated rods: which cylinders hang on which master rod, where their knuckle pins are, and
-what does not fit together in [articulation].
-"""
+"""Articulated rods: the rules that [articulation] has to keep."""
 
 from __future__ import annotations
 
@@ -20,7 +18,6 @@ from .layout import Plan
 from .parts import Parts
 
 
-# ------------------------------------------------------------------ what does not fit together
 def check_articulation(parts: Parts) -> Iterator[Problem]:
     """Check that articulated rods have a master rod on their throw, one knuckle angle for each
     bank, and no crank pins of their own.
@@ -48,7 +45,7 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
 
 
 def _find_no_place(master: int, plan: Plan) -> Problem | None:
-    """Why there is no throw for a master rod and others, or no such bank."""
+    """Return the mistake if no throw carries a master rod and others, or the bank is missing."""
     banks = plan.banks
     needs = "needs a throw that carries the rods of several banks; this engine has"
     if banks < 2:
@@ -128,7 +125,9 @@ def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Prob
 
 
 def _rise_above(values: Array, top: int) -> float:
-    """How far a parabola through a sampled maximum (index `top`) and its neighbours rises above."""
+    """Return the height above a sampled maximum (index `top`) of the parabola through it and its
+    neighbours.
+    """
     before, at, after = values[top - 1], values[top], values[(top + 1) % len(values)]
     bend = 2 * at - before - after
     return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0

@@ -49,13 +49,13 @@ _AT_ONCE = 1 << 18
 
 @dataclass(frozen=True, eq=False)
 class Spectra:
-    """Phasors by order of each kind (`kinds.KINDS`) that was asked for; None: it was not.
+    """Phasors by order of each kind (`kinds.EVERY_KIND`); None for kinds that were not computed.
 
     Attributes:
-        orders: shape (orders,), ascending.
-        force: N.
+        orders: Orders, ascending, shape (orders,).
+        force: Free force, N.
         moment, couple, torque, roll: N m; the torque is the inertia torque on the crank.
-        gas, torque_total, roll_total: N m, of the gas, and with it.
+        gas, torque_total, roll_total: N m, of the gas, and of gas and inertia.
     """
 
     orders: Array
@@ -69,31 +69,31 @@ class Spectra:
     roll_total: Phasors | None = None
 
     def __getitem__(self, kind: str) -> Phasors:
-        """Phasors of the kind with this name; KeyError if it was not asked for."""
+        """Return the phasors of the kind with this name; KeyError if they were not computed."""
         phasors: Phasors | None = getattr(self, EVERY_KIND[kind].name)
         if phasors is None:
             raise KeyError(kind)
         return phasors
 
     def items(self) -> list[tuple[Kind, Phasors]]:
-        """Each kind that was asked for, with its phasors, as in the table of kinds."""
+        """Return each computed kind with its phasors, in the order of the table of kinds."""
         found = [(kind, getattr(self, name)) for name, kind in EVERY_KIND.items()]
         return [(kind, phasors) for kind, phasors in found if phasors is not None]
 
     def vectors(self) -> list[tuple[Kind, Phasors]]:
-        """Those of `items` that are vectors: force and moment."""
+        """Return the `items` that are vectors: force and moment."""
         return [(kind, phasors) for kind, phasors in self.items() if kind.vector]
 
     def scalars(self) -> list[tuple[Kind, Phasors]]:
-        """Those of `items` that act about the crank's axis."""
+        """Return the `items` that act about the crank's axis."""
         return [(kind, phasors) for kind, phasors in self.items() if not kind.vector]
 
     def only(self, kinds: Collection[str]) -> Spectra:
-        """The same without all other kinds."""
+        """Return the spectra of these kinds alone, by their names."""
         return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
 
     def with_moment_if(self, known: bool) -> Spectra:
-        """The same, the moment as nan unless it is known, if it was asked for at all."""
+        """Return the spectra, with a computed moment as nan unless it is known."""
         if known or self.moment is None:
             return self
         p = self.moment
@@ -101,7 +101,7 @@ class Spectra:
         return replace(self, moment=unknown)
 
     def select_orders(self, orders: ArrayLike) -> Spectra:
-        """The same without all other orders."""
+        """Return the spectra of these orders alone, shape (orders,)."""
         if orders is self.orders:
             return self
         wanted = np.asarray(orders, float)
@@ -109,7 +109,7 @@ class Spectra:
         return Spectra(wanted, **{kind.name: p.select_rows(rows) for kind, p in self.items()})
 
     def select_place(self, place: int) -> Spectra:
-        """Those of one place along the trailing axis."""
+        """Return the spectra of one place along the trailing axis."""
         return Spectra(
             self.orders, **{kind.name: p.select_place(place) for kind, p in self.items()}
         )
@@ -283,20 +283,20 @@ SHOWN = 1e-6  # share of a quantity's largest order below which an order is not 
 
 
 def is_order(number: float) -> bool:
-    """Whether it is an order that may be asked for: a multiple of 1/2, 0 to HIGHEST_ORDER."""
+    """Return whether a number is an order: a multiple of 1/2, 0 to HIGHEST_ORDER."""
     return 0 <= number <= HIGHEST_ORDER and number % 0.5 == 0
 
 
 def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> Array:
-    """Orders that were asked for, ascending, each once.
+    """Return the orders of an argument, ascending, each once.
 
     Args:
-        orders: as asked for.
-        engines: whose they are: one at least has to have half orders if some are asked for.
+        orders: Numbers.
+        engines: Engines, one of which must have half orders if `orders` has some.
 
     Raises:
-        BalcliError: there are none, some are no orders, or half orders that no engine has.
-        TypeError: they are no numbers.
+        BalcliError: There are none, some are no orders, or half orders that no engine has.
+        TypeError: They are no numbers.
     """
     asked = sorted(set(_list_numbers(orders)))
     if not asked or not all(map(is_order, asked)):
@@ -325,7 +325,7 @@ def _list_numbers(orders: object) -> list[float]:
 
 
 def parse_order(text: str) -> float | None:
-    """The order that a text names, such as `2` or `1.5`; None if it names none."""
+    """Return the order that a text names, such as `2` or `1.5`; None if it names none."""
     short = len(text) <= len(f"{HIGHEST_ORDER}.5") + 1
     if not short or not re.fullmatch(r"[0-9]+(\.[05])?", text, re.ASCII):
         return None
@@ -334,7 +334,7 @@ def parse_order(text: str) -> float | None:
 
 
 def split_order(text: str) -> tuple[float | None, str]:
-    """`1.5.amplitude` as the order 1.5 and what comes after it; None where there is no order."""
+    """Return `1.5.amplitude` as the order 1.5 and the rest; None where there is no order."""
     match = re.fullmatch(r"([^.]*(?:\.[05](?=\.|$))?)(?:\.(.*))?", text, re.DOTALL)
     if match is None:
         return None, text
@@ -342,8 +342,8 @@ def split_order(text: str) -> tuple[float | None, str]:
 
 
 def find_relevant_orders(engine: Engine) -> Array:
-    """The orders 1 .. n beyond which nothing exceeds rounding errors, shape (orders,); 0 .. n at
-    uneven speed, with halves where its lines have some.
+    """Return the orders 1 .. n above which nothing exceeds rounding errors, shape (orders,); 0 .. n
+    at uneven speed, with half orders if its lines have some.
     """
     of_devices = [device.order for device in engine.devices]
     highest = max([engine.cylinders.find_highest_order(), *of_devices])
@@ -365,7 +365,7 @@ def list_gas_orders(engine: Engine) -> Array:
 
 
 def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
-    """Orders in which something exceeds SHOWN of its own largest order, shape (orders,); none above
+    """Return whether each order exceeds SHOWN of the largest order, shape (orders,); False above
     HIGHEST_ORDER_UNASKED.
     """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
@@ -388,7 +388,7 @@ def choose_orders(found: Spectra, *engines: Engine) -> Array:
 
 
 def merge_orders(*several: Iterable[float]) -> Array:
-    """All orders of several, ascending, each once."""
+    """Return all orders of several lists, ascending, each once."""
     # np.union1d would import masked arrays, which takes longer than all the rest
     return np.array(sorted({float(order) for orders in several for order in orders}))
 

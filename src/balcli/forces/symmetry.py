@@ -39,15 +39,15 @@ _NO_FORCE = 1e-12  # A_n of an order that the piston does not have
 
 
 class TextbookUnits(NamedTuple):
-    """What the forces and moments of an engine are multiples of.
+    """Units of the multiples in which textbooks state forces and moments.
 
     Attributes:
-        orders: shape (orders,).
+        orders: Orders, shape (orders,).
         force: F1, N.
-        arm: a, the smallest distance of neighbouring throws, m; nan where all stand in one plane.
+        arm: Smallest distance a of neighbouring throws, m; nan where all are in one plane.
         ratios: |A_n| of each order, shape (orders,).
-        cylinder: number of the cylinder of which they are.
-        equal: whether all cylinders are like it.
+        cylinder: Number of the cylinder that has these units.
+        equal: Whether all cylinders are equal to it.
     """
 
     orders: Array
@@ -58,25 +58,26 @@ class TextbookUnits(NamedTuple):
     equal: bool
 
     def size(self, kind: Kind, order: float) -> float:
-        """F_n of one of the orders, N, or F_n a, N m; nan where there is no such force or arm."""
+        """Return F_n of one of the orders, N, or F_n a, N m; nan without such a force or arm."""
         ratio = float(self.ratios[np.searchsorted(self.orders, order)])
         if not self.force or ratio < _NO_FORCE:
             return float("nan")
         return self.force * ratio * (1.0 if kind.dimension == "force" else self.arm)
 
     def name(self, kind: Kind, order: object = "n") -> str:
-        """How the unit of an order is written."""
+        """Return the symbol of the unit of an order."""
         return f"F{order}" if kind.dimension == "force" else f"F{order}·a"
 
 
 class Textbook(NamedTuple):
-    """An engine's forces and moments, and what they are multiples of.
+    """An engine's forces and moments with their units in textbooks.
 
     Attributes:
-        reciprocating: as textbooks have them, N and N m: reciprocating masses in the planes of
-            their throws.
-        built: with the rotating masses, too, and all where they stand; still without devices, at a
-            steady speed.
+        units: Units of the multiples.
+        reciprocating: Forces, N, and moments, N m, of reciprocating masses in the planes of their
+            throws, as in textbooks.
+        built: Forces and moments of all masses of the cylinders at their positions, without
+            devices, at a steady speed.
     """
 
     units: TextbookUnits
@@ -85,7 +86,7 @@ class Textbook(NamedTuple):
 
 
 def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Textbook:
-    """What an engine without trailing axes does, for these orders; names of kinds."""
+    """Return the forces of an engine without trailing axes, for orders and names of kinds."""
     built = without_devices(engine)
     return Textbook(
         find_textbook_units(engine, orders),
@@ -95,19 +96,19 @@ def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Text
 
 
 def without_devices(engine: Engine) -> Engine:
-    """The cylinders alone, at a steady speed; moments about the crank's axis."""
+    """Return the cylinders alone, at a steady speed; moments are about the crank's axis."""
     return replace(engine, devices=(), ripple=(), reference_m=(0.0, 0.0, engine.reference_m[2]))
 
 
 def with_reciprocating_only(engine: Engine) -> Engine:
-    """The engine without what turns with its pins, every cylinder in the plane of its throw."""
+    """Return the engine without rotating masses, every cylinder in the plane of its throw."""
     c = engine.cylinders
     planes = engine.throws_m[[weighed.throw for weighed in engine.weighed]]
     return replace(engine, cylinders=replace(c, z=planes, rotating=0 * c.rotating))
 
 
 def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
-    """The units of an engine without trailing axes, for these orders."""
+    """Return the units of an engine without trailing axes, for these orders."""
     c, row = engine.cylinders, engine.numbers.index(1)
     if c.linkage is not None and not engine.rotary:
         row = int(cast("Articulated", c.linkage).master[row])
