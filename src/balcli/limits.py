@@ -44,7 +44,8 @@ HIGHEST_TABLE_ORDER = 100  # of tangential pressure: builders' tables end at 12 
 HIGHEST_ORDER_SOUGHT = 8  # where a scheme looks for something to balance: engines have it below
 MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are told one by one
 MOST_RESULTS_ALONG_CRANK = 1 << 15  # loads x orders, whose peaks are looked for place by place
-MOST_FORCES_OVER_CYCLE = 1 << 24  # forces along the crank x angles of a cycle: 16 bytes each
+MOST_FORCES_OVER_CYCLE = 1 << 23  # forces along the crank x angles of a cycle: half a minute
+MOST_DIFFERENT_GAS = 200  # cycles that are computed or read one by one: 10 to 40 ms each
 MOST_LOADS_APART = 1_100_000  # loads x orders kept one by one, and half as many at uneven speed
 
 # Figures asked for on the command line -------------------------------------------------------
@@ -55,7 +56,6 @@ SMALLEST_FLUCTUATION = 1e-9  # of the speed, asked for: less is lost in rounding
 FLUCTUATION = "give (highest - lowest)/mean speed, such as 1/200 or 0.5%"
 FARTHEST_DEVICE_M = 50.0  # place of a shaft or plane: the longest engines have 30
 LARGEST_FACTOR = 2  # share of the reciprocating mass, either way: shops take 0 to 1
-MOST_HOLES = 50  # in one counterweight: none has room for more
 MOST_DIGITS = 15  # of figures in tables: what a floating-point number has
 MOST_FACTORS = 1000  # steps of a range of balance factors
 MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table, and figures of its body

@@ -174,7 +174,7 @@ def test_practical_figures_follow_from_their_definitions():
 
 def test_shafts_turn_at_their_ratio():
     found = balance(engine(), "four-shaft").practical
-    assert sorted(p.speed_rpm for p in found) == [3000, 3000, 6000, 6000]
+    assert sorted(p.speed_rpm for p in found) == [3000, 3000, 3000, 6000, 6000]  # with the weight on the crank
 
 
 def test_given_thickness_sets_the_radius():
@@ -254,7 +254,7 @@ def test_holes_to_the_last_digit_of_their_depth(count):
     """So much as these holes remove at full depth asks for no further one."""
     most = STEEL * math.pi / 4 * 0.02**2 * (0.08**2 - 0.05**2) / 2 * 1e6
     for slip in (-1e-14, 0, 1e-14):
-        holes = plan_holes(count * most * (1 + slip), drill=0.02, max_depth=0.03)
+        holes = plan_holes(count * most * (1 + slip), drill=0.02, max_depth=0.03, width=1.0)
         assert holes.holes == count
         assert holes.drill_depth_mm == pytest.approx(30, rel=1e-9)
 
@@ -271,14 +271,16 @@ def test_a_slug_adds_what_it_is_heavier_than_steel_on_its_own_side():
     assert removed(holes, 0.02, 17_000 - STEEL) == pytest.approx(20_000, rel=1e-9)
 
 
-def test_more_holes_than_any_counterweight_has_room_for():
+def test_holes_that_do_not_fit_on_the_crank_are_an_error():
+    """Side by side along the stroke of a single, or along --width; nothing is written."""
     for drill in (1e-4, 1e-170):
-        holes = plan_holes(20_000, drill=drill)
-        assert holes.holes > 50
-        assert math.isnan(holes.drill_depth_mm)
-    out = run("-", "--drill", "0.1", text=SINGLE).out
-    assert "more than 50" in out
-    assert "One hole would be deeper than the radius." in out
+        with pytest.raises(BalcliError, match="do not fit"):
+            plan_holes(20_000, drill=drill)
+    message = refusal("balance", "-", "--drill", "2", stdin=SINGLE)
+    assert all(part in message for part in ("--drill 2 mm", "g mm", "holes side by side", "--width", "--slug"))
+    assert plan_holes(20_000, drill=0.02, max_depth=0.05, width=0.06).holes == 3
+    with pytest.raises(BalcliError, match="2 holes side by side"):
+        plan_holes(20_000, drill=0.02, max_depth=0.05, width=0.059)
 
 
 @cases("analysis/balance", "what_holes_cannot_be")

@@ -232,6 +232,69 @@ def test_the_grade_judges_what_is_there_not_what_fits():
         assert other.after_g_mm == pytest.approx(200 * abs(limited.wanted - limited.weight), rel=1e-12)
 
 
+GRADE = "grade = 6.3\nmass = 1\nspeed = 3000\nradius = [1, 1]\n"
+
+
+@pytest.mark.parametrize("case", ["as found", "corrected", "given", "weighted", "two speeds"])
+def test_the_true_unbalance_lies_within_its_scatter_as_often_as_promised(case):
+    """Planted unbalance, readings with errors of known size: 95 of 100 estimates."""
+    speeds, sensors = (2, 2) if case == "two speeds" else (1, 3)
+    alpha, excess = random_rotor(7, sensors * speeds, 2)
+    scale = np.array([1.0, 2, 3][:sensors]) if case == "weighted" else np.ones(sensors)
+    start = head(2, GRADE + f"reading_weights = {scale.tolist()}")
+    start += f"influence = [{', '.join(map(table, alpha))}]\n" if case == "given" else ""
+    states = [[]] + [[(name, 1 + 0.3j)] for name in names(2)] * (case != "given")
+    states += [list(zip(names(2), -0.97 * excess, strict=True))] * (case != "as found")
+    there, within, rng = excess * (1 if case == "as found" else 0.03), [], np.random.default_rng(1)
+    for _ in range(300):
+        text = start
+        for state in states:
+            on = excess + np.array([dict(state).get(name, 0) for name in names(2)])
+            for speed in range(speeds if len(state) < 2 else 1):  # corrected at one of them
+                errors = 0.02 / scale * (rng.normal(size=(sensors, 2)) @ [1, 1j])
+                readings = alpha[speed * sensors : (speed + 1) * sensors] @ on + errors
+                text += run(readings, state, f"speed = {1000 * (speed + 1)}")
+        found = find_corrections(parse_runs(text))
+        for plane, exact, each in zip(found.permitted.planes, there, found.corrections, strict=True):
+            within.append(abs(each.step + exact) <= plane.scatter_g_mm)
+            assert plane.reached == (plane.present_g_mm + plane.scatter_g_mm <= plane.permitted_g_mm)
+    assert np.mean(within) == pytest.approx(0.95, abs=0.035)
+
+
+def test_readings_that_fit_badly_do_not_prove_that_the_grade_is_reached():
+    """The weights left in cancel what they can, but 9 of 10 stay, in a way no weight makes."""
+    runs = run([10, 10]) + run([11, 11], [("p1", 1)]) + run([9, -9], [("p1", -10)])
+    grade = GRADE.replace("1, 1", "1").replace("mass = 1", "mass = 0.4")
+    (plane,) = find_corrections(parse_runs(head(1, grade) + runs)).permitted.planes
+    assert plane.present_g_mm < plane.permitted_g_mm
+    assert plane.present_g_mm + plane.scatter_g_mm > plane.permitted_g_mm
+    assert (plane.reached, plane.verdict) == (False, "uncertain")
+
+
+def test_the_smallest_largest_reading_is_no_estimate_of_the_unbalance():
+    """Three readings of one plane: the weight for the smallest largest one differs from the best
+    estimate, by which the grade is judged.
+    """
+    text = head(1, GRADE.replace("1, 1", "1") + 'influence = [["1 @ 0"], ["1 @ 0"], ["1 @ 0"]]')
+    squares, largest = (find_corrections(parse_runs(text + run([1, 1, 4])), m) for m in ("squares", "max"))
+    assert abs(largest.corrections[0].weight) == pytest.approx(2.5, rel=1e-6)
+    (one,), (other,) = squares.permitted.planes, largest.permitted.planes
+    assert (one.present_g_mm, one.scatter_g_mm) == (other.present_g_mm, other.scatter_g_mm)
+    assert one.present_g_mm == pytest.approx(2, rel=1e-12)
+    assert other.after_g_mm == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("key", ["grade", "mass", "speed", "radius"])
+def test_a_grade_that_lacks_a_figure_refuses_nothing(key):
+    lines = "grade = 6.3\nmass = 120\nspeed = 3000\nradius = [200, 200]\nshares = [1, 2]".splitlines()
+    text = three_runs("\n".join(line for line in lines if not line.startswith(key)))
+    found = find_corrections(parse_runs(text))
+    assert found.permitted is None
+    assert found.corrections[0].weight == find_corrections(parse_runs(three_runs())).corrections[0].weight
+    (doubt,) = found.doubts
+    assert doubt.startswith(f"{key}: is missing, so no unbalance is judged; give it, such as {key} = ")
+
+
 def test_places_are_numbered_as_the_file_has_them():
     text = head(2, 'places = [8, [200, 90, 100]]\ninfluence = [["1 @ 0", "0 @ 0"], ["0 @ 0", "1 @ 0"]]')
     first, second = find_corrections(parse_runs(text + run([5j, -3j]))).corrections

@@ -218,7 +218,8 @@ def test_check(runs, tmp_path):
     assert "not reached" in out
     plain = write(tmp_path / "plain.toml", three_runs())
     assert refusal("field", plain, "--check") == (
-        f"{plain}: --check needs a grade, such as grade = 6.3, and mass and speed"
+        f"{plain}: --check needs grade = 6.3, mass = 120, speed = 3000, radius = [200, 200], or "
+        'weights as unbalances, weight_unit = "g mm"'
     )
 
 

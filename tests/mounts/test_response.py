@@ -32,10 +32,11 @@ def rest_of(result):
 
 @pytest.fixture
 def report(tmp_path):
-    def of(text, speeds=SPEEDS, orders=None, scheme=None):
+    def of(text, speeds=SPEEDS, orders=None, scheme=None, ranged=True):
         path = write(tmp_path / "engine.toml", text)
         file = read_mounted(path)
-        return report_mounts(file.model, file.engine, speeds, orders, scheme, name="engine.toml")
+        name = "engine.toml"
+        return report_mounts(file.model, file.engine, speeds, orders, scheme, name=name, ranged=ranged)
 
     return of
 
@@ -471,3 +472,32 @@ def test_the_leading_mode_is_that_of_the_whole_force_not_of_one_direction(report
     for mount in found.response.mounts:
         shape = np.abs(found.modes[mount.worst.mode].shape[:3])
         assert shape.argmax() == 1
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_gas_orders_that_resonate_are_found(report, seed):
+    """Peak of a slow engine against a dense grid of speeds with orders to 120."""
+    rng = np.random.default_rng(seed)
+    gas = (
+        f'[layout]\nfiring_order = [1, 3, 4, 2]\n[gas]\ncycle = "wiebe"\n'
+        f"compression_ratio = {rng.uniform(9, 19):.3g}\nimep = {rng.uniform(4, 15):.3g}\n"
+        f"burn_duration = {rng.uniform(15, 60):.3g}\n"
+    )
+    engine = ENGINE.replace("speed = 3000", f"speed = {rng.uniform(80, 600):.4g}")
+    text = engine + gas + RandomBody(seed, 4, loss=float(rng.uniform(0.02, 0.2))).text
+    low = float(rng.uniform(60, 300))
+    found = report(text, speeds=np.linspace(low, 1.5 * low, 9)).response
+    assert found.orders[-1] >= 12
+    every = report(text, speeds=np.linspace(low, 1.5 * low, 1501), orders=np.arange(1, 241) / 2)
+    for mount, dense in zip(found.mounts, every.response.mounts, strict=True):
+        assert mount.worst.force_N == pytest.approx(dense.peak_N.max(), rel=1e-3)
+
+
+def test_a_list_of_speeds_is_no_range(report):
+    """Undamped: finite at each speed of a list, without bound within a range around a mode."""
+    text, speeds = ENGINE + block(), np.array([300.0, 2000.0])
+    with pytest.raises(BalcliError, match="is not damped"):
+        report(text, speeds=speeds, orders=[2])
+    found = report(text, speeds=speeds, orders=[2], ranged=False).response
+    for mount in found.mounts:
+        assert mount.worst.force_N == mount.peak_N.max()

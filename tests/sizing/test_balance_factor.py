@@ -417,7 +417,10 @@ def test_a_table_with_a_row_for_each_factor(ford):
 
 
 # ------------------------------------------------------------------ the card for the wall
-DRILLED = ("--planes=-220mm,230mm", *("--radius", "2.5 in", "--drill", "1 in", "--max-depth", "40 mm"))
+DRILLED = (
+    "--planes=-220mm,230mm",
+    *("--radius", "2.5 in", "--drill", "1 in", "--max-depth", "40 mm", "--width", "400 mm"),
+)
 
 
 def test_the_card_as_a_page(ford):

@@ -77,8 +77,9 @@ def test_one_eccentric_promises_both_where_it_takes_both():
 
 def test_pairs_promise_no_more_either():
     remedy = size(load(TWIN), "two-shaft")
-    assert all(reason.endswith("a moment stays, which takes eccentrics in two planes") for reason in remedy.reasons)
-    assert all(reason.startswith("Order 1 force turning") for reason in remedy.reasons)
+    reasons = [why for device, why in zip(remedy.devices, remedy.reasons, strict=True) if device in remedy.shafts]
+    assert all(reason.endswith("a moment stays, which takes eccentrics in two planes") for reason in reasons)
+    assert all(reason.startswith("Order 1 force turning") for reason in reasons)
     whole = size_scheme(load(I4), "two-shaft", order=2).reasons
     assert not any("stays" in reason for reason in whole)
 
@@ -144,3 +145,27 @@ def test_a_force_has_no_free_place():
 
 
 # ------------------------------------------------------------------ an order that was not asked for
+
+
+# ------------------------------------------------------------------ moment compensators
+def test_two_shafts_far_from_an_engine_without_force_take_its_moment():
+    """An in-line five has moments of order 2 alone: the force at 3 m makes the opposite ones."""
+    built = load(I5)
+    remedy = size_scheme(built, "two-shaft", order=2, position=3.0)
+    spectra = compute_spectra(built, [2], ("moment",))
+    arm = 3.0 - float(built.reference_m[2])
+    wanted = [-spectra.moment.forward[0] / 1j / arm, -spectra.moment.backward[0] / 1j / arm]
+    made = [(d.forward or d.backward) * 4 * built.omega**2 for d in fit_devices(built, remedy).devices]
+    assert made == pytest.approx(wanted, rel=1e-9)
+    found = left(I5, "two-shaft", SchemeOptions(order=2, position=3.0), 2)
+    assert found.moment.balanced.all()
+    assert remedy.details["force_left_N"] == pytest.approx(sum(map(abs, wanted)), rel=1e-9)
+    assert "moment compensator" in remedy.reasons[0]
+
+
+def test_a_moment_compensator_needs_an_arm():
+    found = refusal("balance", I5, "--scheme", "two-shaft", "--order", "2", "--position", "0")
+    assert found.startswith("--position 0: a force there has no arm")
+    assert (
+        "two-shaft with --order and --position" in run_here("balance", I5, "--scheme", "two-shaft", "--order", "2").out
+    )

@@ -66,10 +66,10 @@ def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: P
         for angle in range(0, 361, 30)
         if min(1 + 0.6 * np.cos(theta) + 0.5 * np.cos(2 * theta - np.radians(angle))) <= 0
     )
-    assert done.stderr.startswith(
+    assert (
         f"balcli: {file}: operation.speed_ripple.2.angle = {first}: operation.speed_ripple: the "
         "crank would turn back: at crank angle "
-    )
+    ) in done.stderr
 
 
 def test_a_corner_that_cannot_be_is_named(tmp_path: Path) -> None:

@@ -214,12 +214,14 @@ def test_oldham_couplings_suit_an_offset_too():
 
 
 def test_two_and_four_shafts():
-    """(2.1) m_b r_b = m r / 2 each (here with the rotating mass on the one that turns with the
-    crank); (2.2) A2 m r / 8.
+    """(2.1) m_b r_b = m r / 2 each, the rotating mass opposite the pin on the crank; (2.2)
+    A2 m r / 8.
     """
-    shafts = {s.ratio: s.unbalance / 1e6 for s in size(single(), "four-shaft").shafts}
+    remedy = size(single(), "four-shaft")
+    assert [w.unbalance / 1e6 for w in remedy.counterweights] == [pytest.approx(0.7 * R, rel=1e-13)]
+    shafts = {s.ratio: s.unbalance / 1e6 for s in remedy.shafts}
     second = float(closed_form.piston([2], 0.25)[0]) * M * R / 8
-    assert shafts == pytest.approx({-1: M * R / 2, 1: M * R / 2 + 0.7 * R, -2: second, 2: second}, rel=1e-14)
+    assert shafts == pytest.approx({-1: M * R / 2, 1: M * R / 2, -2: second, 2: second}, rel=1e-14)
 
 
 def test_single_shaft_leaves_a_couple():

@@ -205,7 +205,9 @@ def analyze(
     shown = wanted.intersection(EVERY_KIND)
     computed = _choose_computed(engine, asked, whole=bool(peaked))
     visible, whole = _compute_visible_and_whole(engine, computed, asked, shown, peaked)
-    visible = visible.select_orders(choose_orders(visible, engine) if asked is None else asked)
+    visible = visible.select_orders(
+        choose_orders(visible, list_gas_orders(engine)) if asked is None else asked
+    )
     return Analysis(
         engine=engine,
         state=describe_state(engine),

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..file.model import Counterweight, Shaft, Slider
-from ..limits import MOST_HOLES
 from ..show.sheet import UNKNOWN, Grid, degrees, given, number
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
@@ -111,10 +109,11 @@ def holes_grid(
     rim = tell_rim(tools, f"{_length(practical[0].radius_mm, unit, 4)} {unit.name}")
 
     def cells(p: Practical) -> tuple[str, ...]:
-        depth, count = p.drill_depth_mm or 0.0, f"{p.holes}"
-        if math.isnan(depth):
-            depth, count = math.nan, f"more than {MOST_HOLES}"
-        return degrees(p.hole_angle_deg or 0.0), count, _length(depth, unit, 4)
+        return (
+            degrees(p.hole_angle_deg or 0.0),
+            f"{p.holes}",
+            _length(p.drill_depth_mm or 0.0, unit, 4),
+        )
 
     rows = tuple(
         (f"{k} {name_kind(device)}", *cells(figures))
@@ -145,7 +144,7 @@ def tell_rim(tools: Tools, radius: str) -> str:
 
 def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit) -> Iterator[str]:
     """Yield how long the largest row of holes is."""
-    most = max((p.holes for p in practical if p.holes and p.holes <= MOST_HOLES), default=0)
+    most = max((p.holes for p in practical if p.holes), default=0)
     if most > 1 and tools.drill is not None:
         length = f"{number(unit.of(most * tools.drill), 3)} {unit.name}"
         yield f"{most} holes side by side take {length} along the axis at the least."

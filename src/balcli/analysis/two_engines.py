@@ -202,7 +202,11 @@ def combine_engines(
     if len(few) < len(computed):  # near the lock tens of thousands: all have a part in the peaks
         one, other = (replace(engine, gas=None) for engine in (first, second))
         whole = _compute_sum(one, other, arrangement, computed)
-    shown = choose_orders(visible, first, second) if asked is None else asked
+    shown = (
+        choose_orders(visible, merge_orders(*map(list_gas_orders, (first, second))))
+        if asked is None
+        else asked
+    )
     return Combined(
         engines=given,
         arrangement=arrangement,

@@ -24,7 +24,7 @@ from ..engine.engine import Engine, check_engine
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..errors import BalcliError, InputError, check_type
-from ..file.edit import format_value, rewrite, set_keys
+from ..file.edit import format_value, remove_tables, rewrite, set_keys
 from ..file.model import EngineFile
 from ..forces.spectrum import merge_orders
 from ..shell.arguments import tell_arguments
@@ -117,7 +117,11 @@ def balance_engine(
     check_type("balance", scheme, str, 'give the name of a scheme, such as "counterweights"')
     check_type("balance", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")
     check_type("balance", tools, (Tools, NoneType), "give Tools(radius=0.05)")
+    orders = None if orders is None else tuple(orders)
+    if scheme == "minimax" and orders is not None:
+        options = (options or SchemeOptions())._replace(orders=orders)
     remedy = size(engine, scheme, options)
+    engine = engine if remedy.start is None else remedy.start
     tools = tools or Tools()
     practical = find_practical(engine, remedy, tools)
     before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
@@ -174,9 +178,9 @@ def permit_unbalance(
 
 
 # Options of the command line are fields of the two arguments here.
-balance = tell_arguments(**{name: name for name in (*SchemeOptions._fields, *Tools._fields)})(
-    balance_engine
-)
+balance = tell_arguments(
+    **{name: name for name in dict.fromkeys((*SchemeOptions._fields, *Tools._fields))}
+)(balance_engine)
 balance.__name__ = balance.__qualname__ = "balance"
 balance.__module__ = __name__  # where pickle finds it
 
@@ -355,8 +359,13 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
             f"scheme {remedy.scheme}: no engine file can describe its devices (shafts of variable "
             "speed, couplings), so that they cannot be written; balance shows what they leave"
         )
+    base = remedy.start or build(parse(text, file))
+    if remedy.start is not None and remedy.start.model is not None:
+        weights = remedy.start.model.counterweight
+        first = Remedy(remedy.scheme).add_devices(weights, "what the measured mass stands for")
+        old = _insert_devices(remove_tables(old, "counterweight"), first)
     new = _insert_devices(old, remedy)
-    if build(parse(new, file)).devices != fit_devices(build(parse(text, file)), remedy).devices:
+    if build(parse(new, file)).devices != fit_devices(base, remedy).devices:
         raise BalcliError(
             f"{file}: the devices do not read back as they were sized; please report this file"
         )

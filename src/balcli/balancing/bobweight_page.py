@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from ..analysis.devices_show import explain_holes, tell_rim
 from ..errors import BalcliError, legible
-from ..limits import MOST_HOLES
 from ..show.sheet import NAMELESS, capitalized, degrees, number, sentence
 from ..show.units import IMPERIAL, POUND, SI
 from ..sizing.bobweights import NO_THROW
@@ -158,8 +157,6 @@ def _correct_plane(
         size = _show_length(1e3 * drill, None, 3)
         what = "drill" if result.tools.slug is None else "slugs"
         told = f"{figures.holes} × {size}, {_show_length(depth, 3, 3)} deep"
-        if figures.holes > MOST_HOLES:
-            told = f"more than {MOST_HOLES} holes of {size}"
         yield f"   {what} at {degrees(figures.hole_angle_deg or 0.0)} deg: {told}"
     if result.permitted is not None:
         yield _line("   may be left", "", *_unbalance(result.permitted.each_g_mm / 1e6))

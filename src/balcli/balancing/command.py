@@ -92,6 +92,10 @@ MaxDepth = Annotated[str | None, optional("MM", "Deepest hole, for --drill; defa
 Slug = Annotated[
     str | None, optional("METAL", "With --drill: slugs of tungsten, lead, or of a density, g/cm3.")
 ]
+Width = Annotated[
+    str | None,
+    optional("MM", "Room along the axis for holes; default: the smallest distance of throws."),
+]
 Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
 Grade = Annotated[
     str | None, optional("G", "Balance grade of ISO 21940-11, such as G16: what may be left.")
@@ -172,6 +176,7 @@ def balance(
     drill: Drill = None,
     max_depth: MaxDepth = None,
     slug: Slug = None,
+    width: Width = None,
     even: Even = None,
     grade: Grade = None,
     mass: Mass = None,
@@ -201,7 +206,7 @@ def balance(
     usual = "factor" if form is BalanceFormat.CARD else "auto"
     scheme = choose_scheme(scheme, options, usual)
     lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
-    tools = parse_tools(units, slug, **lengths, max_depth=max_depth)
+    tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
     grade_mm_s = parse_grade(grade)
     mass_kg = None if mass is None else read_mass("--mass", mass, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)

@@ -63,12 +63,28 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         yield _optima_grid(optima)
 
 
+def tell_change(result: Balance, system: System) -> str:
+    """Return what to do to a measured crankshaft; empty where none was measured."""
+    details, unit = result.remedy.details, system.unbalance
+    if not (changes := details.get("change")):
+        return ""
+    what = [
+        f"{one['action']} {size_text(abs(one['unbalance_kg_m']), unit)} opposite "
+        f"{'each pin' if len(changes) == 1 else 'pin ' + str(one['throw'])}"
+        if one["unbalance_kg_m"]
+        else f"nothing at pin {one['throw']}"
+        for one in changes
+    ]
+    has, wanted = percent(details["measured_factor"]), percent(details["wanted_factor"])
+    return f"It has the factor {has}; you want {wanted}: {', '.join(dict.fromkeys(what))}."
+
+
 def _list_figures(result: Balance) -> Iterator[_Figure]:
     """Yield the figures of the details one by one; tables among them are left out."""
     for key, value in result.remedy.details.items():
         if isinstance(value, dict):
             yield from (_Figure(key, name, figure) for name, figure in value.items())
-        elif key != "optima":
+        elif key not in ("optima", "change"):
             yield _Figure("", key, value)
     if result.speed_note:
         yield _Figure("", "speed", result.speed_note)
@@ -115,7 +131,7 @@ def _show(figure: _Figure, system: System) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, list):
-        return f"{', '.join(map(degrees, value))} deg"
+        return f"{', '.join(map(degrees, value))} deg" if value else UNKNOWN
     if isnan(value):
         return UNKNOWN
     if figure.key.endswith("_g"):

@@ -46,7 +46,7 @@ from ..show.units import SI, ShownUnit, System
 from ..sizing.planes import find_unbalance, name_kind
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
-from .scheme_show import details_document, details_parts, tell_growing_rolls
+from .scheme_show import details_document, details_parts, tell_change, tell_growing_rolls
 
 _TURNING_WEIGHTS = (
     "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis, which is "
@@ -60,6 +60,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     known, steady = result.before.moments_known, " at steady speed" * bool(engine.ripple)
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = []
+    if change := tell_change(result, system):
+        parts.append(Text("", (change,)))
     if remedy.reasons and not remedy.devices and not remedy.beyond:
         parts.append(Text("What is changed, and why", remedy.reasons))
     elif remedy.reasons:

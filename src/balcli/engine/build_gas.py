@@ -24,7 +24,7 @@ from ..file.csv_columns import Head, NumberColumns, locate_beside, read_columns
 from ..file.gas_tables import DIAGRAM_KEYS, Gas
 from ..file.model import Override
 from ..file.units import BAR
-from ..limits import HIGHEST_TABLE_ORDER
+from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
 from .gas import CylinderGas, EngineGas
 from .indicator import HEADS, build_diagram, list_doubts
 from .layout import find_first
@@ -73,6 +73,10 @@ def build_gas(parts: Parts) -> EngineGas:
         for mechanism, source in zip(parts.cylinders.mechanisms, sources, strict=True)
     ]
     like = [keys.index(key) for key in keys]  # row of the first cylinder with an equal torque
+    if (different := len(set(like))) > MOST_DIFFERENT_GAS:
+        many = f"{different} cylinders differ in mechanism, heat or diagram; at most "
+        told = f"{MOST_DIFFERENT_GAS} are computed: give more of them the same figures"
+        raise InputError([Problem("gas", many + told)])
 
     @cache
     def read(name: str, heads: tuple[Head, ...]) -> NumberColumns:

@@ -6,6 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+import numpy as np
+
+from ..core.vibration import Real
 from ..errors import InputError, naming_file, wrong_type
 from ..file.examples import text
 from ..file.model import EngineFile
@@ -139,6 +142,18 @@ Value = TypeVar("Value")
 Asked = TypeVar("Asked")
 Values = tuple[tuple[str, float], ...]  # figures by dotted name
 _KEPT = 64  # variants that are remembered: as many as are computed at a time
+
+
+SPEED = "operation.speed"
+
+
+def choose_speeds(
+    engine: Engine, values: Mapping[str, float], usual: Callable[[Engine], Real]
+) -> Real:
+    """Return the speeds (rpm) over which a quantity of a variant is the largest: the speed of the
+    variant alone where it is among the values that vary, else those of `usual`.
+    """
+    return np.array([float(engine.speed_rpm)]) if SPEED in values else usual(engine)
 
 
 class EngineVariants:

@@ -18,7 +18,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 import numpy as np
 
 from ..core.least_squares import find_dependent_columns, minimise as make_small, solve
-from ..core.phasors import Complex
+from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN, INLINE, Axes, Polar, angle_deg
 from ..core.unbalance import find_permitted_unbalance
 from ..errors import BalcliError, InputError, Problem, check_type
@@ -33,6 +33,7 @@ from .influence import (
     collect_series,
     count_needed,
     find_influence,
+    find_scatter,
     fit_coefficients,
 )
 from .places import Piece, PlaneLimits
@@ -62,6 +63,9 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
             f"own (condition {result.condition:.3g}), so errors of reading grow as much; if their "
             f"weights are large, try --without {alike[0].plane}"
         )
+    if result.file.grade is not None or result.file.shares is not None:
+        for key, hint in list_missing(result.file).items():
+            yield f"{key}: is missing, so no unbalance is judged; give it, such as {hint}"
     if result.left_out and result.permitted is not None:
         yield (
             f"the permitted unbalance is judged without {' and '.join(result.left_out)}: what is "
@@ -241,16 +245,27 @@ class PlanePermitted:
     Attributes:
         plane: Name of the plane.
         permitted_g_mm: Permitted residual unbalance.
-        present_g_mm: Unbalance there now, by the last readings.
-        reached: Whether the unbalance there now is permitted.
+        present_g_mm: Unbalance there now: the best estimate (least squares) by the last readings.
+        scatter_g_mm: How far the true unbalance may lie from it, with 95 % probability, by what the
+            fit to all runs leaves; left out if there are no more readings than unknowns.
+        reached: Whether the unbalance there now is permitted even at the far end of its scatter.
         after_g_mm: Residual unbalance after the corrections.
     """
 
     plane: str
     permitted_g_mm: float
     present_g_mm: float
+    scatter_g_mm: float | None = None
     reached: bool
     after_g_mm: float
+
+    @property
+    def verdict(self) -> str:
+        """Whether the plane reaches its grade, in words."""
+        if self.reached:
+            return "reached"
+        near = self.present_g_mm - (self.scatter_g_mm or 0.0) <= self.permitted_g_mm
+        return "uncertain" if near else "not reached"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -294,7 +309,8 @@ class FieldBalance(Result):
         condition: Condition number of the influence coefficients; null if it is infinite.
         bound: Proven bound: no weights leave a smaller largest reading; left out for squares.
         trimmed: Name of the last run with a correction in; left out if there is none.
-        permitted: Permitted residual unbalance; left out if the file has no grade.
+        permitted: Permitted residual unbalance; left out if the file has no grade, or not all that
+            its judgment needs.
         file: The file of runs.
         runs: Readings, coefficients and weights by state.
     """
@@ -421,7 +437,7 @@ def find_corrections(
         condition=solve(matrix, now).condition,
         bound=small.bound,
         trimmed=runs.trimmed or None,
-        permitted=_find_permitted(file, used, best.x, step),
+        permitted=_find_permitted(file, runs, used, factors, step),
         file=file,
         runs=runs,
     )
@@ -483,32 +499,45 @@ def _find_unbalance(file: RunsFile, k: int, weight: complex) -> float | None:
     return None if per_weight is None else float(abs(weight)) * per_weight / _G_MM
 
 
+def list_missing(file: RunsFile) -> dict[str, str]:
+    """Return what the file lacks to judge its unbalance: an example by key."""
+    needed = {"grade": "grade = 6.3", "mass": "mass = 120", "speed": "speed = 3000"}
+    if file.weighs_masses:
+        radius = f"radius = {[200] * len(file.planes)}"
+        needed["radius"] = f'{radius}, or weights as unbalances, weight_unit = "g mm"'
+    return {key: hint for key, hint in needed.items() if getattr(file, key) is None}
+
+
 def _find_permitted(
-    file: RunsFile, used: list[int], best: Complex, step: Complex
+    file: RunsFile, runs: Influence, used: list[int], factors: Array, step: Complex
 ) -> Permitted | None:
-    """Return permitted and present unbalance; None without a grade.
+    """Return permitted and present unbalance; None without a grade, or what belongs to it.
 
     Args:
         file: Runs.
+        runs: Their influence coefficients.
         used: Numbers of the planes that get a weight, from 0.
-        best: Weights that would cancel the readings: the unbalance that is there now, shape
-            (planes,).
+        factors: How much each reading counts, shape (readings,).
         step: Weights to add, shape (planes,).
     """
-    if file.grade is None or file.mass is None or file.speed is None:
+    if file.grade is None or file.mass is None or file.speed is None or list_missing(file):
         return None
+    best = make_small(runs.coefficients[:, used], -runs.start, factors).x
+    scatter = find_scatter(file, runs, used, best, factors)
     whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
     shares = np.array(file.shares or np.ones(len(file.planes)))
     planes = []
-    for k, there, added in zip(used, best, step, strict=True):
+    for j, (k, there, added) in enumerate(zip(used, best, step, strict=True)):
         permitted = whole * float(shares[k] / shares.sum())
         present = _find_unbalance(file, k, there) or 0.0
+        within = None if scatter is None else _find_unbalance(file, k, scatter[j])
         planes.append(
             PlanePermitted(
                 plane=file.planes[k],
                 permitted_g_mm=permitted,
                 present_g_mm=present,
-                reached=present <= permitted,
+                scatter_g_mm=within,
+                reached=present + (within or 0.0) <= permitted,
                 after_g_mm=_find_unbalance(file, k, there - added) or 0.0,
             )
         )

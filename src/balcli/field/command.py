@@ -64,8 +64,8 @@ def field(
     from . import answer, read, show as pages
 
     file, name = read.read_runs(path), name_file(path)
-    if check and file.grade is None:
-        raise BalcliError(f"{name}: --check needs a grade, such as grade = 6.3, and mass and speed")
+    if check and (missing := answer.list_missing(file)):
+        raise BalcliError(f"{name}: --check needs {', '.join(missing.values())}")
     result = answer.find_corrections(file, minimise, without or (), name)
     warn_each(result.doubts, name)
     if plot is not None and drawn is not None:

@@ -6,6 +6,12 @@ squares; where there are just enough runs, this is `alpha = (V - V0) / U`.
 
 A run that comes after the coefficients are determined has a *correction* in: balancing goes on from
 the last of them. All complex numbers here turn in the sense in which phases of readings count.
+
+All readings are taken to have errors of one size. The fit shows it: by the readings that the
+coefficients do not give, and by the readings that no weights cancel. To first order the errors e
+move the weights by `B h e`: h is the share of each run in the readings to cancel, B the inverse of
+the coefficients. With nu complex degrees of freedom the square of such a distance over its
+estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t / nu)^-nu`.
 """
 
 from __future__ import annotations
@@ -16,12 +22,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.least_squares import solve
-from ..core.phasors import Complex
+from ..core.phasors import Array, Complex
 from ..errors import InputError, Problem
 from ..file.fields import join_words
 from .tables import RunsFile
 
 _ROUNDING = 1e-13  # share of the largest reading below which a change is rounding
+_OUTSIDE = 0.05  # probability that an unbalance lies farther from its estimate than its scatter
 
 
 class Series(NamedTuple):
@@ -149,6 +156,53 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
         alpha = changes * ~unmoved / (np.abs(series.weights).max() or 1.0)
     bare = ~series.weights.any(axis=1)
     return alpha, np.asarray(series.readings[bare].mean(axis=0)) if bare.any() else found
+
+
+def find_scatter(
+    file: RunsFile, runs: Influence, used: list[int], step: Complex, factors: Array
+) -> Array | None:
+    """Return how far the unbalance of each plane may lie from its estimate, with 95 % probability.
+
+    Args:
+        file: Runs.
+        runs: Their influence coefficients.
+        used: Numbers of the planes that get a weight, from 0.
+        step: Weights that cancel the readings best, by least squares, shape (planes used,).
+        factors: How much each reading counts, shape (readings,).
+
+    Returns:
+        Weights, shape (planes used,); None if there are no more readings than unknowns.
+    """
+    after, blocks, squares, freedom = runs.weights_on.copy(), collect_series(file), 0.0, 0
+    after[used] += step
+    gains = []  # square of an error of a reading to cancel, over that of an error of a run
+    for series, scale in zip(blocks, np.split(factors, len(blocks)), strict=True):
+        design, readings = _design(series), series.readings
+        if series.given is not None:
+            design, readings = design[:, :1], readings - series.weights @ series.given.T
+        inverse, bare = np.linalg.pinv(design), ~series.weights.any(axis=1)
+        taken, moved = bare / max(bare.sum(), 1) if bare.any() else inverse[0], after
+        if len(readings) > (count_needed(series, used) or 0):
+            taken, moved = np.arange(len(readings)) == len(readings) - 1, after - series.weights[-1]
+        if series.given is None:
+            taken = taken + moved / (np.abs(series.weights).max() or 1.0) @ inverse[1:]
+        gains.append(np.full(len(scale), np.linalg.norm(taken) ** 2))
+        errors = (readings - design @ (inverse @ readings)) * scale
+        errors[np.abs(errors) <= _ROUNDING * np.abs(series.readings * scale).max()] = 0
+        squares += float(np.sum(np.abs(errors) ** 2))
+        freedom += (len(readings) - int(np.linalg.matrix_rank(design))) * len(scale)
+    matrix, gain = factors[:, None] * runs.coefficients[:, used], np.concatenate(gains)
+    left = factors * runs.start + matrix @ step
+    left[np.abs(left) <= _ROUNDING * np.abs(factors * runs.found).max()] = 0
+    inverse = np.linalg.pinv(matrix)
+    if spare := len(left) - len(used):
+        kept = np.abs(np.eye(len(left)) - matrix @ inverse) ** 2 @ gain  # of errors, by reading
+        squares += spare * float(np.sum(np.abs(left) ** 2) / kept.sum())
+    freedom += spare
+    if not freedom:
+        return None
+    widest = squares * (_OUTSIDE ** (-1 / freedom) - 1)
+    return np.asarray(np.sqrt(widest * (np.abs(inverse) ** 2 @ gain)))
 
 
 def count_needed(series: Series, used: Collection[int]) -> int | None:

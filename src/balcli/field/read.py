@@ -92,7 +92,6 @@ def _find_misfits(file: RunsFile, runs: Sequence[Run | None], tables: Any) -> It
         tables: the runs as TOML is read.
     """
     yield from _check_lists(file)
-    yield from _check_grade(file)
     yield from _check_holes(file)
     readable = {k: run for k, run in enumerate(runs, 1) if run is not None}
     if readable:
@@ -122,24 +121,6 @@ def _check_lists(file: RunsFile) -> Iterator[Problem]:
     for k, row in enumerate(file.influence or (), 1):
         path = f"influence.{k}"
         yield from _check_count(path, row, "coefficient", planes, counted(planes, "plane"))
-
-
-def _check_grade(file: RunsFile) -> Iterator[Problem]:
-    if file.shares is not None and file.grade is None:
-        yield Problem.of_missing("grade", "shares are of what it permits, such as grade = 6.3")
-    if file.grade is None:
-        return
-    for key, example in (("mass", "120"), ("speed", "3000")):
-        if getattr(file, key) is None:
-            hint = f"a grade permits an unbalance by it, such as {key} = {example}"
-            yield Problem.of_missing(key, hint)
-    if file.radius is None and file.weighs_masses:
-        yield Problem.of_missing(
-            "radius",
-            "a grade permits an unbalance, which is weight times radius: give the radius of every "
-            "plane, such as radius = [200, 200], or the weights as unbalances, with "
-            'weight_unit = "g mm"',
-        )
 
 
 def _check_holes(file: RunsFile) -> Iterator[Problem]:

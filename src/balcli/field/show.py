@@ -186,23 +186,30 @@ def _explain_pieces(result: FieldBalance) -> Iterator[str]:
 def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> Grid:
     file, unit, mass = result.file, system.unbalance, system.mass
     lines = []
-    for each in found.planes:
-        permitted, present, after = (
-            number(unit.of(g_mm / 1e6), 4)
-            for g_mm in (each.permitted_g_mm, each.present_g_mm, each.after_g_mm)
+    for x in found.planes:
+        permitted, present, scatter, after = (
+            UNKNOWN if g_mm is None else number(unit.of(g_mm / 1e6), 4)
+            for g_mm in (x.permitted_g_mm, x.present_g_mm, x.scatter_g_mm, x.after_g_mm)
         )
-        verdict = "reached" if each.reached else "not reached"
-        lines.append((each.plane, permitted, present, verdict, after))
+        lines.append((x.plane, permitted, present, scatter, x.verdict, after))
+    spread = "how far the true unbalance may lie from it (95 %), by how badly the readings fit"
+    if found.planes[0].scatter_g_mm is None:
+        spread = "unknown, the fit has as many unknowns as readings; add a run"
     state = f"in '{result.trimmed}'" if result.trimmed else "in the rotor as found"
     return Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
-        ("plane", f"permitted, {unit.name}", f"there now, {unit.name}", "", f"after, {unit.name}"),
+        (
+            "plane",
+            *(f"{name}, {unit.name}" for name in ("permitted", "there now", "scatter")),
+            "",
+            f"after, {unit.name}",
+        ),
         tuple(lines),
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
         f"{number(1e3 * found.specific_mm, 4)} µm. There now: {state}, by its readings; after: "
-        "what the corrections leave of it.",
-        frozenset((k, 3) for k, each in enumerate(found.planes) if not each.reached),
-        words=(0, 3),
+        f"what the corrections leave of it. Scatter: {spread}.",
+        frozenset((k, 4) for k, each in enumerate(found.planes) if not each.reached),
+        words=(0, 4),
     )
 
 

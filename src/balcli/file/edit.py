@@ -47,6 +47,17 @@ def set_keys(text: str, table: str, keys: Mapping[str, Any], note: str) -> str:
     return rewrite(wanted, f"its [{table}] is written in an unusual way")
 
 
+def remove_tables(text: str, name: str) -> str:
+    """Return the text without the tables of a list, such as `counterweight`."""
+    import tomlkit
+
+    document = tomlkit.parse(text)
+    if name not in document:
+        return text
+    del document[name]
+    return tomlkit.dumps(document)
+
+
 def _open(data: Any, table: str) -> Any:
     """Return a table in the data of a file; it is put there if it is missing."""
     for name in table.split("."):

@@ -232,11 +232,10 @@ class Bobweight(FileTable):
 
     rod_bearing: Mass = key("big-end bearing shells of one rod", 0.047, default=0.0)
     oil: Mass = key("allowance for oil, for each rod", 0.004, default=0.0)
-    oil_per_pin: Mass = key(
+    oil_per_pin: Mass | None = key(
         "allowance for oil of a whole crank pin, as shops write it, instead of oil; its rods share "
         "it equally",
         0.005,
-        default=0.0,
     )
 
 

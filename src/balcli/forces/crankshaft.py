@@ -24,7 +24,7 @@ from ..core.cylinders import Device
 from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
-from ..core.piecewise import merged_breaks
+from ..core.piecewise import cut, merged_breaks, quadrature
 from ..core.vectors_over_cycle import Vectors, find_panels
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
@@ -354,6 +354,20 @@ def _place_forces(engine: Engine) -> tuple[Array, Array]:
     return np.array([*cylinders, *turning]), np.array([*cylinders, *others])
 
 
+def refuse_too_many_forces(engine: Engine, angles: int = 0) -> None:
+    """Raise BalcliError if the forces at so many crank angles of a cycle (0: the fewest that its
+    breaks need) are more than are kept.
+    """
+    angles = angles or quadrature(cut(find_breaks(engine), 0.5))[0].size
+    cylinders, count = engine.cylinders.count, 2 * engine.cylinders.count + len(engine.devices)
+    if count * angles > MOST_FORCES_OVER_CYCLE:
+        raise BalcliError(
+            f"loads with gas: {count} forces of {cylinders} cylinders at {angles} angles of the "
+            f"cycle are {count * angles}, and at most {MOST_FORCES_OVER_CYCLE} are computed; "
+            "lower the number of cylinders, or of the rows of the diagram"
+        )
+
+
 def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Complex:
     """Return forces of an engine at crank angles, shape (forces, angles), computed in pieces so
     that memory stays small.
@@ -366,10 +380,5 @@ def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Comple
     Raises:
         BalcliError: More forces than are kept.
     """
-    count = 2 * engine.cylinders.count + len(engine.devices)
-    if count * len(angles) > MOST_FORCES_OVER_CYCLE:
-        raise BalcliError(
-            f"loads with gas of {engine.cylinders.count} cylinders are {count * len(angles)} "
-            f"forces over the cycle, and at most {MOST_FORCES_OVER_CYCLE} are kept"
-        )
+    refuse_too_many_forces(engine, len(angles))
     return compute_piecemeal(engine, np.degrees(angles), lambda some: {"": compute(some)})[""]

@@ -228,7 +228,7 @@ def find_inertia_torque(engine: Engine) -> Function:
     torque = compute_spectra(steady, find_relevant_orders(steady), ("torque",))["torque"]
     if torque.major.sum() <= torque.noise.sum():
         return np.zeros_like
-    return _at_radians(lambda degrees: compute_inertia_torque(steady, degrees))
+    return _at_radians(steady, compute_inertia_torque)
 
 
 def find_moving_inertia(engine: Engine) -> Function:
@@ -240,7 +240,7 @@ def find_moving_inertia(engine: Engine) -> Function:
         c = engine.cylinders
         throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
         engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
-    return _at_radians(lambda degrees: compute_moving_inertia(engine, degrees))
+    return _at_radians(engine, compute_moving_inertia)
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
@@ -262,10 +262,12 @@ def silence(engine: Engine, number: int) -> Engine:
     return replace(engine, gas=share, model=None)
 
 
-def _at_radians(function: Function) -> Function:
-    """Return a function of degrees in one axis as one of radians of any shape."""
+def _at_radians(engine: Engine, compute: Callable[[Engine, Array], Array]) -> Function:
+    """Return a curve of an engine over degrees as a function of radians of any shape."""
 
     def at(angle: Array) -> Array:
-        return function(np.degrees(angle.reshape(-1))).reshape(angle.shape)
+        degrees = np.degrees(angle.reshape(-1))
+        found = compute_piecemeal(engine, degrees, lambda some: {"": compute(engine, some)})
+        return found[""].reshape(angle.shape)
 
     return at

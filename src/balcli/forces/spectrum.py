@@ -353,15 +353,15 @@ def find_relevant_orders(engine: Engine) -> Array:
     return dense_orders(highest + 2 * max(lines), lines)
 
 
-def list_gas_orders(engine: Engine) -> Array:
-    """Orders of gas torque that are worth showing unless others are asked for: multiples of 1/2 (of
-    1 in two-stroke engines) up to HIGHEST_GAS_ORDER_UNASKED, shape (orders,). Of so many cylinders
-    that all of these may cancel, also the order of their firing, and its double.
+def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) -> Array:
+    """Return orders of gas torque up to the highest, shape (orders,): multiples of 1/2 (of 1 in
+    two-stroke engines). Of so many cylinders that all of these may cancel, also the order of their
+    firing, and its double.
     """
     step = 2 / engine.strokes
     firing = step * len(engine.fires_deg or engine.numbers)
-    higher = [firing, 2 * firing] if firing > HIGHEST_GAS_ORDER_UNASKED else []
-    return np.array([*np.arange(step, HIGHEST_GAS_ORDER_UNASKED + step, step), *higher])
+    higher = [firing, 2 * firing] if firing > highest else []
+    return np.array([*np.arange(step, highest + step / 2, step), *higher])
 
 
 def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
@@ -373,12 +373,12 @@ def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
     return np.asarray(large & (phasors.orders <= HIGHEST_ORDER_UNASKED))
 
 
-def choose_orders(found: Spectra, *engines: Engine) -> Array:
-    """The orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable, of gas
-    those that are listed for one of the engines.
+def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
+    """Return the orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable,
+    of gas those that are listed.
     """
     due = (found.orders <= 2) & (found.orders % 1 == 0)
-    listed = set(merge_orders(*map(list_gas_orders, engines)).tolist())
+    listed = set(merge_orders(listed).tolist())
     for kind, phasors in found.items():
         worth = mark_considerable(phasors)
         if kind.name in GAS_KINDS:

@@ -21,13 +21,14 @@ from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_mapping, check_speeds, tell_arguments
+from ..show.sheet import order_number
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
 from .build import build_mounted_body, check_mounted, find_mounted_modes, settle
 from .loads import find_loads
 from .records import AtRest, BodyMode, Fitted, Meeting, MountAtRest, MountReport, Other
-from .response import RunningBody, list_meetings, plain_order, respond
+from .response import RunningBody, list_meetings, respond
 from .rigid_body import AXES, elastic_centre, roll_axis
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
@@ -49,6 +50,8 @@ def report_mounts(
     name: str = "",
     tell: Tell = tell_nobody,
     options: SchemeOptions | None = None,
+    *,
+    ranged: bool = True,
 ) -> MountReport:
     """Return the modes and rest of a body on its mounts, and its response to its engine.
 
@@ -56,12 +59,13 @@ def report_mounts(
         model: File with [body] and [[mount]].
         engine: Engine of the file; None: the first of the others, or modes and rest alone.
         speeds_rpm: Speeds, rising, shape (speeds,); default: as of `choose_mount_speeds`.
-        orders: Orders of the load; default: all that are considerable.
+        orders: Orders of the load; default: all that contribute to the response.
         scheme: Name of a balance scheme, with whose devices the response is computed as well.
         others: Names and engines that are put on the same body and mounts, at the same speeds.
         name: Name of the file, for messages.
         tell: Function that is called with the share of the responses that is done.
         options: Options of the scheme.
+        ranged: Whether the speeds stand for all between the first and the last.
 
     Raises:
         InputError: Tables of the file do not fit together.
@@ -84,8 +88,12 @@ def report_mounts(
             engines.append(fit_devices(engine, remedy))
         for each in (*engines, *(other for _, other in others)):
             rpm = choose_mount_speeds(engines[0]) if speeds_rpm is None else speeds_rpm
-            loads = find_loads(each, mounted.body.centre, asked)
-            found.append(respond(mounted, RunningBody.of(mounted, modes, loads), rpm * RPM))
+            if asked is None:
+                running = RunningBody.choose(mounted, modes, each, rpm * RPM, ranged=ranged)
+            else:
+                loads = find_loads(each, mounted.body.centre, asked)
+                running = RunningBody.of(mounted, modes, loads)
+            found.append(respond(mounted, running, rpm * RPM, ranged=ranged))
             tell(len(found) / (len(engines) + len(others)))
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
@@ -103,7 +111,7 @@ def report_mounts(
                 shape * np.copysign(1.0, shape[find_first_largest(share)]),
                 modes.motions[k],
                 float(modes.loss[k]),
-                tuple(Meeting(plain_order(order), rpm) for mode, order, rpm in met if mode == k),
+                tuple(Meeting(order_number(order), rpm) for mode, order, rpm in met if mode == k),
             )
             for k, (shape, share) in enumerate(zip(modes.modes.shapes, modes.shares, strict=True))
         ),
@@ -134,8 +142,9 @@ def analyze_mounts(
     Args:
         source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or
             a dict of its tables, which may also describe the body and mounts alone.
-        speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this.
-        orders: Orders of the load; default: all that are not negligible.
+        speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this. Three
+            or more at equal steps are a range, in which no mode without damping may be driven.
+        orders: Orders of the load; default: all that contribute to the response.
         scheme: Balance scheme; with its devices the response is `fitted`.
         others: Engines by name that are put on the same mounts.
 
@@ -158,7 +167,11 @@ def analyze_mounts(
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
     asked = None if orders is None else check_orders(orders).tolist()
     model, engine, name = _read(source)
-    return report_mounts(model, engine, speeds, asked, scheme, list(engines.items()), name)
+    steps = np.diff([] if speeds is None else speeds)
+    ranged = speeds is None or (len(steps) > 1 and np.ptp(steps) <= 1e-9 * steps.max())
+    return report_mounts(
+        model, engine, speeds, asked, scheme, list(engines.items()), name, ranged=ranged
+    )
 
 
 def _read(source: object) -> tuple[EngineFile, Engine | None, str]:

@@ -20,7 +20,7 @@ from ..show.units import SYSTEMS
 
 Orders = Annotated[
     str | None,
-    optional("1-8|1,2,4", "Orders that count; default: all that are not negligible.", "--orders"),
+    optional("1-8|1,2,4", "Orders that count; default: all that contribute.", "--orders"),
 ]
 
 
@@ -78,7 +78,16 @@ def mounts(
     beside = list(zip(names[1:], others, strict=True))
     with reporting("work") as tell:
         result = answer.report_mounts(
-            model, engine, rpm, asked, scheme, beside, name, tell, options
+            model,
+            engine,
+            rpm,
+            asked,
+            scheme,
+            beside,
+            name,
+            tell,
+            options,
+            ranged=speeds is None or ":" in speeds,
         )
     if result.response is None and any((speeds, orders, scheme, misfire)):
         warn(

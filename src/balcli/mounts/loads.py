@@ -125,13 +125,16 @@ class BodyLoads:
         return np.any((self.inertia != 0) | (self.gas != 0), axis=1)
 
 
-def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> BodyLoads:
+def find_loads(
+    engine: Engine, centre: Real, orders: Real | None = None, gas_orders: Real | None = None
+) -> BodyLoads:
     """Return the free forces and moments of an engine as a load on the body.
 
     Args:
         engine: Engine without trailing axes.
         centre: Center of gravity of the body, m, shape (3,).
         orders: Orders of the load; default: all that are considerable.
+        gas_orders: Orders of the gas torque among these; default: as of `list_gas_orders`.
 
     Raises:
         BalcliError: The file does not say where the throws stand.
@@ -139,8 +142,12 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Body
     if not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
     fired = engine.gas is not None
-    of_gas = list_gas_orders(engine) if fired else ()
-    wanted = merge_orders(find_relevant_orders(engine), of_gas) if orders is None else orders
+    of_gas = list_gas_orders(engine) if gas_orders is None else gas_orders
+    wanted = (
+        merge_orders(find_relevant_orders(engine), of_gas if fired else ())
+        if orders is None
+        else orders
+    )
     wanted = np.array(wanted[wanted > 0], np.float64)
     kinds = ("force", "moment", "roll", *(["gas"] if fired else []))
     if engine.ripple:  # by orders of the time, in which the crank turns faster than over the angle
@@ -148,7 +155,7 @@ def find_loads(engine: Engine, centre: Real, orders: Real | None = None) -> Body
     else:
         found, turns = compute_spectra(engine, wanted, kinds), 1.0
     if orders is None:
-        found = found.select_orders(choose_orders(found, engine))
+        found = found.select_orders(choose_orders(found, of_gas))
     force, moment = found["force"], found["moment"]
     inertia = load_at_centre(
         np.stack([force.x, force.y, 0 * force.x], axis=-1),

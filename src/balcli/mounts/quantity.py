@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.phases import RPM
 from ..engine.figures import find_first_largest
-from ..engine.load import EngineVariants
+from ..engine.load import EngineVariants, choose_speeds
 from ..errors import BalcliError
 from ..file.model import EngineFile, label_table
 from ..file.read import change_figures
@@ -24,7 +24,7 @@ from .rigid_body import AXES, ROLL
 _SUBJECTS = {
     "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
     "mount": Subject("left", {"force": "N", "static": "N"}),
-    "point": Subject("lever", {"motion": "m"}),
+    "point": Subject("lever", {"motion": "mm"}),
 }
 _MOTIONS = {axis: k for k, axis in enumerate(AXES)} | {"roll": ROLL}
 _MODES = (*"123456", *_MOTIONS)
@@ -107,15 +107,18 @@ class Variants:
             engine = self._engines.build(
                 {path: v for path, v in values.items() if path.partition(".")[0] not in _TABLES}
             )
-            loads = find_loads(engine, mounted.body.centre)
-            mean = loads.mean
+            if self._leans:
+                mean = find_loads(engine, mounted.body.centre).mean
             if self._curves:
-                omega = choose_mount_speeds(engine) * RPM
-                running = RunningBody.of(mounted, modes, loads)
+                omega = choose_speeds(engine, values, choose_mount_speeds) * RPM
+                running = RunningBody.choose(mounted, modes, engine, omega)
                 running.refuse_resonance(omega)
                 running = running.select(self._curves)
                 worst = find_worst(running, omega, running.find_peaks(omega))
-                largest = dict(zip(self._curves, worst.value.tolist(), strict=True))
+                largest = {
+                    k: value if k < len(mounted.names) else 1e3 * value  # N, mm
+                    for k, value in zip(self._curves, worst.value.tolist(), strict=True)
+                }
         rest = np.linalg.norm(settle(mounted, mean).forces, axis=-1).tolist()
         found = []
         for q in self._quantities:

@@ -98,6 +98,21 @@ class ForceOfOrder:
 
 
 @dataclass(frozen=True)
+class MetMode:
+    """An order that meets a mode at, or close to, the speed of the largest value.
+
+    Attributes:
+        order: Largest of these orders.
+        mode: Number of the mode, from 1.
+        speed_rpm: Speed at which the order has the frequency of the mode.
+    """
+
+    order: float
+    mode: int
+    speed_rpm: float
+
+
+@dataclass(frozen=True)
 class WorstForce:
     """The largest force of a mount over all speeds, found between the given speeds as well.
 
@@ -107,6 +122,7 @@ class WorstForce:
         order: Largest single order at this speed.
         order_force_N: Force of this order.
         mode: Number of the mode that makes most of the force, from 0.
+        resonance: Order in resonance there; left out if there is none.
     """
 
     force_N: float
@@ -114,6 +130,7 @@ class WorstForce:
     order: float
     order_force_N: float
     mode: Annotated[int, HIDDEN]
+    resonance: MetMode | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,6 +173,7 @@ class WorstMotion:
         order: Largest single order at this speed.
         order_motion_mm: Motion of this order.
         mode: Number of the mode that makes most of the motion, from 0.
+        resonance: Order in resonance there; left out if there is none.
     """
 
     motion_mm: float
@@ -163,6 +181,7 @@ class WorstMotion:
     order: float
     order_motion_mm: float
     mode: Annotated[int, HIDDEN]
+    resonance: MetMode | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,6 +224,7 @@ class BodyResponse:
     Attributes:
         no_gas_in: Cylinders without gas; left out if there are none.
         no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
+        orders: Orders that the response has: those asked for, or all that contribute to it.
         speeds_rpm: Crank speeds.
         mounts: Force of each mount.
         points: Motion of each point.
@@ -215,6 +235,7 @@ class BodyResponse:
 
     no_gas_in: tuple[int, ...] | None = None
     no_burning_in: tuple[int, ...] | None = None
+    orders: list[float]
     speeds_rpm: Real
     mounts: tuple[MountForce, ...]
     points: tuple[PointMotion, ...]

@@ -22,14 +22,18 @@ from ..core.vibration import (
     frequencies,
     solve_response,
 )
+from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError
-from ..limits import MOST_MOUNT_RESULTS
+from ..forces.spectrum import compute_spectra, list_gas_orders
+from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
+from ..show.sheet import order_number
 from .build import BodyModes, MountedBody
-from .loads import BodyLoads
+from .loads import BodyLoads, find_loads
 from .records import (
     BodyResponse,
     ForceOfOrder,
+    MetMode,
     MotionOfOrder,
     MountForce,
     Passed,
@@ -37,9 +41,14 @@ from .records import (
     WorstForce,
     WorstMotion,
 )
-from .rigid_body import carry_points, couple_mounts
+from .rigid_body import ROLL, carry_points, couple_mounts
 
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
+RESONANT = 0.05  # distance of the frequency of an order from that of the mode that it meets
+_PART = 0.25  # of the largest order at a speed: what a resonance there must have to be named
+_AT = 1e-9  # of a speed: those that differ by less are the same
+_BEYOND = 3e-4  # of the largest order: what all higher orders may add
+_LOOKED_AT, _FREQUENCIES, _WIDE = 24, 800, 1.02  # speeds, frequencies, ratio of neighbours at least
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
 _COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz"))
 
@@ -66,6 +75,61 @@ class RunningBody(NamedTuple):
         points = carry_points(mounted.points, mounted.body.centre)
         still = np.concatenate([points, np.zeros_like(points)], axis=-1)
         return cls(modes, loads, np.concatenate([mounts, still]))
+
+    @classmethod
+    def choose(
+        cls,
+        mounted: MountedBody,
+        modes: BodyModes,
+        engine: Engine,
+        omega: Real,
+        *,
+        ranged: bool = True,
+    ) -> RunningBody:
+        """Return the running body with all orders that contribute to the response in a range of
+        speeds (rad/s, rising): gas orders that are higher than the usual ones count where all of
+        these together may exceed _BEYOND of the largest order of some curve at some speed.
+
+        Raises:
+            BalcliError: As of `refuse_resonance`.
+        """
+        centre = mounted.body.centre
+        running = cls.of(mounted, modes, find_loads(engine, centre))
+        if not running.loads.fired:
+            return running
+        running.refuse_resonance(omega, ranged=ranged)
+        every = list_gas_orders(engine, HIGHEST_ORDER_UNASKED)
+        rows = np.linspace(0, len(omega) - 1, _LOOKED_AT).round().astype(int)
+        some = np.array(sorted(set(omega[rows].tolist())))
+        own = largest_of_ellipse(running.read(running.move(some)[..., None, :])).max(axis=0)
+        roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
+        sizes = roll[:, None, None] * running.bound_response(every, some)
+        shares = np.divide(sizes, own, out=np.zeros_like(sizes), where=own > 0)
+        beyond = (
+            shares[::-1].cumsum(axis=0)[::-1].max(axis=(1, 2))
+        )  # of an order and all higher ones
+        highest = every[beyond > _BEYOND].max(initial=HIGHEST_GAS_ORDER_UNASKED)
+        if highest > HIGHEST_GAS_ORDER_UNASKED:
+            loads = find_loads(engine, centre, gas_orders=list_gas_orders(engine, highest))
+            running = running._replace(loads=loads)
+        return running
+
+    def bound_response(self, orders: Real, omega: Real) -> Real:
+        """Return the largest length of each curve for a roll moment of 1 N m of each order, shape
+        (orders, speeds, curves), at a speed or between it and its neighbours, resonances included.
+        """
+        own, places = self.modes, np.multiply.outer(orders, omega).ravel()
+        w = np.geomspace(places.min(), places.max(), _FREQUENCIES)
+        natural = own.modes.omega[own.loss > UNDAMPED]
+        w = np.union1d(w, natural)
+        motion = solve_response(own.stiffness, own.damping, own.mass, w, np.eye(6)[ROLL])
+        sizes = largest_of_ellipse(self.read(_with_rate(motion, w)[:, None, :]))
+        reach = float((omega[1:] / omega[:-1]).max(initial=_WIDE))
+        low, high = np.searchsorted(w, places / reach), np.searchsorted(w, places * reach)
+        ends = np.stack([low, np.maximum(high, low + 1)], axis=1).ravel()
+        padded = np.concatenate([sizes, np.zeros((2, sizes.shape[1]))])
+        highest = np.maximum.reduceat(padded, ends)[::2]
+        return highest.reshape(len(orders), len(omega), -1)
 
     def select(self, curves: Sequence[int]) -> RunningBody:
         """Return the running body with some of its curves."""
@@ -101,12 +165,23 @@ class RunningBody(NamedTuple):
         curves = self.read(self.move(omega)[..., None, :])
         return find_longest(self.loads.orders, curves).value
 
-    def refuse_resonance(self, omega: Real) -> None:
-        """Raise BalcliError if the engine drives an undamped mode at its own frequency in the range
-        of speeds (rad/s, rising), with mode, order and speed.
+    def find_alone(self, orders: Real, omega: Real) -> Real:
+        """Return the largest length of each curve by one order at one speed (rad/s), shape (pairs,
+        curves), for pairs of both.
+        """
+        own, rows = self.modes, np.searchsorted(self.loads.orders, orders)
+        load, w = self.loads.at(omega)[rows, np.arange(len(rows))], orders * omega
+        motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
+        return largest_of_ellipse(self.read(_with_rate(motion, w)[:, None, :]))
+
+    def refuse_resonance(self, omega: Real, *, ranged: bool = True) -> bool:
+        """Raise BalcliError if the engine drives an undamped mode at its own frequency at some of
+        these speeds (rad/s, rising), or between them if they are a range, with mode, order and
+        speed. Return whether the motion has a bound at all speeds between them.
         """
         modes, loads = self.modes, self.loads
-        met = find_resonances(modes.modes, modes.loss, loads.orders, omega, loads.at(omega))
+        driven = find_resonances(modes.modes, modes.loss, loads.orders, omega, loads.at(omega))
+        met = [one for one in driven if ranged or np.abs(omega / one.speed - 1).min() < _AT]
         if met:
             first = min(met, key=lambda one: one.speed)
             motion, hertz = modes.motions[first.mode], modes.hertz[first.mode]
@@ -116,6 +191,7 @@ class RunningBody(NamedTuple):
                 "no bound; give the mounts a loss, such as loss = 0.1, or a range without that "
                 "speed"
             )
+        return not driven
 
 
 def list_meetings(modes: BodyModes, loads: BodyLoads, rpm: Real) -> list[tuple[int, float, float]]:
@@ -139,6 +215,7 @@ class Worst(NamedTuple):
         order: Largest single order at this speed.
         alone: Value of this order, N or m.
         mode: Number of the mode that makes most of it, from 0.
+        resonance: Largest order that meets a mode there; None where none does.
     """
 
     value: Real
@@ -146,9 +223,10 @@ class Worst(NamedTuple):
     order: Real
     alone: Real
     mode: Indices
+    resonance: tuple[MetMode | None, ...]
 
 
-def find_worst(running: RunningBody, omega: Real, peaks: Real) -> Worst:
+def find_worst(running: RunningBody, omega: Real, peaks: Real, *, between: bool = True) -> Worst:
     """Return the highest value of each curve, between the given speeds as well.
 
     Every peak that may be the highest is approached. A resonance with little damping is narrower
@@ -158,11 +236,20 @@ def find_worst(running: RunningBody, omega: Real, peaks: Real) -> Worst:
     Args:
         omega: Speeds, rad/s, rising, shape (speeds,).
         peaks: Largest lengths over the cycle at these speeds, shape (speeds, curves).
+        between: Whether to look between the speeds.
     """
     modes, orders = running.modes, running.loads.orders
+    if not between:
+        return _explain_worst(running, omega[peaks.argmax(axis=0)], peaks.max(axis=0))
     met = list_meetings(modes, running.loads, omega / RPM)
-    lossy = [(rpm * RPM, modes.loss[k]) for k, _, rpm in met if modes.loss[k] > UNDAMPED]
-    at, loss = np.array(lossy).reshape(-1, 2).T
+    lossy = [(o, rpm * RPM, modes.loss[k]) for k, o, rpm in met if modes.loss[k] > UNDAMPED]
+    order, at, loss = np.array(lossy).reshape(-1, 3).T
+    if len(omega) > 1:  # of resonances only those count that may exceed the speeds beside them
+        gap = np.clip(np.searchsorted(omega, at), 1, len(omega) - 1) - 1
+        added = np.zeros((len(omega) - 1, peaks.shape[1]))
+        np.add.at(added, gap, running.find_alone(order, at))
+        may = (np.maximum(peaks[1:], peaks[:-1]) + added >= peaks.max(axis=0)).any(axis=1)
+        at, loss = at[may[gap]], loss[may[gap]]
     about = (at * (1 + loss * _BESIDE[:, None])).ravel()
     about = np.setdiff1d(about[(about > omega[0]) & (about < omega[-1])], omega)
     speeds = np.concatenate([omega, about])
@@ -173,14 +260,33 @@ def find_worst(running: RunningBody, omega: Real, peaks: Real) -> Worst:
         return find_longest(orders, running.read(running.move(at), curve)).value
 
     best, value = find_highest(judge, speeds[rising], heights, heights.max(axis=0), _NEAR)
-    each, motion = np.arange(len(best)), running.move(best)
-    alone = largest_of_ellipse(running.read(motion))
-    leading = find_first_largest(alone)
-    shapes = modes.modes.shapes
-    shares = (shapes @ modes.mass @ motion[leading, each, :6].T)[..., None] * shapes[:, None]
-    of_modes = running.read(_with_rate(shares, orders[leading] * best))
-    mode = find_first_largest(np.linalg.norm(of_modes, axis=-1))
-    return Worst(value, best, orders[leading], alone[leading, each], mode)
+    return _explain_worst(running, best, value)
+
+
+def _explain_worst(running: RunningBody, omega: Real, value: Real) -> Worst:
+    """Return the highest values, shape (curves,), at their speeds (rad/s) with the orders and modes
+    that make them.
+    """
+    own, orders = running.modes, running.loads.orders
+    each, motion = np.arange(len(omega)), running.move(omega)
+    alone, w = largest_of_ellipse(running.read(motion)), frequencies(orders, omega)
+    leading, shapes = find_first_largest(alone), own.modes.shapes
+    amplitudes = motion[..., :6] @ (shapes @ own.mass).T  # (orders, curves, modes)
+    shares = np.moveaxis(amplitudes[..., None] * shapes, 2, 0)
+    of_modes = np.linalg.norm(running.read(_with_rate(shares, w)), axis=-1)
+    modes = find_first_largest(of_modes)  # (orders, curves)
+    near = np.abs(own.modes.omega[modes] / w - 1) <= RESONANT
+    large = near & (alone >= _PART * alone[leading, each])
+    cause = find_first_largest(np.where(large, alone, 0))
+    met = orders[cause], modes[cause, each] + 1
+    cause_rpm = own.modes.omega[modes[cause, each]] / met[0] / RPM
+    resonances = tuple(
+        MetMode(order_number(order), int(mode), float(rpm)) if there else None
+        for order, mode, rpm, there in zip(*met, cause_rpm, large[cause, each], strict=True)
+    )
+    return Worst(
+        value, omega, orders[leading], alone[leading, each], modes[leading, each], resonances
+    )
 
 
 def _with_rate(motion: Complex, w: Real) -> Complex:
@@ -188,20 +294,18 @@ def _with_rate(motion: Complex, w: Real) -> Complex:
     return np.concatenate([motion, 1j * w[..., None] * motion], axis=-1)
 
 
-def plain_order(order: float) -> float:
-    """Return an order for documents: a whole one as an int."""
-    return int(order) if order == int(order) else float(order)
-
-
-def respond(mounted: MountedBody, running: RunningBody, omega: Real) -> BodyResponse:
+def respond(
+    mounted: MountedBody, running: RunningBody, omega: Real, *, ranged: bool = True
+) -> BodyResponse:
     """Return the response at every order and speed.
 
     Args:
         omega: Speeds, rad/s, rising, shape (speeds,).
+        ranged: Whether they stand for all speeds between the first and the last.
 
     Raises:
         BalcliError: There are too many results; the engine drives an undamped mode at its own
-            frequency within the range of speeds.
+            frequency at one of the speeds, or within their range.
     """
     loads, mounts, points = running.loads, mounted.names, mounted.point_names
     orders = loads.orders
@@ -212,12 +316,12 @@ def respond(mounted: MountedBody, running: RunningBody, omega: Real) -> BodyResp
             f"{len(points)} points are {count} results, and at most {MOST_MOUNT_RESULTS} are "
             "computed; take fewer --speeds or --orders"
         )
-    running.refuse_resonance(omega)
+    bounded = running.refuse_resonance(omega, ranged=ranged)
     motion = running.move(omega)
     curves = running.read(motion[..., None, :])
     by_order, peak = largest_of_ellipse(curves), find_longest(orders, curves).value
-    worst = find_worst(running, omega, peak)
-    numbers = [plain_order(order) for order in orders]
+    worst = find_worst(running, omega, peak, between=bounded)
+    numbers = [order_number(order) for order in orders]
 
     kinds: list[tuple[Any, Any, Any, float]] = [
         *[(MountForce, ForceOfOrder, WorstForce, 1.0)] * len(mounts),
@@ -227,8 +331,9 @@ def respond(mounted: MountedBody, running: RunningBody, omega: Real) -> BodyResp
     for k, (name, kind) in enumerate(zip((*mounts, *points), kinds, strict=True)):
         place, of_order, largest, unit = kind
         each = (of_order(n, by_order[row, :, k] / unit) for row, n in enumerate(numbers))
-        value, at, order, alone, mode = (column[k].item() for column in worst)
-        highest = largest(value / unit, at / RPM, plain_order(order), alone / unit, mode)
+        value, at, order, alone, mode = (column[k].item() for column in worst[:5])
+        number = order_number(order)
+        highest = largest(value / unit, at / RPM, number, alone / unit, mode, worst.resonance[k])
         places.append(place(name, tuple(each), peak[:, k] / unit, highest))
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
@@ -237,6 +342,7 @@ def respond(mounted: MountedBody, running: RunningBody, omega: Real) -> BodyResp
     return BodyResponse(
         no_gas_in=loads.silent.without_gas or None,
         no_burning_in=loads.silent.without_burning or None,
+        orders=numbers,
         speeds_rpm=np.where(short * RPM == omega, short, rpm),
         mounts=tuple(places[: len(mounts)]),
         points=tuple(places[len(mounts) :]),

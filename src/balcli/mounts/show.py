@@ -24,7 +24,6 @@ __all__ = ["document", "rows", "sheet"]
 _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
 _ROWS = 9  # speeds of a table
-_NEAR = 0.05  # distance of a speed from that at which an order meets a mode
 _SAME = 0.005  # change of a force that is none
 _SHARE = 1e-3  # of the largest free load: less is not worth a line
 
@@ -105,6 +104,12 @@ def _answer(
     if response.points:
         place, _, told = motion.tell_highest(response)
         yield f"The point {place.name} moves most: {told}."
+    orders = response.orders
+    yield (
+        f"Orders that count: {order_name(orders[0])} to {order_name(orders[-1])}, "
+        f"{len(orders)} in all; speeds: {number(float(response.speeds_rpm[0]), 4)} to "
+        f"{number(float(response.speeds_rpm[-1]), 4)} rpm."
+    )
     if response.loads.fired:
         silent = _tell_silent(response)
         yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
@@ -144,11 +149,13 @@ def _tell_silent(response: BodyResponse) -> str:
 
 def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | WorstMotion) -> str:
     """Return the reason why a value is largest at its speed."""
-    speeds, hertz = response.speeds_rpm, worst.order * worst.speed_rpm / 60
-    mode = result.modes[worst.mode]
-    named = f"mode {worst.mode + 1} ({mode.motion}, {number(mode.frequency_Hz, 3)} Hz)"
-    if abs(mode.frequency_Hz / hertz - 1) <= _NEAR:
-        return f"There it meets {named}: resonance."
+    speeds, hertz, met = response.speeds_rpm, worst.order * worst.speed_rpm / 60, worst.resonance
+    k = met.mode - 1 if met else worst.mode
+    mode = result.modes[k]
+    named = f"mode {k + 1} ({mode.motion}, {number(mode.frequency_Hz, 3)} Hz)"
+    if met:
+        at = f"{number(met.speed_rpm, 4)} rpm"
+        return f"Order {order_name(met.order)} meets {named} at {at}: resonance."
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
             return f"That is the {end} speed of the range; most of the force is {named}."

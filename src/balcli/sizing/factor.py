@@ -16,14 +16,15 @@ from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.engine import Engine
-from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..engine.rods import CylinderMasses
+from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
 from .bobweights import DEFINITION, NO_THROW, FactorPeaks, PlaneNeed, fill_card
 from .fitting import LEFT, Fitting, Slot
 from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, read_planes
-from .remedy import Remedy, fit_devices
+from .remedy import Remedy, fit_devices, remove_counterweights
 
 _NEARLY = 0.05  # of one cylinder's: pistons of one engine, weighed, differ by less
 COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
@@ -36,6 +37,10 @@ OWN_PLACES = (
     "these planes are where the counterweights of the file stand; --planes throws asks what is "
     "missing at every throw instead"
 )
+
+
+_MEASURED = "Opposite the pin: what the measured mass stands for"
+_UNCHANGED = 1e-9  # of the wanted weight: a change below this is none
 
 
 class _Pin(NamedTuple):
@@ -78,6 +83,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
             "on them: there is no rotating mass to balance opposite a pin; counterweights or auto "
             "can balance what is left"
         )
+    if options.measured is not None and options.factor is not None:
+        return _change_measured(engine, options)
     planes, factors = _choose_planes(engine, options), _choose_factors(engine, options)
     sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
     best = min(sweep, key=lambda peaks: peaks.cost).factor
@@ -193,11 +200,6 @@ def _find_largest_component(curve: Phasors, direction: complex) -> float:
 def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
     """Return the factors asked for, or the one that was measured."""
     if options.measured is not None:
-        if options.factor is not None:
-            raise BalcliError(
-                "--factor and --measured say the same: what balances a pin stands for a factor; "
-                "give one of them"
-            )
         return (find_measured_factor(engine, options.measured),)
     factors = options.factor or (0.5,)
     for factor in factors:
@@ -231,7 +233,59 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
             f"mass; {rotating / len(card):.5g} g balance none of it on a pin, and "
             f"{(rotating + reciprocating) / len(card):.5g} g all; is the unit right?"
         )
+    if factor < 0:
+        warn(
+            f"--measured {1e3 * measured:g} g: is less than the rotating mass of "
+            f"{rotating / len(card):.5g} g on a pin, a factor of {factor:.2%}; a crankshaft is "
+            "measured with bare pins, without rods"
+        )
     return factor
+
+
+def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Fit the change from the counterweights that a measured mass stands for to those of a wanted
+    factor: weights opposite the pin to add, at the pin to remove.
+
+    Raises:
+        BalcliError: several factors.
+    """
+    if len(options.factor or ()) > 1:
+        raise BalcliError(
+            "--factor: a range does not go together with --measured, which is what the crankshaft "
+            "has now; give one factor, such as 55%"
+        )
+    measured = options.measured or 0.0
+    has, radius = find_measured_factor(engine, measured), float(engine.cylinders.radius)
+    wanted = options._replace(measured=None)
+    card, slots, unbalances = fill_card(engine, _choose_factors(engine, wanted)[0]), [], []
+    for rows, one in zip(engine.rows_by_pin, card, strict=True):
+        pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
+        masses = np.array([float(w.rotating + w.reciprocating) for w in _weigh(engine, rows)])
+        z = _find_centre(masses, engine.cylinders.z[rows])
+        slots.append(Slot("counterweight", 1, 1, z))
+        unbalances.append(-(measured + one.throw_g / 1e3) * radius * pin)
+    bare = remove_counterweights(engine)
+    start = Fitting.start(bare, "factor").add(slots, unbalances, _MEASURED).remedy
+    base = fit_devices(bare, start)
+    remedy = size_by_factor(base, wanted)
+    changes = [(one, (one.bobweight_g / 1e3 - measured) * radius) for one in card]
+    actions = [
+        {
+            "throw": one.throw,
+            "unbalance_kg_m": change,
+            "action": "add" if change > 0 else "remove",
+        }
+        if abs(change) > _UNCHANGED * abs(one.bobweight_g / 1e3 * radius)
+        else {"throw": one.throw, "unbalance_kg_m": 0.0, "action": "nothing"}
+        for one, change in changes
+    ]
+    remedy = remedy.add_details(
+        measured_g=1e3 * measured,
+        measured_factor=has,
+        wanted_factor=remedy.details["factor"],
+        change=actions,
+    )
+    return remedy._replace(start=base)
 
 
 def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] | None:
@@ -332,7 +386,7 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
     """Return what each crank pin carries; pins that carry nothing are left out."""
     pins = []
     for rows in engine.rows_by_pin:
-        weighed = [engine.weighed[row] for row in rows]
+        weighed = _weigh(engine, rows)
         masses = np.array([float(w.rotating + w.share + factor * w.reciprocating) for w in weighed])
         if total := float(masses.sum()):
             pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
@@ -340,6 +394,10 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
             z = _find_centre(masses, engine.cylinders.z[rows])
             pins.append(_Pin(cylinders, total * float(engine.cylinders.radius) * pin, z))
     return pins
+
+
+def _weigh(engine: Engine, rows: Sequence[int]) -> list[CylinderMasses]:
+    return [engine.weighed[row] for row in rows]
 
 
 def _find_centre(masses: Array, places: Array) -> float:

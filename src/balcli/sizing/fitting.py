@@ -23,18 +23,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import least_squares
-from ..core.cylinders import Device
+from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import EPS, unit
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
-from .planes import SAME_PLACE, DeviceTable, as_millimetres, measure_direction
+from .planes import SAME_PLACE, DeviceTable, as_millimetres, find_planes, measure_direction
 from .remedy import Remedy, fit_devices
 from .residual import (
     BACKWARD,
     FORWARD,
+    FORWARD_FORCE,
+    FORWARD_MOMENT,
     ROLL,
     ReferencePoint,
     Residual,
@@ -43,6 +45,7 @@ from .residual import (
     hold_steady,
 )
 
+_ROTATING = "The rotating mass of throws and rods turns with the crank: weights opposite to it"
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
 
 
@@ -246,6 +249,34 @@ class Fitting(NamedTuple):
             return fitting.add_details(condition_number=fit.condition)
         return fitting
 
+    def balance_rotating(self) -> Fitting:
+        """With counterweights for the masses that turn with the crank pins, as far as those of the
+        file do not balance them: one, where one takes their force and moment, else at both ends.
+        """
+        engine, residual = self.engine, self.find_residual(1)
+        if engine.rotary:
+            return self
+        force, moment, scale = 0j, 0j, float(engine.cylinders.radius)
+        for weighed, pin, z in zip(
+            engine.weighed, engine.cylinders.pin_deg, engine.cylinders.z, strict=True
+        ):
+            direction = complex(unit(float(engine.first_axis_deg + pin)))
+            unbalance = float(weighed.rotating + weighed.share) * scale * direction
+            force += unbalance
+            moment += unbalance * (float(z) - residual.reference.z)
+        pins = force
+        for device in engine.devices:
+            if device.kind is DeviceKind.COUNTERWEIGHT:
+                force += complex(device.forward)
+                moment += complex(device.forward) * float(device.z - residual.reference.z)
+        if (pins.conjugate() * force).real < 0:  # the weights of the file balance more than that
+            return self
+        parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}
+        parts = {p: v if abs(v) > 4 * residual.noise.get(p, 0) else 0j for p, v in parts.items()}
+        turning = residual._replace(parts=parts)
+        slots = [Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)]
+        return self.cancel(slots, FORWARD, _ROTATING, turning)
+
     def describe_roll(self, before: Residual, group: str = "") -> Fitting:
         """With details of what the devices so far leave of an order's roll, and of what it was; of
         an engine with gas, of the roll with the gas at its speed, too.
@@ -320,6 +351,15 @@ def explain_couple(residual: Residual, sense: int) -> str:
         f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
         f"eccentrics {_on_shaft(residual, sense)} make the opposite moment and no force, wherever "
         f"the shaft stands{needless * (sense * residual.order == 1)}"
+    )
+
+
+def explain_compensator(residual: Residual) -> str:
+    """Return why shafts with a force take a moment."""
+    return (
+        f"Order {residual.order} moment: the engine has no force of this order, so that the shafts "
+        "work as a moment compensator; their force at this distance makes the opposite moment, and "
+        "stays (couple-shaft leaves no force)"
     )
 
 

@@ -12,23 +12,21 @@ bounds the larger one: the error is known.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.cylinders import DeviceKind
 from ..core.peaks import find_near_peaks
-from ..core.phasors import EPS, Complex, Phasors
+from ..core.phasors import EPS, Complex, Phasors, unit
 from ..core.vibration import Real
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from .factor import find_curve, find_factor_peaks
 from .fitting import Fitting, Slot, size_unbalances
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_crank_middle, read_planes
-from .remedy import Remedy
+from .planes import SAME_PLACE, find_crank_middle, measure_direction, read_planes
+from .remedy import Remedy, remove_counterweights
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
 _SAME = 8 * EPS  # points no farther outside than this, relative, are on the circle
@@ -145,7 +143,10 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: no weight makes the largest force smaller.
     """
     fitting = Fitting.start(engine, "minimax", 1)
-    circle = enclose_curve(find_curve(fitting.engine, "force"))
+    force = find_curve(fitting.engine, "force")
+    if options.orders is not None:
+        force = force.select_orders(force.orders[np.isin(force.orders, (1, *options.orders))])
+    circle = enclose_curve(force)
     newtons_per_kg_m = float(engine.omega) ** 2
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
     centred = abs(circle.centre) <= max(noise, circle.noise)
@@ -158,17 +159,26 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
     slots, unbalances = _split(engine, options, fitting, unbalance)
     reason = (
-        "The largest force over a revolution, all orders, becomes as small as a counterweight can "
-        "make it (smallest circle around the force as seen from the crank)"
+        f"The largest force over a revolution, {_name_orders(options)}, becomes as small as a "
+        "counterweight can make it (smallest circle around the force as seen from the crank)"
     )
     fitting = fitting.add(slots, unbalances, reason)
+    reached = np.sort(np.round(np.degrees(circle.theta), 9) % 360)
+    left = force.values(np.radians(reached)) - circle.centre * unit(reached)
     remedy = fitting.remedy.add_details(
         peak_force_N=circle.radius,
-        reached_deg=sorted(round(float(angle), 9) % 360 for angle in np.degrees(circle.theta)),
+        reached_deg=reached.tolist(),
+        direction_deg=[measure_direction(complex(each)) for each in left],
         relative_error_bound=circle.excess / circle.radius if circle.radius else 0.0,
-        **_compare_with_half(fitting.engine, circle),
+        **({} if options.orders else _compare_with_half(fitting.engine, circle)),
     )
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
+
+
+def _name_orders(options: SchemeOptions) -> str:
+    if options.orders is None:
+        return "all orders"
+    return f"orders {', '.join(f'{order:g}' for order in options.orders)}"
 
 
 def _split(
@@ -195,7 +205,6 @@ def _compare_with_half(engine: Engine, circle: Circle) -> dict[str, float]:
     """
     if engine.rotary:
         return {}
-    off_crank = tuple(d for d in engine.devices if d.kind is not DeviceKind.COUNTERWEIGHT)
-    half = find_factor_peaks(replace(engine, devices=off_crank), 0.5).peak_force_N
+    half = find_factor_peaks(remove_counterweights(engine), 0.5).peak_force_N
     gain = 1 - circle.radius / half if abs(half - circle.radius) > circle.noise else 0.0
     return {"factor_half_peak_N": half, "improvement": gain}

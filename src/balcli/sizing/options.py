@@ -19,8 +19,9 @@ _NUMBERS: dict[str, tuple[type, bool, str]] = {
     "planes": (Real, True, '"ends", "throws", or places z in m, such as (-0.1, 0.1)'),
     "factor": (Real, False, "shares, such as (0.5,)"),
     "measured": (Real, True, "a mass in kg, such as 0.812"),
+    "orders": (Real, True, "orders, such as (1, 2)"),
 }
-_SEVERAL = ("at", "planes", "factor")
+_SEVERAL = ("at", "planes", "factor", "orders")
 
 
 class SchemeOptions(NamedTuple):
@@ -37,6 +38,7 @@ class SchemeOptions(NamedTuple):
         measured: mass that balances the crank when it hangs on a bare pin, kg, instead of a factor.
         roll: "zero": two shafts are placed such that the roll of inertia of this order
             vanishes, too.
+        orders: orders of the force whose largest value is made smallest; default: all.
     """
 
     order: int | None = None
@@ -46,6 +48,7 @@ class SchemeOptions(NamedTuple):
     factor: tuple[float, ...] | None = None
     measured: float | None = None
     roll: str | None = None
+    orders: tuple[float, ...] | None = None
 
     def check(self, scheme: str) -> None:
         """Refuse what the scheme does not know.

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..core.cylinders import Device
+from ..core.cylinders import Device, DeviceKind
 from ..engine.devices import build_device
 from ..engine.engine import Engine
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
@@ -32,6 +32,7 @@ class Remedy(NamedTuple):
         sweep: what each of several factors leaves (scheme factor).
         knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
         beyond: devices that no engine file can describe, SI.
+        start: engine to which the devices are fitted, where it is not the one of the file.
     """
 
     scheme: str
@@ -45,6 +46,7 @@ class Remedy(NamedTuple):
     sweep: tuple[FactorPeaks, ...] = ()
     knuckle_angles_deg: tuple[float, ...] = ()
     beyond: tuple[Device, ...] = ()
+    start: Engine | None = None
 
     @property
     def counterweights(self) -> tuple[Counterweight, ...]:
@@ -95,6 +97,13 @@ def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
     everything = (*engine.devices, *new, *remedy.beyond)
     devices = tuple(sorted(everything, key=lambda device: device.kind))
     return replace(engine, devices=devices, model=_fit_model(engine.model, remedy))
+
+
+def remove_counterweights(engine: Engine) -> Engine:
+    """Return the engine without the counterweights of its file."""
+    devices = tuple(d for d in engine.devices if d.kind is not DeviceKind.COUNTERWEIGHT)
+    model = engine.model and engine.model.model_copy(update={"counterweight": ()})
+    return replace(engine, devices=devices, model=model)
 
 
 def _fit_model(model: EngineFile | None, remedy: Remedy) -> EngineFile | None:

@@ -191,7 +191,8 @@ def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[i
     if 1 in senses:
         takes: dict[PartKind, str] = {"moment": "couple-shaft", "force": "two-shaft"}
         others = [what for what in takes if what not in kinds and residual.has(what, senses)]
-        return [f"it has a free {what}: {takes[what]}" for what in others]
+        far = ", or far from the engine two-shaft with --order and --position as moment compensator"
+        return [f"it has a free {what}: {takes[what]}{far * (what == 'moment')}" for what in others]
     rest = []
     if forward := [part.kind for part in FORWARD if residual.parts[part]]:
         shaft = f"a shaft at +{residual.order}"

@@ -6,7 +6,7 @@ SCHEMES: dict[str, tuple[str, ...]] = {
     "auto": (),
     "counterweights": ("order", "planes"),
     "factor": ("factor", "measured", "planes"),
-    "minimax": ("planes", "position"),
+    "minimax": ("planes", "position", "orders"),
     "single-shaft": ("order", "at", "position", "planes"),
     "two-shaft": ("order", "at", "position", "roll"),
     "four-shaft": ("at", "position"),

@@ -18,6 +18,7 @@ from ..errors import BalcliError
 from .fitting import (
     Fitting,
     Slot,
+    explain_compensator,
     explain_counterweights,
     explain_couple,
     explain_one_eccentric,
@@ -41,6 +42,7 @@ from .residual import (
     FORWARD_MOMENT,
     NothingToBalanceError,
     Residual,
+    ResidualPart,
     choose_residual,
 )
 
@@ -138,14 +140,46 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
             raise BalcliError(
                 f"{reason}; shafts without unbalance can do nothing about the roll"
             ) from None
-        raise
+        if options.order is None or options.position is None:
+            raise
+        return _compensate_moment(engine, options)
     fitting = Fitting.start(engine, "two-shaft", residual.order, residual.note)
+    if residual.order == 1:
+        fitting = fitting.balance_rotating()
+        residual = fitting.find_residual(1)
     return _add_pair(fitting, residual, options).remedy
+
+
+def _compensate_moment(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Shafts at +N and -N far from the engine, as marine engines have at one end: their force there
+    takes the moment of order N, and stays.
+
+    Raises:
+        NothingToBalanceError: the order has no moment, either.
+        BalcliError: the place has no arm.
+    """
+    residual, z = choose_residual(engine, options, ("moment",)), float(options.position or 0)
+    if z == residual.reference.z:
+        raise BalcliError(
+            f"--position {1e3 * z:g}: a force there has no arm about the point of reference and "
+            f"makes no moment of order {residual.order}; give a place far from it"
+        )
+    places = dict.fromkeys((1, -1), 0j) | dict(zip((-1, 1), options.at or (), strict=False))
+    slots = [
+        Slot("shaft", residual.order, sense, z, place)
+        for sense, place in places.items()
+        if residual.moment(sense)
+    ]
+    fitting = Fitting.start(engine, "two-shaft", residual.order)
+    parts = [ResidualPart("moment", slot.sense) for slot in slots]
+    fitting = fitting.cancel(slots, parts, explain_compensator(residual))
+    force = fitting.find_residual(residual.order).size(FORWARD_FORCE, BACKWARD_FORCE)
+    return fitting.add_details(force_left_N=force).describe_roll(residual).remedy
 
 
 def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
-    fitting = Fitting.start(engine, "four-shaft")
+    fitting = Fitting.start(engine, "four-shaft").balance_rotating()
     residuals = [fitting.find_residual(order) for order in (1, 2)]
     forces = [residual for residual in residuals if residual.has("force", (1, -1))]
     if not forces:

@@ -29,10 +29,9 @@ from ..core.phasors import Array, Complex, unit
 from ..core.records import to_document
 from ..engine.engine import Engine
 from ..errors import BalcliError
-from .fitting import Fitting, Slot
+from .fitting import Fitting
 from .options import SchemeOptions
 from .remedy import Remedy
-from .residual import FORWARD_FORCE
 
 DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")
@@ -277,11 +276,15 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
         replace(one, unbalance_kg_m=one.mu * mass * radius)
         for one in find_optima(float(np.ravel(c.lam)[0]))
     )
-    fitting = _balance_rotating_mass(Fitting.start(engine, "eccentric-slider")).add_details(
-        unit_force_N=mass * radius * float(engine.omega) ** 2,
-        fitted=to_document(optima[0]),
-        optima=[to_document(one) for one in optima],
-        definition=_ECCENTRIC_SLIDER,
+    fitting = (
+        Fitting.start(engine, "eccentric-slider")
+        .balance_rotating()
+        .add_details(
+            unit_force_N=mass * radius * float(engine.omega) ** 2,
+            fitted=to_document(optima[0]),
+            optima=[to_document(one) for one in optima],
+            definition=_ECCENTRIC_SLIDER,
+        )
     )
     return fitting.remedy._replace(beyond=_make_shafts(engine, optima[0]))
 
@@ -307,7 +310,7 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
     Raises BalcliError for several cylinders.
     """
     _require_one_cylinder(engine, "oldham")
-    fitting = _balance_rotating_mass(Fitting.start(engine, "oldham"))
+    fitting = Fitting.start(engine, "oldham").balance_rotating()
     z = float(engine.cylinders.z[0])
     first, second = (fitting.find_residual(order) for order in (1, 2))
     devices = [
@@ -328,20 +331,3 @@ def _require_one_cylinder(engine: Engine, scheme: str) -> None:
         raise BalcliError(
             f"{scheme} is for a single cylinder; this engine has {engine.cylinders.count} cylinders"
         )
-
-
-def _balance_rotating_mass(fitting: Fitting) -> Fitting:
-    """With a counterweight for whatever turns with the crank beyond the half of the piston's
-    straight motion.
-    """
-    residual = fitting.find_residual(1)
-    axis = complex(unit(float(fitting.engine.cylinders.axis_deg[0])))
-    excess = residual.force(1) - axis**2 * residual.force(-1).conjugate()
-    if abs(excess) <= 4 * residual.noise[FORWARD_FORCE]:
-        return fitting
-    slot = Slot("counterweight", 1, 1, float(fitting.engine.cylinders.z[0]))
-    return fitting.add(
-        [slot],
-        [-excess],
-        "The rotating mass of the throw and the rod is removed by a weight opposite the pin",
-    )

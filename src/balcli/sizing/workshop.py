@@ -8,13 +8,14 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ..core.phasors import wrap_degrees
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
 from ..errors import BalcliError, check_number
 from ..file.model import Counterweight, Shaft, Slider
-from ..limits import MOST_HOLES
-from .planes import DeviceTable, find_unbalance
+from .planes import DeviceTable, find_unbalance, name_kind
 from .remedy import Remedy
 
 ROUNDING = 1e-12  # of a hole: that much more than the deepest one is still one
@@ -31,6 +32,8 @@ class Tools(NamedTuple):
         drill: diameter; no holes are stated if not said.
         max_depth: of holes; to the axis if not said.
         slug: density of slugs that fill the holes, kg/m3; empty holes if not said.
+        width: axial room for a row of holes; if not said, the smallest distance of neighboring
+            throws, or the stroke of a crank with one throw or without spacing.
     """
 
     radius: float | None = None
@@ -39,6 +42,7 @@ class Tools(NamedTuple):
     drill: float | None = None
     max_depth: float | None = None
     slug: float | None = None
+    width: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,8 +58,8 @@ class Practical:
         disc_radius_mm: Radius of a semicircular steel disc, its diameter through the axis of
             rotation.
         disc_thickness_mm: Thickness of this disc.
-        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards; nan where more
-            than `MOST_HOLES` are needed. None, as below, without a drill, and of sliders.
+        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards. None, as below,
+            without a drill, and for sliders.
         holes: Number of equal holes side by side along the axis: they remove an unbalance opposite
             to it, or add it with slugs on its own side.
         hole_angle_deg: Angle of the holes, counted as that of the device.
@@ -77,7 +81,8 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     """Figures of all devices, in the order of `remedy.devices`.
 
     Raises:
-        BalcliError: tools that cannot be, or that do not go together.
+        BalcliError: tools that cannot be, or that do not go together; holes that do not fit on the
+            crank.
         TypeError: one is no number.
     """
     tools = Tools(*map(_check_figure, Tools._fields, tools))
@@ -102,9 +107,9 @@ def _refuse_impossible(tools: Tools) -> None:
     ]
     if strange:
         raise BalcliError(f"{', '.join(strange)}; give figures above 0")
-    if tools.drill is None and (tools.max_depth, tools.slug) != (None, None):
+    if tools.drill is None and (tools.max_depth, tools.slug, tools.width) != (None,) * 3:
         raise BalcliError(
-            "--max-depth and --slug are for holes: give the diameter of the drill, too, "
+            "--max-depth, --slug and --width are for holes: give the diameter of the drill, too, "
             "with --drill"
         )
     if tools.slug is not None and tools.slug <= STEEL:
@@ -137,25 +142,45 @@ def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practica
         speed_rpm=order * float(engine.speed_rpm),
         disc_radius_mm=1e3 * disc_radius,
         disc_thickness_mm=1e3 * disc_thickness,
-        **_plan_holes(device, unbalance, radius, tools),
+        **_plan_holes(engine, device, unbalance, radius, tools),
     )
 
 
-def _plan_holes(device: DeviceTable, unbalance: float, rim: float, tools: Tools) -> dict[str, Any]:
-    """Return as few holes as the depth allows."""
+def _plan_holes(
+    engine: Engine, device: DeviceTable, unbalance: float, rim: float, tools: Tools
+) -> dict[str, Any]:
+    """Return as few holes as the depth allows.
+
+    Raises:
+        BalcliError: more holes than have room side by side.
+    """
     if tools.drill is None or isinstance(device, Slider):
         return {}
     density = STEEL if tools.slug is None else tools.slug - STEEL
     deepest = min(rim, tools.max_depth or rim)
     of_one = find_drilled_unbalance(deepest, rim, tools.drill, density)
-    share = unbalance / of_one * (1 - ROUNDING) if of_one else math.inf
-    count, depth = MOST_HOLES + 1, math.nan
-    if share <= MOST_HOLES:
-        count = max(math.ceil(share), 1)
-        depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
-        depth = deepest if math.isnan(depth) else min(depth, deepest)
+    count = max(math.ceil(unbalance / of_one * (1 - ROUNDING)) if of_one else math.inf, 1)
+    room = tools.width or _find_room(engine)
+    if count * tools.drill > room * (1 + ROUNDING):
+        fitting = int(room / tools.drill * (1 + ROUNDING))
+        raise BalcliError(
+            f"--drill {1e3 * tools.drill:g} mm: {1e6 * unbalance:.6g} g mm for {name_kind(device)} "
+            f"at z = {device.position:g} mm do not fit: {fitting} holes side by side have room on "
+            f"{1e3 * room:g} mm (--width) and make at most {1e6 * fitting * of_one:.6g} g mm; use "
+            "a larger drill or --radius, a larger --max-depth, or --slug"
+        )
+    depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
+    depth = deepest if math.isnan(depth) else min(depth, deepest)
     angle = float(wrap_degrees(device.angle + (180 if tools.slug is None else 0), 360))
     return {"drill_depth_mm": 1e3 * depth, "holes": count, "hole_angle_deg": angle}
+
+
+def _find_room(engine: Engine) -> float:
+    """Return the smallest distance of neighboring throws, m; of one throw, or throws whose places
+    are not known, the stroke.
+    """
+    places = np.unique(engine.throws_m)
+    return float(np.diff(places).min()) if len(places) > 1 else 2 * float(engine.cylinders.radius)
 
 
 def _find_order(device: DeviceTable) -> int:

@@ -114,7 +114,7 @@ MOUNTS = Chapter(
         Form("mount.NAME.static", "N", "its load at rest and under the mean torque", "mount"),
         Form(
             "point.NAME.motion",
-            "m",
+            "mm",
             "largest motion of a point, from an eighth of the speed up to it",
             "mount",
         ),
@@ -170,8 +170,12 @@ def _shorten(chapter: Chapter) -> Iterator[str]:
         yield f"{stem}.{parts}" if stem else parts
 
 
-def tell_speeds(names: Iterable[str]) -> str:
-    """Over which speeds quantities of these names are the largest, where one could be misled."""
+def tell_speeds(names: Iterable[str], varied: Iterable[str] = ()) -> str:
+    """Return over which speeds quantities of these names are the largest, where one could be
+    misled; where the speed varies, they are those at each speed.
+    """
+    if "operation.speed" in varied:
+        return ""
     asked = [name for name in names if not name.endswith(".static")]
     told = [_OF_MOUNTS] * any(name.startswith(("mount.", "point.")) for name in asked)
     told += [_OF_SHAFTS] * any(name.startswith("shaft.") for name in asked)

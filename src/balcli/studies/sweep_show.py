@@ -22,6 +22,7 @@ from ..show.figures import name_engine
 from ..show.formats import Columnar
 from ..show.sheet import NAMELESS, Grid, Sheet, given, number, tell_assumed_speed
 from ..show.units import ShownUnit, name_with_unit, unit_of_name
+from .quantity_names import tell_speeds
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -126,6 +127,8 @@ def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
         notes += [f"{whole} variants, of which {left_out} are not shown: -o X.csv writes all."]
     if "operation.speed" not in sweep.columns and (assumed := tell_assumed_speed(sweep.file)):
         notes += [assumed]
+    if speeds := tell_speeds((q.name for q in sweep.quantities), sweep.columns):
+        notes += [speeds]
     grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
     return Sheet(f"{sweep.file.name or NAMELESS}: variants", (grid,))
 

@@ -13,8 +13,14 @@ from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
 from ..engine.engine import Engine, check_engine, find_row
 from ..errors import BalcliError, check_number, check_type, list_words
+from ..forces.crankshaft import refuse_too_many_forces
 from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
-from ..forces.spectrum import check_orders, compute_spectra, list_gas_orders, take_gas
+from ..forces.spectrum import (
+    check_orders,
+    compute_spectra,
+    list_gas_orders,
+    take_gas,
+)
 from ..shell.arguments import tell_arguments
 from .flywheel import find_flywheel
 from .loads import KINDS_OF_LOAD, analyze_loads
@@ -63,6 +69,8 @@ def analyze_torque_of_engine(
     wanted = list_words("loads", loads, '["pin", "main"]')
     if strange := [word for word in wanted if word not in KINDS_OF_LOAD]:
         raise BalcliError(f"--loads: {strange[0]!r}; choose from {', '.join(KINDS_OF_LOAD)}")
+    if wanted:
+        refuse_too_many_forces(engine)
     steady = replace(engine, ripple=())
     shown = list_gas_orders(engine) if orders is None else check_orders(orders)
     row = find_row(engine, cylinder, "--cylinder")

@@ -11,7 +11,7 @@ import numpy as np
 from ..core.vibration import Real
 from ..engine.build import build
 from ..engine.engine import Engine
-from ..engine.load import EngineVariants, Values, remember
+from ..engine.load import EngineVariants, Values, choose_speeds, remember
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..file.read import change_figures
@@ -105,7 +105,8 @@ class Variants:
         varied = change_figures(self._model, values, {"torsion"})
         system = build_engine_system(varied, engine, excitation)
         frequencies = _find_frequencies(system)
-        largest = _find_largest(system, choose_torsion_speeds(engine), self._quantities)
+        speeds = choose_speeds(engine, values, choose_torsion_speeds)
+        largest = _find_largest(system, speeds, self._quantities)
         return [
             largest[q] if q.kind == "shaft" else float(frequencies[int(q.target) - 1])
             for q in self._quantities

@@ -86,7 +86,9 @@ def _notes(result: Search) -> Iterator[str]:
     assumed = tell_assumed_speed(result.model)
     if assumed and "operation.speed" not in result.over.split(", "):
         yield assumed
-    if speeds := tell_speeds(q.name for q in result.objective.quantities):
+    if speeds := tell_speeds(
+        (q.name for q in result.objective.quantities), result.over.split(", ")
+    ):
         yield speeds
     added = list(dict.fromkeys(q.unit for q in result.objective.weights))
     if len(added) > 1:
