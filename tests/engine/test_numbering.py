@@ -10,7 +10,7 @@ import pytest
 from support.cases import cases
 from support.engines import refused
 
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.engine.load import load
 from balcli.errors import InputError
 

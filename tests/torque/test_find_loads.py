@@ -13,7 +13,7 @@ from support.gas_engines import FOUR, WIEBE, draw_engine
 from balcli.analysis.curves import compute_engine_curves
 from balcli.core.phasors import unit
 from balcli.errors import BalcliError
-from balcli.forces.gas_torque import find_torque_curves
+from balcli.forces.curves import find_torque_curves
 from balcli.forces.rod_forces import compute_rod_forces, list_hung_rows
 from balcli.torque.loads import analyze_loads, find_bearing_loads, find_pin_loads
 

@@ -19,7 +19,8 @@ from ..core.cylinders import Travel, find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
 from ..core.unbalance import find_permitted_unbalance
-from ..engine.build import Engine, build, check_engine
+from ..engine.build import build
+from ..engine.engine import Engine, check_engine
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..errors import BalcliError, InputError, check_type

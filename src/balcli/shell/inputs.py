@@ -27,7 +27,7 @@ from ..file.toml import find_near_file, name_file, read_bytes
 from .options import WORDS_OF_ONLY
 
 if TYPE_CHECKING:
-    from ..engine.build import Engine
+    from ..engine.engine import Engine
     from ..file.model import EngineFile
 
 
@@ -202,7 +202,7 @@ def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> En
     if not numbers:
         return engine
     require_gas(engine, path)
-    from ..forces.gas_torque import silence  # for those who ask
+    from ..forces.curves import silence  # for those who ask
 
     for number in numbers:
         engine = silence(engine, number)

@@ -15,8 +15,8 @@ import numpy as np
 
 from ..core import least_squares
 from ..core.phasors import Array
-from ..engine.build import Engine
 from ..engine.devices import build_device
+from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, NO_GAS, BalcliError
 from ..file.fields import join_words
 from ..file.model import Counterweight, EngineFile, Shaft

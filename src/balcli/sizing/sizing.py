@@ -14,10 +14,10 @@ import numpy as np
 
 from ..core.cylinders import DeviceKind
 from ..core.phasors import wrap_degrees
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import find_crank_loads
-from ..forces.spectrum import compute_each_cylinder
+from ..forces.spectrum import compute_spectra
 from .factor import size_by_factor
 from .fitting import (
     Fitting,
@@ -122,7 +122,7 @@ def _add_at_throws(fitting: Fitting) -> Fitting:
     force or moment remains (stagger, weights of the file), the smallest addition takes it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
-    forward = compute_each_cylinder(engine, [1], ("force",))["force"].forward[0]
+    forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
     unbalances = np.zeros(len(throws), complex)
     np.add.at(unbalances, engine.joined_throw_of_rows, -forward / float(engine.omega) ** 2)
     for device in engine.devices:
