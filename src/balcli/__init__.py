@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .balancing.answer import Balance, balance
     from .books.answer import tables
     from .books.recomputed import Table
-    from .engine.build import Engine
+    from .engine.engine import Engine
     from .engine.load import load, load_example
     from .errors import BalcliError, InputError
     from .field.answer import FieldBalance, balance_rotor

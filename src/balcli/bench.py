@@ -25,7 +25,8 @@ import numpy as np
 from .core.mechanisms import power_series
 from .core.phasors import Array, Complex
 from .core.records import to_document
-from .engine.build import Engine, build
+from .engine.build import build
+from .engine.engine import Engine
 from .engine.parse import parse
 from .forces.kinds import DEFAULT_QUANTITIES
 from .forces.spectrum import compute_spectra

@@ -24,7 +24,7 @@ PUBLIC = {
     "compare": "analysis.comparison",
     "Curves": "analysis.curves",
     "curves": "analysis.curves",
-    "Engine": "engine.build",
+    "Engine": "engine.engine",
     "load": "engine.load",
     "load_example": "engine.load",
     "FieldBalance": "field.answer",
@@ -107,6 +107,7 @@ QUANTITIES = {
     "torsion": "torsion.quantity",
 }
 NOTEBOOK = "show.notebook:show_engine"
+VARY = "engine.load:vary_engine"
 
 
 def import_name(place: str) -> Any:

@@ -21,7 +21,7 @@ import numpy as np
 from .analysis.answer import analyze
 from .analysis.curves import compute_engine_curves
 from .core.records import to_document
-from .engine.build import Engine
+from .engine.engine import Engine
 from .errors import BalcliError
 from .file.model import EngineFile
 from .forces.kinds import GAS, GAS_KINDS, KINDS

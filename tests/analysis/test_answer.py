@@ -14,12 +14,13 @@ from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
 from balcli.analysis.answer import QUANTITIES, Analysis, analyze
-from balcli.engine.build import Engine, build
+from balcli.engine.build import build
+from balcli.engine.engine import Engine
 from balcli.engine.parse import read
 from balcli.errors import BalcliError
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import SHOWN, compute_spectra, find_relevant_orders
-from balcli.forces.textbook import find_textbook_units
+from balcli.forces.symmetry import find_textbook_units
 from balcli.limits import HIGHEST_ORDER
 
 NAMES = [file.relative_to(ENGINES).with_suffix("").as_posix() for file in ENGINE_FILES]

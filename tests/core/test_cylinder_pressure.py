@@ -15,7 +15,7 @@ from balcli.core.cylinder_pressure import crank_torque, find_highest, pistons, p
 from balcli.core.gas_cycle import Goal, Process, gas_cycle
 from balcli.core.mechanisms import harmonics
 from balcli.core.piecewise import PiecewiseCurve, polyline
-from balcli.engine.build_gas import draw_diagram, find_diagram_mistakes
+from balcli.engine.indicator import draw_diagram, find_diagram_mistakes
 
 ENGINES = Path(__file__).parents[2] / "engines"
 OF_THE_LARGEST = 1e-12

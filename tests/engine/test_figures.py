@@ -11,7 +11,8 @@ import pytest
 import tomli_w
 from support.engines import GOOD, RADIAL, changed
 
-from balcli.engine.build import Engine, build
+from balcli.engine.build import build
+from balcli.engine.engine import Engine
 from balcli.engine.parse import parse
 from balcli.errors import BalcliError
 from balcli.studies.parameters import find_numbers

@@ -10,7 +10,7 @@ import pytest
 from support.cases import cases
 from support.engines import refused
 
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.engine.load import load
 from balcli.errors import InputError
 
@@ -156,6 +156,25 @@ def test_given_throws_decide_between_the_numberings():
         load(tables("1-8-4-3-6-5-7-2", 90, throws=[0, 90, 270, 180]))
     lines = str(caught.value).split("\n    ")[1:]
     assert [line.partition(":")[0] for line in lines[:-1]] == [f"layout.numbering = {O8}"]
+
+
+@pytest.mark.parametrize("varied", [{"operation.speed": 4000.0}, {"crank.splay": 60.0}])
+def test_a_variant_is_no_more_guessed_than_its_file(varied):
+    """The boxer may be two engines, of which one has all its throws at 0; the six needs a splay."""
+    from balcli.engine.build import build
+    from balcli.engine.parse import parse_dict
+
+    boxer = tables("1-3-2-4", 180, **ALTERNATING)
+    for parts in [boxer] if "operation.speed" in varied else [tables("1-2-3-4-5-6", 60)]:
+        for figures in (varied, {key: np.array([value, value]) for key, value in varied.items()}):
+            with pytest.raises(InputError, match=r"layout\.numbering"):
+                build(parse_dict(parts), figures, rank=np.ndim(next(iter(figures.values()))))
+
+
+def test_places_along_the_crank_do_not_say_which_number_stands_where():
+    places = {str(n): {"position": x} for n, x in zip(range(1, 5), (-165, -50, 60, 175), strict=True)}
+    with pytest.raises(InputError, match=r"\[\[1, 3\], \[2, 4\]\]"):
+        load(tables("1-3-2-4", 180, **ALTERNATING) | {"cylinder": places})
 
 
 def test_a_second_and_a_third_tier_is_never_taken_unasked():

@@ -14,7 +14,7 @@ from support.paths import write
 from balcli.analysis.answer import analyze
 from balcli.core.mechanisms.closed_form import find_harmonics
 from balcli.engine.load import load
-from balcli.forces.spectrum import compute_gas_torque, compute_gas_torque_of_each, compute_spectra
+from balcli.forces.spectrum import compute_gas_torque, compute_spectra
 from balcli.forces.symmetry import explain_symmetry
 
 ORDERS = np.arange(0, 24.5, 0.5)
@@ -119,7 +119,7 @@ def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(
     found = build_text(text + WIEBE)
     per_cycle = len(firing) * 2 / strokes
     total = compute_spectra(found, ORDERS, ["gas"])["gas"]
-    each = compute_gas_torque_of_each(found, ORDERS)
+    each = compute_gas_torque(found, ORDERS, each=True)
     alone = ORDERS % per_cycle == 0
     assert total.balanced.tolist() == (~alone).tolist()
     sum_of_sizes = len(firing) * np.abs(scalar(each)[:, 0])
@@ -135,7 +135,7 @@ def test_a_misfire_leaves_what_the_cylinder_would_have_made():
     whole = build_text(FOUR + WIEBE)
     missing = build_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
     row = whole.numbers.index(3)
-    gone = compute_gas_torque_of_each(whole, ORDERS).forward[:, row]
+    gone = compute_gas_torque(whole, ORDERS, each=True).forward[:, row]
     left = compute_gas_torque(missing, ORDERS).forward
     assert left == pytest.approx(compute_gas_torque(whole, ORDERS).forward - gone, abs=1e-11)
     assert np.all(explain_symmetry(missing, [0.5, 1], ["gas"]).reasons[0].size > 0.9)

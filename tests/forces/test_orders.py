@@ -13,7 +13,7 @@ from balcli.analysis.answer import analyze
 from balcli.analysis.order_tables import tell_rocking
 from balcli.analysis.two_engines import Arrangement, combine_engines
 from balcli.core.phasors import Phasors
-from balcli.engine.build import take_model
+from balcli.engine.engine import take_model
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.guide import compute_guide_moments

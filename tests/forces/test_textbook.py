@@ -15,8 +15,8 @@ from support.engines import engine
 from balcli.core.mechanisms import closed_form
 from balcli.file.examples import folder
 from balcli.forces.kinds import FORCE, MOMENT
-from balcli.forces.spectrum import compute_each_cylinder
-from balcli.forces.textbook import (
+from balcli.forces.spectrum import compute_spectra
+from balcli.forces.symmetry import (
     TextbookUnits,
     find_textbook,
     find_textbook_units,
@@ -156,7 +156,7 @@ def test_units_of_an_engine_whose_first_cylinder_is_articulated_are_its_masters(
     orders = np.array([1.0, 2.0, 4.0])
     units = find_textbook_units(vee, orders)
     alone = with_reciprocating_only(vee)
-    each = compute_each_cylinder(alone, orders, ["force"])["force"]
+    each = compute_spectra(alone, orders, ["force"], each=True)["force"]
     of_master = each.major[:, vee.numbers.index(2)]
     assert units.cylinder == 2
     assert [units.size(FORCE, n) for n in orders] == pytest.approx(list(of_master), rel=1e-12)

@@ -16,7 +16,7 @@ from balcli.analysis.answer import QUANTITIES, analyze
 from balcli.core.mechanisms import closed_form, harmonics
 from balcli.core.mechanisms.closed_form import SERIES
 from balcli.core.phasors import EPS
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.errors import InputError
 from balcli.forces.spectrum import Spectra, compute_spectra, find_relevant_orders
 

@@ -15,7 +15,7 @@ from support.engines import alone, engine
 from support.paths import ENGINES
 
 from balcli.core.phasors import EPS
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import compute_spectra
 

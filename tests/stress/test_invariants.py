@@ -20,7 +20,7 @@ from hypothesis import given, settings, strategies as st
 from support.engines import alone, build_text
 
 from balcli.core.phasors import Phasors
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import Spectra, compute_spectra
 

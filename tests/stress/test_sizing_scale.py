@@ -12,7 +12,7 @@ from hypothesis import example, given, strategies as st
 from support.engines import build_text, engine_text
 from support.remedies import figures, fit_scheme, size_scheme
 
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from balcli.engine.build import Engine
+    from balcli.engine.engine import Engine
 
 GOOD = """\
 name = "in-line four"

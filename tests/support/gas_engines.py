@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 
 from .engines import build_text
 

@@ -9,7 +9,7 @@ from support.engines import engine_text
 
 from balcli.core.phasors import Phasors
 from balcli.core.records import remove_unit
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy, fit_devices

@@ -13,7 +13,7 @@ from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.engine.load import load
 from balcli.errors import BalcliError
-from balcli.forces.gas_torque import (
+from balcli.forces.curves import (
     find_constant_inertia,
     find_inertia_torque,
     find_moving_inertia,

@@ -14,8 +14,8 @@ from balcli.analysis.curves import compute_engine_curves
 from balcli.core.phasors import unit
 from balcli.engine import build_gas
 from balcli.errors import BalcliError
-from balcli.forces import crankshaft, curves, gas_torque
-from balcli.forces.gas_torque import find_torque_curves
+from balcli.forces import crankshaft, curves
+from balcli.forces.curves import find_torque_curves
 from balcli.forces.rod_forces import compute_rod_forces, list_hung_rows
 from balcli.torque import answer
 from balcli.torque.loads import analyze_loads, find_bearing_loads, find_pin_loads
@@ -227,9 +227,9 @@ def test_the_inertia_of_many_cylinders_is_computed_by_pieces(monkeypatch):
     engine, sizes = build_text(FOUR + WIEBE), []
     whole = find_torque_curves(engine).total
     monkeypatch.setattr(curves, "AT_ONCE", 4 * 50)
-    compute = gas_torque.compute_inertia_torque
+    compute = curves.compute_inertia_torque
     monkeypatch.setattr(
-        gas_torque, "compute_inertia_torque", lambda e, degrees: sizes.append(len(degrees)) or compute(e, degrees)
+        curves, "compute_inertia_torque", lambda e, degrees: sizes.append(len(degrees)) or compute(e, degrees)
     )
     assert find_torque_curves(engine).total.mean == pytest.approx(whole.mean, rel=1e-12)
     assert 0 < max(sizes) <= 50

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import tomli_w
 
-from balcli.engine.build import Engine, build
+from balcli.engine.build import build
+from balcli.engine.engine import Engine
 from balcli.engine.load import EngineVariants
 from balcli.engine.parse import parse
 from balcli.file.model import EngineFile

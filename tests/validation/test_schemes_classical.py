@@ -14,7 +14,7 @@ from support.remedies import figures, fit_scheme, size_scheme
 
 from balcli.analysis.answer import analyze
 from balcli.core.mechanisms import closed_form
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions

@@ -17,7 +17,7 @@ from support.engines import build_text, engine_text
 from support.remedies import fit_scheme, size_scheme
 
 from balcli.core.mechanisms import closed_form
-from balcli.engine.build import Engine
+from balcli.engine.engine import Engine
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.remedy import fit_devices
 

@@ -12,7 +12,7 @@ from ..core.cylinders import find_travel
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
 from ..core.records import INLINE, WrittenAs
-from ..engine.build import Engine, check_engine
+from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
@@ -21,14 +21,12 @@ from ..forces.spectrum import (
     Spectra,
     check_orders,
     choose_orders,
-    compute_each_cylinder,
     compute_spectra,
     find_relevant_orders,
     list_gas_orders,
     merge_orders,
 )
-from ..forces.symmetry import Symmetry, explain_symmetry
-from ..forces.textbook import Textbook, find_textbook
+from ..forces.symmetry import Symmetry, Textbook, explain_symmetry, find_textbook
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
 from ..show.figures import (
     EngineState,
@@ -288,7 +286,7 @@ def _analyze_cylinders(
             f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are {count} "
             f"results, and at most {MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
         )
-    own = compute_each_cylinder(engine, orders, kinds)
+    own = compute_spectra(engine, orders, kinds, each=True)
     rows = ((n, engine.numbers.index(n)) for n in sorted(engine.numbers))
     return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
 

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..forces.kinds import GAS, ROLL
 from ..shell.inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
 from ..shell.output import show

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from ..core.phasors import Array
 from ..core.records import HIDDEN
-from ..engine.build import Engine, check_engine
+from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, list_words, wrong_type
 from ..forces.kinds import EVERY_KIND, GAS, MOMENT, TORQUE, VECTORS, Kind
 from ..forces.spectrum import merge_orders

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from ..core.phasors import EPS, Array, Complex, unit
-from ..engine.build import Engine, check_engine, find_row
+from ..engine.engine import Engine, check_engine, find_row
 from ..errors import check_number
 from ..forces.curves import (
     EngineMotion,

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from ..core.peaks import Peak
     from ..core.phasors import Phasors
     from ..forces.spectrum import Spectra
-    from ..forces.textbook import Textbook
+    from ..forces.symmetry import Textbook
     from ..show.figures import OrdersAndPeaks
     from ..show.units import ShownUnit, System
 

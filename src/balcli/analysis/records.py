@@ -13,7 +13,7 @@ from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..core.records import INLINE, Reached, WrittenAs
 from ..file import model
-from ..forces.crankshaft import AlongCrank, InnerLoads
+from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
 from ..forces.guide import GuideMoments
 from ..forces.spectrum import Spectra
 from ..show.figures import (
@@ -49,10 +49,12 @@ class PeaksAndOrders:
     Attributes:
         peak: Largest values over a revolution.
         spectra: All orders that were computed.
+        bearings: Largest loads within the crankshaft.
     """
 
     peak: Peaks
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
+    bearings: CrankLoads | None = None
 
 
 # ------------------------------------------------------------------ along the crank

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..core.records import HIDDEN, WrittenAs, remove_unit
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import engine_facts

@@ -14,7 +14,7 @@ from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors, unit
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..core.speed_ripple import RippleLine
-from ..engine.build import Engine, check_engine
+from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, check_number, check_type
 from ..forces.kinds import EVERY_KIND, GAS, KINDS, Kind
 from ..forces.spectrum import (

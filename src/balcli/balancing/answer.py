@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from types import NoneType
 from typing import Any, Literal
@@ -19,7 +19,8 @@ from ..core.cylinders import Travel, find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
 from ..core.unbalance import find_permitted_unbalance
-from ..engine.build import Engine, build, check_engine
+from ..engine.build import build
+from ..engine.engine import Engine, check_engine
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..errors import BalcliError, InputError, check_type
@@ -28,10 +29,11 @@ from ..file.model import EngineFile
 from ..forces.spectrum import merge_orders
 from ..shell.arguments import tell_arguments
 from ..show.result import Result
+from ..sizing.fit import list_to_fit, size_fit
 from ..sizing.options import SchemeOptions
 from ..sizing.planes import FIELDS, DeviceTable, name_kind
 from ..sizing.remedy import Remedy, fit_devices
-from ..sizing.schemes import KNUCKLES
+from ..sizing.schemes import FIT, KNUCKLES
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Tools, find_practical
 
@@ -120,7 +122,35 @@ def balance_engine(
     if scheme == "minimax" and orders is not None:
         options = (options or SchemeOptions())._replace(orders=orders)
     remedy = size(engine, scheme, options)
-    engine = engine if remedy.start is None else remedy.start
+    return _answer(engine if remedy.start is None else remedy.start, remedy, orders, tools)
+
+
+def balance_fit(
+    engine: Engine,
+    model: EngineFile,
+    targets: Sequence[str] | None = None,
+    orders: Iterable[float] | None = None,
+    tools: Tools | None = None,
+) -> Balance:
+    """Fit the devices whose unbalance is "fit" in an engine file.
+
+    Args:
+        engine: The engine without them (`sizing.fit.remove_to_fit`).
+        model: The file with them.
+        targets: What is to vanish, of "force", "moment", "roll" and "roll_total".
+        orders: As of `balance_engine`.
+        tools: As of `balance_engine`.
+
+    Raises:
+        BalcliError: An unknown target, or one that the file does not determine.
+    """
+    return _answer(engine, size_fit(engine, model, targets), orders, tools)
+
+
+def _answer(
+    engine: Engine, remedy: Remedy, orders: Iterable[float] | None, tools: Tools | None
+) -> Balance:
+    """Return what a remedy leaves, and what the workshop has to know."""
     tools = tools or Tools()
     practical = find_practical(engine, remedy, tools)
     before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
@@ -358,6 +388,8 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
             f"scheme {remedy.scheme}: no engine file can describe its devices (shafts of variable "
             "speed, couplings), so that they cannot be written; balance shows what they leave"
         )
+    if remedy.scheme == FIT:
+        return _fill_in(old, remedy, file)
     base = remedy.start or build(parse(text, file))
     if remedy.start is not None and remedy.start.model is not None:
         weights = remedy.start.model.counterweight
@@ -369,6 +401,15 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
             f"{file}: the devices do not read back as they were sized; please report this file"
         )
     return new
+
+
+def _fill_in(text: str, remedy: Remedy, file: str) -> str:
+    """Return the text with figures in place of each "fit"."""
+    for (name, _), device in zip(list_to_fit(parse(text, file)), remedy.devices, strict=True):
+        keys = {"unbalance": device.unbalance, "angle": device.angle}
+        text = set_keys(text, name, keys, "fitted by balcli")
+    build(parse(text, file))
+    return text
 
 
 def _insert_devices(text: str, remedy: Remedy) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..core.unbalance import SLUGS
-from ..errors import note
+from ..errors import BalcliError, note
 from ..file.edit import set_keys
 from ..file.toml import name_file
 from ..shell import scheme_options
@@ -29,9 +30,10 @@ from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show,
 from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme_options
 from ..shell.values import optional, read_length, read_mass, read_number
 from ..show.formats import Format, Units
-from ..sizing.schemes import KNUCKLES, MEANINGS, NAMES, SCHEMES
+from ..sizing.schemes import FIT, KNUCKLES, MEANINGS, NAMES, SCHEMES
 
 if TYPE_CHECKING:
+    from ..sizing.options import SchemeOptions
     from ..sizing.workshop import Tools
     from .answer import Balance
 
@@ -71,10 +73,10 @@ def _list_schemes(wanted: bool) -> None:
     """Print what each scheme does and which options it takes, and end."""
     if not wanted:
         return
-    width = max(map(len, MEANINGS))
+    width, others = max(map(len, MEANINGS)), {KNUCKLES: ("even",), FIT: ("target",)}
     lines = []
     for name, meaning in MEANINGS.items():
-        options = " ".join(f"--{option}" for option in SCHEMES.get(name, ("even",)))
+        options = " ".join(f"--{option}" for option in {**SCHEMES, **others}[name])
         lines.append(f"{name:{width}}  {meaning}")
         lines += [f"{'':{width}}    {options}"] if options else []
     emit("\n".join(lines))
@@ -95,6 +97,14 @@ Slug = Annotated[
 Width = Annotated[
     str | None,
     optional("MM", "Room along the axis for holes; default: the smallest distance of throws."),
+]
+Target = Annotated[
+    str | None,
+    optional(
+        "NAME,...",
+        'What devices with unbalance = "fit" in the file cancel: force, moment, roll, roll_total; '
+        "default: force,moment.",
+    ),
 ]
 Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
 Grade = Annotated[
@@ -159,6 +169,30 @@ def parse_grade(text: str | None) -> float | None:
     return read_number("--grade", text.strip().removeprefix("G"), wanted)
 
 
+def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Sequence[str]) -> None:
+    """Refuse a scheme beside devices to fit, and the scheme fit without them.
+
+    Args:
+        name: Name of the file.
+        scheme: Scheme as asked for.
+        options: Its options.
+        open_devices: Names of the devices whose unbalance is "fit".
+
+    Raises:
+        BalcliError: They do not go together.
+    """
+    if not open_devices:
+        raise BalcliError(
+            f'{name}: no device has unbalance = "fit", so that --scheme fit and --target have '
+            "nothing to fit; give it to a [[counterweight]], [[shaft]] or [[slider]]"
+        )
+    if scheme != FIT or any(value is not None for value in options):
+        raise BalcliError(
+            f'{name}: {open_devices[0]}.unbalance is "fit": balance fits the devices of the file, '
+            f"and takes --target, but no other scheme (here {scheme}) and none of its options"
+        )
+
+
 def balance(
     path: EnginePath,
     scheme: Scheme = None,
@@ -170,6 +204,7 @@ def balance(
     factor: scheme_options.Factor = None,
     measured: scheme_options.Measured = None,
     roll: scheme_options.Roll = None,
+    target: Target = None,
     radius: Radius = None,
     thickness: Thickness = None,
     disc: Disc = None,
@@ -200,18 +235,24 @@ def balance(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = choose_balance_format(output, form)
     require_ending(write, ".toml", "--write")
+    from ..sizing.fit import list_to_fit, remove_to_fit
     from . import answer
 
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
-    usual = "factor" if form is BalanceFormat.CARD else "auto"
-    scheme = choose_scheme(scheme, options, usual)
     lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
     grade_mm_s = parse_grade(grade)
     mass_kg = None if mass is None else read_mass("--mass", mass, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)
-    text, model, engine = read_engine(path, rpm)
-    if scheme == KNUCKLES or even is not None:
+    text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
+    open_devices = [name for name, _ in list_to_fit(model)]
+    usual = "factor" if form is BalanceFormat.CARD else FIT if open_devices else "auto"
+    scheme = choose_scheme(scheme, options, usual)
+    if open_devices or target is not None or scheme == FIT:
+        _check_fit(name_file(path), scheme, options, open_devices)
+        wanted = None if target is None else [each.strip() for each in target.split(",")]
+        result = answer.balance_fit(engine, model, wanted, asked, tools)
+    elif scheme == KNUCKLES or even is not None:
         result = answer.answer_knuckles(scheme, options, even, model, engine, asked)
     else:
         result = answer.balance_engine(engine, scheme, options, asked, tools)

@@ -130,6 +130,8 @@ def _show(figure: _Figure, system: System) -> str:
     value, unit = figure.value, find_unit(figure.key) or find_unit(figure.group)
     if isinstance(value, str):
         return value
+    if value and isinstance(value, list) and isinstance(value[0], str):
+        return ", ".join(value)
     if isinstance(value, list):
         return f"{', '.join(map(degrees, value))} deg" if value else UNKNOWN
     if isnan(value):

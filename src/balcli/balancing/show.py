@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
 
-from ..analysis.answer import shorten
+from ..analysis.answer import Analysis, shorten
 from ..analysis.devices_show import (
     device_grid,
     device_rows,
@@ -22,6 +22,7 @@ from ..analysis.records import Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
+from ..forces.crankshaft import find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..show.csv import Columns, Rows
 from ..show.figures import figure_rows, list_assumed
@@ -84,7 +85,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     if not known:
         parts.append(Text("Forces alone", (sentence(MOMENTS_UNKNOWN),)))
     parts += [*_permitted(result, system), *details_parts(result, system)]
-    parts += [_orders(result, system), _peaks(result, system)]
+    parts += [_orders(result, system), _peaks(result, system), *_crank_loads(result, system)]
     return Sheet(f"{engine.name or NAMELESS}: {remedy.scheme}{order}", tuple(parts))
 
 
@@ -190,6 +191,27 @@ def _peaks(result: Balance, system: System) -> Grid:
     )
 
 
+def _crank_loads(result: Balance, system: System) -> Iterator[Grid]:
+    """Yield the largest loads within the crankshaft, if they are known."""
+    states = [find_crank_loads(one.engine) for one in (result.before, result.after)]
+    one, other = states
+    if one is None or other is None:
+        return
+    rows = []
+    for name, kind, key, place in (
+        ("largest main bearing load", FORCE, "main_N", "main_mm"),
+        ("largest inner moment", MOMENT, "inner_moment_Nm", "inner_mm"),
+    ):
+        sizes = [getattr(state, key) for state in states]
+        unit = system.unit(kind).fit(max(sizes))
+        places = [number(system.length.of(getattr(state, place) / 1e3)) for state in states]
+        cells = [(number(unit.of(size)), at) for size, at in zip(sizes, places, strict=True)]
+        rows.append((f"{name}, {unit.name}", *cells[0], *cells[1]))
+    at = f"at z, {system.length.name}"
+    note = "Inertia alone, bearings half-way between throws; of equal places the first."
+    yield Grid("Within the crankshaft", ("", "before", at, "after", at), tuple(rows), note=note)
+
+
 def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
     if not peak.value:
         return NOTHING, ""
@@ -228,6 +250,10 @@ class BalanceDocument:
     permitted: PermittedUnbalance | None = None
 
 
+def _shorten(analysis: Analysis) -> PeaksAndOrders:
+    return replace(shorten(analysis), bearings=find_crank_loads(analysis.engine))
+
+
 def document(result: Balance) -> Node:
     """Return `balcli.balance/1`."""
     remedy = result.remedy
@@ -239,8 +265,8 @@ def document(result: Balance) -> Node:
         practical=result.practical,
         details=details_document(result),
         assumed=list_assumed(result.before.moments_known),
-        before=shorten(result.before),
-        after=shorten(result.after),
+        before=_shorten(result.before),
+        after=_shorten(result.after),
         permitted=result.permitted,
     )
     return to_document(described)

@@ -4,7 +4,7 @@ common layouts.
 The table of layouts has free forces and moments of the example engines in textbook units, without
 the offsets of piston pins: F_n = m_rec r omega^2 A_n is the force of order n of one cylinder's
 reciprocating mass (A_1 = 1), a the distance of neighboring throws; moments are about the middle of
-the crankshaft. `forces.textbook` takes off all else that textbooks leave out.
+the crankshaft. `forces.symmetry` takes off all else that textbooks leave out.
 """
 
 from __future__ import annotations
@@ -15,13 +15,14 @@ from types import NoneType
 
 import numpy as np
 
-from ..engine.build import Engine, build
+from ..engine.build import build
+from ..engine.engine import Engine
 from ..engine.parse import parse
 from ..errors import BalcliError, check_type
 from ..file.examples import folder
 from ..file.fields import nearest
 from ..file.model import EngineFile
-from ..forces.textbook import find_textbook
+from ..forces.symmetry import find_textbook
 from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
 from . import liu, series, tsinghua, wang, worked_examples

@@ -6,7 +6,7 @@ articulated one does not reach them at crank angles 0 and 180 degrees. With x th
 piston from its upper dead centre, the gas does the work P dx, so that its torque is `P dx/dc`
 whatever the mechanism (virtual work); of the piston pin's path s (docs/theory.md), x' = -s'.
 
-Pressures are absolute. They are measured (`engine.build_gas`) or computed (`gas_cycle`);
+Pressures are absolute. They are measured (`engine.indicator`) or computed (`gas_cycle`);
 builders' tables give harmonics of the torque itself, without a pressure.
 """
 

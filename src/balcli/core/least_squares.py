@@ -54,7 +54,10 @@ class Solution(NamedTuple, Generic[Number]):
 
 
 def solve(
-    matrix: NDArray[Number], target: NDArray[Number], weights: NDArray[np.float64] | None = None
+    matrix: NDArray[Number],
+    target: NDArray[Number],
+    weights: NDArray[np.float64] | None = None,
+    lost: float = _LOST,
 ) -> Solution[Number]:
     """The smallest x for which `matrix @ x` is nearest to the target.
 
@@ -64,12 +67,13 @@ def solve(
         target: shape (readings,).
         weights: factors of the rows, shape (readings,): the sum of `|weight * residual|^2` becomes
             least. All 1 if not given.
+        lost: Singular values below this share of the largest count as zeros.
 
     Raises numpy's LinAlgError for figures that are not finite.
     """
     scale = np.ones(len(target)) if weights is None else weights
     u, s, vh = np.linalg.svd(scale[:, None] * matrix, full_matrices=False)
-    kept = s > _LOST * s[0]
+    kept = s > lost * s[0]
     inverse = (vh[kept].conj().T / s[kept]) @ u[:, kept].conj().T
     x = np.zeros_like(matrix, shape=matrix.shape[1])
     for _ in range(1 + _REFINEMENTS):

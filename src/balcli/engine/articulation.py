@@ -1,6 +1,4 @@
-"""Articulated rods: which cylinders hang on which master rod, where their knuckle pins are, and
-what does not fit together in [articulation].
-"""
+"""Articulated rods: the rules that [articulation] has to keep."""
 
 from __future__ import annotations
 
@@ -9,23 +7,23 @@ from typing import cast
 
 import numpy as np
 
-from ..core.cylinders import Cylinders
 from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
 from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Figure
 from ..errors import Problem
 from ..file.fields import counted
-from ..file.model import Articulation, EngineFile
+from ..file.model import EngineFile
 from ..limits import NEAREST_TO_LOCK
 from .layout import Plan
 from .parts import Parts
 
 
-# ------------------------------------------------------------------ what does not fit together
-def check_articulation(parts: Parts, articulation: Articulation) -> Iterator[Problem]:
-    """Find what contradicts [articulation]: a master rod without a place, knuckle angles that do
-    not fit, crank pins of articulated rods.
+def check_articulation(parts: Parts) -> Iterator[Problem]:
+    """Check that articulated rods have a master rod on their throw, one knuckle angle for each
+    bank, and no crank pins of their own.
     """
+    if (articulation := parts.model.articulation) is None:
+        return
     if fault := _find_no_place(articulation.master, parts.plan):
         yield fault
         return
@@ -38,7 +36,7 @@ def check_articulation(parts: Parts, articulation: Articulation) -> Iterator[Pro
             "leave splay out, or [articulation]",
         )
     for number in parts.masters:
-        if parts.find_own(number).throw_deg is not None:
+        if parts.override(number, "throw") is not None:
             yield Problem(
                 f"cylinder.{number}.throw",
                 f"cylinder {number} has an articulated rod, which hangs on the "
@@ -47,7 +45,7 @@ def check_articulation(parts: Parts, articulation: Articulation) -> Iterator[Pro
 
 
 def _find_no_place(master: int, plan: Plan) -> Problem | None:
-    """Why there is no throw for a master rod and others, or no such bank."""
+    """Return the mistake if no throw carries a master rod and others, or the bank is missing."""
     banks = plan.banks
     needs = "needs a throw that carries the rods of several banks; this engine has"
     if banks < 2:
@@ -80,15 +78,13 @@ def _check_angles(angles_deg: Sequence[Figure], master: int, banks: int) -> Iter
         )
 
 
-def check_knuckles(
-    model: EngineFile, cylinders: Cylinders, numbers: Sequence[int]
-) -> Iterator[Problem]:
-    """Articulated cylinders whose rod cannot follow its knuckle pin all the way round.
-
-    Args:
-        model: the file of an engine with articulated rods, for the place of the figure.
-        cylinders, numbers: of that engine; of variants the worst counts.
+def check_knuckles(parts: Parts) -> Iterator[Problem]:
+    """Check that every articulated rod can follow its knuckle pin through a revolution, for the
+    worst of all variants.
     """
+    if parts.model.articulation is None:
+        return
+    cylinders, numbers = parts.cylinders, parts.numbers
     linkage = cast(Linkage, cylinders.linkage)
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     leans = _sample_leans(hung, cylinders.lam, cylinders.eps)
@@ -97,7 +93,7 @@ def check_knuckles(
         worst = int(leans[row].argmax())
         lean = leans[row, worst] + _rise_above(leans[row], worst)
         if hung.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
-            yield _lock(model, number, lean, (360 / STEPS * worst - turned[row]) % 360)
+            yield _lock(parts.model, number, lean, (360 / STEPS * worst - turned[row]) % 360)
 
 
 def _sample_leans(hung: Articulated, lam: Array, eps: Array) -> Array:
@@ -129,7 +125,9 @@ def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Prob
 
 
 def _rise_above(values: Array, top: int) -> float:
-    """How far a parabola through a sampled maximum (index `top`) and its neighbours rises above."""
+    """Return the height above a sampled maximum (index `top`) of the parabola through it and its
+    neighbours.
+    """
     before, at, after = values[top - 1], values[top], values[(top + 1) % len(values)]
     bend = 2 * at - before - after
     return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0

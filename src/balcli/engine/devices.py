@@ -8,14 +8,15 @@ import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
+from ..errors import InputError, Problem
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
-from .figures import AS_GIVEN, FileFigures, or_nothing, place_in_plane
+from .figures import AS_GIVEN, FileFigures, or_zero, place_in_plane
 
 
 def build_devices(
     model: EngineFile, figures: FileFigures, first_axis_deg: Figure
 ) -> Iterator[Device]:
-    """The devices of a file: its counterweights, shafts and sliders, in this order."""
+    """Yield the counterweights, shafts and sliders of a file, in this order, as `build_device`."""
     for path, table in model.tables():
         if isinstance(table, (Counterweight, Shaft, Slider)):
             yield build_device(table, first_axis_deg, figures, path)
@@ -27,13 +28,14 @@ def build_device(
     figures: FileFigures = AS_GIVEN,
     path: str = "",
 ) -> Device:
-    """One device, SI.
+    """Return one device, SI.
 
     Args:
-        table: what an engine file says, or would say, of it.
-        first_axis_deg: from which the angle of a counterweight counts: where cylinder 1's pin
-            points at crank angle 0. Those of others count from x.
-        figures, path: what varies, and the name of the table.
+        table: Table of an engine file.
+        first_axis_deg: Direction of cylinder 1's crank pin at crank angle 0, from which the angle
+            of a counterweight counts. The angles of other devices count from x.
+        figures: Figures of the file.
+        path: Dotted name of the table.
     """
     take = figures.take
     start = first_axis_deg if isinstance(table, Counterweight) else 0.0
@@ -53,9 +55,12 @@ def build_device(
 
 
 def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
-    """Mass x radius, kg m."""
+    """Mass x radius, kg m; InputError for one that is still to be fitted."""
+    if device.to_fit:
+        command = "run balcli balance FILE --write OUT, which puts a figure in its place"
+        raise InputError([Problem("", f'{path}.unbalance is "fit": {command}')])
     unbalance = figures.take_optional(f"{path}.unbalance", device.unbalance)
     if unbalance is not None:
         return unbalance / 1e6
-    mass = or_nothing(figures.take_optional(f"{path}.mass", device.mass))
-    return mass * or_nothing(figures.take_optional(f"{path}.radius", device.radius)) / 1e3
+    mass = or_zero(figures.take_optional(f"{path}.mass", device.mass))
+    return mass * or_zero(figures.take_optional(f"{path}.radius", device.radius)) / 1e3

@@ -1,11 +1,9 @@
-"""The figures of an engine file, some of which arrays of variants take the place of.
+"""Figures of an engine file, with arrays of variants in place of some.
 
-The model of a file stays what the file says. Whatever needs one of its figures asks here for it, by
-its dotted name (`crank.stroke`, `shaft.1.at.2`, `cylinder.3.rod_ratio`), and gets what the file
-says or what varies in its place, in the unit of the file.
-
-Figures that may vary, and their values for all cylinders as arrays: one row a cylinder, before
-any axes of variants.
+The model of a file stays as the file is. Every stage asks `FileFigures` for a figure by its dotted
+name (`crank.stroke`, `shaft.1.at.2`, `cylinder.3.rod_ratio`) and gets the figure of the file or the
+array that varies in its place, in the unit of the file. `column` makes arrays of the figures of all
+cylinders, one row a cylinder, before any axes of variants.
 """
 
 from __future__ import annotations
@@ -24,16 +22,16 @@ from ..file.table import FileTable
 
 
 class FileFigures:
-    """What to take for each figure of a file.
+    """Figures of a file, or of variants of it.
 
     Args:
-        varied: by dotted name, what takes the place of a figure. What the same table says otherwise
-            (`rod.length` beside `rod.ratio`) then counts as not given.
-        model: the file, if something varies.
+        varied: Arrays in place of figures, by dotted name. Keys of the same table that give such a
+            figure in another way (`rod.length` next to `rod.ratio`) count as not given.
+        model: Engine file; needed if something varies.
 
     Raises:
-        BalcliError: two figures vary that say the same; or only a part of what has to be given
-            together (a mass, where the file gives an unbalance).
+        BalcliError: Two figures vary that exclude each other; or only one varies of several that
+            belong together (a mass, where the file gives an unbalance).
     """
 
     def __init__(
@@ -43,19 +41,24 @@ class FileFigures:
         self._displaced = set(self._find_displaced(model)) if varied and model else set[str]()
 
     def take(self, path: str, given: float) -> Figure:
-        """A figure that is always there."""
+        """Return a figure that the file always has.
+
+        Args:
+            path: Dotted name.
+            given: Value in the file.
+        """
         return self._varied.get(path, given)
 
     def take_optional(self, path: str, given: float | None) -> Figure | None:
-        """A figure that may not be there."""
+        """Return a figure that the file may leave out; None if so."""
         return None if path in self._displaced else self._varied.get(path, given)
 
     def take_each(self, path: str, given: Sequence[float]) -> tuple[Figure, ...]:
-        """All members of a list, which vary one by one (`crank.throws.2`)."""
+        """Return all members of a list, which vary one by one (`crank.throws.2`)."""
         return tuple(self._varied.get(f"{path}.{k}", value) for k, value in enumerate(given, 1))
 
     def of_table(self, start: str) -> dict[str, Figure]:
-        """What varies of a table's own figures, by their keys."""
+        """Return the figures of a table that vary, by their keys."""
         return {
             path[len(start) + 1 :]: value
             for path, value in self._varied.items()
@@ -63,11 +66,11 @@ class FileFigures:
         }
 
     def is_displaced(self, path: str) -> bool:
-        """Whether a figure, list or table of the file counts as not given."""
+        """Return whether a figure, list or table of the file counts as not given."""
         return path in self._displaced
 
     def cylinder_tables(self, model: EngineFile) -> dict[int, Override]:
-        """Tables of single cylinders, with an empty one where only variants say something."""
+        """Return the tables of single cylinders; empty ones where only variants name them."""
         if not self._varied:
             return model.cylinder
         parts = [path.split(".") for path in self._varied]
@@ -88,7 +91,7 @@ class FileFigures:
 def _find_rivals(
     start: str, key: str, table: FileTable, varied: Mapping[str, Figure]
 ) -> Iterator[str]:
-    """Names of what else a table (at `start`) gives that says the same as its varying `key`."""
+    """Yield names of other keys in a table (at `start`) that exclude its varying `key`."""
     for other in varied:
         if any(f"{other}.".startswith(f"{start}.{rival}.") for rival in table.rivals(key)):
             raise BalcliError(f"{start}.{key} and {other} say the same; vary one of them")
@@ -110,14 +113,14 @@ AS_GIVEN = FileFigures()  # nothing varies
 
 # ------------------------------------------------------------------ rods and single cylinders
 class PendulumTest(NamedTuple):
-    """A pendulum test of a rod: the bore about which it swings, and the period, s."""
+    """Pendulum test of a rod: the bore about which it swings, and the period, s."""
 
     pivot: str
     period: Figure
 
 
 class RodFigures(NamedTuple):
-    """What is said of a rod, m, kg, kg m2; None: nothing. The fields are the keys of [rod]."""
+    """Figures of a rod by the keys of [rod], in m, kg, kg m2; None where the file gives none."""
 
     length: Figure | None = None
     ratio: Figure | None = None
@@ -130,15 +133,15 @@ class RodFigures(NamedTuple):
 
     @property
     def given(self) -> dict[str, Figure | PendulumTest]:
-        """What is said, by key."""
+        """Figures that the file gives, by key."""
         return {key: value for key, value in self._asdict().items() if value is not None}
 
     def length_for(self, radius: Figure) -> Figure:
-        """Its length, m: as given, or by its ratio to the crank radius; one of them is there."""
+        """Return the length, m, as given or by its ratio to the crank radius (m)."""
         return self.length if self.length is not None else radius / cast(Figure, self.ratio)
 
     def with_own(self, own: RodFigures) -> RodFigures:
-        """With what is said of one cylinder's rod; that displaces what says the same otherwise."""
+        """Return the figures with those of one cylinder in place of them and of their rivals."""
         if not (said := own.given):
             return self
         rivals = {rival for choice in Rod.choices for key in said for rival in choice.rivals(key)}
@@ -146,48 +149,41 @@ class RodFigures(NamedTuple):
         return self._replace(**changes)
 
 
-class OwnFigures(NamedTuple):
-    """What is said of one cylinder alone: kg, m, deg, its place along the crank in mm; or None."""
-
-    piston_mass: Figure | None = None
-    piston_offset: Figure | None = None
-    rod: RodFigures = RodFigures()
-    bank_deg: Figure | None = None
-    throw_deg: Figure | None = None
-    position_mm: Figure | None = None
-
-
-NOTHING = OwnFigures()
 _SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors of keys of [rod]
 
 
-def either(own: Figure | None, general: Figure) -> Figure:
-    """What is said of one cylinder, or else what holds for all."""
+def value_or(own: Figure | None, general: Figure) -> Figure:
+    """Return the figure of one cylinder, or else the figure for all."""
     return general if own is None else own
 
 
-def or_nothing(figure: Figure | None) -> Figure:
-    """A figure, or 0 where nothing is said of it."""
+def or_zero(figure: Figure | None) -> Figure:
+    """Return a figure, or 0 without one."""
     return 0.0 if figure is None else figure
 
 
-def over(figure: Figure | None, divisor: float) -> Figure | None:
-    """A figure in another unit, if there is one."""
+def divide(figure: Figure | None, divisor: float) -> Figure | None:
+    """Return a figure divided by a number; None without a figure."""
     return None if figure is None else figure / divisor
 
 
 def rod_figures(
     figures: FileFigures, table: Rod | Override, path: str = "rod", prefix: str = ""
 ) -> RodFigures:
-    """What a table of this name says of rods: [rod], that of articulated rods, or that of one
-    cylinder, where keys have a prefix.
+    """Return the figures of rods in [rod], in the table of articulated rods or of one cylinder.
+
+    Args:
+        figures: Figures of the file.
+        table: The table.
+        path: Dotted name of the table.
+        prefix: Prefix of its keys, `rod_` in tables of single cylinders.
     """
 
     def take(key: str) -> Figure | None:
         return figures.take_optional(f"{path}.{prefix}{key}", getattr(table, prefix + key))
 
     given: dict[str, Any] = {
-        key: over(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]
+        key: divide(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]
     }
     pendulum = getattr(table, f"{prefix}pendulum")
     if pendulum is not None and not figures.is_displaced(f"{path}.{prefix}pendulum"):
@@ -196,31 +192,20 @@ def rod_figures(
     return RodFigures(**given)
 
 
-def own_figures(figures: FileFigures, number: int, own: Override) -> OwnFigures:
-    """What the table of one cylinder says."""
-    path, take = f"cylinder.{number}", figures.take_optional
-    return OwnFigures(
-        piston_mass=take(f"{path}.piston_mass", own.piston_mass),
-        piston_offset=over(take(f"{path}.piston_offset", own.piston_offset), 1e3),
-        rod=rod_figures(figures, own, path, "rod_"),
-        bank_deg=take(f"{path}.bank", own.bank),
-        throw_deg=take(f"{path}.throw", own.throw),
-        position_mm=take(f"{path}.position", own.position),
-    )
-
-
 _ROUNDING = 1e-9  # share of the largest by which rounding may set equal values apart
 
 
 def place_in_plane(x: Figure, y: Figure) -> complex | Complex:
-    """x + iy."""
+    """Return x + iy."""
     return cast("complex | Complex", x + 1j * y)
 
 
 def column(values: Sequence[Figure], rank: int) -> Array:
-    """One row for each of the values, shape (len(values), *trailing).
+    """Return one row for each of the values, shape (len(values), *trailing).
 
-    The values broadcast against each other; plain numbers get `rank` trailing axes of length 1.
+    Args:
+        values: Numbers or arrays, which broadcast against each other.
+        rank: Number of trailing axes, of length 1, for plain numbers.
     """
     if any(isinstance(value, np.ndarray) for value in values):
         rows: Array = np.stack(np.broadcast_arrays(*values)) + 0.0  # in place: -0.0 becomes 0.0
@@ -230,14 +215,14 @@ def column(values: Sequence[Figure], rank: int) -> Array:
 
 
 def shared_column(values: Sequence[Figure], rank: int) -> Array:
-    """The same, or a single row, shape (1, *trailing), where all values are equal."""
+    """Return the `column` of values, or a single row, shape (1, *trailing), if all are equal."""
     rows = column(values, rank)
     return rows[:1] if len(rows) > 1 and (rows == rows[:1]).all() else rows
 
 
 def find_first_largest(values: ArrayLike) -> NDArray[np.intp]:
-    """Row of the largest of some values (rows, ...), shape (...); of those that rounding alone sets
-    apart the first.
+    """Return the row of the largest of values (rows, ...), shape (...); the first of those that
+    differ by rounding alone.
     """
     found = np.asarray(values, float)
     largest = found.max(axis=0)
@@ -245,8 +230,8 @@ def find_first_largest(values: ArrayLike) -> NDArray[np.intp]:
 
 
 def ranked(values: ArrayLike) -> Array:
-    """The values to ten digits, any shape, to put them in order by: those that differ by rounding
-    alone are equal.
+    """Return values, of any shape, rounded to ten digits as a key to sort by: values that differ by
+    rounding alone are equal.
     """
     mantissa, exponent = np.frexp(np.asarray(values, float))
     return np.ldexp(np.round(mantissa, 10), exponent)

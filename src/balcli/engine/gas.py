@@ -1,4 +1,4 @@
-"""Gas in an engine's cylinders: which torque it makes in each, and when each fires.
+"""Gas in an engine's cylinders: torque over the cycle, and firing angle, of each.
 
 The cycle angle of a cylinder is 0 at the upper dead centre of its own mechanism next to which it
 fires; which of the two revolutions of a four-stroke cycle that is, the firing order says.
@@ -21,14 +21,14 @@ class CylinderGas(NamedTuple):
     """Gas of one cylinder.
 
     Attributes:
-        piston: its mechanism, with the area of the bore.
-        torque: by cycle angle, without the share.
-        nominal_deg: crank angle, in [0, 720) or [0, 360), at which its crank pin stands along its
-            axis when it fires.
-        share: by which the gas force is multiplied; 0 is a misfire.
-        heat: supplied in a computed cycle, J, where the file says so.
-        like: row of the first cylinder with an equal mechanism, the same diagram and the same heat:
-            what they have but for `nominal_deg` and `share` is equal.
+        piston: Mechanism, with the area of the bore.
+        torque: Torque by cycle angle, without the share.
+        nominal_deg: Crank angle, in [0, 720) or [0, 360), at which the crank pin points along the
+            axis of the cylinder when it fires.
+        share: Factor of the gas force; 0 is a misfire.
+        heat: Heat supplied in a computed cycle, J; None where the file gives none.
+        like: Row of the first cylinder with an equal mechanism, diagram and heat. The two differ
+            at most in `nominal_deg` and `share`.
     """
 
     piston: GasPiston
@@ -44,11 +44,11 @@ class CylinderGas(NamedTuple):
         return math.radians(self.nominal_deg) + self.piston.top
 
     def find_pressure(self, angle: Array) -> Array:
-        """Return the pressure that counts at cycle angles (rad), Pa: that under the piston, and the
-        share of what is above it.
+        """Return the effective pressure at cycle angles (rad), Pa: the pressure under the piston
+        and the share of the pressure difference.
 
         Raises:
-            BalcliError: The file has harmonics of the torque.
+            BalcliError: The file gives harmonics of the torque, and no pressures.
         """
         if self.torque.pressure is None:
             raise BalcliError("the file has harmonics of the torque, and no pressures")
@@ -61,11 +61,11 @@ class EngineGas:
     """Gas of an engine.
 
     Attributes:
-        cylinders: one for each row of `Engine.cylinders`.
-        cycle_deg: 720, or 360 of a two-stroke engine.
-        mechanical_efficiency: brake over indicated work; None: not known.
-        compression_ratio: None where the file does not say.
-        doubts: what is suspicious of the file, in words, each by its path.
+        cylinders: Gas of each row of `Engine.cylinders`.
+        cycle_deg: Length of a cycle: 720, or 360 for a two-stroke engine.
+        mechanical_efficiency: Brake work over indicated work; None where the file gives none.
+        compression_ratio: Compression ratio; None where the file gives none.
+        doubts: Warnings, each with its path in the file.
     """
 
     cylinders: tuple[CylinderGas, ...]
@@ -81,23 +81,23 @@ class EngineGas:
 
     @property
     def fires(self) -> Array:
-        """`CylinderGas.fires` of each, rad, shape (cylinders,)."""
+        """Firing dead centre of each cylinder, rad, shape (cylinders,)."""
         return np.array([cylinder.fires for cylinder in self.cylinders])
 
     @property
     def shares(self) -> Array:
-        """`CylinderGas.share` of each, shape (cylinders,)."""
+        """Factor of each cylinder's gas force, shape (cylinders,)."""
         return np.array([cylinder.share for cylinder in self.cylinders])
 
     def group_equal(self) -> list[tuple[GasTorque, list[int]]]:
-        """Return each torque with the rows of the equal cylinders that have it."""
+        """Return each torque with the rows of the cylinders that have it."""
         rows: dict[int, list[int]] = {}
         for row, cylinder in enumerate(self.cylinders):
             rows.setdefault(cylinder.like, []).append(row)
         return [(self.cylinders[first].torque, own) for first, own in rows.items()]
 
     def without_share_of(self, row: int) -> EngineGas:
-        """Return the gas of the engine where that of the cylinder in one row does nothing."""
+        """Return the gas of the engine with a misfire of the cylinder in a row."""
         changed = list(self.cylinders)
         changed[row] = changed[row]._replace(share=0.0)
         return replace(self, cylinders=tuple(changed))

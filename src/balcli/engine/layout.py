@@ -1,15 +1,13 @@
-"""Which cylinders an engine has: banks x throws -> numbered cylinders.
+"""Plan of an engine, and its firing order on the crank.
 
-Whether an engine file says where its throws stand along the crank.
+Plan: banks x throws -> numbered cylinders.
 
-Firing order <-> crank throws (docs/theory.md).
-
-Cylinder i is at top dead centre when its crank angle is `tau_i`, `sin tau_i = e_i / (r + l_i)`;
-firing at `f_i` after cylinder 1 it needs its crank pin at `g_i - g_1 + tau_i - tau_1 - f_i`. Angles
-in degrees; they may be arrays of variants. By number of the cylinder: `fires` when each fires,
-`pins` where its crank pin stands, `tops` where the pin stands when it is at top dead centre, `g_i +
-tau_i`. `sense` is -1 where the cylinders turn and the pins stand still, and `tops` then `g_i -
-tau_i`.
+Firing (docs/theory.md): cylinder i is at top dead centre when its crank angle is `tau_i`, with `sin
+tau_i = e_i / (r + l_i)`. To fire at `f_i` after cylinder 1 it needs its crank pin at `g_i - g_1 +
+tau_i - tau_1 - f_i`, g the axis of the cylinder. In the functions below, angles are in degrees and
+may be arrays of variants, and by number of the cylinder: `fires` when each fires, `pins` where its
+crank pin stands, `tops` where the pin stands at top dead centre, `g_i + tau_i`. `sense` is -1 where
+the cylinders turn and the pins stand still; `tops` is then `g_i - tau_i`.
 """
 
 from __future__ import annotations
@@ -31,7 +29,7 @@ from .figures import FileFigures
 
 
 class Cell(NamedTuple):
-    """One cylinder: on which bank and which throw (from 0), and its number."""
+    """One cylinder: its bank and throw, counted from 0, and its number."""
 
     bank: int
     throw: int
@@ -39,13 +37,13 @@ class Cell(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """All cylinders.
+    """All cylinders of an engine.
 
     Attributes:
-        banks: how many there are.
-        throws: how many the crank has.
-        cells: the cylinders, sorted by bank and throw.
-        rods_on_throw: how many each throw carries.
+        banks: Number of banks.
+        throws: Number of throws.
+        cells: The cylinders, sorted by bank and throw.
+        rods_on_throw: Number of rods on each throw.
     """
 
     banks: int
@@ -59,11 +57,10 @@ class Plan(NamedTuple):
 
 
 def plan_cylinders(model: EngineFile) -> Plan:
-    """The cylinders of an engine.
+    """Return the cylinders of an engine.
 
     Raises:
-        InputError: all of: positions, numbering or firing order that do not fit the throws and
-        banks.
+        InputError: Positions, numbering or firing order do not fit the throws and banks.
     """
     crank, layout = model.crank, model.layout
     banks = count_banks(layout)
@@ -90,14 +87,16 @@ def plan_cylinders(model: EngineFile) -> Plan:
 
 
 def count_banks(layout: Layout) -> int:
-    """How many banks there are."""
+    """Return the number of banks."""
     if layout.bank_angle is not None:
         return 2
     return layout.radial or len(layout.banks or (0.0,))
 
 
 def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
-    """Angle of each bank from x, deg: a vee lies symmetrical to x, a radial begins on it."""
+    """Return the angle of each bank from x, deg. A vee is symmetrical to x; the first bank of a
+    radial engine is on x.
+    """
     angle = figures.take_optional("layout.bank_angle", layout.bank_angle)
     if angle is not None:
         return -angle / 2, angle / 2
@@ -107,12 +106,12 @@ def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
 
 
 def cycle_deg(layout: Layout) -> float:
-    """Degrees from one firing of a cylinder to its next."""
+    """Return the crank angle from one firing of a cylinder to its next, deg."""
     return TURN * layout.strokes / 2
 
 
 def _count_throws(crank: Crank, layout: Layout, rods: int) -> int:
-    """Number of throws, with so many rods on each: given, or as the firing order needs it."""
+    """Return the number of throws: as given, or for the firing order with `rods` on each."""
     if crank.throws is not None:
         return len(crank.throws)
     cylinders = len(layout.firing_order or ())
@@ -126,7 +125,7 @@ def _count_throws(crank: Crank, layout: Layout, rods: int) -> int:
 
 
 def _refuse_too_many(throws: int, banks: int, shared: bool) -> None:
-    """Banks x throws of a short file can be more cylinders than there is memory for."""
+    """Raise InputError for more cylinders (banks x throws) than there is memory for."""
     if max(banks, throws, throws * banks * shared) <= MOST_PARTS:
         return
     message = (
@@ -148,8 +147,8 @@ def _check_positions(crank: Crank, throws: int) -> Iterator[Problem]:
 def _number_cylinders(
     layout: Layout, places: Sequence[tuple[int, int]], banks: int
 ) -> tuple[list[int], list[Problem]]:
-    """Number of the cylinder at each place (bank, throw), as given for each bank or counted
-    through; and what is wrong with those given.
+    """Return the number of the cylinder at each place (bank, throw), as given or counted through
+    bank by bank; and the mistakes in those given.
     """
     default = list(range(1, len(places) + 1))
     if layout.numbering is None:
@@ -172,9 +171,8 @@ def _number_cylinders(
 def _check_firing_order(
     model: EngineFile, numbers: Sequence[int], throws: int
 ) -> Iterator[Problem]:
-    """Every cylinder stands in the firing order once; dummies, which have no gas, may be left out.
-    Where the order has one cylinder for each throw, and banks share the throws, the mistake says
-    how they do not.
+    """Check that the firing order has every cylinder once; dummies, which have no gas, may be left
+    out. If it has one cylinder for each throw, the message proposes one rod a throw.
     """
     layout, order = model.layout, model.layout.firing_order
     silent = {number for number, own in model.cylinder.items() if own.gas == 0}
@@ -195,7 +193,7 @@ def _check_firing_order(
 
 
 def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
-    """Which of the numbers wanted are missing or doubled, and which are unknown."""
+    """Return in words which of the wanted numbers are missing or doubled, and which are unknown."""
     times = Counter(given)
     doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
     parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
@@ -209,15 +207,18 @@ def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
 
 
 def _join(numbers: Sequence[int]) -> str:
-    """`1 and 2`, `1, 2, 3`."""
+    """Return `1 and 2`, or `1, 2, 3`."""
     return " and ".join(map(str, numbers)) if len(numbers) < 3 else ", ".join(map(str, numbers))
 
 
 def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()) -> bool:
-    """Whether the file says where the throws stand along the crank (of one throw it need not).
+    """Return whether the file gives the positions of the throws along the crank; a single throw
+    needs none.
 
     Args:
-        varied: names of figures that vary, and so are said, too.
+        model: Engine file.
+        plan: Its cylinders.
+        varied: Names of figures that vary, which thus are given as well.
     """
     crank = model.crank
     said = crank.spacing is not None or crank.positions is not None or "crank.spacing" in varied
@@ -232,8 +233,12 @@ TOLERANCE_DEG = 1.0
 def find_instants(
     order: Sequence[int], intervals: Sequence[Figure] | None, cycle: float
 ) -> dict[int, Figure]:
-    """Angle at which each cylinder of a firing order fires, after the first; evenly over the cycle
-    if no intervals (from each firing to the next) are given.
+    """Return the angle at which each cylinder fires, after the first, by its number.
+
+    Args:
+        order: Firing order, numbers of cylinders.
+        intervals: Angles from each firing to the next, deg; None for even firing.
+        cycle: Length of a cycle, deg.
     """
     if intervals is None:
         return {number: cycle * k / len(order) for k, number in enumerate(order)}
@@ -243,7 +248,7 @@ def find_instants(
 def find_pins(
     fires: Mapping[int, Figure], tops: Mapping[int, Figure], sense: int
 ) -> dict[int, Array]:
-    """Crank pin that each cylinder needs, after that of `find_first`, in [0, 360)."""
+    """Return the crank pin that each cylinder needs, from that of `find_first`, in [0, 360)."""
     first = find_first(fires)
     return {
         i: np.remainder((tops[i] - tops[first]) - sense * (f - fires[first]), 360.0)
@@ -259,14 +264,19 @@ def find_first(fires: Mapping[int, Figure]) -> int:
 
 
 def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: float) -> list[float]:
-    """Intervals of a firing order on a given crank: from each firing to the next, the shortest that
-    the dead centres (`find_dead_centres`) allow.
+    """Return the intervals of a firing order on a given crank, from each firing to the next: the
+    shortest that the dead centres (`find_dead_centres`) allow.
 
-    Turns that are left over (an even parallel twin fires after 360 and 360 degrees, its pins only
-    say 0) go to the intervals that become the least uneven by them, of equal ones to the last.
+    Turns that are left over (an even parallel twin fires after 360 and 360 degrees, but its pins
+    give 0) are added to the shortest intervals, of equal ones to the last.
+
+    Args:
+        order: Firing order, numbers of cylinders.
+        ready: Dead centre of each cylinder, deg.
+        cycle: Length of a cycle, deg.
 
     Raises:
-        InputError: the order takes more than a cycle.
+        InputError: The order takes more than a cycle.
     """
     following = [*order[1:], order[0]]
     intervals = [_to_whole_turn(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
@@ -282,8 +292,8 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
 def find_dead_centres(
     pins: Mapping[int, float], tops: Mapping[int, float], sense: int = 1
 ) -> dict[int, float]:
-    """Where the crank stands when each cylinder is at top dead centre, in [0, 360) after cylinder
-    1, whose pin the others are counted from.
+    """Return the crank angle at which each cylinder is at top dead centre, in [0, 360) from that
+    of cylinder 1; pins count from cylinder 1's.
     """
     return {
         i: float(np.remainder(sense * ((tops[i] - tops[1]) - pin), 360.0))
@@ -297,7 +307,7 @@ def check_firing(
     tops: Mapping[int, Figure],
     sense: int = 1,
 ) -> Iterator[Problem]:
-    """Find the first cylinder that is not at top dead centre when it fires; pins are counted from
+    """Yield the first cylinder that is not at top dead centre when it fires; pins count from
     cylinder 1's.
     """
     first = find_first(fires)
@@ -319,8 +329,8 @@ def check_firing(
 def _impossible(
     order: Sequence[int], ready: Mapping[int, float], total: float, cycle: float
 ) -> Problem:
-    """A firing order that takes longer than a cycle, and the first cylinder that would be late if
-    it fired evenly.
+    """Return the message for a firing order that takes longer than a cycle, with the first cylinder
+    that would be late if the engine fired evenly.
     """
     interval = cycle / len(order)
     off = np.array([ready[i] - ready[order[0]] - k * interval for k, i in enumerate(order)])
@@ -336,11 +346,11 @@ def _impossible(
 
 
 def _to_whole_turn(angle: float) -> float:
-    """The same angle in (0, 360]; what is within the tolerance of 0 is a whole turn."""
+    """Return an angle in (0, 360]; an angle within the tolerance of 0 is a whole turn."""
     turned = angle % 360
     return turned if turned > TOLERANCE_DEG else turned + 360
 
 
 def _centred(angle: Figure) -> Figure:
-    """The same angle in [-180, 180)."""
+    """Return an angle in [-180, 180)."""
     return np.remainder(angle + 180.0, 360.0) - 180.0

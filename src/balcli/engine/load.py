@@ -1,6 +1,4 @@
-"""Engine file -> engine: `load` and `load_example`, and engines of one file of which some figures
-vary, one after the other.
-"""
+"""Engines of a file: loaded, changed, or built for one variant after the other."""
 
 from __future__ import annotations
 
@@ -11,31 +9,32 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from ..core.vibration import Real
-from ..errors import naming_file, wrong_type
+from ..errors import InputError, naming_file, wrong_type
 from ..file.examples import text
 from ..file.model import EngineFile
-from ..file.plain_tables import take_tables
+from ..file.plain_tables import change_tables, take_tables
 from ..file.toml import name_file
-from .build import Engine, build
+from .build import build
+from .engine import Engine, take_model
 from .gas import EngineGas
-from .parse import parse, parse_tables
+from .parse import parse, parse_dict, parse_tables
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
 
 def load(source: str | Path | Mapping[str, Any]) -> Engine:
-    """The engine that a file, a text or a dict describes, ready to analyse.
+    """Return the engine that a file, a text or a dict describes.
 
     Args:
-        source: the path of an engine file, "-" for standard input; or its content: a text of
-            several lines (TOML), or a dict of its tables, such as `{"crank": {"stroke": 90},
-            "rod": {"length": 150}, "piston": {"mass": 0.5}}`. Bare numbers are mm, kg, degrees,
-            rpm; a text bears its own unit ("3.5 in"); None counts as not given.
+        source: Path of an engine file, "-" for standard input; or its content: a text of several
+            lines (TOML), or a dict of its tables, such as `{"crank": {"stroke": 90}, "rod":
+            {"length": 150}, "piston": {"mass": 0.5}}`. Bare numbers are mm, kg, degrees, rpm; a
+            text has its own unit ("3.5 in"); None counts as not given.
 
     Raises:
-        BalcliError: there is nothing to read.
-        InputError: every mistake of the file.
-        TypeError: the source is none of these.
+        BalcliError: The file cannot be read.
+        InputError: The file has mistakes; the error lists all of them.
+        TypeError: The source is none of these.
 
     Example:
         >>> engine = load("v8.toml")
@@ -44,11 +43,14 @@ def load(source: str | Path | Mapping[str, Any]) -> Engine:
 
 
 def build_tables(tables: Mapping[str, Any], name: str) -> Engine:
-    """The engine that the tables of a file describe; `name` is that of the file, beside which those
-    stand that it names, or empty.
+    """Return the engine that the tables of a file describe.
+
+    Args:
+        tables: Tables as `normalize_tables` returns them.
+        name: Name of their file, or empty; files that it names are in the same folder.
 
     Raises:
-        InputError: every mistake of the tables.
+        InputError: The tables have mistakes; the error lists all of them.
     """
     model = parse_tables(tables, name)
     with naming_file(name):
@@ -56,24 +58,25 @@ def build_tables(tables: Mapping[str, Any], name: str) -> Engine:
 
 
 def build_named(model: EngineFile, path: str | Path) -> Engine:
-    """The engine of a model from the file at a path ("-": standard input).
+    """Return the engine of a model from the file at a path ("-": standard input).
 
     Raises:
-        InputError: what does not fit together in this file.
+        InputError: The file has contradictions; the error lists them.
     """
     with naming_file(name_file(path)):
         return build(model)
 
 
 def load_example(name: str) -> Engine:
-    """One of the engines that come with balcli, ready to analyse.
+    """Return one of the example engines of balcli.
 
     Args:
-        name: as `balcli engines` lists it, such as "i4", "v8_crossplane" or "radial7_articulated".
+        name: Name in the list of `balcli engines`, such as "i4", "v8_crossplane" or
+            "radial7_articulated".
 
     Raises:
-        BalcliError: there is none of this name, with the nearest ones.
-        TypeError: the name is no text.
+        BalcliError: There is no such example; the error lists the nearest names.
+        TypeError: The name is no text.
 
     Example:
         >>> engine = load_example("v8_crossplane")
@@ -81,6 +84,38 @@ def load_example(name: str) -> Engine:
     if not isinstance(name, str):
         raise wrong_type("load_example", name, 'give the name of an example, such as "i4"')
     return build(parse(text(name), name))
+
+
+# ------------------------------------------------------------------ variants of an engine
+_NO_FIRING_ORDER: dict[str, Any] = {"layout.firing_order": None, "layout.firing_intervals": None}
+
+
+def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
+    """Return the engine of the same file with other values of some keys, by dotted names; errors as
+    for `Engine.vary`.
+    """
+    for path in changes:
+        if not isinstance(path, str):
+            raise wrong_type("vary", path, 'name a key of the engine file, such as "rod.length"')
+    model = take_model(engine)
+    name = f"{engine.name or 'engine'} with {', '.join(changes)}"
+
+    def build_with(changes: Mapping[str, Any]) -> Engine:
+        with naming_file(name):
+            return build(parse_dict(change_tables(model, changes), model.folder))
+
+    try:
+        return build_with(changes)
+    except InputError as error:
+        needed = model.crank.throws is None or model.gas is not None
+        named = _NO_FIRING_ORDER.keys() & changes.keys()
+        if needed or named or model.layout.firing_order is None:
+            raise
+        mistakes = error
+    try:
+        return build_with(_NO_FIRING_ORDER | {**changes})
+    except InputError:
+        raise mistakes from None
 
 
 _WHOLE = frozenset({"gas", "layout", "articulation"})  # tables all of whose figures count
@@ -95,7 +130,7 @@ _OF_CYLINDER = frozenset(
 
 
 def concerns_gas(path: str) -> bool:
-    """Whether the gas torque of some cylinder depends on a figure, by its dotted name."""
+    """Return whether the gas torque of a cylinder depends on a figure, by its dotted name."""
     table, _, key = path.partition(".")
     if table == "cylinder":
         return key.partition(".")[2] in _OF_CYLINDER
@@ -122,11 +157,11 @@ def choose_speeds(
 
 
 class EngineVariants:
-    """Builds variants of an engine; what their figures do not change is not built again: the same
-    engine, or the gas of one that has other masses, or runs at another speed.
+    """Builds variants of an engine one by one, and keeps the last ones: a variant that returns is
+    not built again, nor the gas of one that has only other masses or another speed.
 
     Args:
-        model: the file.
+        model: Engine file.
     """
 
     def __init__(self, model: EngineFile) -> None:
@@ -135,10 +170,10 @@ class EngineVariants:
         self._gas: dict[Values, EngineGas | None] = {}
 
     def build(self, values: Mapping[str, float]) -> Engine:
-        """The engine with these figures, by dotted name, in place of the file's.
+        """Return the engine with these figures, by dotted name, in place of the file's.
 
         Raises:
-            InputError, BalcliError: it cannot be.
+            InputError, BalcliError: No engine can have these figures.
         """
         of_gas = tuple((path, value) for path, value in values.items() if concerns_gas(path))
 
@@ -154,8 +189,9 @@ class FiguresOfVariants(Generic[Asked]):
     """Evaluates quantities of variants of a file one by one.
 
     Args:
-        evaluate: the value of each quantity of one engine.
-        model: whose engine has what they are of.
+        evaluate: Function of an engine and quantities to the value of each.
+        model: Engine file.
+        quantities: Quantities that the engine has.
     """
 
     def __init__(
@@ -168,16 +204,16 @@ class FiguresOfVariants(Generic[Asked]):
         self._engines = EngineVariants(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """The value of each quantity for one variant, by the figures that vary.
+        """Return the value of each quantity for one variant, by the figures that vary.
 
         Raises:
-            InputError, BalcliError: it cannot be, or what is asked of it is not known.
+            InputError, BalcliError: No engine can have these figures, or a quantity is not known.
         """
         return self._evaluate(self._engines.build(values), self._quantities)
 
 
 def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:
-    """What is known under a key, or is now made; all is forgotten when there is much of it."""
+    """Return the value of a key, made if it is new; the cache is emptied when it is full."""
     found = known.get(key)
     if found is None:
         found = make()

@@ -59,26 +59,26 @@ def list_tiers(plan: Plan, *, radial: bool) -> Iterator[list[Rows]]:
     """Yield the usual numberings of an engine, tier by tier, the most usual first.
 
     Args:
-        plan: banks and throws.
-        radial: whether the banks stand evenly round the crank.
+        plan: Banks and throws.
+        radial: Whether the banks are evenly spaced round the crank.
     """
     bank_by_bank = _number_rows(plan, plan.cells)
     if radial:
-        yield _distinct([bank_by_bank, (bank_by_bank[0], *reversed(bank_by_bank[1:]))])
+        yield [bank_by_bank, (bank_by_bank[0], *reversed(bank_by_bank[1:]))]
         return
     along = _number_rows(plan, sorted(plan.cells, key=lambda c: (c.throw, c.bank)))
     if plan.banks > 2:
         from_last_bank = _number_rows(plan, sorted(plan.cells, key=lambda c: (c.throw, -c.bank)))
-        yield _distinct([bank_by_bank, along, from_last_bank])
+        yield [bank_by_bank, along, from_last_bank]
         return
     usual, shared = [bank_by_bank, along], plan.rods_on_throw > 1
     equal = usual if len(bank_by_bank[0]) == len(bank_by_bank[1]) else []
     exchanged = [(b, a) for a, b in equal]
     second_backwards = [(a, b[::-1]) for a, b in usual]
     either_first = [(b[::-1], a) for a, b in equal]
-    yield _distinct([*usual, *(exchanged if shared else ())])
-    yield _distinct([*second_backwards, *either_first, *(() if shared else exchanged)])
-    yield _distinct([(a[::-1], b[::-1]) for a, b in (*usual, *exchanged)])
+    yield [*usual, *(exchanged if shared else ())]
+    yield [*second_backwards, *either_first, *(() if shared else exchanged)]
+    yield [(a[::-1], b[::-1]) for a, b in (*usual, *exchanged)]
 
 
 def _number_rows(plan: Plan, cells: Sequence[Cell]) -> Rows:
@@ -88,21 +88,17 @@ def _number_rows(plan: Plan, cells: Sequence[Cell]) -> Rows:
     return tuple(tuple(numbers[c] for c in plan.cells if c.bank == bank) for bank in banks)
 
 
-def _distinct(numberings: Iterable[Rows]) -> list[Rows]:
-    return list(dict.fromkeys(numberings))
-
-
 # ------------------------------------------------------------------ engines that a file may mean
 @dataclass
 class Candidate:
     """An engine that a file may mean.
 
     Attributes:
-        model: the file with `layout.numbering` and, where these make it fit, other firing
+        model: The file with `layout.numbering` and, where these make it fit, other firing
             intervals or another splay.
-        numberings: numberings of this engine; the first one is that of `model`.
-        change: the other key that makes it fit, with its value; may be empty.
-        splay: the other splay, deg; 0 without.
+        numberings: Numberings of this engine; the first one is that of `model`.
+        change: The other key that makes it fit, with its value; may be empty.
+        splay: The other splay, deg; 0 without.
     """
 
     model: EngineFile
@@ -112,7 +108,7 @@ class Candidate:
 
     @cached_property
     def parts(self) -> Parts:
-        """The engine, part by part."""
+        """Stages of the engine."""
         return Parts(self.model)
 
     def fits(self, least_interval: float = 0.0) -> bool:
@@ -138,8 +134,8 @@ class Candidate:
 
     @cached_property
     def balance(self) -> tuple[Phasors, Phasors]:
-        """Free force (N) and moment (N m) of orders 1 and 2 at the speed of the file; where it does
-        not say how far apart the throws are, moments are those of throws 0.1 m apart.
+        """Free force (N) and moment (N m) of orders 1 and 2 at the speed of the file; for throws
+        0.1 m apart where the file gives no spacing.
         """
         model, orders = self.model, np.array([1.0, 2.0])
         if not self._knows_places:
@@ -237,13 +233,13 @@ def _list_gaps(parts: Parts) -> list[float]:
 # ------------------------------------------------------------------ the rules
 def is_open(parts: Parts) -> bool:
     """Return whether the file leaves open which cylinder has which number: it has several banks, a
-    firing order and no numbering, and gives no cylinder a place of its own.
+    firing order and no numbering, and gives no cylinder a bank or throw of its own.
     """
     layout = parts.model.layout
     own = parts.model.cylinder.values()
-    free = any(c.bank is not None or c.throw is not None or c.position is not None for c in own)
+    free = any(c.bank is not None or c.throw is not None for c in own)
     unsaid = layout.numbering is None and parts.order is not None and not free
-    return unsaid and not parts.varies and parts.plan.banks > 1
+    return unsaid and parts.plan.banks > 1
 
 
 def infer_numbering(model: EngineFile) -> EngineFile:
@@ -267,9 +263,13 @@ def infer_numbering(model: EngineFile) -> EngineFile:
 
 
 def check_numbering(parts: Parts) -> Iterator[Problem]:
-    """Find a firing order that does not fit the crank, or that could mean several engines."""
+    """Find a firing order that does not fit the crank, or that could mean several engines; which
+    engine is meant does not depend on what varies.
+    """
     missed = find_missed(parts)
-    if not is_open(parts):
+    if is_open(parts):
+        parts = Parts(parts.model) if parts.varies and not parts.throws_given else parts
+    else:
         yield from (p._replace(message=p.message + _suggest(parts)) for p in missed)
         return
     if parts.throws_given and not missed:
@@ -313,7 +313,9 @@ def find_engines_meant(parts: Parts) -> tuple[list[Candidate], int]:
 
 
 def _number(model: EngineFile, tier: Iterable[Rows]) -> list[Candidate]:
-    return [Candidate(model.with_table("layout", numbering=rows), [rows]) for rows in tier]
+    """Return an engine for each numbering of a tier, each once."""
+    numberings = dict.fromkeys(tier)
+    return [Candidate(model.with_table("layout", numbering=rows), [rows]) for rows in numberings]
 
 
 def _split_pins(one: Candidate) -> Iterator[Candidate]:

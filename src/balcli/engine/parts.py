@@ -24,16 +24,13 @@ from ..core.speed_ripple import RippleLine
 from ..errors import InputError, Problem
 from ..file.model import ONE_BY_ONE, Articulation, EngineFile
 from .figures import (
-    NOTHING,
     FileFigures,
-    OwnFigures,
     RodFigures,
     column,
-    either,
-    or_nothing,
-    own_figures,
+    or_zero,
     rod_figures,
     shared_column,
+    value_or,
 )
 from .layout import (
     Cell,
@@ -46,7 +43,7 @@ from .layout import (
     find_pins,
     plan_cylinders,
 )
-from .rods import RodPlace, RunningGear, Weighed, weigh_rod
+from .rods import CylinderMasses, RodPlace, RunningGear, weigh_rod
 
 if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Linkage
@@ -97,7 +94,7 @@ def set_pins(parts: Parts) -> Pins:
     """Return axes, dead centres, throws and crank pins."""
     model, figures, cells = parts.model, parts.figures, parts.plan.cells
     banks = bank_angles(model.layout, figures)
-    axes = {c.number: either(parts.find_own(c.number).bank_deg, banks[c.bank]) for c in cells}
+    axes = {c.number: value_or(parts.override(c.number, "bank"), banks[c.bank]) for c in cells}
     tops = axes
     if model.articulation is None:
         gears, radius = parts.gears, parts.radius
@@ -114,7 +111,7 @@ def set_pins(parts: Parts) -> Pins:
             told = f"no firing order says where the throw of dummy piston {silent[0]} stands"
             raise InputError([Problem.of_missing("crank.throws", told)])
     pins = {
-        c.number: either(parts.find_own(c.number).throw_deg, throws[c.throw] + c.bank * splay)
+        c.number: value_or(parts.override(c.number, "throw"), throws[c.throw] + c.bank * splay)
         for c in cells
     }
     return Pins(axes, tops, throws, {number: pin - pins[1] for number, pin in pins.items()})
@@ -150,7 +147,7 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
     return find_instants(parts.order, intervals, cycle)
 
 
-def weigh_cylinders(parts: Parts) -> dict[int, Weighed]:
+def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
     """Return the masses of each cylinder as a workshop weighs them."""
     take, bobweight = parts.figures.take, parts.model.bobweight
     share = take("crank.throw_mass", parts.model.crank.throw_mass) / parts.plan.rods_on_throw
@@ -160,9 +157,9 @@ def weigh_cylinders(parts: Parts) -> dict[int, Weighed]:
     piston, weighed = tuple(parts.find_piston_masses().items()), {}
     for cell in parts.plan.cells:
         number, hung = cell.number, cell.number in parts.masters
-        gear, own = parts.gears[number], parts.find_own(number).piston_mass
+        gear, own = parts.gears[number], parts.override(number, "piston_mass")
         shared = 0.0 if hung or oil_per_pin is None else oil_per_pin / _count_on_pin(parts, cell)
-        weighed[number] = Weighed(
+        weighed[number] = CylinderMasses(
             cell.throw,
             piston=gear.piston,
             piston_parts=piston if own is None else (("mass", own),),
@@ -170,7 +167,7 @@ def weigh_cylinders(parts: Parts) -> dict[int, Weighed]:
             big_end=gear.big_end,
             share=share,
             rod_bearing=0.0 if hung else rod_bearing,
-            oil=0.0 if hung else or_nothing(oil) + shared,
+            oil=0.0 if hung else or_zero(oil) + shared,
         )
     return weighed
 
@@ -202,26 +199,26 @@ class Places(NamedTuple):
 
 def find_places(parts: Parts) -> Places:
     """Return the places of cylinders and throws."""
-    model, take, plan = parts.model, parts.figures.take, parts.plan
-    if model.crank.positions is None or parts.figures.is_displaced("crank.positions"):
-        spacing = take("crank.spacing", model.crank.spacing or 0.0)
+    model, figures, plan = parts.model, parts.figures, parts.plan
+    if model.crank.positions is None or figures.is_displaced("crank.positions"):
+        spacing = figures.take("crank.spacing", model.crank.spacing or 0.0)
         along = tuple((throw - (plan.throws - 1) / 2) * spacing for throw in range(plan.throws))
     else:
-        along = parts.figures.take_each("crank.positions", model.crank.positions)
-    stagger = take("layout.stagger", model.layout.stagger) if plan.rods_on_throw > 1 else 0.0
+        along = figures.take_each("crank.positions", model.crank.positions)
+    stagger = figures.take("layout.stagger", model.layout.stagger)
     z: dict[int, Figure] = {}
     middles: dict[int, Figure] = dict.fromkeys(range(plan.throws), 0.0)
     for c in plan.cells:
-        beside = (
-            (c.bank - (plan.rods_on_throw - 1) / 2) * stagger if plan.rods_on_throw > 1 else 0.0
-        )
-        z[c.number] = either(parts.find_own(c.number).position_mm, along[c.throw] + beside) / 1e3
-        middles[c.throw] = middles[c.throw] + (z[c.number] - beside / 1e3)  # of any shape
+        shared = plan.rods_on_throw > 1
+        offset = (c.bank - (plan.rods_on_throw - 1) / 2) * stagger if shared else 0.0
+        own = parts.override(c.number, "position")
+        z[c.number] = value_or(own, along[c.throw] + offset) / 1e3
+        middles[c.throw] = middles[c.throw] + (z[c.number] - offset / 1e3)  # of any shape
     throws = column([middle / plan.rods_on_throw for middle in middles.values()], parts.rank)
     if model.frame.reference is None:
         return Places(z, throws, (0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2))
     x, y, height = (
-        figure / 1e3 for figure in parts.figures.take_each("frame.reference", model.frame.reference)
+        each / 1e3 for each in figures.take_each("frame.reference", model.frame.reference)
     )
     return Places(z, throws, (x, y, height))
 
@@ -334,7 +331,7 @@ class Parts:
         model: The file.
         varied: Arrays of variants in place of some figures, by dotted name.
         rank: Trailing axes of the engine, if more than `varied` has.
-        legible: Keys of the file that can be relied on (`file.read.Draft`). A stage that needs
+        readable: Keys of the file that can be relied on (`file.read.Draft`). A stage that needs
             others must not be asked for.
         known_gas: Gas of the cylinders, if that is known; else the rules build it.
     """
@@ -355,25 +352,22 @@ class Parts:
         model: EngineFile,
         varied: Mapping[str, Figure] | None = None,
         rank: int = 0,
-        legible: Iterable[str] = ALL_KEYS,
+        readable: Iterable[str] = ALL_KEYS,
         known_gas: EngineGas | None = None,
     ) -> None:
         self.model, self.gas = model, known_gas
         self.figures = FileFigures(varied or {}, model)
         self.varies = bool(varied)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
-        self.legible = frozenset(legible)
+        self.readable = frozenset(readable)
         # In which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1
-        given = "crank.throws" in self.legible and model.crank.throws is not None
+        given = "crank.throws" in self.readable and model.crank.throws is not None
         # Beside given throws a firing order would have to fit every variant; only the gas of a
         # single one needs it.
         needed = model.gas is not None and not self.rank
         self.order = None if varied and given and not needed else model.layout.firing_order
-        tables = self.figures.cylinder_tables(model)
-        self.own = {
-            number: own_figures(self.figures, number, own) for number, own in tables.items()
-        }
+        self.tables = self.figures.cylinder_tables(model)  # of single cylinders, by number
         self._gears: dict[tuple[int, bool], RunningGear] = {}
 
     @property
@@ -401,13 +395,18 @@ class Parts:
             self.figures, table.rod, "articulation.rod"
         )
 
-    def find_own(self, number: int) -> OwnFigures:
-        """Return what the file says of one cylinder alone."""
-        return self.own.get(number, NOTHING)
+    def override(self, number: int, key: str) -> Figure | None:
+        """Return a figure of [cylinder.N] in the unit of the file; None where it gives none."""
+        table = self.tables.get(number)
+        if table is None:
+            return None
+        return self.figures.take_optional(f"cylinder.{number}.{key}", getattr(table, key))
 
     def find_rod(self, number: int, articulated: bool = False) -> RodPlace:
         """Return the figures of a cylinder's rod; number 0 stands for what holds for all."""
-        own, general = self.find_own(number).rod, self._general_rods[articulated]
+        general, own = self._general_rods[articulated], RodFigures()
+        if (table := self.tables.get(number)) is not None:
+            own = rod_figures(self.figures, table, f"cylinder.{number}", "rod_")
         return RodPlace(number, articulated, general.with_own(own), own, general)
 
     def find_piston_masses(self) -> dict[str, Figure]:
@@ -420,15 +419,16 @@ class Parts:
 
     def weigh_gear(self, place: RodPlace) -> RunningGear:
         """Return piston and rod of one cylinder; those without figures of their own share one."""
-        key = (place.number if place.number in self.own else 0, place.articulated)
+        number = place.number if place.number in self.tables else 0
+        key = number, place.articulated
         if key not in self._gears:
-            own = self.find_own(place.number)
-            offset = self.figures.take("piston.offset", self.model.piston.offset) / 1e3
+            offset = self.figures.take("piston.offset", self.model.piston.offset)
+            mass = sum(self.find_piston_masses().values())
             self._gears[key] = weigh_rod(
                 place.rod,
                 place.rod.length_for(self.radius),
-                either(own.piston_offset, offset),
-                either(own.piston_mass, sum(self.find_piston_masses().values())),
+                value_or(self.override(number, "piston_offset"), offset) / 1e3,
+                value_or(self.override(number, "piston_mass"), mass),
             )
         return self._gears[key]
 

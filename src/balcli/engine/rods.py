@@ -14,7 +14,7 @@ from ..core.phasors import EPS, Figure
 from ..errors import Problem
 from ..file.units import STANDARD_GRAVITY
 from ..limits import NEAREST_TO_LOCK
-from .figures import PendulumTest, RodFigures, or_nothing
+from .figures import PendulumTest, RodFigures, or_zero
 
 ENDS = ("small_end", "big_end")
 LENGTHS = ("length", "ratio")
@@ -25,12 +25,12 @@ class RunningGear(NamedTuple):
     """Piston and rod of one cylinder, SI.
 
     Attributes:
-        length: of the rod, m.
-        offset: of the path of the piston pin, m.
-        piston: mass, kg.
-        small_end, big_end: the rod as two masses at its ends, kg.
-        spin: its moment of inertia about its centre of mass, kg m2.
-        couple: `H`, what the two masses have more than that, kg m2.
+        length: Rod length, m.
+        offset: Offset of the piston pin's path from the crank axis, m.
+        piston: Piston mass, kg.
+        small_end, big_end: The rod as two masses at its ends, kg.
+        spin: Moment of inertia of the rod about its centre of mass, kg m2.
+        couple: Moment of inertia H that the two masses have beyond `spin`, kg m2.
     """
 
     length: Figure
@@ -42,21 +42,21 @@ class RunningGear(NamedTuple):
     couple: Figure
 
     def top_deg(self, radius: Figure) -> Figure:
-        """Crank angle of top dead centre, from the cylinder's axis."""
+        """Return the crank angle of top dead centre from the cylinder's axis, deg; radius in m."""
         return np.degrees(np.arcsin(self.offset / (radius + self.length)))
 
 
-class Weighed(NamedTuple):
-    """Masses of one cylinder as a shop weighs them, kg.
+class CylinderMasses(NamedTuple):
+    """Masses of one cylinder as a workshop weighs them, kg.
 
     Attributes:
-        throw: on which its rod runs (from 0).
-        piston: with pin, rings and locks.
-        piston_parts: what the piston was weighed in, by the keys of [piston]: `mass` alone, or
-            piston, pin, rings and locks as far as they are given.
-        small_end, big_end: of the rod, without shells.
-        share: of the throw's unbalanced mass, for this cylinder's pin.
-        rod_bearing, oil: what turns with the pin besides, for this rod.
+        throw: Throw on which its rod runs, from 0.
+        piston: Piston with pin, rings and locks.
+        piston_parts: Parts of the piston by the keys of [piston]: `mass` alone, or piston, pin,
+            rings and locks as far as they are given.
+        small_end, big_end: Ends of the rod, without bearing shells.
+        share: Share of the throw's unbalanced mass for this cylinder's pin.
+        rod_bearing, oil: Bearing shells and oil of this rod, which turn with the pin as well.
     """
 
     throw: int
@@ -70,26 +70,34 @@ class Weighed(NamedTuple):
 
     @property
     def reciprocating(self) -> Figure:
-        """What goes to and fro, kg."""
+        """Reciprocating mass, kg."""
         return self.piston + self.small_end
 
     @property
     def rotating(self) -> Figure:
-        """What turns with the pin besides the throw, kg."""
+        """Rotating mass at the crank pin without the throw's own, kg."""
         return self.big_end + self.rod_bearing + self.oil
 
 
 def weigh_rod(
     rod: RodFigures, length: Figure, offset: Figure = 0.0, piston: Figure = 0.0
 ) -> RunningGear:
-    """A rod of this length (m), with its piston (kg) on a path at this offset (m).
+    """Return a rod with its piston as masses and moments of inertia.
 
-    An end of which nothing is said beside the other, a mistake, counts as weightless here.
+    The rod is replaced by two masses at its ends with the same mass and centre of mass, and a
+    massless couple of inertia (docs/theory.md). The pendulum test gives the moment of inertia by
+    the period of a physical pendulum, `I + m a^2 = m g a (T / 2 pi)^2`.
+
+    Args:
+        rod: Figures of the rod. One end without the other, a mistake, makes the other weightless.
+        length: Rod length, m.
+        offset: Offset of the piston pin's path, m.
+        piston: Piston mass, kg.
     """
     if rod.small_end is not None or rod.big_end is not None:
-        small, big = or_nothing(rod.small_end), or_nothing(rod.big_end)
+        small, big = or_zero(rod.small_end), or_zero(rod.big_end)
     else:
-        mass, from_big_end = or_nothing(rod.mass), or_nothing(rod.cg)
+        mass, from_big_end = or_zero(rod.mass), or_zero(rod.cg)
         small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
     whole = small + big
     share = small / np.where(whole == 0, 1.0, whole)  # s_b / l
@@ -107,16 +115,16 @@ def weigh_rod(
     return RunningGear(length, offset, piston, small, big, spin, couple)
 
 
-# ------------------------------------------------------------------ what cannot be
+# ------------------------------------------------------------------ rules
 class RodPlace(NamedTuple):
-    """Where the figures of a cylinder's rod stand in the file.
+    """Figures of a cylinder's rod, and their places in the file.
 
     Attributes:
-        number: of the cylinder; 0 for what holds for all.
-        articulated: whether it hangs on a master rod.
-        rod: what is said of the rod, in one place or the other.
-        own: what the cylinder's own table says.
-        general: what holds for all rods of its kind.
+        number: Cylinder number; 0 for the figures for all cylinders.
+        articulated: Whether the rod is carried by a master rod.
+        rod: Figures of the rod from all places.
+        own: Figures in the cylinder's own table.
+        general: Figures for all rods of its kind.
     """
 
     number: int
@@ -126,7 +134,7 @@ class RodPlace(NamedTuple):
     general: RodFigures
 
     def path(self, *keys: str) -> str:
-        """Where one of these figures is given, or where the first might be."""
+        """Return the path of the first of these keys that is given, else one for the first."""
         for key in keys:
             if key in self.own.given:
                 return f"cylinder.{self.number}.rod_{key}"
@@ -135,7 +143,7 @@ class RodPlace(NamedTuple):
 
 
 def check_ends(place: RodPlace) -> Iterator[Problem]:
-    """A rod that is weighed at one end alone."""
+    """Check that a rod weighed at one end is weighed at the other as well."""
     ends = [end for end in ENDS if end in place.rod.given]
     if len(ends) == 1:
         path, missing = place.path(*ends), next(end for end in ENDS if end not in ends)
@@ -144,8 +152,8 @@ def check_ends(place: RodPlace) -> Iterator[Problem]:
 
 
 def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
-    """A rod whose moment of inertia would be negative: by its pendulum test, or as two masses at
-    its ends. Of variants the one counts that is least a rod.
+    """Check that the moment of inertia of a rod is not negative, by its pendulum test or as two
+    masses at its ends, for the worst of all variants.
     """
     if np.all(gear.spin >= 0):
         return
@@ -153,7 +161,7 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         yield Problem(place.path("pendulum"), _describe_pendulum(pendulum, gear))
         return
     length_mm = np.min(gear.length) * 1e3
-    cg_mm = np.max(or_nothing(place.rod.cg)) * 1e3
+    cg_mm = np.max(or_zero(place.rod.cg)) * 1e3
     # A cylinder's own length may be what the centre of mass of all rods does not fit
     path, what = place.path("cg"), ""
     if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:
@@ -181,8 +189,13 @@ def _describe_pendulum(pendulum: PendulumTest, gear: RunningGear) -> str:
 
 
 def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterator[Problem]:
-    """A slider-crank of this crank radius (m) that cannot turn: lambda + |offset| / rod length must
-    stay below 1. Of variants the worst counts.
+    """Check that a slider-crank can turn, for the worst of all variants: lambda + |offset| / rod
+    length must stay below 1.
+
+    Args:
+        place: The rod in the file.
+        gear: The rod with its offset.
+        radius: Crank radius, m.
     """
     lam, eps = np.max(radius / gear.length), np.max(np.abs(gear.offset / gear.length))
     if lam + eps <= 1 - NEAREST_TO_LOCK:

@@ -134,12 +134,16 @@ class Number(_Field):
         least: float | None = None,
         below: float | None = None,
         most: float = math.inf,
+        word: str = "",
     ) -> None:
         self.dimension, self.above, self.below, self.most = dimension, above, below, most
+        self.word = word  # may stand in place of the figure, which is nan then
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:
         shown = shorten(value)
+        if self.word and value == self.word:
+            return WrittenFigure(math.nan, self.word)
         if isinstance(value, str):
             try:
                 number = convert(value, self.dimension)
@@ -179,7 +183,8 @@ class Number(_Field):
         limits = {key: bound for key, bound in bounds.items() if bound not in (None, math.inf)}
         if self.dimension is PLAIN:
             return {"type": "number", **limits}
-        unit = {"unit": self.dimension.unit, "pattern": STRING_PATTERN}
+        pattern = f"{STRING_PATTERN}|^{self.word}$" if self.word else STRING_PATTERN
+        unit = {"unit": self.dimension.unit, "pattern": pattern}
         return {"type": ["number", "string"], **unit, **limits}
 
 

@@ -6,9 +6,10 @@ from a pendulum) is computed by the package `engine`. A validator is built only 
 file has.
 """
 
+import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
-from itertools import chain
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Self
 
@@ -191,12 +192,29 @@ class Layout(FileTable):
                 f"{counted(len(order), 'firing')}; give one for each, the last one "
                 "back to the first cylinder"
             )
+        elif gaps := _list_gaps(intervals, cycle):
+            yield (
+                "firing_intervals look like angles that count from the first firing: "
+                f"{join_words([f'{angle:g}' for angle in intervals])}; give the angle from each "
+                f"firing to the next: [{', '.join(f'{gap:g}' for gap in gaps)}]"
+            )
         elif abs(sum(intervals) - cycle) > INTERVAL_TOLERANCE_DEG:
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
                 f"{self.strokes}-stroke has {cycle} (within {INTERVAL_TOLERANCE_DEG:g}); give the "
                 "angle from each firing to the next"
             )
+
+
+def _list_gaps(angles: Sequence[float], cycle: float) -> list[float]:
+    """Return the interval after each firing if these numbers rise from 0 or to the whole cycle, as
+    angles that count from the first firing do; else an empty list.
+    """
+    first = angles[0] == 0
+    gaps = [b - a for a, b in pairwise([*angles, cycle] if first else [0, *angles])]
+    rises = min(gaps) > 0 and (first or angles[-1] == cycle) and len(angles) > 1
+    fits = sum(angles) == cycle and max(gaps) > min(gaps) + INTERVAL_TOLERANCE_DEG
+    return gaps if rises and not fits else []
 
 
 def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
@@ -299,13 +317,18 @@ class Device(FileTable):
     choices = (Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),)
 
     unbalance: Unbalance | None = None
-    """Mass times radius. Example: 9000"""
+    """Mass times radius; "fit": `balcli balance` finds it. Example: 9000"""
     mass: Mass | None = None
     """With radius, instead of unbalance. Example: 0.5"""
     radius: Distance | None = None
     """With mass, instead of unbalance. Example: 40"""
     position: Length = 0.0
     """Axial place (z). Example: 0"""
+
+    @property
+    def to_fit(self) -> bool:
+        """Whether its unbalance is "fit", for `balcli balance` to find."""
+        return self.unbalance is not None and math.isnan(self.unbalance)
 
 
 class Counterweight(Device):

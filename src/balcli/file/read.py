@@ -251,14 +251,14 @@ class Draft(NamedTuple):
     Attributes:
         model: the file. Where there are mistakes, tables that could not be read are left out of it:
             their defaults stand there, or nothing where there is none.
-        legible: keys of the file that can be relied on: what they say, or do not say, was read,
+        readable: keys of the file that can be relied on: what they say, or do not say, was read,
             and none that was probably meant is misspelt; those of [crank] and [layout] one by one,
             too, as crank.throws.
         problems: mistakes of the text.
     """
 
     model: EngineFile
-    legible: frozenset[str]
+    readable: frozenset[str]
     problems: tuple[Problem, ...]
 
 
@@ -368,7 +368,7 @@ def _draft(reader: TableReader, parts: dict[str, Any], folder: Path) -> Draft:
         read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
     misspelt = {problem.meant for problem in reader.problems if problem.meant}
     broken |= misspelt & (set(KNOWN) - parts.keys())
-    legible: set[str] = set()
+    readable: set[str] = set()
     for path, table in ONE_BY_ONE.items():
         lost = set(table.model_fields) if path in broken else set()
         refused = reader.refused.get(path)
@@ -377,11 +377,11 @@ def _draft(reader: TableReader, parts: dict[str, Any], folder: Path) -> Draft:
         paths = {f"{path}.{key}" for key in table.model_fields.keys() - lost} - misspelt
         if len(paths) < len(table.model_fields):
             broken.add(path)
-        legible |= paths
-    legible |= set(KNOWN) - broken
+        readable |= paths
+    readable |= set(KNOWN) - broken
     model = EngineFile.model_construct(set(read), **read)
     model._folder = folder
-    return Draft(model, frozenset(legible), tuple(reader.problems))
+    return Draft(model, frozenset(readable), tuple(reader.problems))
 
 
 def _read_text(reader: TableReader, key: str, value: object) -> str | None:

@@ -38,7 +38,8 @@ Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 
 GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 
-Unbalance = Annotated[float, Number(UNBALANCE, most=1e24)]
+FIT = "fit"  # in place of an unbalance: `balance` finds it
+Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
 
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 

@@ -1,19 +1,15 @@
-"""Inner balance: what the inertia of cylinders and counterweights does to the crankshaft, even
-where nothing is free outside.
+"""Internal loads: shear force and bending moment in crankshaft and block, and main bearing loads.
 
-The shaft is rigid. At each section the shear force is the sum of all loads towards the free end,
-the bending moment their moment about the section, `i sum (z_i - z) F_i` (M_x + iM_y). Beyond the
-last load they are the free force and moment (there about the last load). Between loads the bending
-moment runs straight, so that its largest values stand at loads.
+Inertia: the shaft is rigid. At each section the shear force is the sum of all loads towards the
+free end, and the bending moment is their moment about the section, `i sum (z_i - z) F_i` (M_x +
+iM_y). Beyond the last load these are the free force and moment (about the last load). Between loads
+the bending moment is linear, so that its largest values are at loads.
 
-What the forces of an engine with gas do inside: to the crankshaft, which counts as cut in each
-of its main bearings, to these bearings, and to the block.
-
-On the shaft press the rods; what turns with the throws, and counterweights, pull at it; bearings
-hold it. On the block press the gas on each head, the piston on each cylinder wall, the shaft on
-each bearing, and balancer shafts and sliders. The gas presses on throw and head alike, so that
-shaft and block together bear at every section what `forces.crankshaft` says of inertia, and what
-the block's own devices add. Sections count as there, from the free end.
+Gas and inertia: the shaft counts as cut in each main bearing. The shaft carries the forces of the
+rods, of the masses that turn with the throws and of counterweights, and the bearings hold it. The
+block carries the gas on each head, the piston on each cylinder wall, the shaft on each bearing, and
+balancer shafts and sliders. The gas presses on throw and head alike: in every section, the sum of
+shaft and block is that of inertia alone, with the block's own devices.
 """
 
 from __future__ import annotations
@@ -30,7 +26,7 @@ from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import cut, merged_breaks, quadrature
 from ..core.vectors_over_cycle import Vectors, find_panels
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError
 from ..limits import MOST_FORCES_OVER_CYCLE, MOST_RESULTS_ALONG_CRANK
@@ -38,7 +34,7 @@ from .curves import compute_device_forces, compute_piecemeal, find_crank_speed
 from .rod_forces import compute_rod_forces, list_hung_rows
 from .spectrum import (
     compute_device_force,
-    compute_each_cylinder,
+    compute_spectra,
     find_relevant_orders,
     list_gas_orders,
     mark_considerable,
@@ -53,9 +49,9 @@ class AlongCrank:
     """A force or moment at several places along the crank.
 
     Attributes:
-        z_m: shape (places,), ascending.
-        phasors: shape (orders, places).
-        peaks: largest over a revolution, all orders, and its crank angle, one a place.
+        z_m: Position along the crank, m, shape (places,), ascending.
+        phasors: Force, N, or moment, N m, shape (orders, places).
+        peaks: Largest value over a revolution, of all orders, and its crank angle, at each place.
     """
 
     z_m: Array
@@ -63,11 +59,11 @@ class AlongCrank:
     peaks: tuple[Peak, ...]
 
     def at(self, place: int) -> Phasors:
-        """Phasors at one of the places, by its index."""
+        """Return the phasors at one of the places, by its index."""
         return self.phasors.select_place(place)
 
     def select_orders(self, orders: Array) -> AlongCrank:
-        """The same without all other orders; the peaks remain those of all."""
+        """Return the force or moment with these orders; peaks remain those of all orders."""
         return replace(self, phasors=self.phasors.select_orders(orders))
 
     @property
@@ -86,9 +82,9 @@ class InnerLoads:
     with one throw, whose bearings the file cannot tell.
 
     Attributes:
-        with_gas: what inertia and gas do to shaft, bearings and block; None without gas, and where
-            it is not known.
-        obstacle: of an engine with gas, why it is not known.
+        with_gas: Loads of shaft, bearings and block by inertia and gas; None without gas, and
+            where they are not known.
+        obstacle: Reason why the loads with gas are not known.
     """
 
     shear: AlongCrank
@@ -98,16 +94,33 @@ class InnerLoads:
     obstacle: str = ""
 
 
+@dataclass(frozen=True)
+class CrankLoads:
+    """Largest inertia loads within a crankshaft with throws in several planes.
+
+    Attributes:
+        main_N: Largest load of a main bearing.
+        main_mm: Axial place of this bearing.
+        inner_moment_Nm: Largest bending moment.
+        inner_mm: Axial place of this moment.
+    """
+
+    main_N: float
+    main_mm: float
+    inner_moment_Nm: float
+    inner_mm: float
+
+
 def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """Forces and moments within the crankshaft, for some orders, and their peaks over all orders.
+    """Return forces and moments in the crankshaft by inertia, and their peaks over all orders.
 
     Args:
-        engine: without trailing axes.
-        orders: shape (orders,), ascending; default: 1 and 2 and those in which the bending moment
-            is worth showing.
+        engine: Engine without trailing axes.
+        orders: Orders that are returned, ascending, shape (orders,); default: 1, 2 and those in
+            which the bending moment is worth showing.
 
     Raises:
-        BalcliError: too many orders of too many loads.
+        BalcliError: Too many orders of too many loads.
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = _compute_loads(engine, every)
@@ -127,6 +140,24 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     )
 
 
+def find_crank_loads(engine: Engine) -> CrankLoads | None:
+    """Return the largest inertia loads within the crankshaft of an engine with its counterweights;
+    None where all throws stand in one plane, where positions are not known, and where there are too
+    many loads to keep apart.
+    """
+    if not engine.places_known or len(set(engine.joined_throws_m.tolist())) < 2:
+        return None
+    try:
+        inner = compute_inner_loads(engine)
+    except BalcliError:
+        return None
+    if inner.bearings is None:
+        return None
+    each = ((along, along.largest) for along in (inner.bearings, inner.bending))
+    figures = [(along.peaks[most].value, 1e3 * float(along.z_m[most])) for along, most in each]
+    return CrankLoads(*figures[0], *figures[1])
+
+
 def _refuse_too_many_results(orders: int, loads: int) -> None:
     told = orders * loads
     if told > MOST_RESULTS_ALONG_CRANK:
@@ -137,8 +168,8 @@ def _refuse_too_many_results(orders: int, loads: int) -> None:
 
 
 def place_bearings(throws_m: Array) -> Array | None:
-    """Places of main bearings half-way between throws and as far outside the end ones, m, shape
-    (bearings,); None for throws in one place.
+    """Return positions of main bearings half-way between throws and as far outside the end ones, m,
+    shape (bearings,); None for throws in one place.
     """
     places = np.unique(throws_m)
     if len(places) < 2:
@@ -148,12 +179,12 @@ def place_bearings(throws_m: Array) -> Array | None:
 
 
 def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
-    """Forces of each cylinder and counterweight, phasors of shape (orders, loads), and their
-    places, shape (loads,).
+    """Return the forces of each cylinder and counterweight, phasors of shape (orders, loads), and
+    their positions, m, shape (loads,).
     """
     counterweights = [device for device in engine.devices if is_counterweight(device)]
     refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
-    each = compute_each_cylinder(engine, orders, ["force"])["force"]
+    each = compute_spectra(engine, orders, ["force"], each=True)["force"]
     more = [compute_device_force(engine, device, orders) for device in counterweights]
     vectors = np.concatenate([each.vectors, *(force.vectors[..., None] for force in more)], axis=2)
     noises = [np.broadcast_to(force.noise, force.forward.shape) for force in (each, *more)]
@@ -163,34 +194,38 @@ def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
 
 
 def is_counterweight(device: Device) -> bool:
-    """Whether a device turns on the crank's axis, with it."""
+    """Return whether a device turns with the crank, on its axis."""
     return device.order == 1 and not device.backward and not device.place
 
 
 def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
-    """Sums over the loads, weights of shape (places, loads); `size`, of the same shape: what the
-    weights were computed from, which bounds their rounding.
+    """Return weighted sums over the loads.
+
+    Args:
+        loads: Phasors of shape (orders, loads).
+        weights: Shape (places, loads).
+        size: Terms of which the weights are differences, of the same shape; bounds the rounding.
     """
     noise = loads.noise @ np.abs(size).T
     return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()
 
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
-    """Phasors of all orders, (orders, places), and their peaks; only these orders are kept."""
+    """Return phasors, shape (orders, places), with peaks of all orders; `orders` alone are kept."""
     peaks = tuple(find_peak(phasors.select_place(place)) for place in range(len(places)))
     return AlongCrank(places, phasors.select_orders(orders), peaks)
 
 
-NOTHING = 1e-13  # share of what is added up below which a sum is rounding errors
+ROUNDING = 1e-13  # share of the terms below which their sum is rounding error
 
 
 class LoadsWithGas(NamedTuple):
     """Forces (N) and moments (N m) over the cycle, of inertia and gas, with a distributed rod.
 
     Attributes:
-        shear, bending: in the crankshaft, the shear just behind each load and bearing.
-        bearings: of the shaft on each.
-        block_shear, block_bending: in the block likewise, which nothing else holds.
+        shear, bending: In the crankshaft, the shear just behind each load and bearing.
+        bearings: Force of the shaft on each main bearing.
+        block_shear, block_bending: In the block, which nothing else holds.
     """
 
     shear: AlongCrank
@@ -210,7 +245,7 @@ class ForcesAlongCrank(NamedTuple):
 
 
 class BearingsUnknownError(BalcliError):
-    """It is not known where the main bearings stand, for a reason."""
+    """The positions of the main bearings are not known, for a reason."""
 
     def __init__(self, reason: str) -> None:
         self.reason = reason
@@ -218,8 +253,8 @@ class BearingsUnknownError(BalcliError):
 
 
 def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """The inner loads of an engine with gas, with what gas does inside as far as it is known;
-    arguments and errors else as of `compute_loads_with_gas`.
+    """Return the internal loads with those of the gas as far as they are known; arguments and other
+    errors as for `compute_loads_with_gas`.
     """
     try:
         place_main_bearings(engine)
@@ -232,15 +267,15 @@ def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None
 
 
 def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> LoadsWithGas:
-    """Loads of shaft, bearings and block for some orders, and the largest over the cycle.
+    """Return loads of shaft, bearings and block by order, and their largest over the cycle.
 
     Args:
-        engine: with gas of known pressure, without trailing axes.
-        orders: shape (orders,), ascending; default: those of `list_gas_orders` in which some
-            bending moment is worth showing.
+        engine: Engine with gas of known pressure, without trailing axes.
+        orders: Orders that are returned, ascending, shape (orders,); default: those of
+            `list_gas_orders` in which a bending moment is worth showing.
 
     Raises:
-        BalcliError: no gas, no pressures; bearings that `place_main_bearings` refuses; so many
+        BalcliError: No gas, no pressures, no main bearings (`place_main_bearings`), or so many
             cylinders that all forces would fill the memory.
     """
     span = place_main_bearings(engine)
@@ -261,8 +296,8 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     largest = float(np.abs(samples).max(axis=1).sum())
 
     def follow(z: Array, weights: Array, factor: complex = 1.0, size: float = 1.0) -> AlongCrank:
-        """Orders and largest values of the sums at some places; what is rounding error is 0."""
-        values, least = factor * (weights @ samples), NOTHING * size * largest
+        """Return orders and largest values of the sums at some places, 0 below rounding."""
+        values, least = factor * (weights @ samples), ROUNDING * size * largest
         forward, backward = panels.find_orders(values, shown)
         phasors = Phasors.of(shown, forward, backward, np.full(forward.shape, least))
         peaks = map(panels.find_largest, values)
@@ -270,7 +305,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
         return AlongCrank(z, phasors.drop_noise(), felt)
 
     def cut(weigh: Callable[[Array, Array], Array]) -> tuple[Array, Array]:
-        """Weights of all forces in the sum at each section, of the shaft and of the block."""
+        """Return the weights of all forces in the sum at each section, of shaft and of block."""
         borne = weigh(span, sections) @ shares
         own, of_block = weigh(on_shaft, sections), weigh(on_block, sections)
         return np.hstack([own - borne, 0 * of_block]), np.hstack([borne, of_block])
@@ -292,10 +327,10 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
 
 
 def place_main_bearings(engine: Engine) -> Array:
-    """Places of the main bearings, m: half-way between throws and as far outside the end ones.
+    """Return positions of the main bearings, m, shape (bearings,), as `place_bearings`.
 
     Raises:
-        BearingsUnknownError: it is not known where the throws stand, there is one alone, or the
+        BearingsUnknownError: The positions of the throws are not known, there is one throw, or the
             crank stands still.
     """
     if engine.rotary:
@@ -311,23 +346,23 @@ def place_main_bearings(engine: Engine) -> Array:
 
 
 def find_breaks(engine: Engine) -> Array:
-    """Crank angles (rad) from 0 to the end of a cycle, between which all forces are smooth."""
+    """Return crank angles (rad) from 0 to the end of a cycle, between which forces are smooth."""
     gas = take_gas(engine)
     parts = [(cylinder.torque.breaks, cylinder.fires) for cylinder in gas.cylinders]
     return merged_breaks(parts, gas.cycle)
 
 
 def compute_bearing_loads(engine: Engine, crank_deg: Array) -> Complex:
-    """Force of the shaft on each main bearing, x + iy, N, shape (bearings, angles); errors as of
-    `place_main_bearings` and `compute_rod_forces`.
+    """Return the force of the shaft on each main bearing, x + iy, N, shape (bearings, angles);
+    errors as for `place_main_bearings` and `compute_rod_forces`.
     """
     shares = share_by_lever(_place_forces(engine)[0], place_main_bearings(engine))
     return np.asarray(shares @ compute_forces_along(engine, crank_deg).on_shaft)
 
 
 def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
-    """Forces at crank angles, shape (angles,); articulated rods press on the shaft where their own
-    cylinders stand.
+    """Return forces on shaft and block at crank angles (deg), shape (angles,); articulated rods
+    press on the shaft at the positions of their own cylinders.
     """
     found = compute_rod_forces(engine, crank_deg)
     pressed = found.axis * found.pin
@@ -347,7 +382,7 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
 
 
 def _place_forces(engine: Engine) -> tuple[Array, Array]:
-    """z of the forces on shaft and block, m."""
+    """Return z of the forces on shaft and block, m."""
     cylinders = np.ravel(engine.cylinders.z).tolist()
     turning = [float(d.z) for d in engine.devices if is_counterweight(d)]
     others = [float(d.z) for d in engine.devices if not is_counterweight(d)]
@@ -369,14 +404,16 @@ def refuse_too_many_forces(engine: Engine, angles: int = 0) -> None:
 
 
 def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Complex:
-    """Forces of an engine at crank angles (rad), a row each, by so many angles at a time that
-    memory stays small.
+    """Return forces of an engine at crank angles, shape (forces, angles), computed in pieces so
+    that memory stays small.
 
     Args:
-        compute: the forces at crank angles (deg).
+        engine: Engine.
+        compute: Function of crank angles (deg) to the forces.
+        angles: Crank angles, rad, shape (angles,).
 
     Raises:
-        BalcliError: more figures than are kept.
+        BalcliError: More forces than are kept.
     """
     refuse_too_many_forces(engine, len(angles))
     return compute_piecemeal(engine, np.degrees(angles), lambda some: {"": compute(some)})[""]

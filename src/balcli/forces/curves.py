@@ -1,38 +1,48 @@
-"""Curves over the crank angle by direct evaluation: nothing here is a sum of orders.
+"""Curves over the crank angle, by direct evaluation: nothing here is a sum of orders.
 
-From momentum G, moment of momentum h and inertia I of each cylinder at crank speed 1. With crank
-speed omega, crank acceleration xi and a prime for the derivative with respect to the crank angle:
-force -(omega^2 G' + xi G), couple -(omega^2 h' + xi h), inertia torque -(1/2 I' omega^2 + xi I). As
-everywhere, what lies within the rounding error of the parts that are added up (docs/theory.md) is
-exactly 0.
+Inertia: each cylinder has momentum G, moment of momentum h and inertia I at crank speed 1. With
+crank speed omega, crank acceleration xi and a prime for the derivative by the crank angle, the
+force is -(omega^2 G' + xi G), the couple -(omega^2 h' + xi h) and the inertia torque -(1/2 I'
+omega^2 + xi I). Whatever is below the rounding error of the terms that are added up
+(docs/theory.md) is 0.
+
+Gas: torque of all cylinders on the crank over the cycle, with and without the inertia torque.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar
+from dataclasses import replace
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.cylinder_pressure import crank_torque
 from ..core.cylinders import find_travel
 from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Complex, unit
-from ..engine.build import Engine
+from ..core.piecewise import Function, PiecewiseCurve, resolved
+from ..engine.engine import Engine, find_row
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
+from .spectrum import compute_spectra, find_relevant_orders, take_gas
 
 Number = TypeVar("Number", np.float64, np.complex128)
 AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
 
 
 def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
-    """Crank angles of one revolution, or several, in steps of so many degrees, from 0, without the
-    last, shape (angles,).
+    """Return crank angles of one revolution or several, deg, from 0, without the last, shape
+    (angles,).
+
+    Args:
+        step: Interval, deg.
+        revolutions: Number of revolutions.
 
     Raises:
-        BalcliError: the step is not from 0.001 to 360.
+        BalcliError: The step is not from 0.001 to 360.
     """
     if not FINEST_STEP_DEG <= step <= 360:
         raise BalcliError(
@@ -44,20 +54,20 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
 
 
 def compute_cylinder_torque(engine: Engine, row: int, crank_deg: Array) -> Array:
-    """Inertia torque of the cylinder in a row, N m, shape (angles,)."""
+    """Return the inertia torque of the cylinder in a row, N m, shape (angles,)."""
     return _torque_of_cylinders(EngineMotion(engine, crank_deg))[row]
 
 
 def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
-    """Inertia torque of all cylinders on the crank, N m, shape (angles,), for an engine without
-    trailing axes.
+    """Return the inertia torque of all cylinders on the crank, N m, shape (angles,), for an engine
+    without trailing axes.
     """
     return _torque_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
 
 
 def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
-    """Moment of inertia about the crank of pistons, rods and what turns with the pins, kg m2, shape
-    (angles,), likewise.
+    """Return the moment of inertia of pistons, rods and rotating masses about the crank, kg m2,
+    shape (angles,), for an engine without trailing axes.
     """
     return _inertia_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
 
@@ -65,11 +75,13 @@ def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
 def compute_piecemeal(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, NDArray[Number]]]
 ) -> dict[str, NDArray[Number]]:
-    """Curves by name, each of shape (..., angles), computed at so many angles at a time that memory
-    does not grow with both cylinders and angles.
+    """Return curves by name, each of shape (..., angles), computed in pieces so that memory does
+    not grow with both cylinders and angles.
 
     Args:
-        compute: the curves at some of the angles.
+        engine: Engine.
+        crank_deg: Crank angles, shape (angles,).
+        compute: Function of some of the angles to the curves.
     """
     step = max(AT_ONCE // engine.cylinders.count, 1)
     starts = range(0, max(len(crank_deg), 1), step)
@@ -78,18 +90,18 @@ def compute_piecemeal(
 
 
 class EngineMotion:
-    """How all cylinders of an engine stand and move at some crank angles.
+    """Positions and motion of all cylinders of an engine at crank angles.
 
     Attributes:
-        cylinders: whose motion it is.
-        radius: of the crank, m.
-        crank_deg: shape (angles,).
-        omega, xi: crank speed, rad/s, and acceleration, rad2/s2, shape (angles,).
-        pin_deg: of the crank pins from x, shape (cylinders, angles).
-        psi: of the crank pins from their cylinders' axes, rad, shape (cylinders, angles).
-        axis: directions of the cylinders, shape (cylinders, 1).
-        moved: pistons and rods in motion, in crank radii, shape (cylinders, angles).
-        mass: on curves of a linkage, kg, shape (cylinders, 1) or (1, 1).
+        cylinders: Cylinders of the engine.
+        radius: Crank radius, m.
+        crank_deg: Crank angles, shape (angles,).
+        omega, xi: Crank speed, rad/s, and acceleration, rad2/s2, shape (angles,).
+        pin_deg: Angles of the crank pins from x, shape (cylinders, angles).
+        psi: Angles of the crank pins from their cylinders' axes, rad, shape (cylinders, angles).
+        axis: Directions of the cylinders, shape (cylinders, 1).
+        moved: Motion of pistons and rods, in crank radii, shape (cylinders, angles).
+        mass: Masses on curves of a linkage, kg, shape (cylinders, 1) or (1, 1).
     """
 
     def __init__(self, engine: Engine, crank_deg: Array) -> None:
@@ -109,7 +121,7 @@ class EngineMotion:
         )
 
     def travel(self) -> Array:
-        """Of the pistons, from their top dead centres, in crank radii."""
+        """Return the travel of the pistons from top dead centre, in crank radii."""
         c = self.cylinders
         if c.linkage is None:
             return sc.displacement(self.psi, as_rows(c.lam), as_rows(c.eps))
@@ -119,7 +131,7 @@ class EngineMotion:
 
 
 def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
-    """Crank speed omega (rad/s) and acceleration xi = omega d omega/d theta, shape (angles,)."""
+    """Return crank speed omega, rad/s, and acceleration xi = omega d omega/d theta, by angle."""
     ratio, slope = np.ones_like(crank_deg), np.zeros_like(crank_deg)
     for line in engine.ripple:
         wave = line.amplitude * unit(line.order * crank_deg - line.angle_deg)
@@ -128,7 +140,7 @@ def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
 
 
 def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
-    """Force of each device, x + iy, N, shape (devices, angles)."""
+    """Return the force of each device, x + iy, N, shape (devices, angles)."""
     omega, xi = find_crank_speed(engine, crank_deg)
     rows = np.empty((len(engine.devices), len(crank_deg)), complex)
     for row, d in enumerate(engine.devices):
@@ -140,8 +152,8 @@ def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
 
 
 def _torque_of_cylinders(motion: EngineMotion) -> Array:
-    """Inertia torque of each cylinder on the crank, N m, shape (cylinders, angles): I = m_rec s'^2
-    + m_rot r^2 - H spin^2 (+ the masses on curves).
+    """Return the inertia torque of each cylinder on the crank, N m, shape (cylinders, angles), with
+    I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ the masses on curves).
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     on_axis = as_rows(c.reciprocating) * r**2 * m.velocity * m.acceleration
@@ -151,7 +163,7 @@ def _torque_of_cylinders(motion: EngineMotion) -> Array:
 
 
 def _inertia_of_cylinders(motion: EngineMotion) -> Array:
-    """I of each cylinder, kg m2, shape (cylinders, angles)."""
+    """Return the inertia I of each cylinder, kg m2, shape (cylinders, angles)."""
     c, r, m = motion.cylinders, motion.radius, motion.moved
     on_axis = as_rows(c.reciprocating) * m.velocity**2 + motion.mass * m.energy
     inertia = r**2 * (on_axis + as_rows(c.rotating)) - as_rows(c.couple) * m.spin**2
@@ -159,5 +171,103 @@ def _inertia_of_cylinders(motion: EngineMotion) -> Array:
 
 
 def as_rows(values: Array) -> Array:
-    """One row a cylinder (or one for all), before the axis of angles."""
+    """Return values as a column, one row a cylinder or one for all, before the axis of angles."""
     return np.asarray(values, float).reshape(-1, 1)
+
+
+# ------------------------------------------------------------------ gas and inertia over the cycle
+class TorqueCurves(NamedTuple):
+    """Torque on the crank at crank angles (rad) of one cycle, N m, at the mean speed.
+
+    Attributes:
+        gas: Torque of all cylinders' gas.
+        total: Torque of gas and inertia.
+        gas_once: Gas torque until everything repeats, inertia included: over one interval of equal
+            cylinders that fire evenly, else over the cycle.
+    """
+
+    gas: PiecewiseCurve
+    total: PiecewiseCurve
+    gas_once: PiecewiseCurve
+
+
+def find_torque_curves(engine: Engine) -> TorqueCurves:
+    """Return the torque of an engine without trailing axes, as if its speed were even.
+
+    Raises:
+        BalcliError: The engine has no gas.
+    """
+    gas, times = take_gas(engine), count_repeats(engine)
+    cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
+    once = crank_torque(cylinders, gas.cycle / times)
+    inertia = find_inertia_torque(engine)
+    total = resolved(lambda angle: once.at(angle) + inertia(angle), once.breaks)
+    return TorqueCurves(once.repeated(times), total.repeated(times), once)
+
+
+def count_repeats(engine: Engine) -> int:
+    """Return how often everything repeats in a cycle: once for each firing if the cylinders are
+    equal and fire evenly to the last digit. One interval takes a quarter of the time of a cycle.
+    """
+    gas, c = take_gas(engine), engine.cylinders
+    columns = (c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
+    gas_is_equal = len(gas.group_equal()) == len(set(gas.shares.tolist())) == 1
+    if not gas_is_equal or c.linkage is not None or any(len(column) > 1 for column in columns):
+        return 1
+    count = len(gas.cylinders)
+    fires = sorted(cylinder.nominal_deg for cylinder in gas.cylinders)
+    even = [k * gas.cycle_deg / count for k in range(count)]
+    return count if np.allclose(fires, even, rtol=0, atol=1e-12) else 1
+
+
+def find_inertia_torque(engine: Engine) -> Function:
+    """Return the inertia torque (N m) at crank angles (rad) of any shape, at the mean speed; 0
+    everywhere where cylinders cancel each other's to rounding errors.
+    """
+    steady = replace(engine, ripple=())
+    torque = compute_spectra(steady, find_relevant_orders(steady), ("torque",))["torque"]
+    if torque.major.sum() <= torque.noise.sum():
+        return np.zeros_like
+    return _at_radians(steady, compute_inertia_torque)
+
+
+def find_moving_inertia(engine: Engine) -> Function:
+    """Return the moment of inertia about the crank (kg m2) of pistons, rods and throw masses, at
+    crank angles (rad) of any shape. Throw masses are left out where the crankshaft's own inertia is
+    given, which has them; those of a rotary engine stand still.
+    """
+    if engine.crank_inertia is not None and not engine.rotary:
+        c = engine.cylinders
+        throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
+        engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
+    return _at_radians(engine, compute_moving_inertia)
+
+
+def find_constant_inertia(engine: Engine) -> float | None:
+    """Return the moment of inertia of crankshaft and flywheel, kg m2; None where the file gives
+    neither. The crankshaft of a rotary engine stands still.
+    """
+    crank = None if engine.rotary else engine.crank_inertia
+    given = [v for v in (crank, engine.flywheel_inertia) if v is not None]
+    return float(sum(given)) if given else None
+
+
+def silence(engine: Engine, number: int) -> Engine:
+    """Return the engine with a cylinder whose gas does nothing.
+
+    Raises:
+        BalcliError: The engine has no gas, or no such cylinder.
+    """
+    share = take_gas(engine).without_share_of(find_row(engine, number, "--misfire"))
+    return replace(engine, gas=share, model=None)
+
+
+def _at_radians(engine: Engine, compute: Callable[[Engine, Array], Array]) -> Function:
+    """Return a curve of an engine over degrees as a function of radians of any shape."""
+
+    def at(angle: Array) -> Array:
+        degrees = np.degrees(angle.reshape(-1))
+        found = compute_piecemeal(engine, degrees, lambda some: {"": compute(engine, some)})
+        return found[""].reshape(angle.shape)
+
+    return at

@@ -1,7 +1,5 @@
-"""Guide-force moments as builders of large engines state them: of inertia, and of the gas where the
-engine has some.
-
-Guide-force moments as single figures, for variants: `guide.6.H`, `guide.4.5.X`.
+"""Guide-force moments of inertia and gas, as builders of large engines state them, and as
+quantities of variants: `guide.6.H`, `guide.4.5.X`.
 """
 
 from __future__ import annotations
@@ -13,14 +11,15 @@ from functools import partial
 import numpy as np
 
 from ..core.phasors import Array, Phasors
-from ..engine.build import Engine, build
+from ..engine.build import build
+from ..engine.engine import Engine
 from ..engine.load import FiguresOfVariants
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import EngineFile
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER
 from .quantity import Subject, TargetQuantity, parse_target_quantity
 from .spectrum import (
-    compute_each_cylinder,
+    compute_spectra,
     find_relevant_orders,
     list_gas_orders,
     mark_considerable,
@@ -36,10 +35,10 @@ class GuideMoments:
     Attributes:
         h: H-type, their sum.
         x: X-type, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None
-            where all cylinders stand at one place, or it is not known where they stand.
-        height_m: L of each cylinder by its number, from the crankshaft to the middle of the guide,
-            shape (cylinders,).
-        with_gas: whether the roll of the gas is in it.
+            where all cylinders are at one position, or their positions are not known.
+        height_m: Height L of each guide's middle above the crankshaft, by cylinder number, shape
+            (cylinders,).
+        with_gas: Whether the moments include the gas.
     """
 
     h: Phasors
@@ -51,22 +50,22 @@ class GuideMoments:
 def compute_guide_moments(
     engine: Engine, orders: Array | None = None, height_m: float | None = None
 ) -> GuideMoments:
-    """Guide-force moments of an engine's cylinders; devices have none.
+    """Return the guide-force moments of an engine's cylinders; devices have none.
 
     Each cylinder's roll moment is that about the crank axis, wherever the point of reference stands
     in x and y. The X-type is that of the project guides of MAN B&W two-stroke engines, section
     17.05: bi-moment `sum force couple x distance`, divided by the height of the guide.
 
     Args:
-        engine: without trailing axes.
-        orders: shape (orders,), ascending; default: those worth showing.
-        height_m: from the crankshaft to the middle of the guide; default: each rod's length.
+        engine: Engine without trailing axes.
+        orders: Orders, ascending, shape (orders,); default: those worth showing.
+        height_m: Height of the guide's middle above the crankshaft; default: each rod's length.
     """
     z_ref = engine.reference_m[2]
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
     every = _find_orders(engine) if orders is None else orders
-    rolls = compute_each_cylinder(about_crank, every, [roll])[roll]
+    rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
     z = np.ravel(engine.cylinders.z)
     h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
     due = mark_considerable(h)
@@ -83,7 +82,7 @@ def compute_guide_moments(
 
 
 def _find_orders(engine: Engine) -> Array:
-    """All that may be worth showing; with gas, no more than is shown of gas."""
+    """Return all orders that may be worth showing; with gas, no more than are shown of gas."""
     relevant = find_relevant_orders(engine)
     if engine.gas is None:
         return relevant
@@ -92,13 +91,13 @@ def _find_orders(engine: Engine) -> Array:
 
 
 def _rod_lengths(engine: Engine) -> Array:
-    """Length of the rod of each cylinder, m, shape (cylinders,)."""
+    """Return the rod length of each cylinder, m, shape (cylinders,)."""
     c = engine.cylinders
     return np.broadcast_to(np.ravel(c.radius / c.lam), c.count)
 
 
 def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
-    """Sum over the cylinders of phasors of shape (orders, cylinders), each times its weight."""
+    """Return the weighted sum over cylinders of phasors of shape (orders, cylinders)."""
     total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
     return sum(total[1:], total[0]).drop_noise()
 
@@ -107,10 +106,10 @@ _SUBJECTS = {"guide": Subject("6", {"H": "N·m", "X": "N·m"})}
 
 
 def parse_quantity(text: str) -> TargetQuantity:
-    """`guide.6.H` and its like.
+    """Return the quantity that a text such as `guide.6.H` names.
 
     Raises:
-        BalcliError: anything else, with what there is.
+        BalcliError: The text names none; the error lists what there is.
     """
     found = parse_target_quantity(text, _SUBJECTS)
     if parse_order(found.target) is None:
@@ -122,18 +121,14 @@ def parse_quantity(text: str) -> TargetQuantity:
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Those that an engine has, with N for the order."""
+    """Yield the names of an engine's quantities, with N for the order."""
     yield "guide.N.H"
     if _find(model).x is not None:
         yield "guide.N.X"
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Nothing, unless one is of the X-type, of an engine that has none.
-
-    Raises:
-        BalcliError: the quantity, and why.
-    """
+    """Raise BalcliError for an X-type quantity of an engine that has no X-type moment."""
     of_x = [q for q in quantities if q.part == "X"]
     if of_x and _find(model).x is None:
         known = len(build(model).throws_m) < 2 or build(model).places_known
@@ -146,7 +141,7 @@ def _find(model: EngineFile) -> GuideMoments:
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
-    """The amplitude of each quantity of one engine, which has what they are of."""
+    """Return the amplitude of each quantity of one engine, N m."""
     orders = np.array(sorted({float(q.target) for q in quantities}))
     guide = compute_guide_moments(engine, orders)
     found = {"H": guide.h, "X": guide.x or guide.h}

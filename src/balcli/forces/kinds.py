@@ -1,9 +1,8 @@
-"""The one table of what shakes: every kind of force and moment, what it is called, how it is
-measured and how it is written.
+"""Table of all kinds of forces and moments: names, symbols, keys and units.
 
-Whatever is computed, shown, compared, recorded or searched by kind reads this table; a new kind is
-one line here, one member of `spectrum.Spectra`, and the physics that computes it. `KINDS` are those
-of inertia, which every engine has; `GAS_KINDS` those of engines whose file has [gas].
+Everything that is computed, shown, compared, recorded or searched by kind reads this table. A new
+kind is one line here, one member of `spectrum.Spectra`, and the physics that computes it. `KINDS`
+are those of inertia, which every engine has; `GAS_KINDS` those of engines with [gas].
 """
 
 from __future__ import annotations
@@ -18,13 +17,13 @@ class Kind(NamedTuple):
     """One kind of force or moment.
 
     Attributes:
-        name: in options (`--only`), quantities (`force.2.major`) and members of `Spectra`.
-        label: in headings and legends, where it may begin with a capital letter.
-        symbol: in formulas and narrow columns.
-        key: in JSON, with its SI unit as the ending.
-        vector: whether it is a vector of the x-y plane; a scalar acts about the crank's axis.
-        dimension: what is measured: a force, or the moment of one.
-        plus, minus: names of the kinds it is the sum of, if it is nothing else.
+        name: Name in options (`--only`), quantities (`force.2.major`) and members of `Spectra`.
+        label: Words for headings and legends, where it may begin with a capital letter.
+        symbol: Symbol for formulas and narrow columns.
+        key: Key in JSON, with its SI unit as the ending.
+        vector: Whether it is a vector of the x-y plane; a scalar acts about the crank's axis.
+        dimension: Force or moment.
+        plus, minus: Names of the kinds of which it is the sum and difference, if any.
     """
 
     name: str
@@ -38,16 +37,16 @@ class Kind(NamedTuple):
 
     @property
     def si_unit(self) -> str:
-        """N or N·m."""
+        """SI unit, N or N·m."""
         return _SI[self.dimension]
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Names of the kinds that have to be known for this one: itself, or those it sums up."""
+        """Names of the kinds from which this one is computed: itself, or those that it sums up."""
         return (*self.plus, *self.minus) or (self.name,)
 
     def key_along(self, axis: str) -> str:
-        """JSON key of its component along an axis: `force_x_N`."""
+        """Return the JSON key of its component along an axis: `force_x_N`."""
         stem, _, unit = self.key.rpartition("_")
         return f"{stem}_{axis}_{unit}"
 

@@ -1,7 +1,5 @@
-"""What sweep, search and scatter are about: single figures of an engine such as `force.2.major` or
-`peak.moment`.
-
-Quantities of something by its number or name: `mode.3.Hz`, `mount.left.force`, `guide.6.H`.
+"""Quantities: single figures of an engine for sweep, search and scatter, such as `force.2.major`,
+`peak.moment`, or for a target by number or name, `mode.3.Hz`, `mount.left.force`, `guide.6.H`.
 """
 
 from __future__ import annotations
@@ -15,7 +13,7 @@ import numpy as np
 
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Phasors
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.fields import shorten, suggest_nearest
 from ..limits import HIGHEST_ORDER
@@ -33,13 +31,16 @@ SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
 class Quantity:
     """One figure: `kind.order.part`, or `peak.kind` with order 0 and part "peak".
 
-    Of a couple, torque or roll, and of force and moment along x or y, `cos` and `sin` are the parts
-    of the value `cos cos n theta + sin sin n theta`: they have signs, and so has the mean of order
-    0, which is its `cos`.
+    For couple, torque and roll, and for force and moment along x or y, `cos` and `sin` are the
+    coefficients a and b of `a cos n theta + b sin n theta`. They are signed, and so is the mean of
+    order 0, which is its `cos`.
 
     Attributes:
-        called: what its name begins with, if that is not its kind: of an engine with gas the
-            `torque` is that of gas and inertia.
+        kind: Kind of force or moment.
+        order: Order; 0 for a peak.
+        part: Part of the phasor, or "peak".
+        called: First word of its name where it differs from the kind: `torque` of an engine with
+            gas is that of gas and inertia.
     """
 
     kind: str
@@ -49,7 +50,7 @@ class Quantity:
 
     @property
     def name(self) -> str:
-        """As a user writes it."""
+        """Name as a user writes it."""
         if self.part == "peak":
             return f"peak.{self.kind}"
         return f"{self.called or self.kind}.{self.order:g}.{self.part}"
@@ -61,11 +62,11 @@ class Quantity:
 
     @property
     def signed(self) -> bool:
-        """Whether it is one of two parts of a harmonic, which may be negative."""
+        """Whether it is a coefficient of cosine or sine, which may be negative."""
         return self.part.endswith(("cos", "sin"))
 
     def read_from(self, phasors: Phasors) -> Array:
-        """Its value by the phasors of its kind, SI or degrees, shape (*trailing)."""
+        """Return the value by the phasors of its kind, SI or degrees, shape (*trailing)."""
         row = int(np.searchsorted(phasors.orders, self.order))
         own = phasors.select_row(row)
         if self.signed:
@@ -79,14 +80,14 @@ class Quantity:
 
 
 def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
-    """`force.2.major`, `moment.1.backward`, `couple.4.amplitude`, `peak.force` and their like; it
-    begins with a kind, or peak.
+    """Return the quantity that a text names, such as `force.2.major` or `peak.force`.
 
     Args:
-        with_gas: whether the engine has gas: its `torque` is then that of gas and inertia.
+        text: Name; begins with a kind, or with peak.
+        with_gas: Whether the engine has gas: its `torque` is then that of gas and inertia.
 
     Raises:
-        BalcliError: anything else, with what there is.
+        BalcliError: The text names no quantity; the error lists what there is.
     """
     kind, _, rest = text.partition(".")
     if kind == "peak" and rest in [vector.name for vector in VECTORS]:
@@ -111,16 +112,13 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
 
 
 def leave_out_unknown(engine: Engine, quantities: Iterable[Quantity]) -> tuple[Quantity, ...]:
-    """The quantities without moments, of an engine that does not say where its throws stand."""
+    """Return the quantities, without moments if the positions of the throws are not known."""
     return tuple(q for q in quantities if q.kind != "moment" or engine.places_known)
 
 
 def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
-    """Nothing, unless one of these is a moment of an engine whose file does not say where its
-    throws stand, or of gas, of an engine without.
-
-    Raises:
-        BalcliError: the quantity, and what the file has to say.
+    """Raise BalcliError for a moment if the positions of the throws are not known, and for a
+    quantity of gas if the engine has none.
     """
     has_gas = engine.gas is not None or engine.gas_of_variants is not None
     for q in quantities:
@@ -131,8 +129,8 @@ def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
 
 
 def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:
-    """The value of each quantity, SI or degrees, shape (*trailing), of length 1 along axes on which
-    it does not depend.
+    """Return the value of each quantity, SI or degrees, shape (*trailing), of length 1 along axes
+    on which it does not depend.
 
     Only the orders that a kind is asked for are computed; kinds with the same orders share what
     they have in common.
@@ -149,7 +147,7 @@ def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[
 
 
 def find_orders(engine: Engine, quantities: Sequence[Quantity]) -> list[list[float]]:
-    """The orders that are computed together for these quantities, group by group."""
+    """Return the orders that are computed together for these quantities, group by group."""
     groups = [orders for orders, _ in _group_by_orders(quantities)]
     if any(q.part == "peak" for q in quantities):
         groups.append(find_relevant_orders(engine).tolist())
@@ -157,7 +155,7 @@ def find_orders(engine: Engine, quantities: Sequence[Quantity]) -> list[list[flo
 
 
 def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], list[Quantity]]]:
-    """Quantities whose kinds need the same orders, with these; peaks left out."""
+    """Return groups of quantities whose kinds need the same orders, with these; without peaks."""
     by_kind: dict[str, list[Quantity]] = {}
     for q in quantities:
         if q.part != "peak":
@@ -170,11 +168,11 @@ def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], 
 
 
 class Subject(NamedTuple):
-    """What quantities are of, by the word that their names begin with.
+    """Targets of quantities whose names begin with the same word.
 
     Attributes:
-        example: one of its numbers or names, for messages.
-        units: SI unit of everything that can be asked of it.
+        example: Number or name of a target, for messages.
+        units: SI unit of each part that a target has.
     """
 
     example: str
@@ -183,13 +181,13 @@ class Subject(NamedTuple):
 
 @dataclass(frozen=True)
 class TargetQuantity:
-    """One figure.
+    """One figure of a target: `kind.target.part`.
 
     Attributes:
-        kind: of what, such as `mount`.
-        target: its number or name.
-        part: what of it.
-        unit: SI, or percent.
+        kind: Kind of the target, such as `mount`.
+        target: Number or name of the target.
+        part: Figure of the target.
+        unit: SI unit, or percent.
     """
 
     kind: str
@@ -199,15 +197,15 @@ class TargetQuantity:
 
     @property
     def name(self) -> str:
-        """As a user writes it."""
+        """Name as a user writes it."""
         return f"{self.kind}.{self.target}.{self.part}"
 
 
 def parse_target_quantity(text: str, subjects: Mapping[str, Subject]) -> TargetQuantity:
-    """`kind.target.part`, the kind one of the subjects.
+    """Return the quantity that a text `kind.target.part` names, its kind one of the subjects.
 
     Raises:
-        BalcliError: a part that there is not, or no target, with what there is.
+        BalcliError: The part does not exist, or the target is missing; the error lists examples.
     """
     kind, _, rest = text.partition(".")
     target, _, part = rest.rpartition(".")
@@ -219,13 +217,14 @@ def parse_target_quantity(text: str, subjects: Mapping[str, Subject]) -> TargetQ
 
 
 def refuse_stranger(q: TargetQuantity, there: Sequence[str]) -> None:
-    """Nothing, unless the file does not have what a quantity is of.
+    """Raise an error if the file does not have the target of a quantity.
 
     Args:
-        there: names of what it has of this kind.
+        q: Quantity.
+        there: Names of all targets of its kind.
 
     Raises:
-        BalcliError: with the nearest name, or some of those that there are.
+        BalcliError: The target is missing; the error lists the nearest name, or some names.
     """
     if q.target in there:
         return

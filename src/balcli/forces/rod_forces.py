@@ -25,7 +25,7 @@ import numpy as np
 
 from ..core.mechanisms.motion import PointMass
 from ..core.phasors import Array, Complex, unit
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from .curves import EngineMotion, as_rows
 from .spectrum import take_gas
@@ -35,18 +35,18 @@ if TYPE_CHECKING:
 
 
 class RodForces(NamedTuple):
-    """N, each of shape (cylinders, angles), the cylinders in the order of `engine.numbers`.
+    """Forces, N, each of shape (cylinders, angles), in the order of `engine.numbers`.
 
     Attributes:
-        pressure: in the cylinder, Pa, absolute.
-        gas: on the piston, towards the crank.
-        thrust: of the piston on the cylinder wall, + along v.
-        rod: along the rod at the piston pin, + where it is pressed.
-        pin: of the rod on its crank pin or knuckle pin, u + i v; that of a master rod carries its
-            articulated rods, too.
-        axis: direction u of the cylinder in the engine's axes, of size 1.
-        throw: direction of the crank pin from the crank's axis, in the cylinder's frame.
-        lean: direction from the rod's pin to its piston pin, in the cylinder's frame.
+        pressure: Absolute pressure in the cylinder, Pa.
+        gas: Gas force on the piston, positive towards the crank.
+        thrust: Force of the piston on the cylinder wall, positive along v.
+        rod: Force along the rod at the piston pin, positive in compression.
+        pin: Force of the rod on its crank pin or knuckle pin, u + i v; a master rod's includes the
+            forces of its articulated rods.
+        axis: Unit vector u of the cylinder in the engine's axes.
+        throw: Unit vector from the crank's axis to the crank pin, in the cylinder's frame.
+        lean: Unit vector from the rod's lower pin to its piston pin, in the cylinder's frame.
     """
 
     pressure: Array
@@ -60,21 +60,21 @@ class RodForces(NamedTuple):
 
 
 class _Course(NamedTuple):
-    """Where points are (m), and their accelerations (m/s2), each of shape (cylinders, angles)."""
+    """Positions, m, and accelerations, m/s2, of points, each of shape (cylinders, angles)."""
 
     at: Complex
     acceleration: Complex
 
 
 def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
-    """Forces at crank angles; at a jump of the pressure those after it.
+    """Return forces at crank angles; at a jump of the pressure those after it.
 
     Args:
-        engine: with gas of known pressure, without trailing axes.
-        crank_deg: shape (angles,).
+        engine: Engine with gas of known pressure, without trailing axes.
+        crank_deg: Crank angles, shape (angles,).
 
     Raises:
-        BalcliError: no gas, or no pressures.
+        BalcliError: The engine has no gas, or no pressures.
     """
     pressure, gas = _find_gas_forces(engine, crank_deg)
     motion = EngineMotion(engine, crank_deg)
@@ -104,8 +104,8 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
 
 
 def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
-    """Rows of the cylinders whose rods hang on a master rod, by the row of the master; empty where
-    every rod is on a crank pin.
+    """Return the rows of the cylinders with articulated rods, by the row of the master; empty
+    without articulated rods.
     """
     linkage = engine.cylinders.linkage
     if linkage is None:
@@ -121,8 +121,8 @@ def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
 
 
 def _find_directions(engine: Engine, motion: EngineMotion) -> tuple[Complex, Complex]:
-    """`RodForces.axis` and `throw`. Where the cylinders turn, psi is a cylinder's angle ahead of
-    the crank pin (core.mechanisms.rotary).
+    """Return `RodForces.axis` and `throw`. Where cylinders turn, psi is a cylinder's angle ahead
+    of the crank pin (`core.mechanisms.linkage.Rotary`).
     """
     turned = unit(np.degrees(motion.psi))
     if engine.rotary:
@@ -131,11 +131,11 @@ def _find_directions(engine: Engine, motion: EngineMotion) -> tuple[Complex, Com
 
 
 def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[_Course, _Course]:
-    """Piston pins and lower ends of the rods, in each cylinder's frame."""
+    """Return piston pins and lower ends of the rods, in each cylinder's frame."""
     r, m = motion.radius, motion.moved
 
     def follow(point: PointMass, turned: Complex | float = 1.0) -> _Course:
-        """A point by its place and derivatives by the crank angle, in crank radii."""
+        """Return a point by its place and derivatives by the crank angle, in crank radii."""
         acceleration = r * turned * (point.z2 * motion.omega**2 + point.z1 * motion.xi)
         return _Course(r * turned * point.z, np.asarray(acceleration, complex))
 
@@ -149,7 +149,7 @@ def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[
 
 
 def _find_gas_forces(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
-    """Pressure (Pa) and gas force (N) of each cylinder, shape (cylinders, angles)."""
+    """Return pressure (Pa) and gas force (N) of each cylinder, shape (cylinders, angles)."""
     gas = take_gas(engine)
     angles = np.radians(crank_deg) - as_rows(gas.fires)
     pressures, forces = np.empty_like(angles), np.empty_like(angles)

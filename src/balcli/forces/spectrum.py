@@ -1,23 +1,22 @@
-"""Engine -> free forces and moments by order, computing only what is asked for.
-
-Which orders there are, and which of them an engine has worth computing or showing.
+"""Free forces and moments of an engine by order, inertia and gas.
 
 An order is how often something happens in a revolution of the crankshaft. Pistons, rods and devices
-repeat themselves after each revolution, and have whole orders. What happens once in a cycle of four
-strokes (gas pressure, and a crank speed that is uneven by it) has halves of whole numbers. All
-orders are therefore multiples of 1/2, and exact as floating-point numbers.
+repeat after each revolution and have whole orders. What happens once in a four-stroke cycle (gas
+pressure, and a crank speed that is uneven by it) has half orders as well. All orders are therefore
+multiples of 1/2, which are exact as floating-point numbers.
 
-Torque of the gas on the crank, by order, of an engine that has gas (`Engine.gas`).
+Inertia: `compute_spectra` sums the series of all mechanisms (`core.loads`); at uneven speed it
+convolves them with the coefficients of the speed (`core.speed_ripple`).
 
-Gas presses on piston and head alike: it makes no free force and no free moment, only torque and its
-reaction on the frame. With t_h the coefficients of one cylinder's torque over its cycle, a cylinder
-that fires at the crank angle f adds `t_h e^{i h (theta - f)/2}`: order n = h/2.
+Gas presses on piston and head alike: it makes no free force and no free moment, only a torque on
+the crank and its reaction on the frame. With t_h the coefficients of one cylinder's torque over its
+cycle, a cylinder that fires at the crank angle f adds `t_h e^{i h (theta - f)/2}`: order n = h/2.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add, sub
@@ -31,7 +30,7 @@ from ..core.loads import Loads, find_device_force, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders, select_orders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
 from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, unit
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
 from ..engine.gas import CylinderGas, EngineGas
 from ..errors import NO_GAS, BalcliError, wrong_type
@@ -50,13 +49,13 @@ _AT_ONCE = 1 << 18
 
 @dataclass(frozen=True, eq=False)
 class Spectra:
-    """Phasors by order of each kind (`kinds.KINDS`) that was asked for; None: it was not.
+    """Phasors by order of each kind (`kinds.EVERY_KIND`); None for kinds that were not computed.
 
     Attributes:
-        orders: shape (orders,), ascending.
-        force: N.
+        orders: Orders, ascending, shape (orders,).
+        force: Free force, N.
         moment, couple, torque, roll: N m; the torque is the inertia torque on the crank.
-        gas, torque_total, roll_total: N m, of the gas, and with it.
+        gas, torque_total, roll_total: N m, of the gas, and of gas and inertia.
     """
 
     orders: Array
@@ -70,31 +69,31 @@ class Spectra:
     roll_total: Phasors | None = None
 
     def __getitem__(self, kind: str) -> Phasors:
-        """Phasors of the kind with this name; KeyError if it was not asked for."""
+        """Return the phasors of the kind with this name; KeyError if they were not computed."""
         phasors: Phasors | None = getattr(self, EVERY_KIND[kind].name)
         if phasors is None:
             raise KeyError(kind)
         return phasors
 
     def items(self) -> list[tuple[Kind, Phasors]]:
-        """Each kind that was asked for, with its phasors, as in the table of kinds."""
+        """Return each computed kind with its phasors, in the order of the table of kinds."""
         found = [(kind, getattr(self, name)) for name, kind in EVERY_KIND.items()]
         return [(kind, phasors) for kind, phasors in found if phasors is not None]
 
     def vectors(self) -> list[tuple[Kind, Phasors]]:
-        """Those of `items` that are vectors: force and moment."""
+        """Return the `items` that are vectors: force and moment."""
         return [(kind, phasors) for kind, phasors in self.items() if kind.vector]
 
     def scalars(self) -> list[tuple[Kind, Phasors]]:
-        """Those of `items` that act about the crank's axis."""
+        """Return the `items` that act about the crank's axis."""
         return [(kind, phasors) for kind, phasors in self.items() if not kind.vector]
 
     def only(self, kinds: Collection[str]) -> Spectra:
-        """The same without all other kinds."""
+        """Return the spectra of these kinds alone, by their names."""
         return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
 
     def with_moment_if(self, known: bool) -> Spectra:
-        """The same, the moment as nan unless it is known, if it was asked for at all."""
+        """Return the spectra, with a computed moment as nan unless it is known."""
         if known or self.moment is None:
             return self
         p = self.moment
@@ -102,7 +101,7 @@ class Spectra:
         return replace(self, moment=unknown)
 
     def select_orders(self, orders: ArrayLike) -> Spectra:
-        """The same without all other orders."""
+        """Return the spectra of these orders alone, shape (orders,)."""
         if orders is self.orders:
             return self
         wanted = np.asarray(orders, float)
@@ -110,53 +109,53 @@ class Spectra:
         return Spectra(wanted, **{kind.name: p.select_rows(rows) for kind, p in self.items()})
 
     def select_place(self, place: int) -> Spectra:
-        """Those of one place along the trailing axis."""
+        """Return the spectra of one place along the trailing axis."""
         return Spectra(
             self.orders, **{kind.name: p.select_place(place) for kind, p in self.items()}
         )
 
 
 def compute_spectra(
-    engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)
+    engine: Engine,
+    orders: ArrayLike,
+    kinds: Collection[str] = tuple(KINDS),
+    *,
+    each: bool = False,
 ) -> Spectra:
-    """Free forces and moments of an engine.
+    """Return free forces and moments of an engine, or of each of its cylinders.
 
     Args:
-        engine: the engine; trailing axes of its arrays become those of the phasors.
-        orders: shape (orders,), ascending, not negative.
-        kinds: names of KINDS, and of GAS_KINDS for an engine with gas.
+        engine: Engine, at steady or uneven speed; without trailing axes for `each` cylinder. With
+            trailing axes, phasors have these after their own.
+        orders: Multiples of 1/2, ascending, not negative, shape (orders,).
+        kinds: Names of KINDS, and of GAS_KINDS for an engine with gas.
+        each: Phasors of each cylinder as if no other one had a mass, shape (orders, cylinders), in
+            the order of `engine.numbers`; devices are left out.
 
     Raises:
-        BalcliError: a kind of gas is asked of an engine without.
+        BalcliError: The engine has no gas, and a kind of gas is asked for; or more than
+            MOST_LOADS_APART orders of cylinders are.
     """
-    return _compute(engine, orders, kinds, apart=False)
-
-
-def compute_each_cylinder(
-    engine: Engine, orders: ArrayLike, kinds: Collection[str] = tuple(KINDS)
-) -> Spectra:
-    """What each cylinder does by itself, as if no other had a mass; the devices are left out.
-
-    Args:
-        engine: without trailing axes.
-        orders, kinds: as in `compute_spectra`.
-
-    Returns:
-        Phasors of shape (orders, cylinders), the cylinders in the order of `engine.numbers`.
-
-    Raises:
-        BalcliError: more than MOST_LOADS_APART of them.
-    """
-    refuse_too_many_loads(engine, np.size(orders), engine.cylinders.count)
-    return _compute(replace(engine, devices=()), orders, kinds, apart=True)
+    wanted = np.asarray(orders, float)
+    if each:
+        refuse_too_many_loads(engine, len(wanted), engine.cylinders.count)
+        engine = replace(engine, devices=())
+    parts = {part for name in kinds for part in EVERY_KIND[name].parts}
+    found = _compute_inertia(engine, wanted, parts - {"gas"}, each)
+    if "gas" in parts:
+        found["gas"] = compute_gas_torque(engine, wanted, each=each)
+    return Spectra(
+        wanted, **{name: add_parts(EVERY_KIND[name], found).drop_noise() for name in kinds}
+    )
 
 
 def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
-    """Nothing, unless so many orders of so many cylinders and counterweights, kept one by one,
-    would fill the memory.
+    """Raise BalcliError if the forces of single cylinders and counterweights would fill the memory.
 
-    Raises:
-        BalcliError: they would.
+    Args:
+        engine: Engine.
+        orders: Number of orders.
+        loads: Number of cylinders and counterweights.
     """
     most = MOST_LOADS_APART // 2 if engine.ripple else MOST_LOADS_APART
     if orders * loads > most:
@@ -168,52 +167,36 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
 
 
 def count_engine_samples(engine: Engine) -> int:
-    """About how many samples of revolutions the mechanisms of an engine, or of variants, take."""
+    """Return about how many samples of revolutions the mechanisms of an engine, or of variants,
+    take.
+    """
     c = engine.cylinders
     sampled = c.linkage is not None or np.count_nonzero(c.eps)
     return c.count_all_samples()[1] if sampled else 0
 
 
 def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phasors:
-    """Force of one device of an engine without trailing axes, N, for these orders."""
+    """Return the force of one device, N, by order, for an engine without trailing axes."""
+    speed, dense = _mix_orders(engine, orders)
+    force = find_device_force(device, dense, engine.omega**2).drop_noise()
     if not engine.ripple:
-        return find_device_force(device, orders, engine.omega**2).drop_noise()
-    w, dense = _mix_orders(engine, orders)
-    steady = find_device_force(device, dense, engine.omega**2).drop_noise()
-    return ripple.apply_to_force(steady, w).select_orders(orders).drop_noise()
-
-
-def _compute(engine: Engine, orders: ArrayLike, kinds: Collection[str], *, apart: bool) -> Spectra:
-    wanted = np.asarray(orders, float)
-    parts = {part for name in kinds for part in EVERY_KIND[name].parts}
-    inertia = parts - {"gas"}
-    if engine.ripple:
-        found = _compute_uneven(engine, wanted, inertia, apart)
-    else:
-        found, _ = _compute_steady(engine, wanted, inertia, apart)
-    if "gas" in parts:
-        found["gas"] = _compute_gas(engine, wanted, apart=apart)
-    every = {name: add_parts(EVERY_KIND[name], found).drop_noise() for name in kinds}
-    return Spectra(wanted, **every)
-
-
-def _compute_gas(engine: Engine, orders: Array, *, apart: bool) -> Phasors:
-
-    compute = compute_gas_torque_of_each if apart else compute_gas_torque
-    return compute(engine, orders)
+        return force
+    return ripple.apply_to_force(force, speed).select_orders(orders).drop_noise()
 
 
 def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
-    """Phasors of a kind by those of its parts (`Kind.parts`), which are given by name."""
+    """Return the phasors of a kind from those of its parts (`Kind.parts`), given by name."""
     plus = reduce(add, (parts[name] for name in kind.plus or (kind.name,)))
     return reduce(sub, (parts[name] for name in kind.minus), plus)
 
 
 def with_only(engine: Engine, moving: ArrayLike) -> Engine:
-    """The engine with the masses of some cylinders alone, and without devices.
+    """Return the engine with the masses of some cylinders alone, and without devices.
 
     Args:
-        moving: which cylinders, shape (cylinders,), in the order of `engine.numbers`.
+        engine: Engine.
+        moving: Whether each cylinder has its masses, shape (cylinders,), in the order of
+            `engine.numbers`.
     """
     c = engine.cylinders
     here = np.asarray(moving, bool).reshape(-1, *(1,) * (c.pin_deg.ndim - 1)).astype(float)
@@ -227,50 +210,43 @@ def with_only(engine: Engine, moving: ArrayLike) -> Engine:
     return replace(engine, cylinders=cylinders, devices=())
 
 
-def _compute_steady(
-    engine: Engine, orders: Array, parts: Collection[str], apart: bool
-) -> tuple[dict[str, Phasors], Loads]:
-    """Phasors of some parts by name at a steady speed, and the loads of the lowest orders."""
-    c, (x, y, z) = engine.cylinders, engine.reference_m
+def _compute_inertia(
+    engine: Engine, orders: Array, parts: Collection[str], each: bool
+) -> dict[str, Phasors]:
+    """Return the phasors of some kinds of inertia by name; arguments as for `compute_spectra`."""
+    c, (x, y, z), uneven = engine.cylinders, engine.reference_m, bool(engine.ripple)
     names = [name for name in KINDS if name in parts]
-    series = find_needed_series(c, parts, uneven=bool(engine.ripple))
-    few, which = c.find_distinct_harmonics(orders, series)
+    if not names:
+        return {}
+    speed, dense = _mix_orders(engine, orders)
+    few, which = c.find_distinct_harmonics(dense, find_needed_series(c, parts, uneven=uneven))
     most = max(_AT_ONCE // c.count, 1)
 
-    def make_loads(block: slice) -> Loads:
-        own = few if len(orders) <= most else select_orders(few, block)
-        own = select_cylinders(own, which)
-        phases = (SeparatePhases if apart else Phases)(c, orders[block])
-        return Loads(c, engine.devices, place_in_plane(x, y), z, phases, own, engine.omega**2)
+    def make_loads(start: int) -> Loads:
+        block = slice(start, start + most)
+        series = select_cylinders(select_orders(few, block), which)
+        phases = (SeparatePhases if each else Phases)(c, dense[block])
+        return Loads(c, engine.devices, place_in_plane(x, y), z, phases, series, engine.omega**2)
 
-    lowest, blocks = make_loads(slice(most)), []
-    for start in range(0, max(len(orders), 1), most):
-        loads = make_loads(slice(start, start + most)) if start else lowest
+    lowest, blocks = make_loads(0), []
+    for start in range(0, max(len(dense), 1), most):
+        loads = make_loads(start) if start else lowest
         blocks.append([getattr(loads, name) for name in names])
-    return {
-        name: _join(own) for name, own in zip(names, zip(*blocks, strict=True), strict=False)
-    }, lowest
-
-
-def _join(blocks: Sequence[Phasors]) -> Phasors:
-    return blocks[0] if len(blocks) == 1 else join_orders(blocks)
-
-
-def _compute_uneven(
-    engine: Engine, orders: Array, parts: Collection[str], apart: bool
-) -> dict[str, Phasors]:
-    """Phasors of some parts by name at an uneven speed."""
-    w, dense = _mix_orders(engine, orders)
-    steady, loads = _compute_steady(engine, dense, parts, apart)
-    found = {name: phasors.drop_noise() for name, phasors in steady.items()}
-    crank = _find_crankshaft(engine) / (engine.cylinders.count if apart else 1)
-    for name, phasors in found.items():
+    steady = {
+        name: join_orders(pieces) if len(pieces) > 1 else pieces[0]
+        for name, *pieces in zip(names, *blocks, strict=True)
+    }
+    if not uneven:
+        return steady
+    found, crank = {}, _find_crankshaft(engine) / (c.count if each else 1)
+    for name, phasors in steady.items():
         if name == "torque":
-            uneven = ripple.apply_to_torque(phasors, w, loads.mean_inertia + crank)
+            inertia = lowest.mean_inertia + crank
+            mixed = ripple.apply_to_torque(phasors.drop_noise(), speed, inertia)
         else:
-            mean = loads.mean_momentum + crank if name == "couple" else 0.0
-            uneven = ripple.apply_to_force(phasors, w, mean)
-        found[name] = uneven.select_orders(orders)
+            momentum = lowest.mean_momentum + crank if name == "couple" else 0.0
+            mixed = ripple.apply_to_force(phasors.drop_noise(), speed, momentum)
+        found[name] = mixed.select_orders(orders)
     return found
 
 
@@ -280,20 +256,24 @@ def _find_crankshaft(engine: Engine) -> Figure:
     """
     if engine.crank_inertia is None or engine.rotary:
         return 0.0
-    throws = sum(weighed.share for weighed in engine.weighed) * engine.cylinders.radius**2
+    throws = sum(masses.share for masses in engine.weighed) * engine.cylinders.radius**2
     return (engine.crank_inertia - throws) * engine.omega**2
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
-    """Coefficients of the speed (`ripple.find_speed`), and the dense orders it mixes into these."""
+    """Return the coefficients of the speed (`ripple.find_speed`), and the orders that it mixes into
+    these: dense ones at uneven speed, at steady speed these themselves.
+    """
+    if not engine.ripple:
+        return np.ones(1, complex), orders
     mixed = [line.order for line in engine.ripple]
     dense = dense_orders(orders.max(initial=0) + 2 * max(mixed), [*mixed, *orders])
     return ripple.find_speed(engine.ripple, float(dense[1])), dense
 
 
 def dense_orders(highest: float, mixed: Iterable[float]) -> Array:
-    """The orders 0, 1, 2 .. up to the highest, shape (orders,); 0, 1/2, 1 .. where some that are
-    mixed are halves.
+    """Return the orders 0, 1, 2 .. up to the highest, shape (orders,); 0, 1/2, 1 .. where some of
+    those that are mixed are halves.
     """
     step = ripple.find_step(mixed)
     return np.arange(round(highest / step) + 1.0) * step
@@ -303,20 +283,20 @@ SHOWN = 1e-6  # share of a quantity's largest order below which an order is not 
 
 
 def is_order(number: float) -> bool:
-    """Whether it is an order that may be asked for: a multiple of 1/2, 0 to HIGHEST_ORDER."""
+    """Return whether a number is an order: a multiple of 1/2, 0 to HIGHEST_ORDER."""
     return 0 <= number <= HIGHEST_ORDER and number % 0.5 == 0
 
 
 def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> Array:
-    """Orders that were asked for, ascending, each once.
+    """Return the orders of an argument, ascending, each once.
 
     Args:
-        orders: as asked for.
-        engines: whose they are: one at least has to have half orders if some are asked for.
+        orders: Numbers.
+        engines: Engines, one of which must have half orders if `orders` has some.
 
     Raises:
-        BalcliError: there are none, some are no orders, or half orders that no engine has.
-        TypeError: they are no numbers.
+        BalcliError: There are none, some are no orders, or half orders that no engine has.
+        TypeError: They are no numbers.
     """
     asked = sorted(set(_list_numbers(orders)))
     if not asked or not all(map(is_order, asked)):
@@ -345,7 +325,7 @@ def _list_numbers(orders: object) -> list[float]:
 
 
 def parse_order(text: str) -> float | None:
-    """The order that a text names, such as `2` or `1.5`; None if it names none."""
+    """Return the order that a text names, such as `2` or `1.5`; None if it names none."""
     short = len(text) <= len(f"{HIGHEST_ORDER}.5") + 1
     if not short or not re.fullmatch(r"[0-9]+(\.[05])?", text, re.ASCII):
         return None
@@ -354,7 +334,7 @@ def parse_order(text: str) -> float | None:
 
 
 def split_order(text: str) -> tuple[float | None, str]:
-    """`1.5.amplitude` as the order 1.5 and what comes after it; None where there is no order."""
+    """Return `1.5.amplitude` as the order 1.5 and the rest; None where there is no order."""
     match = re.fullmatch(r"([^.]*(?:\.[05](?=\.|$))?)(?:\.(.*))?", text, re.DOTALL)
     if match is None:
         return None, text
@@ -362,8 +342,8 @@ def split_order(text: str) -> tuple[float | None, str]:
 
 
 def find_relevant_orders(engine: Engine) -> Array:
-    """The orders 1 .. n beyond which nothing exceeds rounding errors, shape (orders,); 0 .. n at
-    uneven speed, with halves where its lines have some.
+    """Return the orders 1 .. n above which nothing exceeds rounding errors, shape (orders,); 0 .. n
+    at uneven speed, with half orders if its lines have some.
     """
     of_devices = [device.order for device in engine.devices]
     highest = max([engine.cylinders.find_highest_order(), *of_devices])
@@ -385,7 +365,7 @@ def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) 
 
 
 def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
-    """Orders in which something exceeds SHOWN of its own largest order, shape (orders,); none above
+    """Return whether each order exceeds SHOWN of the largest order, shape (orders,); False above
     HIGHEST_ORDER_UNASKED.
     """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
@@ -408,7 +388,7 @@ def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
 
 
 def merge_orders(*several: Iterable[float]) -> Array:
-    """All orders of several, ascending, each once."""
+    """Return all orders of several lists, ascending, each once."""
     # np.union1d would import masked arrays, which takes longer than all the rest
     return np.array(sorted({float(order) for orders in several for order in orders}))
 
@@ -428,50 +408,39 @@ def take_gas(engine: Engine) -> EngineGas:
     return engine.gas
 
 
-def compute_gas_torque(engine: Engine, orders: Array) -> Phasors:
-    """Return the torque of all cylinders' gas on the crank, N m, noise included.
+def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> Phasors:
+    """Return the torque of the gas on the crank, N m, noise included.
 
     Args:
-        engine: without trailing axes, or variants whose gas may be asked for.
-        orders: multiples of 1/2, shape (orders,).
+        engine: Engine with gas, without trailing axes; or variants with `gas_of_variants`.
+        orders: Multiples of 1/2, shape (orders,).
+        each: Torque of each cylinder, shape (orders, cylinders), in the order of `engine.numbers`,
+            and not that of all.
 
     Raises:
-        BalcliError: the engine has no gas.
+        BalcliError: The engine has no gas.
     """
-    if engine.gas_of_variants is not None:
+    if engine.gas_of_variants is not None and not each:
         return engine.gas_of_variants(orders)
-    each = compute_gas_torque_of_each(engine, orders)
-    count = len(take_gas(engine).cylinders)
-    rounding = SUM * count + ANGLE * orders
-    noise = each.noise.sum(axis=1) + rounding * np.abs(each.forward).sum(axis=1)
-    return Phasors(orders, each.vectors.sum(axis=2), noise)
-
-
-def compute_gas_torque_of_each(engine: Engine, orders: Array) -> Phasors:
-    """Return the torque of each cylinder's gas on the crank, N m, shape (orders, cylinders), the
-    cylinders in the order of `engine.numbers`; arguments and errors as of `compute_gas_torque`.
-    """
     gas = take_gas(engine)
-    courses, errors = find_courses(gas, orders)
-    fires = np.stack([_turn(cylinder, orders) for cylinder in gas.cylinders], axis=1)
-    return Phasors.from_scalar(orders, courses * fires, errors)
-
-
-def find_courses(gas: EngineGas, orders: Array) -> tuple[Complex, Array]:
-    """Return the torque of each cylinder's gas by its own cycle angle, N m, shape (orders,
-    cylinders): `Re sum c_n e^{i n theta}`; and its error, likewise.
-    """
     halves = np.rint(2 * orders).astype(np.intp)
-    courses = np.empty((len(orders), len(gas.cylinders)), complex)
-    errors = np.empty(courses.shape)
+    torques = np.empty((len(orders), len(gas.cylinders)), complex)
+    errors = np.empty(torques.shape)
     for torque, rows in gas.group_equal():
         lowest = np.abs(torque.harmonics(np.arange(1, _LEAST + 1)))
-        courses[:, rows] = torque.harmonics(halves)[:, None]
+        torques[:, rows] = torque.harmonics(halves)[:, None]
         errors[:, rows] = _QUADRATURE * float(lowest.max())
-    courses *= gas.shares
-    return courses, gas.shares * errors
+    torques *= gas.shares * np.stack([_turn(one, orders) for one in gas.cylinders], axis=1)
+    found = Phasors.from_scalar(orders, torques, gas.shares * errors)
+    if each:
+        return found
+    rounding = SUM * len(gas.cylinders) + ANGLE * orders
+    noise = found.noise.sum(axis=1) + rounding * np.abs(found.forward).sum(axis=1)
+    return Phasors(orders, found.vectors.sum(axis=2), noise)
 
 
 def _turn(cylinder: CylinderGas, orders: Array) -> Complex:
-    """e^{-i n f}: the nominal angle turns exactly, so that cylinders that fire evenly cancel."""
+    """Return e^{-i n f}: the nominal angle turns exactly, so that cylinders that fire evenly
+    cancel.
+    """
     return np.exp(-1j * orders * cylinder.piston.top) * unit(-orders * cylinder.nominal_deg)

@@ -1,4 +1,12 @@
-"""Whether an order is balanced by symmetry of the layout or by chance.
+"""An engine compared with one of its cylinders: free forces and moments as multiples, and whether
+an order is balanced by symmetry or by chance.
+
+Textbooks state multiples of the first-order force of cylinder 1's reciprocating mass, `F1 = m_rec r
+omega^2`, of its n-th order, `F_n = A_n F1`, and moments as multiples of `F_n a`, a the smallest
+distance of neighbouring throws. Where the rod of cylinder 1 is articulated, the cylinder of its
+master stands for it. Textbooks count reciprocating masses alone, each in the plane of its throw:
+rotating masses are left to the counterweights. Source: Bosch, Automotive Handbook, "Free forces and
+moments of the 1st and 2nd order".
 
 An order that is balanced by symmetry (docs/theory.md) stays balanced whatever all cylinders have in
 common. So the engine is computed again with other piston and rod masses, another rod length and
@@ -12,16 +20,117 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from operator import attrgetter
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from ..core.mechanisms import harmonics
 from ..core.phasors import Array
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.gas import EngineGas
-from .kinds import KINDS
-from .spectrum import Spectra, compute_each_cylinder, compute_spectra, merge_orders
-from .textbook import Textbook, find_textbook, without_devices
+from .kinds import KINDS, Kind
+from .spectrum import Spectra, compute_spectra, merge_orders
 
+if TYPE_CHECKING:
+    from ..core.mechanisms.linkage import Articulated
+
+# ------------------------------------------------------------------ multiples of one cylinder
+_NO_FORCE = 1e-12  # A_n of an order that the piston does not have
+
+
+class TextbookUnits(NamedTuple):
+    """Units of the multiples in which textbooks state forces and moments.
+
+    Attributes:
+        orders: Orders, shape (orders,).
+        force: F1, N.
+        arm: Smallest distance a of neighbouring throws, m; nan where all are in one plane.
+        ratios: |A_n| of each order, shape (orders,).
+        cylinder: Number of the cylinder that has these units.
+        equal: Whether all cylinders are equal to it.
+    """
+
+    orders: Array
+    force: float
+    arm: float
+    ratios: Array
+    cylinder: int
+    equal: bool
+
+    def size(self, kind: Kind, order: float) -> float:
+        """Return F_n of one of the orders, N, or F_n a, N m; nan without such a force or arm."""
+        ratio = float(self.ratios[np.searchsorted(self.orders, order)])
+        if not self.force or ratio < _NO_FORCE:
+            return float("nan")
+        return self.force * ratio * (1.0 if kind.dimension == "force" else self.arm)
+
+    def name(self, kind: Kind, order: object = "n") -> str:
+        """Return the symbol of the unit of an order."""
+        return f"F{order}" if kind.dimension == "force" else f"F{order}·a"
+
+
+class Textbook(NamedTuple):
+    """An engine's forces and moments with their units in textbooks.
+
+    Attributes:
+        units: Units of the multiples.
+        reciprocating: Forces, N, and moments, N m, of reciprocating masses in the planes of their
+            throws, as in textbooks.
+        built: Forces and moments of all masses of the cylinders at their positions, without
+            devices, at a steady speed.
+    """
+
+    units: TextbookUnits
+    reciprocating: Spectra
+    built: Spectra
+
+
+def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Textbook:
+    """Return the forces of an engine without trailing axes, for orders and names of kinds."""
+    built = without_devices(engine)
+    return Textbook(
+        find_textbook_units(engine, orders),
+        compute_spectra(with_reciprocating_only(built), orders, kinds),
+        compute_spectra(built, orders, kinds),
+    )
+
+
+def without_devices(engine: Engine) -> Engine:
+    """Return the cylinders alone, at a steady speed; moments are about the crank's axis."""
+    return replace(engine, devices=(), ripple=(), reference_m=(0.0, 0.0, engine.reference_m[2]))
+
+
+def with_reciprocating_only(engine: Engine) -> Engine:
+    """Return the engine without rotating masses, every cylinder in the plane of its throw."""
+    c = engine.cylinders
+    planes = engine.throws_m[[weighed.throw for weighed in engine.weighed]]
+    return replace(engine, cylinders=replace(c, z=planes, rotating=0 * c.rotating))
+
+
+def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
+    """Return the units of an engine without trailing axes, for these orders."""
+    c, row = engine.cylinders, engine.numbers.index(1)
+    if c.linkage is not None and not engine.rotary:
+        row = int(cast("Articulated", c.linkage).master[row])
+
+    def of_this_one(values: Array) -> Array:
+        return values[row : row + 1] if len(values) > 1 else values
+
+    lam, eps = of_this_one(c.lam), of_this_one(c.eps)
+    series = harmonics.find_harmonics(orders, lam, eps, {"piston"})["piston"]
+    mass = float(of_this_one(c.reciprocating)[0])
+    gaps = np.diff(np.unique(np.round(engine.throws_m, 9)))
+    return TextbookUnits(
+        orders=orders,
+        force=float(mass * c.radius * engine.omega**2),
+        arm=float(gaps.min()) if gaps.size else float("nan"),
+        ratios=np.abs(series.c[:, 0]),
+        cylinder=engine.numbers[row],
+        equal=engine.equal,
+    )
+
+
+# ------------------------------------------------------------------ symmetry or chance
 # Kinds that are judged together, by the name of their group, and this name in words.
 _GROUPS = {
     "force": ("force",),
@@ -154,7 +263,10 @@ def _find_reasons(
     engine: Engine, orders: Array, groups: Mapping[str, tuple[str, ...]]
 ) -> Iterator[Reason]:
     parts = [part for own in groups.values() for part in own]
-    book, each = find_textbook(engine, orders, parts), compute_each_cylinder(engine, orders, parts)
+    book, each = (
+        find_textbook(engine, orders, parts),
+        compute_spectra(engine, orders, parts, each=True),
+    )
     redrawn = [compute_spectra(other, orders, parts) for other in _draw(engine)]
     for group, own in groups.items():
         for row, order in enumerate(orders.tolist()):

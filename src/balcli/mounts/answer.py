@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..core.phases import RPM
 from ..core.vibration import Real
-from ..engine.build import Engine, check_engine, take_model
+from ..engine.engine import Engine, check_engine, take_model
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError, check_type
 from ..file.model import EngineFile

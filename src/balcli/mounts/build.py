@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.vibration import Complex, Modes, Real, modal_loss
-from ..engine.build import Engine
+from ..engine.build import find_contradictions
+from ..engine.engine import Engine
 from ..engine.load import build_named
-from ..engine.parse import find_contradictions
 from ..engine.parts import Parts
 from ..errors import InputError, Problem
 from ..file.doubts import NO_DISTANCE, doubt_losses
@@ -221,10 +221,10 @@ def read_mounted(path: str | Path) -> MountedFile:
 
 def check_mounted(draft: Draft, name: str) -> MountedFile:
     """The same of what could be read of a file; `name` is that of the file, for messages."""
-    faults = list(find_mounting_faults(draft.model, draft.legible))
+    faults = list(find_mounting_faults(draft.model, draft.readable))
     has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
     if draft.problems or faults:
-        whole = Parts(draft.model, legible=draft.legible)
+        whole = Parts(draft.model, readable=draft.readable)
         contradictions = find_contradictions(whole) if has_engine and draft.problems else []
         raise refuse([*draft.problems, *contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None

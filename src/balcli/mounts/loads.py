@@ -26,7 +26,7 @@ from ..core.speed_ripple import (
     find_timetable,
 )
 from ..core.vibration import Complex, Real
-from ..engine.build import NONE_SILENT, Engine, SilentCylinders
+from ..engine.engine import NONE_SILENT, Engine, SilentCylinders
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.kinds import GAS_KINDS
 from ..forces.spectrum import (

@@ -22,7 +22,7 @@ from ..core.vibration import (
     frequencies,
     solve_response,
 )
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError
 from ..forces.spectrum import compute_spectra, list_gas_orders

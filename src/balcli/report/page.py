@@ -19,10 +19,10 @@ from ..balancing.answer import Balance, balance_engine
 from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError, warn
 from ..file.model import EngineFile
-from ..forces.gas_torque import find_torque_curves
+from ..forces.curves import find_torque_curves
 from ..forces.kinds import MOMENT, VECTORS
 from ..forces.spectrum import take_gas
 from ..mounts import show as mounts

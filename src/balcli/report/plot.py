@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..analysis.answer import Analysis
 from ..balancing.answer import Balance
-from ..engine.build import Engine, take_model
+from ..engine.engine import Engine, take_model
 from ..errors import check_type, warn, wrong_type
 from ..field.answer import FieldBalance
 from ..field.show import make_field

@@ -13,7 +13,7 @@ import numpy as np
 from ..analysis.answer import Analysis, analyze, find_inner_loads
 from ..balancing.answer import balance_engine as balance
 from ..core.phasors import Array, Phasors
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads
 from ..forces.spectrum import compute_spectra

@@ -27,7 +27,7 @@ from ..file.toml import find_near_file, name_file, read_bytes
 from .options import WORDS_OF_ONLY
 
 if TYPE_CHECKING:
-    from ..engine.build import Engine
+    from ..engine.engine import Engine
     from ..file.model import EngineFile
 
 
@@ -47,7 +47,10 @@ class LoadedEngine(NamedTuple):
 
 
 def read_engine(
-    path: str, speed_rpm: float | None = None, asked: Collection[str] | None = None
+    path: str,
+    speed_rpm: float | None = None,
+    asked: Collection[str] | None = None,
+    prepare: Callable[[EngineFile], EngineFile] = lambda model: model,
 ) -> LoadedEngine:
     """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
 
@@ -55,6 +58,7 @@ def read_engine(
         speed_rpm: crank speed of the engine instead of the file's.
         asked: names of quantities and tables that a user asked for; None: whatever the command
             shows. What says nothing of moments needs no warning that they are not known.
+        prepare: makes the file of which the engine is built.
 
     Raises:
         BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
@@ -68,7 +72,7 @@ def read_engine(
 
     text = read_bytes(path)
     model = parse.parse(text, name_file(path))
-    engine = load.build_named(model, path)
+    engine = load.build_named(prepare(model), path)
     if is_verbose():
         _tell_what_was_read(name_file(path), text, model, engine)
     if not engine.places_known:
@@ -198,7 +202,7 @@ def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> En
     if not numbers:
         return engine
     require_gas(engine, path)
-    from ..forces.gas_torque import silence  # for those who ask
+    from ..forces.curves import silence  # for those who ask
 
     for number in numbers:
         engine = silence(engine, number)

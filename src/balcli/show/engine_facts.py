@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.cylinders import Device, DeviceKind, find_travel
 from ..core.phasors import Figure
-from ..engine.build import Engine, SilentCylinders
+from ..engine.engine import Engine, SilentCylinders
 from ..file.fields import count_lambda_digits
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries

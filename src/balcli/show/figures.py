@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
-from ..engine.build import Engine, SilentCylinders
+from ..engine.engine import Engine, SilentCylinders
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.spectrum import Spectra

@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 from itertools import repeat
 
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from .csv import Columns
 from .engine_facts import engine_facts
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, number

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from ..core.records import HIDDEN, INLINE, Node, Polar
-from ..engine.build import Engine
-from ..engine.rods import Weighed
+from ..engine.engine import Engine
+from ..engine.rods import CylinderMasses
 from .planes import measure_direction
 
 DEFINITION = (
@@ -110,7 +110,7 @@ def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
     )
 
 
-def _list_lines(masses: list[Weighed]) -> tuple[CardLine, ...]:
+def _list_lines(masses: list[CylinderMasses]) -> tuple[CardLine, ...]:
     """Return the parts of the rods on one pin; parts that none of them has are left out."""
     rods = [
         {

@@ -15,8 +15,8 @@ from ..core.extrema import find_least
 from ..core.levers import share_by_lever
 from ..core.peaks import find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
-from ..engine.build import Engine
-from ..engine.rods import Weighed
+from ..engine.engine import Engine
+from ..engine.rods import CylinderMasses
 from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
@@ -396,7 +396,7 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
     return pins
 
 
-def _weigh(engine: Engine, rows: Sequence[int]) -> list[Weighed]:
+def _weigh(engine: Engine, rows: Sequence[int]) -> list[CylinderMasses]:
     return [engine.weighed[row] for row in rows]
 
 

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from ..core import least_squares
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import EPS, unit
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import ROLL_TOTAL

@@ -20,7 +20,7 @@ import numpy as np
 from ..core.peaks import find_near_peaks
 from ..core.phasors import EPS, Complex, Phasors, unit
 from ..core.vibration import Real
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from .factor import find_curve, find_factor_peaks
 from .fitting import Fitting, Slot, size_unbalances

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, cast
 from ..errors import BalcliError, wrong_type
 from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER
-from .schemes import KNUCKLES, NAMES, SCHEMES
+from .schemes import FIT, KNUCKLES, NAMES, SCHEMES
 
 # Of each option with numbers: their kind, whether they have to be finite, and what is right.
 _NUMBERS: dict[str, tuple[type, bool, str]] = {
@@ -131,6 +131,11 @@ def find_taken(scheme: str) -> tuple[str, ...]:
         raise BalcliError(
             "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
             "--scheme knuckles` does so"
+        )
+    if scheme == FIT:
+        raise BalcliError(
+            'scheme fit needs devices with unbalance = "fit" in the engine file; only '
+            "`balcli balance` fits them"
         )
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""

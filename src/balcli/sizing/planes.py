@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import EPS, wrap_degrees
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from .options import SchemeOptions

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Device, DeviceKind
-from ..engine.build import Engine
 from ..engine.devices import build_device
+from ..engine.engine import Engine
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from .planes import KINDS, DeviceTable, find_free, name_kind
 

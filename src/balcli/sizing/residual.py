@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.fields import join_words
 from ..forces.spectrum import compute_spectra

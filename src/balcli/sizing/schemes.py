@@ -20,7 +20,10 @@ SCHEMES: dict[str, tuple[str, ...]] = {
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
 
 
-NAMES = (*SCHEMES, KNUCKLES)
+FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
+
+
+NAMES = (*SCHEMES, KNUCKLES, FIT)
 
 
 # What each does, in a line.
@@ -37,4 +40,5 @@ MEANINGS = {
     "eccentric-slider": "a pair of shafts of variable speed, for one cylinder",
     "oldham": "an Oldham coupling for orders 1 and 2 of one cylinder",
     KNUCKLES: "knuckle angles for even dead centres or strokes (articulated)",
+    FIT: 'devices whose unbalance is "fit" in the file, in their places',
 }

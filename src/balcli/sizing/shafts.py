@@ -13,7 +13,7 @@ import cmath
 import math
 from collections.abc import Sequence
 
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from .fitting import (
     Fitting,

@@ -27,7 +27,7 @@ from ..core.cylinders import Device
 from ..core.mechanisms import closed_form
 from ..core.phasors import Array, Complex, unit
 from ..core.records import to_document
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
 from .fitting import Fitting
 from .options import SchemeOptions

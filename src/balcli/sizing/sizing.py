@@ -10,9 +10,14 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable
 
+import numpy as np
+
+from ..core.cylinders import DeviceKind
 from ..core.phasors import wrap_degrees
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError
+from ..forces.crankshaft import find_crank_loads
+from ..forces.spectrum import compute_spectra
 from .factor import size_by_factor
 from .fitting import (
     Fitting,
@@ -33,7 +38,7 @@ from .planes import (
     measure_direction,
     read_planes,
 )
-from .remedy import Remedy
+from .remedy import Remedy, fit_devices
 from .residual import (
     BACKWARD,
     BACKWARD_FORCE,
@@ -47,6 +52,11 @@ from .residual import (
 )
 from .shafts import size_couple_shaft, size_four_shaft, size_single_shaft, size_two_shaft
 from .single_cylinder import size_eccentric_slider, size_oldham
+
+_AT_THROWS = (
+    "At every throw: what of order 1 turns with the crank there, so that neither main bearings nor "
+    "crankshaft have to carry it"
+)
 
 
 def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
@@ -87,6 +97,8 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
         )
     fitting = Fitting.start(engine, "counterweights", 1)
     residual = fitting.find_residual(1)
+    if options.planes == "throws":
+        return _add_at_throws(fitting).remedy
     if not any(residual.parts[part] for part in FORWARD):
         raise NothingToBalanceError(_tell_not_needed(engine))
     if options.planes is None:
@@ -104,9 +116,38 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     return remedy
 
 
+def _add_at_throws(fitting: Fitting) -> Fitting:
+    """With a weight at every throw against what turns with the crank there: the forward force of
+    order 1 of its cylinders, and of the counterweights of the file that are nearest to it. If a
+    force or moment remains (stagger, weights of the file), the smallest addition takes it.
+    """
+    engine, throws = fitting.engine, fitting.engine.joined_throws_m
+    forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
+    unbalances = np.zeros(len(throws), complex)
+    np.add.at(unbalances, engine.joined_throw_of_rows, -forward / float(engine.omega) ** 2)
+    for device in engine.devices:
+        if device.kind is DeviceKind.COUNTERWEIGHT:
+            unbalances[np.abs(throws - device.z).argmin()] -= device.forward
+    slots = [Slot("counterweight", 1, 1, float(z)) for z in throws]
+    left = fitting.add(slots, unbalances, "").find_residual(1)
+    parts = FORWARD if engine.places_known else FORWARD[:1]
+    if any(left.parts[part] for part in parts):
+        unbalances = unbalances + size_unbalances(slots, left, parts).unbalances
+    return fitting.add(slots, unbalances.tolist(), _AT_THROWS)
+
+
 def _tell_not_needed(engine: Engine) -> str:
     what = "force or moment" if engine.places_known else "force"
-    return f"there is no free {what} of order 1 turning with the crank: no counterweight is needed"
+    text = f"Order 1 is balanced already: counterweights change no free {what}"
+    with_weights = fit_devices(engine, _add_at_throws(Fitting.start(engine, "")).remedy)
+    states = [find_crank_loads(one) for one in (engine, with_weights)]
+    before, after = (state.main_N if state else 0.0 for state in states)
+    if after < before:
+        text += (
+            ". At every throw (--planes throws) they lower the largest main bearing load from "
+            f"{before / 1e3:.4g} to {after / 1e3:.4g} kN"
+        )
+    return text
 
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.phasors import wrap_degrees
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import BalcliError, check_number
 from ..file.model import Counterweight, Shaft, Slider
 from .planes import DeviceTable, find_unbalance, name_kind

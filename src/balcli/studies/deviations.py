@@ -89,7 +89,7 @@ def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     for k, angle in parts.pins.throws_deg.items():
         lines = {f"crank.throws.{k + 1}": Line(float(angle), 1.0)}
         numbers = [cell.number for cell in parts.plan.cells if cell.throw == k]
-        pins = {n: parts.find_own(n).throw_deg for n in numbers}
+        pins = {n: parts.override(n, "throw") for n in numbers}
         lines |= {
             f"cylinder.{n}.throw": Line(float(pin), 1.0)
             for n, pin in pins.items()

@@ -13,7 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..core.phasors import Array, Phasors
-from ..engine.build import Engine, build
+from ..engine.build import build
+from ..engine.engine import Engine
 from ..engine.load import concerns_gas
 from ..errors import BalcliError, InputError
 from ..file.model import EngineFile

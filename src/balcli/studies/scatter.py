@@ -12,7 +12,8 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..core.records import HIDDEN
-from ..engine.build import Engine, build, check_engine, take_model
+from ..engine.build import build
+from ..engine.engine import Engine, check_engine, take_model
 from ..engine.figures import column
 from ..engine.load import concerns_gas
 from ..errors import BalcliError, InputError, check_type

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 import numpy as np
 
 from ..core.phasors import Array
-from ..engine.build import Engine, check_engine, take_model
+from ..engine.engine import Engine, check_engine, take_model
 from ..engine.load import concerns_gas
 from ..engine.numbering import doubt_firing
 from ..engine.parse import read

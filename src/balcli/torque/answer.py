@@ -11,13 +11,12 @@ import numpy as np
 
 from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
-from ..engine.build import Engine, check_engine, find_row
+from ..engine.engine import Engine, check_engine, find_row
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import refuse_too_many_forces
-from ..forces.gas_torque import find_constant_inertia, find_moving_inertia, find_torque_curves
+from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
 from ..forces.spectrum import (
     check_orders,
-    compute_each_cylinder,
     compute_spectra,
     list_gas_orders,
     take_gas,
@@ -83,7 +82,7 @@ def analyze_torque_of_engine(
     tops = [find_highest(pressure) for pressure in pressures if pressure is not None]
     highest = max(tops, key=lambda extreme: extreme.value, default=None)
     spectra = compute_spectra(steady, shown, KINDS_OF_TORQUE)
-    single = compute_each_cylinder(steady, shown, KINDS_OF_TORQUE).select_place(row)
+    single = compute_spectra(steady, shown, KINDS_OF_TORQUE, each=True).select_place(row)
     each = zip(spectra.orders, list_torques(spectra), list_torques(single), strict=True)
     return TorqueAnalysis(
         speed_rpm=float(engine.speed_rpm),

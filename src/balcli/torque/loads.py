@@ -9,9 +9,9 @@ import numpy as np
 
 from ..core.phasors import Array, Complex
 from ..core.vectors_over_cycle import Vectors, find_panels
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..forces.crankshaft import (
-    NOTHING,
+    ROUNDING,
     BearingsUnknownError,
     compute_bearing_loads,
     compute_in_pieces,
@@ -127,7 +127,7 @@ def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[C
     breaks = find_breaks(engine)
     panels = find_panels(compute, breaks, 1.0)
     every = compute(panels.angles)
-    every[np.abs(every).max(axis=1) <= NOTHING * np.abs(every).max()] = 0.0
+    every[np.abs(every).max(axis=1) <= ROUNDING * np.abs(every).max()] = 0.0
     for samples in every:
         size, angle, _ = panels.find_largest(samples)
         yield CycleLoad(

@@ -15,8 +15,8 @@ import numpy as np
 from ..analysis.plot import set_crank_axis
 from ..core.phasors import Array, Complex, unit
 from ..core.speed_ripple import Surplus, surplus
-from ..engine.build import Engine
-from ..forces.gas_torque import find_torque_curves
+from ..engine.engine import Engine
+from ..forces.curves import find_torque_curves
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 from ..forces.spectrum import take_gas
 from ..show.plane import draw_path, set_up_plane

@@ -8,11 +8,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from ..engine.build import Engine, build
+from ..engine.build import build
+from ..engine.engine import Engine
 from ..engine.load import FiguresOfVariants
 from ..errors import BalcliError
 from ..file.model import EngineFile
-from ..forces.gas_torque import find_constant_inertia, find_torque_curves
+from ..forces.curves import find_constant_inertia, find_torque_curves
 from .answer import analyze_torque_of_engine as analyze_torque
 
 _UNITS = {"torque.mean": "N·m", "torque.max": "N·m", "torque.min": "N·m", "fluctuation": ""}

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from ..core.piecewise import PiecewiseCurve
 from ..core.records import HIDDEN, INLINE
 from ..core.speed_ripple import Surplus
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..forces.spectrum import Spectra
 from ..show.figures import Harmonic, list_harmonics
 from ..show.result import Result

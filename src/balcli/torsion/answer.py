@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..core.phasors import Array
 from ..core.records import HIDDEN
 from ..core.vibration import Real
-from ..engine.build import Engine, take_model
+from ..engine.engine import Engine, take_model
 from ..engine.load import build_tables
 from ..errors import BalcliError, check_type
 from ..file.fields import printable

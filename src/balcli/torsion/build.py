@@ -21,7 +21,7 @@ from ..core.loads import find_inertia, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..errors import InputError, Problem
 from ..file.fields import counted, printable, shorten, suggest_nearest
 from ..file.model import EngineFile
@@ -34,7 +34,7 @@ from ..file.torsion_tables import (
     find_shaft_inertia,
     find_stiffness,
 )
-from ..forces.spectrum import compute_each_cylinder, list_gas_orders
+from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
 from .chain import (
     SAME_RATIO,
@@ -515,10 +515,10 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     elif orders is None:
         orders = list_gas_orders(engine)
         orders = orders[orders <= HIGHEST_TORSION_ORDER]
-    growing = compute_each_cylinder(engine, orders, ("torque",))["torque"].x
+    growing = compute_spectra(engine, orders, ("torque",), each=True)["torque"].x
     steady = np.zeros_like(growing)
     if engine.gas is not None:
-        steady = compute_each_cylinder(engine, orders, ("gas",))["gas"].x
+        steady = compute_spectra(engine, orders, ("gas",), each=True)["gas"].x
     moves = np.any((growing != 0) | (steady != 0), axis=1)
     return Excitation(orders[moves], nodes, steady[moves], growing[moves])
 

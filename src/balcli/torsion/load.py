@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..core.vibration import Real
-from ..engine.build import Engine
+from ..engine.engine import Engine
 from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import BalcliError
@@ -17,7 +17,7 @@ from ..file.model import EngineFile
 from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
-from ..forces.gas_torque import silence
+from ..forces.curves import silence
 from .build import (
     NO_DAMPERS,
     build_chain,

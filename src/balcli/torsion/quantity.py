@@ -9,7 +9,8 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ..core.vibration import Real
-from ..engine.build import Engine, build
+from ..engine.build import build
+from ..engine.engine import Engine
 from ..engine.load import EngineVariants, Values, choose_speeds, remember
 from ..errors import BalcliError
 from ..file.model import EngineFile

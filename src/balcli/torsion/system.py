@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.vibration import Complex, Indices, Real
-from ..engine.build import NONE_SILENT, SilentCylinders
+from ..engine.engine import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 

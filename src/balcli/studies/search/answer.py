@@ -14,8 +14,10 @@ import numpy as np
 
 from ...core.phases import TURN
 from ...core.records import HIDDEN, WrittenAs
-from ...engine.build import Engine, build, check_engine, take_model, vary_engine
+from ...engine.build import build
+from ...engine.engine import Engine, check_engine, take_model
 from ...engine.layout import plan_cylinders
+from ...engine.load import vary_engine
 from ...engine.parse import parse_dict
 from ...errors import BalcliError, InputError, check_type, wrong_type
 from ...file.fields import nearest

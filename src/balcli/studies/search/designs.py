@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from ...core.phases import TURN
 from ...core.phasors import Array
 from ...core.records import INLINE
-from ...engine.build import Engine, build
+from ...engine.build import build
+from ...engine.engine import Engine
 from ...engine.figures import ranked
 from ...engine.layout import TOLERANCE_DEG, cycle_deg, plan_cylinders
 from ...engine.parse import parse, parse_dict

@@ -1,0 +1,375 @@
+"""An engine as all chapters use it: arrays in SI units, one row a cylinder.
+
+`engine.build` makes an `Engine` of an engine file; free forces, torques and curves are computed
+from it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..core.cylinders import Cylinders, Device, find_travel
+from ..core.phases import RPM
+from ..core.phasors import Array, Figure, Phasors
+from ..core.speed_ripple import RippleLine
+from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
+from ..file.doubts import find_suspicious
+from ..file.model import EngineFile
+from ..file.plain_tables import list_tables
+from ..names import NOTEBOOK, VARY, import_name
+from .numbering import doubt_firing, find_fitting_splay
+from .rods import CylinderMasses
+
+if TYPE_CHECKING:
+    from .gas import EngineGas
+
+
+class Bearings(NamedTuple):
+    """Projected area (diameter times width) of each bearing, m2; None where the file gives none."""
+
+    pin_m2: float | None = None
+    main_m2: float | None = None
+
+
+class SilentCylinders(NamedTuple):
+    """Numbers of the cylinders that do not fire.
+
+    Attributes:
+        without_gas: No gas force, not even that of compression.
+        without_burning: Compress and expand, but burn nothing.
+    """
+
+    without_gas: tuple[int, ...] = ()
+    without_burning: tuple[int, ...] = ()
+
+
+NONE_SILENT = SilentCylinders()
+_ONE_PLACE = 1e-9  # m, within which throws stand in one place
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Engine:
+    """An engine, or variants of one, in SI units except where a name says otherwise.
+
+    A figure that varies is an array with the axes of the variants ("trailing axes"); all figures of
+    an engine broadcast against each other.
+
+    Attributes:
+        name: Name in the file; may be empty.
+        source: Source of the figures; may be empty.
+        numbers: Cylinder number of each row of `cylinders`.
+        cylinders: Geometry and masses, one row a cylinder, sorted by bank, with the trailing axes
+            of the variants.
+        fires_deg: Crank angle at which each cylinder fires, after the first, by its number and in
+            the firing order; empty without a firing order.
+        strokes: 2 or 4.
+        bore_m: Cylinder bore; nan where the file gives none.
+        throws_m: Position of each throw along the crank, shape (throws, *trailing).
+        speed_rpm: Mean crank speed.
+        ripple: Lines of the uneven speed; empty for a steady one.
+        reference_m: x, y, z of the point about which moments are taken.
+        devices: Counterweights, shafts and sliders of the file, in this order.
+        weighed: Masses behind each row of `cylinders`.
+        places_known: Whether the file gives the positions of its throws along the crank. If not,
+            all throws stand in one plane, and moments have no meaning.
+        gas: Gas in the cylinders; None where the file has no [gas], and for arrays of variants.
+        gas_of_variants: Function of orders, shape (orders,), to the gas torque of variants, N m;
+            None except in sweeps.
+        crank_inertia: Polar moment of inertia of the crankshaft with throws and counterweights,
+            kg m2; None where the file gives none.
+        flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None likewise.
+        bearings: Bearings of the crankshaft; None where the file gives none.
+        inferred: Keys that the file leaves out and on which results depend, with the values that
+            are taken (`layout.strokes = 4`).
+        model: Engine file; None if no file describes this engine.
+    """
+
+    name: str
+    source: str
+    numbers: tuple[int, ...]
+    cylinders: Cylinders
+    fires_deg: Mapping[int, Figure]
+    strokes: int
+    bore_m: Figure
+    throws_m: Array
+    speed_rpm: Figure
+    ripple: tuple[RippleLine, ...]
+    reference_m: tuple[Figure, Figure, Figure]
+    devices: tuple[Device, ...]
+    weighed: tuple[CylinderMasses, ...]
+    places_known: bool = True
+    gas: EngineGas | None = None
+    gas_of_variants: Callable[[Array], Phasors] | None = None
+    crank_inertia: Figure | None = None
+    flywheel_inertia: Figure | None = None
+    bearings: Bearings | None = None
+    inferred: tuple[str, ...] = ()
+    model: EngineFile | None = None
+
+    # -------------------------------------------------------------- the file and its variants
+    def vary(self, changes: Mapping[str, Any] = MappingProxyType({}), /, **named: Any) -> Engine:
+        """Return the engine of the same file with other values of some keys.
+
+        Args:
+            changes, named: Values by dotted names of the engine file (`layout.bank_angle`,
+                `crank.throws.2`, `operation.speed`, `name`), in its units or with units of their
+                own; None removes a key. A key that gives the same figure in another way
+                (`rod.ratio` next to `rod.length`) is removed, and so is a firing order that new
+                throws do not fit.
+
+        Raises:
+            InputError: The changed file has mistakes; the error lists all of them.
+            BalcliError: No file describes this engine.
+
+        Example:
+            >>> engine.vary({"layout.bank_angle": 60, "rod.length": "6 in"})
+        """
+        check_type("vary", changes, Mapping, 'give a dict, such as {"rod.length": 150}')
+        varied: Engine = import_name(VARY)(self, {**changes, **named})
+        return varied
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the tables of the engine file, from which `load` makes the same engine, with
+        numbers in mm, kg, degrees, rpm.
+
+        Raises:
+            BalcliError: No file describes this engine.
+        """
+        return list_tables(take_model(self))
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Warnings: unlikely figures of the file, and positions that it does not give."""
+        unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
+        return (*unknown, *self.unlikely)
+
+    @property
+    def unlikely(self) -> tuple[str, ...]:
+        """Warnings: figures of the file that are allowed and yet unlikely."""
+        of_gas = () if self.gas is None else self.gas.doubts
+        if self.model is None:
+            return of_gas
+        return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
+
+    @property
+    def speed_assumed(self) -> bool:
+        """Whether the speed is the default, given neither by the file nor by a change."""
+        if self.model is None or "speed" in self.model.operation.model_fields_set:
+            return False
+        return float(self.speed_rpm) == self.model.operation.speed
+
+    # -------------------------------------------------------------- in words
+    def __repr__(self) -> str:
+        return f"<Engine {self.summary}>"
+
+    def _repr_html_(self) -> str:
+        return import_name(NOTEBOOK)(self)
+
+    @property
+    def summary(self) -> str:
+        """Name, number of cylinders, displacement and speed, in words."""
+        words = [f"{len(self.numbers)} cylinder{'s' * (len(self.numbers) != 1)}"]
+        volume = self.displacement_m3
+        if isinstance(volume, float) and not math.isnan(volume):
+            words.append(f"{volume * 1e3:.4g} L")
+        if isinstance(self.speed_rpm, float):
+            words.append(f"{self.speed_rpm:g} rpm")
+        return f'"{self.name}": {", ".join(words)}' if self.name else ", ".join(words)
+
+    # -------------------------------------------------------------- motion
+    @property
+    def omega(self) -> Figure:
+        """Mean crank speed, rad/s."""
+        return self.speed_rpm * RPM
+
+    @property
+    def period_revolutions(self) -> int:
+        """Revolutions after which speed and inertia forces repeat: 2 where the uneven speed has
+        half orders, else 1.
+        """
+        return 2 if any(line.order % 1 for line in self.ripple) else 1
+
+    @property
+    def cycle_revolutions(self) -> int:
+        """Revolutions after which everything in a cylinder repeats, gas included."""
+        return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
+
+    # -------------------------------------------------------------- cylinders and crank pins
+    @property
+    def displacement_m3(self) -> Figure:
+        """Swept volume of all cylinders but dummies, which the firing order leaves out."""
+        stroke = find_travel(self.cylinders).stroke
+        burning = [row for row, n in enumerate(self.numbers) if n in (self.fires_deg or {n})]
+        volume: Array = math.pi / 4 * self.bore_m**2 * stroke[burning].sum(axis=0)
+        return volume if volume.ndim else float(volume)
+
+    @property
+    def rotary(self) -> bool:
+        """Whether the cylinders turn about a crank that stands still. All masses of such cylinders
+        are on a linkage.
+        """
+        c = self.cylinders
+        return c.linkage is not None and c.linkage.turning
+
+    @property
+    def equal(self) -> bool:
+        """Whether all cylinders have the same mechanism and reciprocating masses."""
+        c = self.cylinders
+        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and (
+            c.linkage is None or len(c.linkage.mass) == 1
+        )
+
+    @property
+    def first_axis_deg(self) -> Figure:
+        """Axis of cylinder 1, deg; its crank pin points along it at crank angle 0."""
+        return self.cylinders.axis_deg[self.cylinders.first]
+
+    @property
+    def pins_deg(self) -> dict[int, Figure]:
+        """Angle of each cylinder's crank pin from that of cylinder 1, by number."""
+        return dict(zip(self.numbers, self.cylinders.pin_deg, strict=True))
+
+    @cached_property
+    def joined_throws(self) -> tuple[tuple[int, ...], ...]:
+        """Throws of the file (from 0) that are one throw of the crank, from the free end on.
+
+        Throws at one angle are one if they stand in one place, or next to each other at less than
+        half a bore and on different banks, as in a file with a throw for each cylinder. Throws
+        without known positions are single, in the order of the file. Where [crank] gives the
+        positions of the throws, the position of a single cylinder moves its rod alone.
+        """
+        c, z = self.cylinders, np.asarray(np.ravel(self.throws_m), float)
+        crank = None if self.model is None else self.model.crank
+        if crank is not None and crank.positions is not None:
+            z = np.ravel(crank.positions) / 1e3
+        elif crank is not None and crank.spacing:
+            z = np.arange(len(z)) * crank.spacing / 1e3
+        if self.rotary or not self.places_known:
+            return tuple((throw,) for throw in range(len(z)))
+        turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360
+        of_row = np.array([masses.throw for masses in self.weighed])
+        pins, banks = (
+            [{*side[of_row == throw].tolist()} for throw in range(len(z))] for side in turned
+        )
+        joined: list[list[int]] = []
+        for throw in sorted(range(len(z)), key=lambda k: (round(float(z[k]), 9), min(pins[k]), k)):
+            before = joined[-1] if joined else []
+            if before and pins[before[0]] == pins[throw]:
+                apart = abs(z[throw] - z[before[-1]])
+                same_bank = any(banks[throw] & banks[each] for each in before)
+                if apart < _ONE_PLACE or (apart < self.bore_m / 2 and not same_bank):
+                    before.append(throw)
+                    continue
+            joined.append([throw])
+        return tuple(map(tuple, joined))
+
+    @property
+    def joined_throws_m(self) -> Array:
+        """Position of each of the `joined_throws`, in the middle of its rods, shape (throws,)."""
+        places = np.ravel(self.throws_m)
+        return np.array([places[[*throws]].mean() for throws in self.joined_throws])
+
+    @property
+    def joined_throw_of_rows(self) -> list[int]:
+        """Index of the one of `joined_throws` that each row of `cylinders` is on."""
+        index = {throw: k for k, throws in enumerate(self.joined_throws) for throw in throws}
+        return [index[masses.throw] for masses in self.weighed]
+
+    @property
+    def rows_by_pin(self) -> list[list[int]]:
+        """Rows of the cylinders on each crank pin, in the order of the throws. A split throw has
+        several pins, in their order along the crank.
+        """
+        first = [self.joined_throws[k][0] for k in self.joined_throw_of_rows]
+        rows = sorted(range(len(self.numbers)), key=self.numbers.__getitem__)
+        pins: dict[tuple[int, float], list[int]] = {}
+        for row in rows:
+            pin = first[row], float(self.cylinders.pin_deg[row]) % 360
+            pins.setdefault(pin, []).append(row)
+        along = sorted(pins, key=lambda pin: (pin[0], float(self.cylinders.z[pins[pin]].min())))
+        return [pins[pin] for pin in along]
+
+    @property
+    def splay_for_even_firing(self) -> float | None:
+        """`crank.splay` (deg) with which several throws would make the cylinders fire evenly in the
+        order of the file; None where no splay does, or the file gives the firing intervals.
+        """
+        if self.model is None or self.model.layout.firing_intervals or len(self.throws_m) == 1:
+            return None
+        return find_fitting_splay(self.model)
+
+    # -------------------------------------------------------------- gas
+    @property
+    def silent(self) -> SilentCylinders:
+        """Cylinders that do not fire; none for an engine without [gas]."""
+        if self.gas is None:
+            return NONE_SILENT
+        each = sorted(zip(self.numbers, self.gas.cylinders, strict=True))
+        return SilentCylinders(
+            tuple(number for number, own in each if not own.share),
+            tuple(number for number, own in each if own.share and own.heat == 0),
+        )
+
+    @property
+    def mechanical_efficiency(self) -> float | None:
+        """Brake work over indicated work; None where the file does not give it, or a cylinder does
+        not fire and yet has its friction.
+        """
+        if self.gas is None or any(self.silent):
+            return None
+        return self.gas.mechanical_efficiency
+
+
+def check_engine(function: str, value: object) -> Engine:
+    """Return the engine that a public function was given.
+
+    Args:
+        function: Name of the function, for the message.
+        value: Its argument.
+
+    Raises:
+        TypeError: The value is no engine.
+    """
+    if not isinstance(value, Engine):
+        raise wrong_type(function, value, "give an Engine; load(...) makes one of a path or a dict")
+    return value
+
+
+def take_model(engine: Engine) -> EngineFile:
+    """Return the engine file of an engine.
+
+    Raises:
+        BalcliError: No file describes this engine.
+    """
+    if engine.model is None:
+        raise BalcliError(
+            f"{engine.summary}: no engine file can say what this engine is (it has devices that "
+            "none describes, or is a variant); take the one from which it was made"
+        )
+    return engine.model
+
+
+def find_row(engine: Engine, number: int, option: str) -> int:
+    """Return the row of a cylinder in the arrays of its engine.
+
+    Args:
+        engine: Engine.
+        number: Cylinder number.
+        option: Option that names the cylinder, for the message.
+
+    Raises:
+        BalcliError: The engine has no such cylinder.
+    """
+    if number not in engine.numbers:
+        some = ", ".join(map(str, sorted(engine.numbers)))
+        raise BalcliError(
+            f"{option} {number}: {engine.name or 'the engine'} has the cylinders {some}"
+        )
+    return engine.numbers.index(number)

@@ -1,0 +1,196 @@
+"""Indicator diagrams: measured cylinder pressures over the crank angle, in CSV files.
+
+The pressure is a straight line between two rows, and periodic. Of several cycles in a file, one
+after the other, the mean is taken.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.cylinder_pressure import find_highest
+from ..core.phasors import Array
+from ..core.piecewise import PiecewiseCurve, polyline
+from ..errors import BalcliError
+from ..file.csv_columns import GAUGE_UNITS, Head, NumberColumns
+from ..file.doubts import MAX_PRESSURE
+from ..file.gas_tables import Gas
+from ..file.units import ANGLE, BAR, PRESSURE
+
+ATMOSPHERE = 101325.0  # Pa, what gauge pressures lack
+WIDEST_GAP = 30.0  # deg between two rows; beyond, straight lines say nothing about an engine
+FLAT_GAP = 45.0  # deg; the same while the gas is exchanged, where the pressure hardly changes
+_FLAT = 0.01  # of the highest pressure
+_SAME = 1e-6  # deg; rows so near to one period apart are the two ends of it
+_OTHERS = ("MPa", "kPa", "Pa", "psi", *GAUGE_UNITS)
+HEADS = (
+    Head("angle_deg", ANGLE),
+    Head("pressure_bar", PRESSURE, tuple(f"pressure_{unit}" for unit in _OTHERS)),
+)
+LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
+ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
+NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engine is highest
+SAME_IMEP = 0.03  # by which a diagram may miss the stated mean effective pressure
+
+
+def build_diagram(gas: Gas, name: str, columns: NumberColumns, strokes: int) -> PiecewiseCurve:
+    """Return the absolute pressure (Pa) over a cycle by the columns of the file of this name.
+
+    Raises:
+        BalcliError: The first mistake in the file, by its line.
+    """
+    kind = "gauge" if _is_gauge(gas, columns) else "absolute"
+    for below in np.flatnonzero(_absolute(gas, columns) < 0).tolist():
+        right, hint = ("at least the vacuum", "") if kind == "gauge" else ("0 or more", ASK_GAUGE)
+        found = columns.as_written(below, 1)
+        message = f"line {columns.lines[below]}: the {kind} pressure is {found}: give {right}"
+        raise BalcliError(f"{name}: {message}{hint}")
+    angle, pressure, _ = _read(gas, columns, 180.0 * strokes)
+    for row, message in find_diagram_mistakes(angle, pressure, strokes=strokes):
+        line = "" if row is None else f"line {columns.lines[row]}: "
+        raise BalcliError(f"{name}: {line}{message}")
+    firing = 360.0 if gas.zero == "gas-exchange" else 0.0
+    return draw_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
+
+
+def _absolute(gas: Gas, columns: NumberColumns) -> Array:
+    """Return the absolute pressures of all rows, Pa."""
+    gauge = ATMOSPHERE if _is_gauge(gas, columns) else 0.0
+    return np.array(columns.column(1)) * BAR + gauge
+
+
+def _read(gas: Gas, columns: NumberColumns, period: float) -> tuple[Array, Array, int]:
+    """Return angles (deg) and absolute pressures (Pa) of a cycle, and how many the file has: of
+    several, one after the other, the mean at the angles of the first.
+    """
+    angle, pressure = np.array(columns.column(0)), _absolute(gas, columns)
+    steps = np.diff(angle)
+    starts = np.flatnonzero(steps < -period / 2)  # every cycle counts from its own beginning
+    if len(angle) < 2 or not (np.delete(steps, starts) > 0).all():
+        return angle, pressure, 1
+    angle = angle + period * np.searchsorted(starts, np.arange(len(angle)) - 0.5)
+    span = angle[-1] - angle[0]
+    kept = np.append(
+        True, np.diff(angle) > _SAME
+    )  # the end of a cycle is the beginning of the next
+    if not (np.diff(angle) > -_SAME).all():
+        return np.array(columns.column(0)), pressure, 1
+    count = round((span + np.median(steps)) / period)
+    if count < 2 or abs(span - count * period) > 2 * np.median(steps) + _SAME:
+        return angle, pressure, 1
+    first = angle < angle[0] + period - _SAME
+    every = angle[first] + period * np.arange(count)[:, np.newaxis]
+    mean = np.interp(every, angle[kept], pressure[kept]).mean(axis=0)
+    return angle[first], mean, count
+
+
+def _is_gauge(gas: Gas, columns: NumberColumns) -> bool:
+    return gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS
+
+
+def _is_closed(angle: Array, period: float) -> bool:
+    """Return whether a diagram has a row at both ends of the period; the first holds."""
+    return len(angle) > 1 and abs(angle[-1] - angle[0] - period) < _SAME
+
+
+def draw_diagram(
+    angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4, firing_deg: float = 0.0
+) -> PiecewiseCurve:
+    """Return the pressure at cycle angles, of rows without what `find_diagram_mistakes` finds.
+
+    Args:
+        angle_deg: Rising angles, shape (rows,).
+        pressure: Absolute, Pa, shape (rows,).
+        strokes: 4 or 2; the period is 720 or 360 deg.
+        firing_deg: Angle at which the piston is at its firing dead centre: 0 less the phase, or
+            360 less the phase where the diagram counts from the gas-exchange dead centre.
+    """
+    angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
+    period = 180.0 * strokes
+    kept = slice(-1 if _is_closed(angle, period) else None)
+    corners = np.append(angle[kept], angle[0] + period) - firing_deg
+    return polyline(np.radians(corners), np.append(values[kept], values[0]))
+
+
+def find_diagram_mistakes(
+    angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4
+) -> Iterator[tuple[int | None, str]]:
+    """Yield what is wrong with the rows of a diagram: the row (from 0; None: the diagram) and the
+    mistake; arguments as of `draw_diagram`.
+    """
+    angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
+    period = 180.0 * strokes
+    if len(angle) < 2:
+        yield None, f"has {len(angle)} rows; a cycle of {period:g}° needs more"
+        return
+    falling = (np.flatnonzero(np.diff(angle) <= 0) + 1).tolist()
+    for row in falling:
+        yield row, f"the angle {angle[row]:g}° does not exceed the {angle[row - 1]:g}° before it"
+    if falling:
+        return
+    span = angle[-1] - angle[0]
+    if span > period + _SAME:
+        yield None, f"covers {span:g}°; a cycle of {strokes} strokes has {period:g}°"
+        return
+    flat = np.abs(values - np.roll(values, 1)) <= _FLAT * values.max()
+    widest = np.where(flat, FLAT_GAP, WIDEST_GAP)  # behind the row before, or the last
+    close = f"give rows at most {WIDEST_GAP:g}° apart"
+    for row in (np.flatnonzero(np.diff(angle) > widest[1:]) + 1).tolist():
+        gap = angle[row] - angle[row - 1]
+        yield row, f"lies {gap:g}° after the row before it: {close}"
+    if (gap := period - span) > widest[0]:
+        yield None, f"covers {span:g}° of {period:g}°, a gap of {gap:g}° at its end: {close}"
+
+
+def list_doubts(
+    gas: Gas, path: str, name: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
+) -> Iterator[str]:
+    """Yield what is suspicious of a diagram, each with its path in the engine file.
+
+    Args:
+        gas: The table of the file.
+        path, name: Key and name of the diagram's file.
+        columns: Columns of this file.
+        found: Pressure at cycle angles, Pa.
+        imep: Indicated mean effective pressure, Pa.
+    """
+    angle, pressure, count = _read(gas, columns, math.degrees(found.period))
+    if count > 1:
+        yield f"{path}: {name}: has {count} cycles; their mean is taken"
+    unit = columns.units[1].removesuffix("g")
+    scale = columns.scales[1] * BAR  # Pa
+    first, last = pressure[0] / scale, pressure[-1] / scale
+    if first != last and _is_closed(angle, math.degrees(found.period)):
+        yield (
+            f"{path}: {name}: the last row closes the cycle with {last:.4g} {unit}, the first has "
+            f"{first:.4g} {unit}; the first is taken"
+        )
+    top, value = find_highest(found)
+    if abs(math.degrees(top)) > NEAR_DEG:
+        yield (
+            f"{path}: the highest pressure, {value / scale:.4g} {unit}, stands at "
+            f"{math.degrees(top):.4g} deg from the firing dead centre, where within "
+            f"{NEAR_DEG:g} is usual; are gas.zero and gas.phase right?"
+        )
+    if value > MAX_PRESSURE * BAR:
+        yield (
+            f"{path}: the highest pressure is {value / scale:.4g} {unit}, where at most "
+            f"{MAX_PRESSURE * BAR / scale:.4g} is usual; does the heading of its column "
+            "name the right unit?"
+        )
+    lowest = found.extremes()[0].value / scale
+    if lowest * scale < LOW_PRESSURE * BAR:
+        yield (
+            f"{path}: the lowest pressure is {lowest:.4g} {unit} absolute, where at least "
+            f"{LOW_PRESSURE * BAR / scale:.4g} is usual{ASK_GAUGE}"
+        )
+    stated, measured = gas.imep if path == "gas.indicator" else None, imep / BAR
+    if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
+        yield (
+            f"gas.imep is {stated:g} bar, and the diagram has {measured:.4g} bar; a phase of one "
+            "degree makes 3 to 7 %: is gas.phase right?"
+        )

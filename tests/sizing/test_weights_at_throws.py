@@ -1,0 +1,100 @@
+"""Counterweights at every throw, and the loads within the crankshaft before and after."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.commands import ask, ask_json
+from support.paths import ENGINES
+
+from balcli.analysis.answer import analyze
+from balcli.engine.build import build
+from balcli.engine.load import load
+from balcli.engine.parse import parse
+from balcli.forces.crankshaft import find_crank_loads
+from balcli.forces.spectrum import compute_spectra
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import fit_devices
+from balcli.sizing.sizing import size
+
+AT_THROWS = SchemeOptions(planes="throws")
+FOUR = """
+[crank]
+stroke = 86
+throws = [0, 180, 180, 0]
+spacing = 94
+throw_mass = 0.8
+[rod]
+length = 139
+mass = 0.57
+cg = 39
+inertia = 2000
+[piston]
+bore = 86
+mass = 0.51
+[layout]
+firing_order = [1, 3, 4, 2]
+[operation]
+speed = 7000
+"""
+
+
+def test_weights_at_every_throw_unload_the_bearings_of_an_in_line_four():
+    """48.23 to 12.53 kN, by momentum of rigid bodies on a grid; free forces stay as they are."""
+    engine = build(parse(FOUR))
+    fitted = fit_devices(engine, size(engine, "counterweights", AT_THROWS))
+    before, after = find_crank_loads(engine), find_crank_loads(fitted)
+    assert (before.main_N, before.main_mm) == pytest.approx((48227.52541877826, 0))
+    assert (before.inner_moment_Nm, abs(before.inner_mm)) == pytest.approx((5433.633892708877, 47))
+    assert (after.main_N, after.main_mm) == pytest.approx((12528.170661290325, 0))
+    assert after.inner_moment_Nm == pytest.approx(2840.0513186818853)
+    peaks = [analyze(one, [1], ["force", "peak"]).peak.force.value for one in (engine, fitted)]
+    assert peaks[0] == pytest.approx(peaks[1], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["i4", "i5", "v8_crossplane", "v6_60"])
+def test_they_are_those_of_half_the_reciprocating_mass(name):
+    """For centered rods on common pins; of an offset they are not."""
+    engine = load(ENGINES / f"{name}.toml")
+    if len(engine.rows_by_pin) != len(engine.joined_throws_m):
+        pytest.skip("split pins")
+
+    def vectors(remedy):
+        return sorted(
+            (one.position, one.unbalance * np.cos(np.radians(one.angle)), one.unbalance * np.sin(np.radians(one.angle)))
+            for one in remedy.counterweights
+        )
+
+    half = size(engine, "factor", SchemeOptions(factor=(0.5,)))
+    ours = size(engine, "counterweights", AT_THROWS)
+    largest = max(one.unbalance for one in half.counterweights)
+    assert np.allclose(vectors(ours), vectors(half), rtol=0, atol=1e-9 * largest)
+
+
+@pytest.mark.parametrize("change", ["", "[[counterweight]]\nunbalance = 20000\nangle = 30\nposition = 11\n"])
+def test_nothing_of_order_1_is_left_whatever_the_file_has(change):
+    engine = build(
+        parse(
+            FOUR.replace("throws = [0, 180, 180, 0]", "throws = [0, 90, 270, 180]")
+            .replace("[1, 3, 4, 2]", "[]")
+            .replace("firing_order = []\n", "")
+            + change
+        )
+    )
+    fitted = fit_devices(engine, size(engine, "counterweights", AT_THROWS))
+    found = compute_spectra(fitted, [1], ("force", "moment"))
+    assert abs(found["force"].forward[0]) < 1e-9 * engine.omega**2
+    assert abs(found["moment"].forward[0]) < 1e-9 * engine.omega**2
+
+
+def test_loads_before_and_after_are_printed(tmp_path):
+    (tmp_path / "four.toml").write_text(FOUR)
+    found = ask_json("balance", tmp_path / "four.toml", "--scheme", "counterweights", "--planes", "throws")
+    assert found["before"]["bearings"]["main_N"] == pytest.approx(48227.52541877826)
+    assert set(found["after"]["bearings"]) == {"main_N", "main_mm", "inner_moment_Nm", "inner_mm"}
+    told = ask("balance", tmp_path / "four.toml", "--scheme", "counterweights")
+    assert "Order 1 is balanced already: counterweights change no free force or moment." in told
+    assert "largest main bearing load from 48.23 to 12.53 kN" in told
+    assert "largest inner moment, kN·m" in told
+    (tmp_path / "single.toml").write_text(FOUR.replace("[0, 180, 180, 0]", "[0]").replace("[1, 3, 4, 2]", "[1]"))
+    assert "bearings" not in ask_json("balance", tmp_path / "single.toml")["before"]
