@@ -249,8 +249,7 @@ def test_an_engines_name_cannot_colour_the_output(balcli, form):
 def test_no_text_of_a_file_turns_the_direction_of_what_is_shown(key, code):
     engine = f'{key} = "four{chr(code)}enil-ni"\n' + changed(('name = "in-line four"\n', ""))
     assert refusal("analyze", "-", stdin=engine) == (
-        f"standard input: {key}: has the control character U+{code:04X}, which could "
-        "command a terminal or disguise what it shows; leave it out"
+        f"standard input: {key}: has the control character U+{code:04X}; leave it out"
     )
 
 

@@ -16,7 +16,7 @@ from .errors import BalcliError, Exit, legible
 from .file import examples
 from .file.examples import template
 from .file.fields import counted, suggest_nearest
-from .names import DOCUMENTS
+from .names import DOCUMENTS, import_name
 from .shell.file_names import TEXTS, format_of, parse_output, require_ending
 from .shell.inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
 from .shell.options import FormatOption, Output
@@ -197,9 +197,21 @@ def _describe_result(name: str, kind: File | None) -> dict[str, Any]:
     if name not in DOCUMENTS:
         hint = suggest_nearest(name, DOCUMENTS, f"there are {', '.join(DOCUMENTS)}")
         raise BalcliError(f"--of {name[:60]}: there is no such result; {hint}")
-    from .show.schema import describe_document  # pydantic
-
     return describe_document(name)
+
+
+def describe_document(name: str) -> dict[str, Any]:
+    """Return the JSON Schema (draft 2020-12) of one of `DOCUMENTS`. Further keys are allowed: new
+    ones may be added under the same version.
+    """
+    from .core.records import describe_record  # numpy
+    from .file.schema import DIALECT  # pydantic
+
+    found = describe_record(import_name(DOCUMENTS[name]))
+    properties = {"version": {"type": "string"}} | found["properties"]
+    head = {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}:1"}
+    changed = {"properties": properties, "required": ["version", *found["required"]]}
+    return head | found | changed | {"title": f"balcli.{name}/1"}
 
 
 class CheckFormat(StrEnum):

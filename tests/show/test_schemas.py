@@ -14,9 +14,9 @@ from support.gas_engines import WIEBE
 from support.paths import ENGINES
 
 from balcli import __version__
+from balcli.commands import describe_document
 from balcli.file.examples import template
 from balcli.names import DOCUMENTS
-from balcli.show.schema import describe_document
 
 FILES = sorted(path for path in ENGINES.rglob("*.toml"))
 I4, V8, SINGLE = ENGINES / "i4.toml", ENGINES / "v8_wiebe.toml", ENGINES / "single.toml"
@@ -83,7 +83,9 @@ RESULTS = {
         "--planes",
         "ends",
         "--drill",
-        "19",
+        "25",
+        "--width",
+        "60",
         "--grade",
         "6.3",
         "--mass",
