@@ -400,13 +400,14 @@ def choose_orders(system: TorsionalSystem, rpm: Real | None, share: float) -> Re
         rpm: (speeds,) rising; None: from a quarter of the file's own speed to one and a half times.
         share: Of the largest amplitude that an order has anywhere in the range.
     """
-    orders = system.require_excitation().orders
-    poles = find_poles(system).imag
-    poles = poles[poles > 0]
-    if rpm is None:
-        rpm = (system.rated_rpm or poles.min(initial=1e3) / RPM) * np.array([0.25, 1.5])
+    orders, poles = system.require_excitation().orders, np.zeros(0)
     if not len(orders):
         return orders
+    if rpm is None or len(rpm) > 1:
+        poles = find_poles(system).imag
+        poles = poles[poles > 0]
+    if rpm is None:
+        rpm = (system.rated_rpm or float(poles.min(initial=1e3)) / RPM) * np.array([0.25, 1.5])
     met = np.clip(poles / (RPM * orders[:, None]), rpm[0], rpm[-1])
     probes = np.broadcast_to(np.linspace(rpm[0], rpm[-1], _PROBES), (len(orders), _PROBES))
     motion = move(system, np.concatenate([met, probes], axis=1) * _BESIDE)
