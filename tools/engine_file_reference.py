@@ -14,7 +14,7 @@ from typing import Any
 from balcli.file.messages import find_table, import_lists, import_tables
 from balcli.file.model import EngineFile, Override
 from balcli.file.schema import describe_engine_file
-from balcli.file.table import FileTable
+from balcli.file.table import FileTable, document_keys
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "engine-file.md"
 BEGIN, END = "<!-- tables: python tools/engine_file_reference.py -->\n", "<!-- end of tables -->\n"
@@ -72,12 +72,12 @@ def _part(
 
 
 def _row(key: str, table: type[FileTable], definition: dict[str, Any]) -> str:
-    shown, field = definition["properties"][key], table.model_fields[key]
+    shown, document = definition["properties"][key], document_keys(table)[key]
     unit = shown.get("unit") or shown.get("items", {}).get("unit", "")
-    meaning = field.description or ""
+    meaning = document.description
     if options := shown.get("enum"):
         meaning += f" ({' or '.join(map(_toml, options))})"
-    example = _toml(field.examples[0]) if field.examples else ""
+    example = "" if document.example is None else _toml(document.example)
     return (
         f"| `{key}` | {unit} | {_left_out(key, table, definition)} | {meaning} | "
         f"{f'`{example}`' if example else ''} |"

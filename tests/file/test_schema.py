@@ -12,7 +12,7 @@ from support.commands import run_python
 from balcli.file.messages import import_lists, import_tables
 from balcli.file.model import Override, Pendulum, Ripple
 from balcli.file.schema import DIALECT, describe_engine_file
-from balcli.file.table import FileTable
+from balcli.file.table import FileTable, document_keys
 
 DOCUMENT = describe_engine_file()
 MODELS: list[type[FileTable]] = [*import_tables().values(), *import_lists().values(), *(Override, Pendulum, Ripple)]
@@ -48,10 +48,10 @@ def test_every_key_is_described(table, key, field):
 @pytest.mark.parametrize(
     ("table", "key", "example"),
     [
-        (table, key, example)
+        (table, key, document.example)
         for table in MODELS
-        for key, field in table.model_fields.items()
-        for example in field.examples or ()
+        for key, document in document_keys(table).items()
+        if document.example is not None
     ],
 )
 def test_examples_are_accepted(table, key, example):

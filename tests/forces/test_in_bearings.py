@@ -210,7 +210,7 @@ def test_engines_with_gas_are_compared_by_it():
 
 def test_so_many_cylinders_that_they_would_fill_the_memory_are_refused(monkeypatch):
     monkeypatch.setattr(in_bearings, "MOST_FORCES_OVER_CYCLE", 1000)
-    with pytest.raises(BalcliError, match="loads with gas of 4 cylinders are"):
+    with pytest.raises(BalcliError, match="loads with gas: 8 forces of 4 cylinders"):
         compute_loads_with_gas(replace(build_text(FOUR + WIEBE)))
 
 

@@ -66,7 +66,7 @@ def test_variants_make_an_order_considerable_together() -> None:
 def test_orders_to_2_and_all_considerable_ones_are_shown() -> None:
     orders = [1.0, 2.0, 3.0, 4.0]
     found = Spectra(np.array(orders), force=curve(orders, [0, 0, 1, 0]), couple=curve(orders, [1, 0, 0, 0]))
-    assert choose_orders(found).tolist() == [1, 2, 3]
+    assert choose_orders(found, ()).tolist() == [1, 2, 3]
 
 
 def test_orders_of_firing_are_shown_however_high():

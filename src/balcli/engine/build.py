@@ -233,9 +233,15 @@ class Engine:
 
         Throws of one angle are one where they stand in one place, and where they are next to each
         other, nearer than half a bore and on different banks: a file with a throw for each cylinder
-        has such. Throws whose places are unknown each stand alone, in the file's order.
+        has such. Throws whose places are unknown each stand alone, in the file's order. Where
+        [crank] places the throws, a cylinder's own position moves its rod alone.
         """
         c, z = self.cylinders, np.ravel(self.throws_m)
+        crank = None if self.model is None else self.model.crank
+        if crank is not None and crank.positions is not None:
+            z = np.array(crank.positions) / 1e3
+        elif crank is not None and crank.spacing:
+            z = np.arange(len(z)) * crank.spacing / 1e3
         if self.rotary or not self.places_known:
             return tuple((throw,) for throw in range(len(z)))
         turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360

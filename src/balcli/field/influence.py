@@ -7,11 +7,11 @@ squares; where there are just enough runs, this is `alpha = (V - V0) / U`.
 A run that comes after the coefficients are determined has a *correction* in: balancing goes on from
 the last of them. All complex numbers here turn in the sense in which phases of readings count.
 
-Readings have errors of one size, which what no fit explains shows: readings that the coefficients do
-not give, and readings that no weights cancel. To first order such errors move the weights that
-cancel by `B h e`, e being the errors of the runs, h what the readings to cancel take of each, and B
-the inverse of the coefficients. With nu complex degrees of freedom the square of such a distance
-over its estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t / nu)^-nu`.
+All readings are taken to have errors of one size. The fit shows it: by the readings that the
+coefficients do not give, and by the readings that no weights cancel. To first order the errors e
+move the weights by `B h e`: h is the share of each run in the readings to cancel, B the inverse of
+the coefficients. With nu complex degrees of freedom the square of such a distance over its
+estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t / nu)^-nu`.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from .fields import WrittenFigure, count_lambda_digits, printable
-from .model import Counterweight, EngineFile
+from .model import EngineFile
 from .units import ask_unit
 
 # Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
@@ -36,11 +36,14 @@ CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
 NO_DISTANCE = 1e-6  # mm: on the axis, but for rounding
 OFFSET = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
-# Indicated or brake mean pressure: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
-MEAN_PRESSURE = 60.0  # bar
 MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
-# bar, absolute: at 10 km of height there are 0.26, charged in two stages 10; psi and MPa: beyond.
-AROUND = 0.15, 12.0
+# Absolute pressures: at 10 km of height there are 0.26 bar, charged in two stages 10; psi and MPa
+# lie beyond. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
+PRESSURES = {
+    **dict.fromkeys(("intake", "exhaust", "crankcase"), (0.15, 12.0, " bar absolute")),
+    **dict.fromkeys(("imep", "bmep"), (0.0, 60.0, " bar")),
+    "max_pressure": (0.0, MAX_PRESSURE, " bar"),
+}
 # Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft
 # weighs some 4 to 10 times as much for each throw, with its counterweights.
 THROW = 6.0
@@ -52,6 +55,14 @@ UNBALANCE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 # from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
 LOSS = 1.0  # steel has 0.01 to 0.05, rubber to 0.5; what is in percent is a hundred times that
+
+SAME_UNIT = "are both in the same unit?"
+DEGREES = (
+    'bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 rad", and numbers '
+    "of cylinders stand in layout.firing_order"
+)
+OFF_AXIS = "is it in kg? It is what one throw has off the axis, not what the crankshaft weighs"
+GRAMS = 'is it in kg? Grams are said as in "47 g"'
 
 
 class Figure(NamedTuple):
@@ -76,16 +87,12 @@ class Figure(NamedTuple):
 
 
 def find_suspicious(model: EngineFile) -> list[str]:
-    """Return warnings for what is allowed and yet unlikely; none for an ordinary engine."""
-    groups = (
-        _list_pistons,
-        _list_rods,
-        _list_cranks,
-        _list_counterweights,
-        _list_inertias,
-        _list_gas,
-    )
-    figures = [figure for group in groups for figure in group(model)]
+    """Return warnings for what is allowed and yet unlikely; none for an ordinary engine.
+
+    Args:
+        model: the engine file.
+    """
+    figures = (*_list_pistons(model), *_list_rods(model), *_list_cranks(model), *_list_gas(model))
     return [*_find_missing(model), *_doubt(figures), *doubt_losses(_list_losses(model))]
 
 
@@ -160,42 +167,40 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:
-    stroke, bore = model.crank.stroke, model.piston.bore
-    bores = (BORE[0] * stroke, BORE[1] * stroke) if bore is None else (bore, bore)
+    stroke, bore, speed = model.crank.stroke, model.piston.bore, model.operation.speed
+    narrow, wide = (BORE[0] * stroke, BORE[1] * stroke) if bore is None else (bore, bore)
     heavy = CROSSHEAD_HEAVY if _has_crosshead(model) else PISTON[1]
-    least, most = PISTON[0] * (bores[0] * 1e-3) ** 3, heavy * (bores[1] * 1e-3) ** 3
-    beside = f"at a stroke of {stroke:g}" if bore is None else f"in a bore of {bore:g}"
+    least, most = PISTON[0] * (narrow * 1e-3) ** 3, heavy * (wide * 1e-3) ** 3
+    unit = f" kg at a stroke of {stroke:g} mm" if bore is None else f" kg in a bore of {bore:g} mm"
     units = "are the units right? Bare numbers are kg and mm"
     name = "the parts of [piston] weigh" if model.piston.mass is None else "piston.mass is"
     if mass := _weigh_piston(model):
-        yield Figure(name, mass, least, most, f" kg {beside} mm", units)
+        yield Figure(name, mass, least, most, unit, units)
     if bore is not None:
-        same = "are both in the same unit?"
-        yield Figure("piston.bore / crank.stroke is", bore / stroke, *BORE, "", same)
+        yield Figure("piston.bore / crank.stroke is", bore / stroke, *BORE, "", SAME_UNIT)
     most = OFFSET * stroke
     yield Figure("piston.offset is", model.piston.offset, -most, most, " mm", "is it in mm?")
-    speed = 2 * stroke * 1e-3 * model.operation.speed / 60
-    right = "are operation.speed and crank.stroke right?"
-    yield Figure("the mean piston speed is", speed, 0, PISTON_SPEED, " m/s", right)
+    mean, right = stroke * speed / 30e3, "are operation.speed and crank.stroke right?"
+    yield Figure("the mean piston speed is", mean, 0, PISTON_SPEED, " m/s", right)
     thousands = "a point parts decimals, not thousands"
-    yield Figure("operation.speed is", model.operation.speed, SPEED, math.inf, " rpm", thousands)
+    yield Figure("operation.speed is", speed, SPEED, math.inf, " rpm", thousands)
 
 
 def _list_rods(model: EngineFile) -> Iterator[Figure]:
     rod, mass, piston = model.rod, _weigh_rod(model), _weigh_piston(model)
     radius = model.crank.stroke / 2
-    length = rod.length or (radius / rod.ratio if rod.ratio else math.inf)
+    ratio = rod.ratio or (radius / rod.length if rod.length else 0.0)
+    length = rod.length or (radius / ratio if ratio else math.inf)
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA[1]
-    ratio = rod.ratio or radius / length
     meaning = "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
     digits = count_lambda_digits(ratio)
     yield Figure("crank radius / rod length is", ratio, LAMBDA[0], most, "", meaning, digits)
     if mass and piston:
-        name, same = f"the rod weighs {mass:.4g} kg,", "are both in the same unit?"
-        yield Figure(name, mass / piston, *ROD, " times the piston", same)
+        name = f"the rod weighs {mass:.4g} kg,"
+        yield Figure(name, mass / piston, *ROD, " times the piston", SAME_UNIT)
     if rod.small_end is not None and rod.big_end is not None:
-        most, exchanged = SMALL_END * mass, "are small_end and big_end exchanged?"
-        yield Figure("rod.small_end is", rod.small_end, 0, most, " kg", exchanged)
+        exchanged = "are small_end and big_end exchanged?"
+        yield Figure("rod.small_end is", rod.small_end, 0, SMALL_END * mass, " kg", exchanged)
     if rod.cg is not None:
         measured = f"it is measured from the big-end centre; the small end is at {length:g} mm"
         yield Figure("rod.cg is", rod.cg, 0, SMALL_END * length, " mm", measured)
@@ -206,65 +211,40 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
 
 
 def _list_cranks(model: EngineFile) -> Iterator[Figure]:
-    angles = model.crank.throws or (0.0,)
-    span = max(angles) - min(angles)
-    if span >= THROWS[0]:
-        degrees = (
-            'bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 rad", and '
-            "numbers of cylinders stand in layout.firing_order"
-        )
+    """Yield the figures of the crankshaft and what turns with it, next to rods and pistons."""
+    crank, shares, wheel = model.crank, model.bobweight, model.flywheel
+    angles = crank.throws or (0.0,)
+    if (span := max(angles) - min(angles)) >= THROWS[0]:
         name = "crank.throws: the largest difference of two is"
-        yield Figure(name, span, THROWS[1], math.inf, " deg", degrees)
+        yield Figure(name, span, THROWS[1], math.inf, " deg", DEGREES)
     throws, rods = _count_throws_and_rods(model)
-    one = _weigh_piston(model) + _weigh_rod(model)
-    off = "is it in kg? It is what one throw has off the axis, not what the crankshaft weighs"
-    shells = 'is it in kg? Grams are said as in "47 g"'
-    for name, mass, most, hint in (
-        ("crank.throw_mass", model.crank.throw_mass, THROW * rods / throws, off),
-        ("bobweight.rod_bearing", model.bobweight.rod_bearing, BEARING, shells),
-        ("bobweight.oil", model.bobweight.oil, BEARING, shells),
-    ):
-        if one:
-            yield Figure(f"{name} is", mass, 0, most * one, " kg", hint)
-
-
-def _list_counterweights(model: EngineFile) -> Iterator[Figure]:
-    throws, rods = _count_throws_and_rods(model)
-    moving = throws * model.crank.throw_mass + rods * (_weigh_piston(model) + _weigh_rod(model))
-    most = UNBALANCE * moving * 1e3 * model.crank.stroke / 2
+    one, radius = _weigh_piston(model) + _weigh_rod(model), crank.stroke / 2
+    if one:
+        most = THROW * rods / throws * one
+        yield Figure("crank.throw_mass is", crank.throw_mass, 0, most, " kg", OFF_AXIS)
+        for key, mass in (("rod_bearing", shares.rod_bearing), ("oil", shares.oil)):
+            yield Figure(f"bobweight.{key} is", mass, 0, BEARING * one, " kg", GRAMS)
+    most = UNBALANCE * (throws * crank.throw_mass + rods * one) * 1e3 * radius
     for number, weight in enumerate(model.counterweight if most else (), 1):
+        unbalance = weight.unbalance or (weight.mass or 0.0) * 1e3 * (weight.radius or 0.0)
         name = f"counterweight.{number}: its unbalance is"
-        yield Figure(name, abs(_unbalance(weight)), 0, most, " g mm", "is it in g mm?")
-
-
-def _list_inertias(model: EngineFile) -> Iterator[Figure]:
-    """Yield what turns with the crank, beside the inertia of all rods and pistons on the pins."""
-    wheel = model.flywheel
-    arm = (wheel and wheel.radius_of_gyration) or 0.0
-    turning = {
-        "crank.inertia": model.crank.inertia,
-        "flywheel.inertia": wheel and (wheel.inertia or (wheel.mass or 0.0) * arm**2),
-    }
-    _, rods = _count_throws_and_rods(model)
-    one = _weigh_piston(model) + _weigh_rod(model)
-    least = TURNING * rods * one * (model.crank.stroke / 2) ** 2
+        yield Figure(name, abs(unbalance), 0, most, " g mm", "is it in g mm?")
+    turning = {"crank": crank.inertia}
+    if wheel:
+        arm = wheel.radius_of_gyration or 0.0
+        turning["flywheel"] = wheel.inertia or (wheel.mass or 0.0) * arm**2
+    least = TURNING * rods * one * radius**2
     for name, inertia in turning.items():
         if inertia:
             question = ask_unit("kg mm^2", f"{inertia:.4g} kg m^2")
-            yield Figure(f"{name} is", inertia, least, math.inf, " kg mm^2", question)
+            yield Figure(f"{name}.inertia is", inertia, least, math.inf, " kg mm^2", question)
 
 
 def _list_gas(model: EngineFile) -> Iterator[Figure]:
-    if model.gas is None:
-        return
     question = ask_unit("bar", "130 psi", "0.9 MPa")
-    around, mean = (*AROUND, " bar absolute"), (0.0, MEAN_PRESSURE, " bar")
-    usual = dict.fromkeys(("intake", "exhaust", "crankcase"), around)
-    usual |= {"imep": mean, "bmep": mean, "max_pressure": (0.0, MAX_PRESSURE, " bar")}
-    for key, (least, most, unit) in usual.items():
-        value = getattr(model.gas, key)
-        if value is not None:
-            yield Figure(f"gas.{key} is", value, least, most, unit, question)
+    for key, usual in PRESSURES.items() if model.gas else ():
+        if (value := getattr(model.gas, key)) is not None:
+            yield Figure(f"gas.{key} is", value, *usual, question)
 
 
 def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:
@@ -307,10 +287,3 @@ def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:
         return max(len(layout.firing_order) // rods_on_a_throw, 1), len(layout.firing_order)
     throws = len(model.crank.throws or (0.0,))
     return throws, throws * rods_on_a_throw
-
-
-def _unbalance(weight: Counterweight) -> float:
-    """Return the unbalance, g mm."""
-    if weight.unbalance is not None:
-        return weight.unbalance
-    return (weight.mass or 0.0) * 1e3 * (weight.radius or 0.0)

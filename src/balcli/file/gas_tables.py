@@ -4,15 +4,11 @@
 They are imported for files that have them (`names.CHAPTERS`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import Annotated, Literal
-
-from pydantic import Field
+from typing import Annotated
 
 from .fields import Choice, FileName, Number, OneOf, join_words
-from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size, TableRule
+from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
@@ -43,78 +39,56 @@ class Gas(FileTable):
 
     choices = (Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),)
 
-    indicator: Annotated[str, FileName()] | None = Field(
-        None,
-        description="a measured diagram: CSV beside the engine file, headed angle_deg,pressure_bar "
-        "(or _MPa, _kPa, _Pa, _psi; over the atmosphere _barg, _psig)",
-        examples=["p_2000rpm.csv"],
-    )
-    zero: Annotated[Literal["firing", "gas-exchange"], OneOf("firing", "gas-exchange")] = Field(
-        "firing", description="the dead centre at angle 0 of the diagram", examples=["gas-exchange"]
-    )
-    phase: Angle = Field(0.0, description="added to the angles of the diagram", examples=[-0.5])
-    pressure: Annotated[Literal["absolute", "gauge"], OneOf("absolute", "gauge")] = Field(
-        "absolute", description="gauge: above the atmosphere of 1.01325 bar", examples=["gauge"]
-    )
-    cycle: (
-        Annotated[
-            Literal["otto", "diesel", "dual", "wiebe"], OneOf("otto", "diesel", "dual", "wiebe")
-        ]
-        | None
-    ) = Field(None, description="a computed cycle, by how it burns", examples=["wiebe"])
-    compression_ratio: Ratio | None = Field(
-        None,
-        description="largest over smallest volume of the cylinder; beside a diagram it gives the "
-        "volume",
-        examples=[10.5],
-    )
-    compression_index: Index = Field(1.32, description="n of p V^n = const", examples=[1.35])
-    expansion_index: ExpansionIndex = Field(
-        1.28, description="n of p V^n = const, and while it burns", examples=[1.27]
-    )
-    intake: IntakePressure = Field(1.0, description="absolute, while it is filled", examples=[1.8])
-    exhaust: Pressure = Field(
-        1.05, description="absolute, while it empties; four-stroke", examples=[1.3]
-    )
-    imep: MeanPressure | None = Field(
-        None,
-        description="indicated mean effective pressure that the cycle is to have; beside a "
-        "diagram: what it should have",
-        examples=[10],
-    )
-    bmep: MeanPressure | None = Field(
-        None, description="instead of imep, with mechanical_efficiency", examples=[8.5]
-    )
-    mechanical_efficiency: Efficiency | None = Field(
-        None, description="brake over indicated mean effective pressure", examples=[0.85]
-    )
-    max_pressure: Pressure | None = Field(
-        None,
-        description="absolute; that the cycle is to have, or (dual) at which it burns on",
-        examples=[70],
-    )
-    cut_off: CutOff | None = Field(
-        None, description="volume after over before burning at constant pressure", examples=[2]
-    )
-    heat: Heat | None = Field(
-        None, description="supplied in each cycle of a cylinder", examples=[1400]
-    )
-    burn_start: Angle = Field(-15.0, description="wiebe: cycle angle", examples=[-10])
-    burn_duration: Duration = Field(50.0, description="wiebe: crank angle", examples=[60])
-    burn_shape: Exponent = Field(2.0, description="wiebe: exponent m", examples=[1.5])
-    exhaust_opens: ExhaustAngle | None = Field(
-        None, description="cycle angle; left out: lower dead centre", examples=[140]
-    )
-    intake_closes: IntakeAngle | None = Field(
-        None, description="cycle angle, four-stroke; left out: lower dead centre", examples=[580]
-    )
-    harmonics: Annotated[str, FileName()] | None = Field(
-        None,
-        description="builders' table: CSV of order,cos,sin of the mean tangential pressure "
-        "T/(A r), bar, from the firing dead centre",
-        examples=["tangential.csv"],
-    )
-    crankcase: Pressure = Field(1.0, description="absolute, under the pistons", examples=[1.1])
+    indicator: Annotated[str, FileName()] | None = None
+    """A measured diagram: CSV beside the engine file, headed angle_deg,pressure_bar (or _MPa,
+    _kPa, _Pa, _psi; over the atmosphere _barg, _psig). Example: 'p_2000rpm.csv'"""
+    zero: Annotated[str, OneOf("firing", "gas-exchange")] = "firing"
+    """The dead centre at angle 0 of the diagram. Example: 'gas-exchange'"""
+    phase: Angle = 0.0
+    """Added to the angles of the diagram. Example: -0.5"""
+    pressure: Annotated[str, OneOf("absolute", "gauge")] = "absolute"
+    """Gauge: above the atmosphere of 1.01325 bar. Example: 'gauge'"""
+    cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
+    """A computed cycle, by how it burns. Example: 'wiebe'"""
+    compression_ratio: Ratio | None = None
+    """Largest over smallest volume of the cylinder; beside a diagram it gives the volume.
+    Example: 10.5"""
+    compression_index: Index = 1.32
+    """n of p V^n = const. Example: 1.35"""
+    expansion_index: ExpansionIndex = 1.28
+    """n of p V^n = const, and while it burns. Example: 1.27"""
+    intake: IntakePressure = 1.0
+    """Absolute, while it is filled. Example: 1.8"""
+    exhaust: Pressure = 1.05
+    """Absolute, while it empties; four-stroke. Example: 1.3"""
+    imep: MeanPressure | None = None
+    """Indicated mean effective pressure that the cycle is to have; beside a diagram: what it
+    should have. Example: 10"""
+    bmep: MeanPressure | None = None
+    """Instead of imep, with mechanical_efficiency. Example: 8.5"""
+    mechanical_efficiency: Efficiency | None = None
+    """Brake over indicated mean effective pressure. Example: 0.85"""
+    max_pressure: Pressure | None = None
+    """Absolute; that the cycle is to have, or (dual) at which it burns on. Example: 70"""
+    cut_off: CutOff | None = None
+    """Volume after over before burning at constant pressure. Example: 2"""
+    heat: Heat | None = None
+    """Supplied in each cycle of a cylinder. Example: 1400"""
+    burn_start: Angle = -15.0
+    """Wiebe: cycle angle. Example: -10"""
+    burn_duration: Duration = 50.0
+    """Wiebe: crank angle. Example: 60"""
+    burn_shape: Exponent = 2.0
+    """Wiebe: exponent m. Example: 1.5"""
+    exhaust_opens: ExhaustAngle | None = None
+    """Cycle angle; left out: lower dead centre. Example: 140"""
+    intake_closes: IntakeAngle | None = None
+    """Cycle angle, four-stroke; left out: lower dead centre. Example: 580"""
+    harmonics: Annotated[str, FileName()] | None = None
+    """Builders' table: CSV of order,cos,sin of the mean tangential pressure T/(A r), bar, from
+    the firing dead centre. Example: 'tangential.csv'"""
+    crankcase: Pressure = 1.0
+    """Absolute, under the pistons. Example: 1.1"""
 
     @property
     def goals(self) -> tuple[str, ...]:
@@ -160,7 +134,7 @@ class Gas(FileTable):
         """Exactly one figure tells how much is burnt."""
         if self.cycle is None:
             return
-        given = [key for key in self.goals if key in self.model_fields_set]
+        given = [key for key in self.goals if self.has(key)]
         *front, last = self.goals
         choice = f"give one of {', '.join(front)} and {last}"
         if len(given) > 1:
@@ -181,15 +155,6 @@ class Gas(FileTable):
         if self.cycle is not None and self.compression_ratio is None:
             yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
 
-    rules = (
-        TableRule(_check_misplaced, {"cycle", "indicator", "harmonics"}),
-        TableRule(_check_wiebe, {"cycle"}),
-        TableRule(_check_max_pressure, {"cycle", "max_pressure"}),
-        TableRule(_check_goals, {"cycle"}, {*_GOALS}),
-        TableRule(_check_bmep, {"cycle", "bmep", "mechanical_efficiency"}),
-        TableRule(_check_compression_ratio, {"cycle", "compression_ratio"}),
-    )
-
 
 class Flywheel(FileTable):
     """A flywheel, or all that turns with the crankshaft beyond it. [torsion] has its own."""
@@ -198,15 +163,12 @@ class Flywheel(FileTable):
         Choice((("inertia",), ("mass", "radius_of_gyration")), required=True, complete=True),
     )
 
-    inertia: GivenInertia | None = Field(
-        None, description="polar moment of inertia", examples=[250000]
-    )
-    mass: Mass | None = Field(
-        None, description="with radius_of_gyration, instead of inertia", examples=[12]
-    )
-    radius_of_gyration: Size | None = Field(
-        None, description="with mass, instead of inertia", examples=[140]
-    )
+    inertia: GivenInertia | None = None
+    """Polar moment of inertia. Example: 250000"""
+    mass: Mass | None = None
+    """With radius_of_gyration, instead of inertia. Example: 12"""
+    radius_of_gyration: Size | None = None
+    """With mass, instead of inertia. Example: 140"""
 
 
 class Bearing(FileTable):
@@ -217,7 +179,11 @@ class Bearing(FileTable):
         Choice((("main_diameter", "main_width"),), complete=True),
     )
 
-    pin_diameter: Size | None = Field(None, description="of the crank pins", examples=[48])
-    pin_width: Size | None = Field(None, description="of each rod's bearing", examples=[20])
-    main_diameter: Size | None = Field(None, description="of the main journals", examples=[60])
-    main_width: Size | None = Field(None, description="of each main bearing", examples=[22])
+    pin_diameter: Size | None = None
+    """Of the crank pins. Example: 48"""
+    pin_width: Size | None = None
+    """Of each rod's bearing. Example: 20"""
+    main_diameter: Size | None = None
+    """Of the main journals. Example: 60"""
+    main_width: Size | None = None
+    """Of each main bearing. Example: 22"""

@@ -12,10 +12,10 @@ from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
 from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
 from .fields import counted, nearest, printable, shorten
-from .table import FileTable
+from .table import FileTable, KeyDocument, document_keys
+from .units import read_rows
 
 if TYPE_CHECKING:
-    from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
 
 
@@ -72,29 +72,41 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         table: what may stand there.
     """
     kind, loc, value = finding["type"], finding["loc"], finding["input"]
-    field = find_inner_table(table, loc).keys().get(str(loc[-1])) if loc else None
-    examples = list(field.examples or ()) if field else []
+    inner, key = find_inner_table(table, loc), str(loc[-1]) if loc else ""
+    field = inner.keys().get(key)
+    document = document_keys(inner).get(key, KeyDocument())
     place, shown = join_path(path, loc), shorten(value)
     if kind == "missing":
-        example = shorten(examples[0]) if examples else "{ length = 200 }"
-        return Problem.of_missing(place, f"give it, such as {loc[-1]} = {example}")
+        example = "{ length = 200 }" if document.example is None else shorten(document.example)
+        return Problem.of_missing(place, f"give it, such as {key} = {example}")
     if kind == "value_error":
         message = str(finding["ctx"]["error"])
     elif kind in ("too_short", "too_long"):
-        message = _describe_length(value, finding["ctx"], field)
+        message = _describe_length(value, finding["ctx"], document.description)
     elif kind == "tuple_type" and field and find_table(field.annotation):
         found = "is one of several" if isinstance(value, Mapping) else f"{shown} is no table"
         message = f"{found}; write [[{place}]] in double brackets"
     elif kind == "tuple_type":
-        example = shorten(next((each for each in examples if isinstance(each, list)), [0, 180]))
+        example = shorten(document.example or [0, 180])
         message = f"{shown} is not a list; write it in square brackets, such as {example}"
-    elif kind.startswith("model_"):
-        message = f"{shown} is not a table; write it in braces with its keys"
     else:
-        message = f"{shown} does not fit here"
+        message = f"{shown} is not a table; write it in braces with its keys"
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
         return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
     return Problem(place, message)
+
+
+def _describe_length(
+    value: Sequence[object], context: Mapping[str, object], description: str
+) -> str:
+    least, most = context.get("min_length"), context.get("max_length")
+    if least == 1:
+        return "is an empty list; give at least one value"
+    if most in (MOST_LIST_VALUES, MOST_RIPPLES):
+        return f"has {len(value)} values; at most {most} are taken"
+    these = f": {description.partition(';')[0]}" if description else ""
+    found = f"{shorten(value)} has {counted(len(value), 'value')}"
+    return f"{found} where {least or most} are wanted{these}"
 
 
 def find_inner_table(table: type[FileTable], loc: Sequence[str | int]) -> type[FileTable]:
@@ -110,20 +122,6 @@ def find_table(annotation: object) -> type[FileTable] | None:
     if isinstance(annotation, type) and issubclass(annotation, FileTable):
         return annotation
     return next(filter(None, map(find_table, get_args(annotation))), None)
-
-
-def _describe_length(
-    value: list[object], context: Mapping[str, object], field: FieldInfo | None
-) -> str:
-    if not value:
-        hint = "" if field is not None and field.is_required() else ", or leave the key out"
-        return f"is an empty list; give at least one value{hint}"
-    if (most := context.get("max_length")) in (MOST_LIST_VALUES, MOST_RIPPLES):
-        return f"has {len(value)} values; at most {most} are taken"
-    wanted = context.get("min_length") or context.get("max_length")
-    what = field.description if field else None
-    these = f": {what.partition(';')[0]}" if what else ""
-    return f"{shorten(value)} has {counted(len(value), 'value')} where {wanted} are wanted{these}"
 
 
 def ordinal(number: int) -> str:
@@ -171,28 +169,14 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
 
 
 # What people call a key, and keys that mean it; the first that a table has
-SYNONYMS = {
-    "conrod": ("rod",),
-    "connecting_rod": ("rod",),
-    "rpm": ("speed",),
-    "pin_offset": ("splay", "offset"),
-    "pin_angles": ("throws",),
-    "crank_angles": ("throws",),
-    "angles": ("throws", "banks"),
-    "phase": ("throws", "angle"),
-    "bore_spacing": ("spacing",),
-    "bank": ("bank_angle",),
-    "vee_angle": ("bank_angle",),
-    "angle": ("bank_angle", "throws"),
-    "diameter": ("bore",),
-    "weight": ("mass", "piston_mass"),
-    "piston": ("piston_mass",),
-    "order": ("firing_order",),
-    "lambda": ("ratio",),
-    "j": ("inertia", "throw_inertia"),
-    "k": ("stiffness", "throw_stiffness"),
-    "file": ("indicator",),
-}
+_SYNONYMS = """
+conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset; pin_angles = throws
+crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
+bank vee_angle = bank_angle; angle = bank_angle throws; diameter = bore; piston = piston_mass
+weight = mass piston_mass; order = firing_order; lambda = ratio; j = inertia throw_inertia
+k = stiffness throw_stiffness; file = indicator
+"""
+SYNONYMS = {word: tuple(keys.split()) for word, keys in read_rows(_SYNONYMS).items()}
 _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "
     "crank.throws = [0, 180, 180, 0]"
@@ -206,11 +190,15 @@ _NEAR = 0.65  # of a key and one of its table that is meant: "damper" is no "nam
 _NEAR_ELSEWHERE = 0.75
 
 
-def name_heading(path: str) -> str:
-    """Return the name of a table in its heading: `operation.speed_ripple` of its second line,
-    `operation.speed_ripple.2`.
+def format_heading(path: str) -> str:
+    """Return the heading of the table with this path: `[rod]`, `[[shaft]]` for `shaft.2`,
+    `[cylinder.3]`.
     """
-    return ".".join(part for part in path.split(".") if not part.isdecimal())
+    if path == "cylinder" or path.startswith("cylinder."):
+        return f"[{path if '.' in path else 'cylinder.3'}]"
+    name = ".".join(part for part in path.split(".") if not part.isdecimal())
+    several = path[-1:].isdecimal() or name in DEVICES or name in CHAPTER_LISTS
+    return f"[[{name}]]" if several else f"[{name}]"
 
 
 def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[str, str]:

@@ -3,16 +3,14 @@
 They are imported for files that have them (`names.CHAPTERS`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
-from .fields import Choice, Flag, Number, as_written
-from .table import Angle, FileTable, Name, TableRule, Triple
+from .fields import Choice, Number, as_written
+from .table import Angle, FileTable, Name, Switch, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
 if TYPE_CHECKING:
@@ -25,7 +23,7 @@ class _AlikeOrEach:
     def __init__(self, one: Number) -> None:
         self._one = one
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> "CoreSchema":
         from pydantic_core import core_schema
 
         def read(value: object, each: Callable[[object], Any]) -> Any:
@@ -33,7 +31,7 @@ class _AlikeOrEach:
 
         return core_schema.no_info_wrap_validator_function(read, handler(source))
 
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: Any) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(self, schema: "CoreSchema", handler: Any) -> dict[str, Any]:
         return {"anyOf": [self._one.json(), handler(schema)], "unit": self._one.dimension.unit}
 
 
@@ -53,29 +51,19 @@ _PERPENDICULAR = 1e-6  # cosine between two axes that are
 class Body(FileTable):
     """All that rocks on the mounts: the engine with its gearbox, as one rigid body."""
 
-    mass: Annotated[float, Number(MASS, above=0, most=1e12)] = Field(
-        description="of the whole", examples=[163.9]
-    )
-    cg: Triple = Field(
-        description="x, y, z of the centre of gravity, in the engine's axes",
-        examples=[[12, -8, 35]],
-    )
-    inertia: Tensor = Field(
-        description="xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity, as "
-        "they stand in the matrix (products of inertia with minus)",
-        examples=[[9.91e6, 4.12e6, 9.09e6, -0.813e6, 1.34e6, -0.472e6]],
-    )
-    gravity: Direction = Field(
-        (-1.0, 0.0, 0.0),
-        description="direction of the weight, of any length",
-        examples=[[-1, 0, 0]],
-    )
-    carries_load: Annotated[bool, Flag()] = Field(
-        False,
-        description="what takes the engine's torque stands on the body, too, such as the generator "
-        "of a genset: at rest no mount feels its mean",
-        examples=[True],
-    )
+    mass: Annotated[float, Number(MASS, above=0, most=1e12)]
+    """Of the whole. Example: 163.9"""
+    cg: Triple
+    """x, y, z of the centre of gravity, in the engine's axes. Example: [12, -8, 35]"""
+    inertia: Tensor
+    """Xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity, as they stand in
+    the matrix (products of inertia with minus). Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
+    1.34e6, -0.472e6]"""
+    gravity: Direction = (-1.0, 0.0, 0.0)
+    """Direction of the weight, of any length. Example: [-1, 0, 0]"""
+    carries_load: Switch = False
+    """What takes the engine's torque stands on the body, too, such as the generator of a genset:
+    at rest no mount feels its mean. Example: true"""
 
     def _check_gravity(self) -> Iterator[str]:
         if not any(self.gravity):
@@ -83,8 +71,6 @@ class Body(FileTable):
 
     def _check_inertia(self) -> Iterator[str]:
         yield from find_tensor_faults(self.inertia)
-
-    rules = (TableRule(_check_gravity, {"gravity"}), TableRule(_check_inertia, {"inertia"}))
 
 
 def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
@@ -113,34 +99,24 @@ class Mount(FileTable):
 
     choices = (Choice((("axes",), ("angles",))),)
 
-    name: Name = Field(description="what to call it", examples=["left"])
-    at: Triple = Field(description="x, y, z, in the engine's axes", examples=[[-66, 463, 156]])
-    stiffness: Stiffnesses = Field(
-        description="static, along its three own axes; one figure: alike along all three",
-        examples=[[349.5, 370.5, 453]],
-    )
-    axes: Directions | None = Field(
-        None,
-        description="first and second own axis in the engine's axes, perpendicular, of any length; "
-        "left out: x, y, z",
-        examples=[[[0, 1, 0], [-1, 0, 0]]],
-    )
-    angles: Turns | None = Field(
-        None,
-        description="instead of axes: turned about x, then y, then z by these",
-        examples=[[0, -10, 0]],
-    )
-    loss: Annotated[float, Number(PLAIN, least=0, most=10)] = Field(
-        0.0, description="loss factor of the stiffness", examples=[0.1]
-    )
-    damping: Dampings = Field(
-        (0.0, 0.0, 0.0),
-        description="viscous, along its own axes, or one figure",
-        examples=[[0.4, 0.4, 0.4]],
-    )
-    dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = Field(
-        1.0, description="dynamic over static stiffness; statics do not use it", examples=[1.3]
-    )
+    name: Name
+    """What to call it. Example: 'left'"""
+    at: Triple
+    """x, y, z, in the engine's axes. Example: [-66, 463, 156]"""
+    stiffness: Stiffnesses
+    """Static, along its three own axes; one figure: alike along all three. Example: [349.5,
+    370.5, 453]"""
+    axes: Directions | None = None
+    """First and second own axis in the engine's axes, perpendicular, of any length; left out: x,
+    y, z. Example: [[0, 1, 0], [-1, 0, 0]]"""
+    angles: Turns | None = None
+    """Instead of axes: turned about x, then y, then z by these. Example: [0, -10, 0]"""
+    loss: Annotated[float, Number(PLAIN, least=0, most=10)] = 0.0
+    """Loss factor of the stiffness. Example: 0.1"""
+    damping: Dampings = (0.0, 0.0, 0.0)
+    """Viscous, along its own axes, or one figure. Example: [0.4, 0.4, 0.4]"""
+    dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = 1.0
+    """Dynamic over static stiffness; statics do not use it. Example: 1.3"""
 
     def _check_stiffness(self) -> Iterator[str]:
         if not any(self.stiffness):
@@ -157,11 +133,11 @@ class Mount(FileTable):
                 angle = math.degrees(math.acos(max(-1.0, min(1.0, cosine))))
                 yield f"axes are {angle:.4g} degrees apart; they must be perpendicular"
 
-    rules = (TableRule(_check_stiffness, {"stiffness"}), TableRule(_check_axes, {"axes"}))
-
 
 class Point(FileTable):
     """A point of the body whose motion is wanted."""
 
-    name: Name = Field(description="what to call it", examples=["seat rail"])
-    at: Triple = Field(description="x, y, z, in the engine's axes", examples=[[0, 500, 0]])
+    name: Name
+    """What to call it. Example: 'seat rail'"""
+    at: Triple
+    """x, y, z, in the engine's axes. Example: [0, 500, 0]"""

@@ -14,7 +14,7 @@ import numpy as np
 from ..errors import InputError, Problem, wrong_type
 from .fields import RIGID, Number
 from .model import EngineFile, label_table
-from .table import FileTable
+from .table import FileTable, document_keys
 from .toml import name_file, parse_toml, read_bytes
 
 
@@ -162,12 +162,12 @@ def list_assumed(model: EngineFile) -> Iterator[str]:
     """
     idle = _list_idle(model)
     for name in _TABLES:
-        table = getattr(model, name)
+        table: FileTable = getattr(model, name)
         for key, field in table.keys().items():
             path = f"{name}.{key}"
             if key in table.model_fields_set or path in idle:
                 continue
-            _, told, taken = (field.description or "").partition(_TOLD)
+            _, told, taken = document_keys(type(table))[key].description.partition(_TOLD)
             unit = next((m.dimension.unit for m in field.metadata if isinstance(m, Number)), "")
             if told:
                 yield f"{path}: {taken}"

@@ -16,27 +16,26 @@ from pydantic_core import ErrorDetails
 
 from ..errors import CONTROL_CHARACTERS, InputError, Problem
 from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
-from ..names import CHAPTER_LISTS, CHAPTERS
+from ..names import CHAPTER_LISTS
 from .fields import printable, shorten
 from .messages import (
     DEVICES,
     ENGINE,
     INSTEAD,
     KNOWN,
-    TABLES,
     TEXTS,
     describe_finding,
     find_inner_table,
+    format_heading,
     import_table,
     join_path,
-    name_heading,
     refuse_other_kind,
     suggest,
     suggest_place,
 )
 from .model import ONE_BY_ONE, EngineFile, Override
 from .plain_tables import change_tables
-from .table import FileTable
+from .table import FileTable, document_keys
 from .toml import parse_toml
 
 T = TypeVar("T", bound=FileTable)
@@ -123,10 +122,7 @@ class TableReader:
             self.add(path, f"stands once, in single brackets: [{path}]")
             return None
         if not isinstance(value, Mapping):
-            head = f"[{path}]"
-            if path[-1:].isdecimal() and not path.startswith("cylinder."):
-                head = f"[[{name_heading(path)}]]"
-            hint = f"write {head} and its keys below it"
+            hint = f"write {format_heading(path)} and its keys below it"
             self.add(path, f"{shorten(value)} stands where a table belongs; {hint}")
             return None
         keys = table.keys()
@@ -162,14 +158,12 @@ class TableReader:
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
         hint, near = suggest(key, own or (), is_engine=self._is_engine)
-        table, meant = f"[{printable(name_heading(path))}]", join_path(path, [near]) if near else ""
+        table, meant = printable(format_heading(path)), join_path(path, [near]) if near else ""
         message = f"unknown key in {table if path else self._file_kind}"
         is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
         if self._is_engine and path and is_table:
             message, meant = f"{key} is a table of its own, not one within {table}", key
-            several = key in DEVICES or key in CHAPTER_LISTS
-            head = f"[[{key}]]" if several else "[cylinder.3]" if key == "cylinder" else f"[{key}]"
-            hint = f"write {head} and its keys below it"
+            hint = f"write {format_heading(key)} and its keys below it"
         elif own is None:
             message = f"there is no table {table}"
         self.problems.append(Problem(place, f"{message}; {hint}" if hint else message, (), meant))
@@ -215,8 +209,8 @@ def _read_without(
 ) -> FileTable | None:
     """Return `RefusedTable.draft`."""
     known = {key: part for key, part in value.items() if key not in broken}
-    needed = {key: field for key, field in table.keys().items() if field.is_required()}
-    examples = {key: (field.examples or [None])[0] for key, field in needed.items()}
+    needed = [key for key, field in table.keys().items() if field.is_required()]
+    examples = {key: document_keys(table)[key].example for key in needed}
     try:
         draft = table.model_validate(examples | known, context=broken)
     except ValidationError:
@@ -237,12 +231,8 @@ def _find_conflicts(
         missing = tuple(join_path(path, [key]) for key in choice.find_missing(value))
         for mistake in choice.mistakes(value):
             yield Problem(path, mistake, missing)
-    for rule in table.rules if draft is not None else ():
-        if rule.needs.isdisjoint(broken):
-            keys = {*rule.needs, *rule.wants} - value.keys()
-            missing = tuple(join_path(path, [key]) for key in keys)
-            for mistake in rule.check(draft):
-                yield Problem(path, mistake, missing)
+    for mistake, read in draft.find_conflicts(broken) if draft is not None else ():
+        yield Problem(path, mistake, tuple(join_path(path, [key]) for key in read - value.keys()))
 
 
 def _count_values(value: object) -> int:
@@ -313,16 +303,18 @@ def check_tables(
         if key not in data and not body_alone:
             hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
             reader.problems.append(Problem.of_missing(key, hint))
-    parts: dict[str, Any] = {
-        key: _read_text(reader, key, data[key]) for key in TEXTS if key in data
-    }
-    for key in filter(data.__contains__, (*TABLES, *CHAPTERS)):
-        parts[key] = reader.read_table(key, data[key], import_table(key))
-    for key in filter(data.__contains__, (*DEVICES, *CHAPTER_LISTS)):
-        parts[key] = reader.read_list(key, data[key], import_table(key))
-    if "cylinder" in data:
-        parts["cylinder"] = _read_cylinders(reader, data["cylinder"])
+    parts = {key: _read_part(reader, key, data[key]) for key in KNOWN if key in data}
     return _draft(reader, parts, folder)
+
+
+def _read_part(reader: TableReader, key: str, value: object) -> Any:
+    """Return what stands under a key at the head of the file; None: it has mistakes."""
+    if key in TEXTS:
+        return _read_text(reader, key, value)
+    if key == "cylinder":
+        return _read_cylinders(reader, value)
+    several = key in DEVICES or key in CHAPTER_LISTS
+    return (reader.read_list if several else reader.read_table)(key, value, import_table(key))
 
 
 def change_figures(
@@ -341,10 +333,9 @@ def change_figures(
     own = {path: value for path, value in values.items() if path.partition(".")[0] in tables}
     data = change_tables(model, own)
     reader = TableReader(ENGINE.name, is_engine=True)
-    changed: dict[str, Any] = {}
-    for key in {path.partition(".")[0] for path in own}:
-        read = reader.read_list if isinstance(data[key], list) else reader.read_table
-        changed[key] = read(key, data[key], import_table(key))
+    changed = {
+        key: _read_part(reader, key, data[key]) for key in {p.partition(".")[0] for p in own}
+    }
     if reader.problems:
         raise reader.refusal("")
     return model.model_copy(update=changed)
@@ -400,17 +391,9 @@ def _read_text(reader: TableReader, key: str, value: object) -> str | None:
     characters = CONTROL_CHARACTERS if key == "source" else rf"{CONTROL_CHARACTERS}|[\t\n]"
     strange = None if value.isprintable() else re.search(characters, value)
     if strange:
-        reader.add(
-            key,
-            f"has the control character U+{ord(strange[0]):04X}, which could command a terminal or "
-            "disguise what it shows; leave it out",
-        )
+        reader.add(key, f"has the control character U+{ord(strange[0]):04X}; leave it out")
     elif key == "name" and len(value) > LONGEST_NAME:
-        reader.add(
-            key,
-            f"has {len(value)} characters; it stands in every line of a CSV, at most "
-            f"{LONGEST_NAME} are taken",
-        )
+        reader.add(key, f"has {len(value)} characters; at most {LONGEST_NAME} are taken")
     return value
 
 

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import ast
+import tomllib
 from collections.abc import Callable, Iterator, Set
+from contextlib import suppress
+from functools import cache
+from inspect import getsource
+from itertools import chain, pairwise
+from textwrap import dedent
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, model_validator
 from pydantic.fields import FieldInfo
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
-from .fields import Choice, Label, Number, Whole
+from .fields import Choice, Flag, Label, Number, Whole
 from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
@@ -53,6 +60,8 @@ ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT
 
 Name = Annotated[str, Label()]
 
+Switch = Annotated[bool, Flag()]
+
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 
 Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
@@ -68,42 +77,52 @@ Place = Annotated[tuple[Length, ...], Field(min_length=2, max_length=2)]
 Triple = Annotated[tuple[Length, ...], Field(min_length=3, max_length=3)]
 
 
-def key(description: str, *examples: object, default: Any = None) -> Any:
-    """Return the pydantic field of a key that may be left out.
-
-    Args:
-        description: what it means, for the schema and the reference.
-        examples: a value that it may have.
-        default: what counts where it is left out; None: nothing, or what the description says.
-    """
-    return Field(default, description=description, examples=list(examples) or None)
-
-
-def needed(description: str, *examples: object) -> Any:
-    """Return the pydantic field of a key that has to be there; arguments as of `key`."""
-    return Field(description=description, examples=list(examples) or None)
-
-
-class TableRule(NamedTuple):
-    """A rule for the keys of a table.
+class KeyDocument(NamedTuple):
+    """The documentation of a key.
 
     Attributes:
-        check: yields what is wrong, in words.
-        needs: keys without whose values nothing can be said of it.
-        wants: keys of which one is enough.
+        description: what the key means.
+        example: a value that it may have; None: there is none.
     """
 
-    check: Callable[[Any], Iterator[str]]
-    needs: Set[str]
-    wants: Set[str] = frozenset()
+    description: str = ""
+    example: Any = None
+
+
+class Reading:
+    """A table as a rule reads it, where some keys cannot be read.
+
+    Args:
+        table: the table, with any values for its broken keys.
+        broken: the broken keys.
+
+    Attributes:
+        read: the names of all that was read.
+    """
+
+    def __init__(self, table: FileTable, broken: Set[str]) -> None:
+        self._table, self._broken = table, broken
+        self.read: set[str] = set()
+
+    def __getattr__(self, name: str) -> Any:
+        if name in self._broken:
+            raise LookupError(name)
+        self.read.add(name)
+        return getattr(self._table, name)
+
+    def has(self, key: str) -> bool:
+        """Return whether the file gives a key, broken or not."""
+        self.read.add(key)
+        return self._table.has(key)
 
 
 class FileTable(BaseModel):
-    """A table of the engine file: frozen, and an unknown key is a mistake."""
+    """A table of an engine file: frozen, and an unknown key is a mistake. Methods whose names start
+    with `_check_` are its rules: each yields what the keys say against each other, in words.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
     choices: ClassVar[tuple[Choice, ...]] = ()
-    rules: ClassVar[tuple[TableRule, ...]] = ()
 
     @model_validator(mode="after")
     def _consistent(self, info: ValidationInfo) -> FileTable:
@@ -116,9 +135,24 @@ class FileTable(BaseModel):
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """Yield what the fields of this table say against each other."""
-        for rule in self.rules:
-            yield from rule.check(self)
+        """Yield what the keys of this table say against each other."""
+        yield from (message for message, _ in self.find_conflicts(frozenset()))
+
+    def find_conflicts(self, broken: Set[str]) -> Iterator[tuple[str, Set[str]]]:
+        """Yield what the keys say against each other, and which keys were read for it.
+
+        Args:
+            broken: keys that cannot be read; no rule that reads one is applied.
+        """
+        for rule in _list_rules(type(self)):
+            reading = Reading(self, broken)
+            with suppress(LookupError):
+                for message in list(rule(reading)):
+                    yield message, reading.read & self.keys().keys()
+
+    def has(self, key: str) -> bool:
+        """Return whether the file gives a key."""
+        return key in self.model_fields_set
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """Return the keys that exclude this one, since they say the same."""
@@ -128,3 +162,53 @@ class FileTable(BaseModel):
     def keys(cls) -> dict[str, FieldInfo]:
         """Return the fields of this table by their keys, as a file has them."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
+        node: dict[str, Any] = handler(schema)
+        properties = handler.resolve_ref_schema(node)["properties"]
+        for key, document in document_keys(cls).items():
+            if document.description:
+                properties[key]["description"] = document.description
+            if document.example is not None:
+                properties[key]["examples"] = [document.example]
+        return node
+
+
+@cache
+def _list_rules(table: type[FileTable]) -> list[Callable[[Any], Iterator[str]]]:
+    """Return the rules of a table, those of its bases first."""
+    names = (vars(base).items() for base in reversed(table.__mro__))
+    return [rule for name, rule in chain.from_iterable(names) if name.startswith("_check_")]
+
+
+@cache
+def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
+    """Return the documentation of every key of a table. It stands in the string below the key and
+    ends with an example in TOML. Python keeps no such string, so the source is read.
+    """
+    found = dict.fromkeys(table.keys(), KeyDocument())
+    for base in reversed(table.__mro__):
+        if issubclass(base, FileTable) and base is not FileTable:
+            found |= _read_documents(base)
+    for key, field in table.keys().items():
+        if field.description:  # a table that uses pydantic's own words
+            found[key] = KeyDocument(field.description, *(field.examples or ())[:1])
+    return found
+
+
+def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
+    """Return the documentation of the keys that the class of a table itself declares."""
+    found = {}
+    (declared,) = ast.parse(dedent(getsource(table))).body
+    for key, text in pairwise(declared.body):  # type: ignore[attr-defined]
+        match key, text:
+            case (
+                ast.AnnAssign(target=ast.Name(id=name)),
+                ast.Expr(value=ast.Constant(value=str(document))),
+            ):
+                words, _, example = " ".join(document.split()).partition(". Example: ")
+                lower = words[0].lower() + words[1:].removesuffix(".")
+                read = tomllib.loads(f"example = {example}")["example"] if example else None
+                found[name] = KeyDocument(lower, read)
+    return found

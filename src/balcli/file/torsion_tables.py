@@ -2,8 +2,6 @@
 between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, Any
@@ -12,7 +10,7 @@ from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
 from .fields import RIGID, Number, OneOf, as_written, counted, shorten
-from .table import FileTable, GivenInertia, Name, Size, TableRule
+from .table import FileTable, GivenInertia, Name, Size
 from .units import (
     ANGLE,
     DENSITY,
@@ -71,35 +69,23 @@ STEEL = 7.85  # g/cm3
 class ShaftKeys(FileTable):
     """What a shaft is like: its stiffness, or the steel that makes it; its section gives stress."""
 
-    stiffness: Stiffness | None = Field(
-        None,
-        examples=[1.25e6],
-        description="torsional stiffness in the shaft's own speed; rigid: a flange or a mesh",
-    )
-    diameter: Size | None = Field(
-        None, examples=[85], description="diameter of the shaft: with it, stress is known"
-    )
-    length: Size | None = Field(
-        None, examples=[400], description="length of a plain shaft, instead of stiffness"
-    )
-    bore: Size | None = Field(
-        None, examples=[30], description="diameter of its bore, if it has one"
-    )
-    shear_modulus: Modulus = Field(
-        79.3, examples=[79.3], description="of what a plain shaft is made of; default: steel"
-    )
-    density: Density | None = Field(
-        None,
-        examples=[STEEL],
-        description="of a plain shaft: half of its inertia counts at either end; left out: it has "
-        "none",
-    )
-    loss: Loss | None = Field(
-        None, examples=[0.035], description="loss factor, imaginary over real part of the stiffness"
-    )
-    damping: Damping = Field(
-        0.0, examples=[20], description="of a dashpot between the ends of the shaft"
-    )
+    stiffness: Stiffness | None = None
+    """Torsional stiffness in the shaft's own speed; rigid: a flange or a mesh. Example: 1.25e6"""
+    diameter: Size | None = None
+    """Diameter of the shaft: with it, stress is known. Example: 85"""
+    length: Size | None = None
+    """Length of a plain shaft, instead of stiffness. Example: 400"""
+    bore: Size | None = None
+    """Diameter of its bore, if it has one. Example: 30"""
+    shear_modulus: Modulus = 79.3
+    """Of what a plain shaft is made of; default: steel. Example: 79.3"""
+    density: Density | None = None
+    """Of a plain shaft: half of its inertia counts at either end; left out: it has none.
+    Example: 7.85"""
+    loss: Loss | None = None
+    """Loss factor, imaginary over real part of the stiffness. Example: 0.035"""
+    damping: Damping = 0.0
+    """Of a dashpot between the ends of the shaft. Example: 20"""
 
     def _check_length(self) -> Iterator[str]:
         if self.stiffness is not None and self.length is not None:
@@ -126,13 +112,6 @@ class ShaftKeys(FileTable):
         if self.density is not None and (self.length is None or self.diameter is None):
             yield "has a density, and no length and diameter of a plain shaft that has it"
 
-    rules = (
-        TableRule(_check_length, {"stiffness", "length"}),
-        TableRule(_check_density, {"density", "length", "diameter"}),
-        TableRule(_check_stiffness, {"stiffness", "length", "diameter"}),
-        TableRule(_check_bore, {"bore", "diameter"}),
-    )
-
 
 _KEYS_OF_KIND = {
     "viscous": ("inertia", "damping"),
@@ -144,22 +123,23 @@ _KEYS_OF_KIND = {
 class Damper(FileTable):
     """A damper on a node."""
 
-    kind: Annotated[str, OneOf(*_KEYS_OF_KIND)] = Field(
-        examples=["viscous"],
-        description="viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing "
-        "in the field of rotation",
-    )
-    inertia: GivenInertia | None = Field(None, examples=[30000], description="of the ring")
-    damping: _RingDamping | None = Field(None, examples=[12], description="of the oil film")
-    stiffness: _RingStiffness | None = Field(None, examples=[40000], description="of the rubber")
-    loss: Loss | None = Field(None, examples=[0.15], description="loss factor of the rubber")
-    mass: _PendulumMass | None = Field(None, examples=[2], description="of all pendulums")
-    radius: Size | None = Field(
-        None, examples=[60], description="from the axis to where a pendulum hangs"
-    )
-    length: Size | None = Field(
-        None, examples=[2.4], description="of a pendulum, from there to its centre of mass"
-    )
+    kind: Annotated[str, OneOf(*_KEYS_OF_KIND)]
+    """Viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing in the field
+    of rotation. Example: 'viscous'"""
+    inertia: GivenInertia | None = None
+    """Of the ring. Example: 30000"""
+    damping: _RingDamping | None = None
+    """Of the oil film. Example: 12"""
+    stiffness: _RingStiffness | None = None
+    """Of the rubber. Example: 40000"""
+    loss: Loss | None = None
+    """Loss factor of the rubber. Example: 0.15"""
+    mass: _PendulumMass | None = None
+    """Of all pendulums. Example: 2"""
+    radius: Size | None = None
+    """From the axis to where a pendulum hangs. Example: 60"""
+    length: Size | None = None
+    """Of a pendulum, from there to its centre of mass. Example: 2.4"""
 
     def _check_keys(self) -> Iterator[str]:
         wanted = _KEYS_OF_KIND[self.kind]
@@ -169,38 +149,28 @@ class Damper(FileTable):
         if strange := sorted(given - set(wanted)):
             yield f"is {self.kind}, which has no {' and no '.join(strange)}"
 
-    rules = (TableRule(_check_keys, {"kind"}),)
-
 
 class NodeKeys(FileTable):
     """What a node is like: its name, its inertia, and its damper."""
 
-    name: Name = Field(examples=["flywheel"], description="what to call it; each its own")
-    inertia: NodeInertia | None = Field(
-        None, examples=[2.075e6], description="moment of inertia; left out: a massless node"
-    )
-    damper: Damper | None = Field(
-        None,
-        examples=[{"kind": "viscous", "inertia": 30000, "damping": 12}],
-        description="a damper that it has",
-    )
+    name: Name
+    """What to call it; each its own. Example: 'flywheel'"""
+    inertia: NodeInertia | None = None
+    """Moment of inertia; left out: a massless node. Example: 2.075e6"""
+    damper: Damper | None = None
+    """A damper that it has. Example: { kind = 'viscous', inertia = 30000, damping = 12 }"""
 
 
 class ChainKeys(FileTable):
     """What holds for a whole chain: the loss of its shafts, and limits."""
 
-    loss: Loss = Field(
-        0.0, examples=[0.035], description="loss factor of every shaft that names none"
-    )
-    limit: StressLimit | None = Field(
-        None, examples=[40], description="stress of a shaft above which a speed is barred"
-    )
-    angle_limit: AngleLimit | None = Field(
-        None,
-        examples=[0.3],
-        description="angle by which the free end (of a chain the first node) may swing either way; "
-        "above, a speed is barred",
-    )
+    loss: Loss = 0.0
+    """Loss factor of every shaft that names none. Example: 0.035"""
+    limit: StressLimit | None = None
+    """Stress of a shaft above which a speed is barred. Example: 40"""
+    angle_limit: AngleLimit | None = None
+    """Angle by which the free end (of a chain the first node) may swing either way; above, a
+    speed is barred. Example: 0.3"""
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:
@@ -263,21 +233,14 @@ class Part(ShaftKeys, NodeKeys):
     it from the throws.
     """
 
-    gear: Annotated[float, SpeedRatio()] | None = Field(
-        None,
-        description="speed over that of the crank; left out: as fast as what it hangs on. The mesh "
-        "sits there, and the shaft turns with this part",
-        examples=[0.5],
-    )
-    of: Name | None = Field(
-        None,
-        description="what it hangs on, a part or throw 1, throw 2, ...; left out: the part before "
-        "it in the list, the first on the nearest throw",
-        examples=["throw 1"],
-    )
-    node_damping: Damping = Field(
-        0.0, description="of the part against ground, as water damps a propeller", examples=[5]
-    )
+    gear: Annotated[float, SpeedRatio()] | None = None
+    """Speed over that of the crank; left out: as fast as what it hangs on. The mesh sits there,
+    and the shaft turns with this part. Example: 0.5"""
+    of: Name | None = None
+    """What it hangs on, a part or throw 1, throw 2, ...; left out: the part before it in the
+    list, the first on the nearest throw. Example: 'throw 1'"""
+    node_damping: Damping = 0.0
+    """Of the part against ground, as water damps a propeller. Example: 5"""
 
 
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
@@ -286,34 +249,25 @@ _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
 class Torsion(ChainKeys):
     """Torsional vibration: a node for each throw, and the parts before and behind them."""
 
-    throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = Field(
-        None,
-        description="torsional stiffness between neighbouring throws, or a list of all",
-        examples=[1.25e6],
-    )
-    throw_inertia: Annotated[tuple[float, ...], _EachOrAll(INERTIA)] | None = Field(
-        None,
-        description="moment of inertia of the crankshaft at each throw, its own mass and "
-        "counterweights included, without rods and pistons; or a list of all; left out: an equal "
-        "share of crank.inertia",
-        examples=[46700],
-    )
-    throw_diameter: Size | None = Field(
-        None,
-        description="diameter of the crankshaft between throws: with it, stress is known",
-        examples=[85],
-    )
-    throw_bore: Size | None = Field(
-        None, description="diameter of its bore, if it has one", examples=[30]
-    )
-    damping: Damping = Field(0.0, description="at every cylinder, against ground", examples=[2])
-    front: _Parts = Field((), description="parts before the first throw, outward")
-    rear: _Parts = Field((), description="parts behind the last throw, outward")
+    throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = None
+    """Torsional stiffness between neighbouring throws, or a list of all. Example: 1.25e6"""
+    throw_inertia: Annotated[tuple[float, ...], _EachOrAll(INERTIA)] | None = None
+    """Moment of inertia of the crankshaft at each throw, its own mass and counterweights
+    included, without rods and pistons; or a list of all; left out: an equal share of
+    crank.inertia. Example: 46700"""
+    throw_diameter: Size | None = None
+    """Diameter of the crankshaft between throws: with it, stress is known. Example: 85"""
+    throw_bore: Size | None = None
+    """Diameter of its bore, if it has one. Example: 30"""
+    damping: Damping = 0.0
+    """At every cylinder, against ground. Example: 2"""
+    front: _Parts = ()
+    """Parts before the first throw, outward."""
+    rear: _Parts = ()
+    """Parts behind the last throw, outward."""
 
     def _check_bore(self) -> Iterator[str]:
         if self.throw_bore is not None and (
             self.throw_diameter is None or self.throw_bore >= self.throw_diameter
         ):
             yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"
-
-    rules = (TableRule(_check_bore, {"throw_bore", "throw_diameter"}),)

@@ -13,7 +13,7 @@ from typing import Literal, Protocol, cast
 from ..errors import BalcliError
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile, Override
-from ..file.table import FileTable
+from ..file.table import FileTable, document_keys
 from ..forces.quantity import Quantity, parse_quantity
 from ..names import QUANTITIES, import_name
 from .parameters import find_numbers
@@ -219,12 +219,12 @@ def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
     heads = (".".join(parts[:k]) for k in range(len(parts) - 1, 0, -1))
     head = next((name for name in heads if name in tables), "")
     if not head:  # of a cylinder that does not differ from the others
-        return FileNumber(path, None, unit, Override.keys()[parts[-1]].description or "")
+        return FileNumber(path, None, unit, document_keys(Override)[parts[-1]].description)
     found: object = tables[head]
     meaning = ""
     for part in parts[head.count(".") + 1 :]:
         if isinstance(found, FileTable):
-            meaning = found.keys()[part].description or ""
+            meaning = document_keys(type(found))[part].description
             found = getattr(found, part)
         elif isinstance(found, tuple):
             found = found[int(part) - 1]
