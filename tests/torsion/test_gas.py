@@ -58,7 +58,7 @@ def respond(rpm, weights=(1,) * 6):
 
 @pytest.mark.parametrize("rpm", [1000, 2170])
 def test_vibratory_torque_against_plain_equations(diesel, rpm):
-    said = ask_json("torsion", diesel, "--speeds", rpm)["response"]
+    said = ask_json("torsion", diesel, "--speeds", rpm, "--orders", "0.5-12")["response"]
     found = [shaft["half_peak_to_peak_Nm"][0] for shaft in said["shafts"]]
     assert found == pytest.approx(respond(rpm), rel=5e-6)
     orders = [each["order"] for each in said["shafts"][0]["worst"]["orders"]]
@@ -112,3 +112,13 @@ def test_two_strokes_have_whole_orders(tmp_path):
     )
     criticals = ask_json("torsion", "-", stdin=text)["criticals"]
     assert all(isinstance(c["order"], int) for c in criticals)
+
+
+def test_orders_above_twelve_that_contribute_are_used_and_named(diesel):
+    """A cycle has sharp corners: order 12 was the last, whatever came after it."""
+    chosen, to_12 = (
+        ask_json("torsion", diesel, "--speeds", "1500:2500:50", *options) for options in ((), ("--orders", "0.5-12"))
+    )
+    assert to_12["orders"] == [k / 2 for k in range(1, 25)]
+    assert max(chosen["orders"]) > 12
+    assert {each["order"] for each in chosen["criticals"]} <= {*chosen["orders"]}

@@ -94,7 +94,9 @@ def test_no_barred_range_is_too_narrow_to_be_found():
     """Neither criticals nor speeds 100 rpm apart are near it: the ring shifts the resonance."""
     damper = 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'
     text = write_engine(0.005, damper).replace("[torsion]\n", "[torsion]\nlimit = 300\n")
-    coarse, fine = (ask_torsion(text, "--speeds", speeds) for speeds in ("1000:3000:100", "1780:1800:1"))
+    coarse, fine = (
+        ask_torsion(text, "--orders", "1-12", "--speeds", speeds) for speeds in ("1000:3000:100", "1780:1800:1")
+    )
     (span,) = fine["barred_rpm"]
     assert coarse["barred_rpm"] == [pytest.approx(span, rel=1e-8)]
 
@@ -144,12 +146,15 @@ def test_the_top_of_a_wide_resonance_between_the_speeds_is_barred():
     damper = 'damper = { kind = "viscous", inertia = 60000, damping = 50000 }'
     plain = write_engine(0.05, damper)
 
-    shafts = ask_torsion(plain, "--speeds", "1700:1900:200")["response"]["shafts"]
+    shafts = ask_torsion(plain, "--orders", "1-12", "--speeds", "1700:1900:200")["response"]["shafts"]
     top = max((shaft["worst"] for shaft in shafts), key=lambda worst: worst.get("stress_Pa", 0.0))
     limit, middle = 0.9995 * top["stress_Pa"] / 1e6, top["speed_rpm"]
     text = plain.replace("[torsion]\n", f"[torsion]\nlimit = {limit!r}\n")
     spans = ((middle - 84, middle + 84, 24), (middle - 12, middle + 12, 1))
-    coarse, fine = (ask_torsion(text, "--speeds", f"{low}:{high}:{step}")["barred_rpm"] for low, high, step in spans)
+    coarse, fine = (
+        ask_torsion(text, "--orders", "1-12", "--speeds", f"{low}:{high}:{step}")["barred_rpm"]
+        for low, high, step in spans
+    )
     assert len(fine) == 1
     assert np.ravel(coarse) == pytest.approx(np.ravel(fine), rel=1e-8)
 
@@ -261,3 +266,30 @@ def test_what_something_damps_is_found(loss):
     """At the resonance 1/loss times as much as 1 N m."""
     (shaft,) = analyze_torsion(write_disc(loss), [800, 1100]).response.shafts
     assert shaft.worst.half_peak_to_peak_Nm == pytest.approx(1 / loss, rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_barred_ranges_do_not_depend_on_the_steps_of_the_speeds(seed):
+    """Random chains: steps of 25, 50 and 100 rpm, and a dense grid of speeds."""
+    draw = np.random.default_rng(seed)
+    text = "loss = 0.02\n"
+    for k in range(4):
+        text += f'[[node]]\nname = "n{k}"\ninertia = {draw.uniform(2e4, 2e5):.6g}\n'
+    for k in range(3):
+        text += f'[[shaft]]\nfrom = "n{k}"\nto = "n{k + 1}"\ndiameter = 30\n'
+        text += f"stiffness = {draw.uniform(5e3, 5e4):.6g}\n"
+    for order in (0.5, 1, 1.5, 2, 3, 4.5):
+        cos, sin = draw.normal(0, 0.5, 2)
+        text += f'[[excitation]]\nnode = "n{draw.integers(4)}"\norder = {order}\ncos = {cos:.5g}\nsin = {sin:.5g}\n'
+    dense = ask_torsion(text, "--speeds", "1000:3000:1")["response"]
+    stress = np.max([shaft["stress_Pa"] for shaft in dense["shafts"]], axis=0)
+    tops = stress[1:-1][(stress[1:-1] > stress[:-2]) & (stress[1:-1] > stress[2:])]
+    limit = 0.999 * (np.sort(tops)[len(tops) // 2] if len(tops) else stress.max())
+    found = [
+        ask_torsion(f"limit = {limit / 1e6!r}\n{text}", "--speeds", f"1000:3000:{step}")["barred_rpm"]
+        for step in (25, 50, 100)
+    ]
+    assert found[0] == found[1] == found[2]
+    speeds = np.array(dense["speeds_rpm"])
+    inside = np.any([(speeds >= low) & (speeds <= high) for low, high in found[0]], axis=0)
+    assert np.array_equal(inside, stress > limit)

@@ -26,13 +26,21 @@ from .dampers import DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
-from .response import TorsionResponse, find_barred, find_response
-from .system import TorsionalSystem
+from .response import (
+    NEGLIGIBLE,
+    NEGLIGIBLE_BARE,
+    TorsionResponse,
+    choose_orders,
+    find_barred,
+    find_response,
+)
+from .system import TorsionalSystem, whole_order
 
 BEYOND = 1.5  # times the file's own speed to which criticals are listed: engines overspeed
 BREAKING = 1000e6  # Pa of vibratory stress: the best steel yields below
 ASTOUNDING = 45.0  # deg: engines have fractions of a degree, on soft couplings some
 WIDE_SWING = 20.0  # deg; on a circle its frequency is 0.8 % low there, by swing^2/16
+
 _ASTRAY = 1e-3  # of the largest angle: so far from the mode's shape a table is rounding errors
 
 
@@ -173,6 +181,7 @@ class TorsionAnalysis(Result):
         nodes: Inertias, front to rear.
         shafts: Shafts.
         modes: Modes in which shafts twist, lowest first.
+        orders: Orders of the excitation that were used; left out without an excitation.
         criticals: Critical speeds, those with most work first: in the range of speeds, else to one
             and a half times the file's own speed, if it gives one. Left out without an excitation.
         holzer: Holzer's tables; left out if none was asked for.
@@ -190,6 +199,7 @@ class TorsionAnalysis(Result):
     nodes: tuple[ChainNode, ...]
     shafts: tuple[ChainJoint, ...]
     modes: tuple[NaturalMode, ...]
+    orders: tuple[float, ...] | None = None
     criticals: tuple[Critical, ...] | None = None
     holzer: tuple[HolzerTable, ...] | None = None
     response: TorsionResponse | None = None
@@ -254,6 +264,10 @@ def answer_question(
             not there; Holzer's table of a chain with loops; a damper that nothing can carry.
         InputError: what does not fit together in the file.
     """
+    if question.orders is None and source.engine is not None:
+        share = NEGLIGIBLE if question.damper is None else NEGLIGIBLE_BARE
+        chosen = choose_orders(source.system(), question.speeds_rpm, share)
+        question = question._replace(orders=chosen)
     if question.damper is None or question.speeds_rpm is None:
         return _analyze_system(source.system(), question, tell)
     sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
@@ -281,7 +295,7 @@ def _analyze_system(
     if speeds is not None:
         span = float(speeds[0]), float(speeds[-1])
         response = find_response(system, speeds, tell)
-        barred = find_barred(system, response)
+        barred = find_barred(system, speeds)
     return TorsionAnalysis(
         name=system.name or None,
         no_gas_in=system.silent.without_gas or None,
@@ -289,6 +303,7 @@ def _analyze_system(
         nodes=tuple(map(ChainNode, system.nodes, chain.inertia.tolist(), system.gears.tolist())),
         shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
         modes=modes,
+        orders=None if excitation is None else tuple(map(whole_order, excitation.orders.tolist())),
         criticals=None if excitation is None else find_criticals(excitation, modes, span),
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
         response=response,
@@ -348,8 +363,8 @@ def analyze_torsion(
         source: an Engine whose file has [torsion]; or a chain of inertias and shafts: its path, its
             text or a dict of its tables (or those of such an engine).
         speeds_rpm: at which the forced vibration is wanted; default: modes and criticals alone.
-        orders: which of those that excite, multiples of 1/2; default: all of a chain, to 12 of an
-            engine.
+        orders: which of those that excite, multiples of 1/2; default: all of a chain, of an
+            engine those that contribute more than 0.1 % to the answer.
         damper: sized to make the largest stress over `speeds_rpm`, which have to be given, least;
             the answer is then that with it.
         damper_at: name of what carries it; default: the foremost part.

@@ -34,8 +34,8 @@ from ..file.torsion_tables import (
     find_shaft_inertia,
     find_stiffness,
 )
-from ..forces.spectrum import compute_spectra, list_gas_orders
-from ..limits import HIGHEST_TORSION_ORDER, HIGHEST_TORSION_ORDER_UNASKED
+from ..forces.spectrum import compute_spectra
+from ..limits import HIGHEST_TORSION_ORDER_UNASKED
 from .chain import (
     SAME_RATIO,
     Chain,
@@ -504,17 +504,15 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     where the engine has some.
 
     Args:
-        orders: (orders,); None: to 12, with halves where gas has them, and as of
-            `list_gas_orders` that of firing.
+        orders: (orders,); None: all that are looked at, with halves where gas has them; see
+            `choose_orders`.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array(engine.joined_throw_of_rows)
     engine = replace(engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
-    if orders is None and engine.gas is None:
-        orders = np.arange(1.0, HIGHEST_TORSION_ORDER_UNASKED + 1)
-    elif orders is None:
-        orders = list_gas_orders(engine)
-        orders = orders[orders <= HIGHEST_TORSION_ORDER]
+    if orders is None:
+        step = 1.0 if engine.gas is None else 2 / engine.strokes
+        orders = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step, step)
     growing = compute_spectra(engine, orders, ("torque",), each=True)["torque"].x
     steady = np.zeros_like(growing)
     if engine.gas is not None:

@@ -62,7 +62,7 @@ def torsion(
         optional(
             "0.5-12|1,2.5",
             "Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all of a chain, "
-            "to 12 of an engine.",
+            "of an engine those that contribute.",
         ),
     ] = None,
     holzer: Annotated[

@@ -77,7 +77,7 @@ def _choose_parts(
     if response is not None and what == "response":
         yield lambda ax: _draw_swing(ax, result, response)
     if response is not None and what in ("all", "waterfall") and shafts:
-        yield lambda ax: _draw_waterfall(ax, result, response, system)
+        yield lambda ax: _draw_waterfall(ax, response, system)
 
 
 def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
@@ -203,9 +203,7 @@ def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
     ax.set(xlabel="rpm", ylabel=f"± {unit}")
 
 
-def _draw_waterfall(
-    ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
-) -> None:
+def _draw_waterfall(ax: Axes, response: TorsionResponse, system: System) -> None:
     """Draw each order of the largest torque of a shaft as a stream up the speeds."""
     shaft = max(response.shafts, key=lambda each: each.worst.half_peak_to_peak_Nm)
     worst = [each.amplitude_Nm for each in shaft.worst.orders]

@@ -9,11 +9,11 @@ approached by halving the intervals beside it, and by the vertex of the parabola
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.peaks import find_swing, sum_amplitudes
 from ..core.phases import RPM
@@ -21,7 +21,7 @@ from ..core.records import HIDDEN
 from ..core.vibration import ROUNDING, Complex, Real
 from ..process import Tell, tell_nobody
 from .modes import find_poles
-from .motion import compute_curves, refuse_unbounded, stress_by_torque
+from .motion import compute_curves, move, refuse_unbounded, stress_by_torque
 from .system import TorsionalSystem, whole_order
 
 _SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, in widths
@@ -40,12 +40,10 @@ class Largest(NamedTuple):
     Attributes:
         rpm: (columns,) speeds at which they occur; columns as of `find_largest`.
         value: (columns,) the values.
-        speeds: (all,) every speed that was looked at, rising.
     """
 
     rpm: Real
     value: Real
-    speeds: Real
 
 
 def find_largest(
@@ -95,7 +93,7 @@ def find_largest(
             sides = sides[(sides > rpm[0]) & (sides < rpm[-1])]
         near = 1 - (1 - _NEAR) * _CLOSER**k
         more = np.append(sides, _approach_tops(speeds, values, near, together=together))
-    return Largest(speeds[values.argmax(axis=0)], values.max(axis=0), speeds)
+    return Largest(speeds[values.argmax(axis=0)], values.max(axis=0))
 
 
 def count_columns(system: TorsionalSystem) -> int:
@@ -297,7 +295,6 @@ class TorsionResponse:
         orders: Orders of the excitation.
         swings_deg: Amplitude of the free end by order and speed.
         worst_swings_deg: Amplitude of the free end by order, where it swings most.
-        looked_at_rpm: Every speed that was looked at for the largest values.
     """
 
     speeds_rpm: Real
@@ -309,7 +306,6 @@ class TorsionResponse:
     orders: Annotated[Real, HIDDEN]
     swings_deg: Annotated[Real, HIDDEN]
     worst_swings_deg: Annotated[Real, HIDDEN]
-    looked_at_rpm: Annotated[Real, HIDDEN]
 
 
 def find_response(
@@ -373,7 +369,6 @@ def find_response(
         orders=orders,
         swings_deg=np.degrees(np.abs(phasors[:, :, end])),
         worst_swings_deg=np.degrees(by_order[:, end]),
-        looked_at_rpm=largest.speeds,
     )
 
 
@@ -389,15 +384,58 @@ def _add_up(orders: Real, phasors: Complex, tell: Tell) -> Real:
     return found
 
 
-# ------------------------------------------------------------------ barred speeds
-def find_barred(
-    system: TorsionalSystem, response: TorsionResponse
-) -> tuple[tuple[float, float], ...] | None:
-    """Return ranges of speed (rpm) in which a limit of the file is passed; None if there is none
-    that can be judged: of a stress, where no shaft has a diameter.
+# ------------------------------------------------------------------ orders worth counting
+NEGLIGIBLE = 1e-3  # of the largest: orders that together contribute less are left out
+NEGLIGIBLE_BARE = 1e-5  # the same before a damper is fitted, which lowers the others
+_PROBES = 16  # speeds at which each order is tried, besides its criticals
+_BESIDE = 1.001  # times a critical speed: there an undamped resonance is high, and has a bound
 
-    The speeds are all that the response was looked at for its largest values, and the middle
-    between two that pass a limit; the ends of a range are found by halving.
+
+def choose_orders(system: TorsionalSystem, rpm: Real | None, share: float) -> Real:
+    """Return the orders (orders,) that contribute to the torque of any shaft or the swing of the
+    free end; what the others contribute together is less than a share of the largest order's.
+
+    Args:
+        system: With an excitation.
+        rpm: (speeds,) rising; None: from a quarter of the file's own speed to one and a half times.
+        share: Of the largest amplitude that an order has anywhere in the range.
+    """
+    orders, poles = system.require_excitation().orders, np.zeros(0)
+    if not len(orders):
+        return orders
+    if rpm is None or len(rpm) > 1:
+        poles = find_poles(system).imag
+        poles = poles[poles > 0]
+    if rpm is None:
+        rpm = (system.rated_rpm or float(poles.min(initial=1e3)) / RPM) * np.array([0.25, 1.5])
+    met = np.clip(poles / (RPM * orders[:, None]), rpm[0], rpm[-1])
+    probes = np.broadcast_to(np.linspace(rpm[0], rpm[-1], _PROBES), (len(orders), _PROBES))
+    motion = move(system, np.concatenate([met, probes], axis=1) * _BESIDE)
+    curves = np.concatenate([motion.torque, motion.angle[:, :, system.ends[:1]]], axis=-1)
+    sizes = np.abs(curves).max(axis=1)
+    level = sizes.max(axis=0)
+    shares = np.divide(sizes, level, out=np.zeros_like(sizes), where=level > 0).max(axis=1)
+    rising = np.argsort(shares, kind="stable")
+    left_out = rising[np.cumsum(shares[rising]) < share]
+    return np.delete(orders, left_out)
+
+
+# ------------------------------------------------------------------ barred speeds
+_FINE = 0.003  # of a speed: steps in which a range is looked through for barred speeds
+_CLOSE = 0.9  # of a limit: a top or valley so near to it at these speeds may pass it between them
+_GOLDEN = (5**0.5 - 1) / 2
+_NARROWINGS = 26  # by the golden section: of 0.6 % of a speed 2e-8 is left
+_AT_ONCE = 256  # speeds
+
+
+def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float], ...] | None:
+    """Return ranges of speed (rpm) in which a limit of the file is passed, between the first and
+    the last of rpm (speeds,); None if there is none that can be judged: of a stress, where no shaft
+    has a diameter.
+
+    The speeds looked at depend on the ends of the range alone: fine steps, resonances and, of tops
+    under a limit and valleys above it, the highest and lowest point; the ends of a barred range are
+    found by halving.
     """
     stress = np.nan_to_num(stress_by_torque(system)) / (system.limit_pa or np.inf)
     weights = np.append(stress, 1 / (system.angle_limit or np.inf))
@@ -405,27 +443,40 @@ def find_barred(
         return None
     orders = system.require_excitation().orders
 
-    def passes(rpm: Real) -> NDArray[np.bool_]:
-        """Whether a limit is passed at each speed (speeds,)."""
-        curves = compute_curves(system, rpm)[0][:, :, : len(weights)] * weights
-        most, passed = sum_amplitudes(curves), np.zeros(len(rpm), bool)
-        first = most.argmax(axis=1)[:, None] == np.arange(len(weights))
-        for which in (first, ~first):  # one curve mostly tells
-            speed, curve = np.nonzero(which & (most > 1) & ~passed[:, None])
-            passed[speed[find_swing(orders, curves[:, speed, curve]).half > 1]] = True
-        return passed
+    def measure(some: Real) -> Real:
+        """Return the largest of what has a limit, over this, at speeds; 0 where it is far below."""
+        found = np.zeros(len(some))
+        for start in range(0, len(some), _AT_ONCE):
+            part = slice(start, start + _AT_ONCE)
+            curves = compute_curves(system, some[part])[0][:, :, : len(weights)] * weights
+            speed, curve = np.nonzero(sum_amplitudes(curves) > _CLOSE)
+            if len(speed):
+                half = find_swing(orders, curves[:, speed, curve]).half
+                np.maximum.at(found[part], speed, half)
+        return found
 
-    speeds = response.looked_at_rpm
-    above = passes(speeds)
-    gaps = np.flatnonzero(above[1:] & above[:-1])  # such as between two resonances
-    middle = (speeds[gaps] + speeds[gaps + 1]) / 2
-    speeds = np.insert(speeds, gaps + 1, middle)
-    above = np.insert(above, gaps + 1, passes(middle))
+    steps = max(math.ceil(math.log(rpm[-1] / rpm[0]) / _FINE), 1) if len(rpm) > 1 else 0
+    grid = np.geomspace(rpm[0], rpm[-1], steps + 1)
+    at, width = find_resonances(system, grid)
+    speeds = np.unique(np.clip([*grid, *at, *(at + width * _SIDES).ravel()], rpm[0], rpm[-1]))
+    values = measure(speeds)
+    inner, before, after = values[1:-1], values[:-2], values[2:]
+    tops = (inner >= before) & (inner >= after) & (inner > _CLOSE) & (inner <= 1)
+    valleys = (inner <= before) & (inner <= after) & (inner > 1) & (inner < 1 / _CLOSE)
+    places = np.flatnonzero(tops | valleys)
+    sign = np.where(tops[places], 1, -1)
+    low, high = speeds[places], speeds[places + 2]
+    for _ in range(_NARROWINGS if len(places) else 0):
+        left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        upward = sign * (measure(right) - measure(left)) > 0
+        low, high = np.where(upward, left, low), np.where(upward, high, right)
+    speeds = np.unique(np.append(speeds, (low + high) / 2))
+    above = measure(speeds) > 1
     changes = np.flatnonzero(above[1:] != above[:-1])
     low, high, upward = speeds[changes], speeds[changes + 1], above[changes + 1]
     for _ in range(_HALVINGS if len(changes) else 0):
         middle = (low + high) / 2
-        same = passes(middle) == upward
+        same = (measure(middle) > 1) == upward
         low, high = np.where(same, low, middle), np.where(same, middle, high)
     ends = (low + high) / 2
     starts = [*speeds[:1][above[:1]].tolist(), *ends[upward].tolist()]

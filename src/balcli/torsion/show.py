@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..core.records import Figure, Node, list_figures, list_series, remove_unit, to_document
+from ..core.vibration import Real
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
 from ..show.formats import Renderer
@@ -267,14 +268,28 @@ def _show_criticals(result: TorsionAnalysis, excitation: Excitation) -> Grid | T
 
 def _name_scope(result: TorsionAnalysis, excitation: Excitation) -> str:
     """Return which orders, speeds, dampers and torques critical speeds are of."""
-    rated, several = result.system.rated_rpm, "s to" * (len(excitation.orders) > 1)
-    note = f"Of order{several} {order_name(float(excitation.orders.max()))}."
+    rated = result.system.rated_rpm
+    note = f"Of {_list_runs(excitation.orders)}."
     if left_out := _list_left_out(result.system):
         note += f" Without {left_out}, which shift them."
     if result.response is not None:
         return note
     note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
     return note + _name_gas(excitation)
+
+
+def _list_runs(orders: Real) -> str:
+    """Return orders in words: "orders 1 to 9, 12"; with halves "orders 0.5 to 6 by halves, 9"."""
+    step = 1.0 if np.all(orders % 1 == 0) else 0.5
+    runs = np.split(orders, np.flatnonzero(np.abs(np.diff(orders) - step) > 1e-9) + 1)
+    halves = " by halves" * (step < 1)
+    parts = [
+        f"{order_name(float(run[0]))} to {order_name(float(run[-1]))}{halves}"
+        if len(run) > 2
+        else ", ".join(order_name(float(each)) for each in run)
+        for run in runs
+    ]
+    return f"order{'s' * (len(orders) > 1)} {', '.join(parts)}"
 
 
 def _list_left_out(system: TorsionalSystem) -> str:
