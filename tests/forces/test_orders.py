@@ -90,7 +90,7 @@ def test_orders_of_firing_are_shown_however_high():
     assert 14 in find_loads(subject, np.zeros(3)).orders
     twice = combine_engines(subject, subject, Arrangement()).spectra.gas
     assert twice.major[twice.orders == 14] == pytest.approx(2 * count * one.major[0], rel=1e-9)
-    assert excite_engine(take_model(subject), subject, None).orders[-2:].tolist() == [14, 28]
+    assert {14, 28} <= set(excite_engine(take_model(subject), subject, None).orders.tolist())
     told = tell_rocking(analyze(subject).spectra, SI, "the crank axis")
     assert told.startswith("Order 14 rocks the engine most")
 

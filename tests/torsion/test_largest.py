@@ -286,7 +286,7 @@ def test_barred_ranges_do_not_depend_on_the_steps_of_the_speeds(seed):
     tops = stress[1:-1][(stress[1:-1] > stress[:-2]) & (stress[1:-1] > stress[2:])]
     limit = 0.999 * (np.sort(tops)[len(tops) // 2] if len(tops) else stress.max())
     found = [
-        ask_torsion(f"limit = {limit / 1e6!r}\n{text}", "--speeds", f"1000:3000:{step}")["barred_rpm"]
+        ask_torsion(f"limit = {float(limit) / 1e6!r}\n{text}", "--speeds", f"1000:3000:{step}")["barred_rpm"]
         for step in (25, 50, 100)
     ]
     assert found[0] == found[1] == found[2]

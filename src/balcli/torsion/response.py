@@ -385,8 +385,8 @@ def _add_up(orders: Real, phasors: Complex, tell: Tell) -> Real:
 
 
 # ------------------------------------------------------------------ orders worth counting
-NEGLIGIBLE = 1e-3  # of the largest: orders that together contribute less are left out
-NEGLIGIBLE_BARE = 1e-5  # the same before a damper is fitted, which lowers the others
+NEGLIGIBLE = 5e-3  # of the largest: orders that together contribute less are left out
+NEGLIGIBLE_BARE = 1e-3  # the same before a damper is fitted, which lowers the others
 _PROBES = 16  # speeds at which each order is tried, besides its criticals
 _BESIDE = 1.001  # times a critical speed: there an undamped resonance is high, and has a bound
 
@@ -400,7 +400,8 @@ def choose_orders(system: TorsionalSystem, rpm: Real | None, share: float) -> Re
         rpm: (speeds,) rising; None: from a quarter of the file's own speed to one and a half times.
         share: Of the largest amplitude that an order has anywhere in the range.
     """
-    orders, poles = system.require_excitation().orders, np.zeros(0)
+    orders = system.require_excitation().orders
+    poles: Real = np.zeros(0)
     if not len(orders):
         return orders
     if rpm is None or len(rpm) > 1:
