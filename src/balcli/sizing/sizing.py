@@ -144,8 +144,8 @@ def _tell_not_needed(engine: Engine) -> str:
     before, after = (state.main_N if state else 0.0 for state in states)
     if after < before:
         text += (
-            ". At every throw (--planes throws) they lower the largest main bearing load from "
-            f"{before / 1e3:.4g} to {after / 1e3:.4g} kN"
+            ". At every throw (--planes throws) they lower the largest main bearing load by "
+            f"{1 - after / before:.0%}"
         )
     return text
 

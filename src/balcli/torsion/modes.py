@@ -16,6 +16,7 @@ import numpy as np
 from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_shapes
+from ..limits import ALWAYS_TORSION_ORDER
 from .chain import Chain, Damping, find_still, follow_gears, grow_branches, incidence, rigid_motions
 from .system import Excitation, TorsionalSystem, whole_order
 
@@ -135,6 +136,7 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
 
 
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
+_SLIGHT = 1e-3  # share of the work on a mode below which a high order is not listed
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -248,6 +250,7 @@ def find_criticals(
         counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
         counted &= phasors > _UNDRIVEN * (np.abs(torque) @ np.abs(moved))
         total = phasors[counted].sum()
+        counted &= (orders <= ALWAYS_TORSION_ORDER) | (phasors > _SLIGHT * total)
         found += [
             Critical(
                 mode=mode.number,
