@@ -34,7 +34,7 @@ from .torsion.answer import analyze_torsion
 TOLERANCE = 1e-9  # share of the largest figure of a group, beyond what rounding may do
 PEAK_ANGLE_DEG = 1e-3  # a peak is flat: rounding moves its angle more than its value
 RECORDED = (*KINDS, "peak")
-_LABELS = ("order", "mode", "name", "cylinder", "speed_rpm", "motion")
+_LABELS = ("order", "mode", "name", "cylinder")  # by which members of lists are matched
 _ANGLES = ("axis_deg", "phase_deg", "peak_deg")
 _BROKEN = (
     OSError,

@@ -52,12 +52,10 @@ def test_weights_at_every_throw_unload_the_bearings_of_an_in_line_four():
     assert peaks[0] == pytest.approx(peaks[1], rel=1e-12)
 
 
-@pytest.mark.parametrize("name", ["i4", "i5", "v8_crossplane", "v6_60"])
+@pytest.mark.parametrize("name", ["i4", "i5", "v8_crossplane"])
 def test_they_are_those_of_half_the_reciprocating_mass(name):
     """For centered rods on common pins; of an offset they are not."""
     engine = load(ENGINES / f"{name}.toml")
-    if len(engine.rows_by_pin) != len(engine.joined_throws_m):
-        pytest.skip("split pins")
 
     def vectors(remedy):
         return sorted(
@@ -93,7 +91,7 @@ def test_loads_before_and_after_are_printed(tmp_path):
     assert found["before"]["bearings"]["main_N"] == pytest.approx(48227.52541877826)
     assert set(found["after"]["bearings"]) == {"main_N", "main_mm", "inner_moment_Nm", "inner_mm"}
     told = ask("balance", tmp_path / "four.toml", "--scheme", "counterweights")
-    assert "Order 1 is balanced already: counterweights change no free force or moment." in told
+    assert "counterweights cannot reduce the free force or moment." in told
     assert "largest main bearing load by 74%" in told
     assert "largest inner moment, kN·m" in told
     (tmp_path / "single.toml").write_text(FOUR.replace("[0, 180, 180, 0]", "[0]").replace("[1, 3, 4, 2]", "[1]"))

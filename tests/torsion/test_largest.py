@@ -289,7 +289,8 @@ def test_barred_ranges_do_not_depend_on_the_steps_of_the_speeds(seed):
         ask_torsion(f"limit = {float(limit) / 1e6!r}\n{text}", "--speeds", f"1000:3000:{step}")["barred_rpm"]
         for step in (25, 50, 100)
     ]
-    assert found[0] == found[1] == found[2]
+    for other in found[1:]:
+        assert np.array(other) == pytest.approx(np.array(found[0]), rel=1e-8)
     speeds = np.array(dense["speeds_rpm"])
     inside = np.any([(speeds >= low) & (speeds <= high) for low, high in found[0]], axis=0)
     assert np.array_equal(inside, stress > limit)

@@ -367,7 +367,9 @@ def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device])
         cure = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
         if ahead_fitted:
             cure = "a shaft at -1 times crank speed cancels the second part"
-    if against_fitted or (ahead_fitted and order > 1):
+    if against_fitted:
+        cure = "counterweights cancel the first part" * (order == 1 and not ahead_fitted)
+    elif ahead_fitted and order > 1:
         cure = ""
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
     parts = f"{ahead} turns with the crank, {against} against it"

@@ -170,7 +170,7 @@ def parse_grade(text: str | None) -> float | None:
 
 
 def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Sequence[str]) -> None:
-    """Refuse a scheme beside devices to fit, and the scheme fit without them.
+    """Refuse a scheme other than fit for a file with devices to fit, and fit without them.
 
     Args:
         name: Name of the file.
@@ -248,6 +248,8 @@ def balance(
     open_devices = [name for name, _ in list_to_fit(model)]
     usual = "factor" if form is BalanceFormat.CARD else FIT if open_devices else "auto"
     scheme = choose_scheme(scheme, options, usual)
+    if even is not None and open_devices:
+        raise BalcliError(f"--even belongs to the scheme {KNUCKLES}, which fits no devices")
     if open_devices or target is not None or scheme == FIT:
         _check_fit(name_file(path), scheme, options, open_devices)
         wanted = None if target is None else [each.strip() for each in target.split(",")]

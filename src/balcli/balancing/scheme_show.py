@@ -70,7 +70,7 @@ def tell_change(result: Balance, system: System) -> str:
         return ""
     what = [
         f"{one['action']} {size_text(abs(one['unbalance_kg_m']), unit)} opposite "
-        f"{'each pin' if len(changes) == 1 else 'pin ' + str(one['throw'])}"
+        f"{'the pin' if len(changes) == 1 else 'pin ' + str(one['throw'])}"
         if one["unbalance_kg_m"]
         else f"nothing at pin {one['throw']}"
         for one in changes

@@ -70,6 +70,10 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts += [device_grid(remedy, system), practical_grid(remedy, result.practical, system)]
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
+    elif remedy.beyond:
+        parts.append(
+            Text("What is fitted", ("Shafts that no engine file describes; see Details.",))
+        )
     else:
         why = () if remedy.note or not known else (f"Orders 1 and 2 are balanced{steady}.",)
         parts.append(Text("Nothing is fitted", why))

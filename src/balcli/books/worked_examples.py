@@ -9,6 +9,7 @@ gravity is 2 in from the crank pin; the piston with pin and rings weighs 1 lb.
 
 from __future__ import annotations
 
+from functools import cache
 from math import floor, log10
 
 import numpy as np
@@ -23,12 +24,16 @@ from ..file import units
 from ..file.units import POUND_FORCE, STANDARD_GRAVITY
 from .recomputed import Print, Ranges, Table, as_numbers, load_print
 
-_UICKER = as_numbers(load_print("uicker-18-1").column("torque_Nm"))
+
+@cache
+def _load_uicker() -> Array:
+    """Return the torque of Uicker's table 18-1 every 10 degrees of a cycle, N m."""
+    return as_numbers(load_print("uicker-18-1").column("torque_Nm"))
 
 
 def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers beside the printed ones."""
-    uicker = polyline(np.radians(np.arange(0, 721, 10)), [*_UICKER, _UICKER[0]])
+    uicker = polyline(np.radians(np.arange(0, 721, 10)), [*_load_uicker(), _load_uicker()[0]])
     energy = surplus(uicker).energy
     answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
     whole = _uicker_inertia(_simpson_mean() * 4 * np.pi)
@@ -74,7 +79,7 @@ def _khurmi_zero_side() -> float:
 def _simpson_mean() -> float:
     """N m, by the book's rule."""
     weights = np.tile([2, 4], 36)
-    return float(weights @ _UICKER) * np.pi / 18 / 3 / (4 * np.pi)
+    return float(weights @ _load_uicker()) * np.pi / 18 / 3 / (4 * np.pi)
 
 
 def _uicker_inertia(energy: float) -> float:

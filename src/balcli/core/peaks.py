@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from .phasors import Array, Phasors
 from .vibration import Complex, Real
 
+_SMALLEST = 1e10 * float(np.finfo(float).tiny)  # below it, a division overflows
 _TURN = 2 * np.pi  # rad
 _SAMPLES = 16  # for each period of the highest order
 _AT_ONCE = 1 << 19  # samples, or terms of curves, which bounds the memory
@@ -157,7 +158,7 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
         size = np.sum(np.abs(some), axis=(1, 2))
-        scaled = some / np.where(size > np.finfo(float).tiny * 1e10, size, 1)[:, None, None]
+        scaled = some / np.where(size > _SMALLEST, size, 1)[:, None, None]
         curve, values, angles, at_zero = _find_tops(harmonics, scaled, squared)
         starts = np.searchsorted(curve, np.arange(len(some)))
         top = np.maximum.reduceat(values, starts)

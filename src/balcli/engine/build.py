@@ -80,6 +80,7 @@ def build(
         strokes=model.layout.strokes,
         bore_m=math.nan if bore is None else bore / 1e3,
         throws_m=places.throws,
+        pins_m=places.pins,
         speed_rpm=figures.take("operation.speed", model.operation.speed),
         ripple=parts.find_ripple(),
         reference_m=places.reference,

@@ -55,7 +55,11 @@ def build_device(
 
 
 def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
-    """Mass x radius, kg m; InputError for one that is still to be fitted."""
+    """Return mass x radius, kg m.
+
+    Raises:
+        InputError: It is still to be fitted.
+    """
     if device.to_fit:
         command = "run balcli balance FILE --write OUT, which puts a figure in its place"
         raise InputError([Problem("", f'{path}.unbalance is "fit": {command}')])

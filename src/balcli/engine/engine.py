@@ -99,6 +99,7 @@ class Engine:
     strokes: int
     bore_m: Figure
     throws_m: Array
+    pins_m: Array
     speed_rpm: Figure
     ripple: tuple[RippleLine, ...]
     reference_m: tuple[Figure, Figure, Figure]
@@ -245,12 +246,7 @@ class Engine:
         without known positions are single, in the order of the file. Where [crank] gives the
         positions of the throws, the position of a single cylinder moves its rod alone.
         """
-        c, z = self.cylinders, np.asarray(np.ravel(self.throws_m), float)
-        crank = None if self.model is None else self.model.crank
-        if crank is not None and crank.positions is not None:
-            z = np.ravel(crank.positions) / 1e3
-        elif crank is not None and crank.spacing:
-            z = np.arange(len(z)) * crank.spacing / 1e3
+        c, z = self.cylinders, np.ravel(self.pins_m)
         if self.rotary or not self.places_known:
             return tuple((throw,) for throw in range(len(z)))
         turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360

@@ -253,7 +253,7 @@ def infer_numbering(model: EngineFile) -> EngineFile:
         if not is_open(parts) or parts.throws_given:
             return model
         engines, tier = find_engines_meant(parts)
-    except InputError:  # which the rules of `engine.parse` report
+    except InputError:  # which the rules of `engine.build` report
         return model
     if tier != 1 or len(engines) != 1:
         return model

@@ -188,12 +188,14 @@ class Places(NamedTuple):
     Attributes:
         z: Of each cylinder.
         throws: Of each throw, in the middle of its rods, shape (throws, *trailing).
+        pins: The same as [crank] gives them; where it does not, those of the rods.
         reference: x, y, z of the point of moments: the file's, or on the crank axis half-way
             between the first and the last throw.
     """
 
     z: dict[int, Figure]
     throws: Array
+    pins: Array
     reference: tuple[Figure, Figure, Figure]
 
 
@@ -215,12 +217,15 @@ def find_places(parts: Parts) -> Places:
         z[c.number] = value_or(own, along[c.throw] + offset) / 1e3
         middles[c.throw] = middles[c.throw] + (z[c.number] - offset / 1e3)  # of any shape
     throws = column([middle / plan.rods_on_throw for middle in middles.values()], parts.rank)
+    given = any(np.any(place) for place in along)
+    pins = column([place / 1e3 for place in along], parts.rank) if given else throws
     if model.frame.reference is None:
-        return Places(z, throws, (0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2))
+        middle = 0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2
+        return Places(z, throws, pins, middle)
     x, y, height = (
         each / 1e3 for each in figures.take_each("frame.reference", model.frame.reference)
     )
-    return Places(z, throws, (x, y, height))
+    return Places(z, throws, pins, (x, y, height))
 
 
 # ------------------------------------------------------------------ arrays

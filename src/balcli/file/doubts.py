@@ -222,7 +222,12 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
     if one:
         most = THROW * rods / throws * one
         yield Figure("crank.throw_mass is", crank.throw_mass, 0, most, " kg", OFF_AXIS)
-        for key, mass in (("rod_bearing", shares.rod_bearing), ("oil", shares.oil)):
+        per_rod = (shares.oil_per_pin or 0.0) * throws / rods
+        for key, mass in (
+            ("rod_bearing", shares.rod_bearing),
+            ("oil", shares.oil),
+            ("oil_per_pin, for each rod,", per_rod),
+        ):
             yield Figure(f"bobweight.{key} is", mass, 0, BEARING * one, " kg", GRAMS)
     most = UNBALANCE * (throws * crank.throw_mass + rods * one) * 1e3 * radius
     for number, weight in enumerate(model.counterweight if most else (), 1):

@@ -90,6 +90,10 @@ class KeyDocument(NamedTuple):
     example: Any = None
 
 
+class _BrokenKeyError(Exception):
+    """A rule reads a key that cannot be read."""
+
+
 class Reading:
     """A table as a rule reads it, where some keys cannot be read.
 
@@ -107,7 +111,7 @@ class Reading:
 
     def __getattr__(self, name: str) -> Any:
         if name in self._broken:
-            raise LookupError(name)
+            raise _BrokenKeyError(name)
         self.read.add(name)
         return getattr(self._table, name)
 
@@ -147,7 +151,7 @@ class FileTable(BaseModel):
         """
         for rule in _list_rules(type(self)):
             reading = Reading(self, broken)
-            with suppress(LookupError):
+            with suppress(_BrokenKeyError):
                 for message in list(rule(reading)):
                     yield message, reading.read & self.keys().keys()
 

@@ -17,7 +17,7 @@ class Kind(NamedTuple):
     """One kind of force or moment.
 
     Attributes:
-        name: Name in options (`--only`), quantities (`force.2.major`) and members of `Spectra`.
+        name: Name in lists of kinds, quantities (`force.2.major`) and members of `Spectra`.
         label: Words for headings and legends, where it may begin with a capital letter.
         symbol: Symbol for formulas and narrow columns.
         key: Key in JSON, with its SI unit as the ending.

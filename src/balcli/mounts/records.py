@@ -102,7 +102,7 @@ class MetMode:
     """An order that meets a mode at, or close to, the speed of the largest value.
 
     Attributes:
-        order: Largest of these orders.
+        order: Order with the largest amplitude of those that meet a mode there.
         mode: Number of the mode, from 1.
         speed_rpm: Speed at which the order has the frequency of the mode.
     """

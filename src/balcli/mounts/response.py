@@ -105,9 +105,8 @@ class RunningBody(NamedTuple):
         roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
         sizes = roll[:, None, None] * running.bound_response(every, some)
         shares = np.divide(sizes, own, out=np.zeros_like(sizes), where=own > 0)
-        beyond = (
-            shares[::-1].cumsum(axis=0)[::-1].max(axis=(1, 2))
-        )  # of an order and all higher ones
+        # Of an order and all higher ones.
+        beyond = shares[::-1].cumsum(axis=0)[::-1].max(axis=(1, 2))
         highest = every[beyond > _BEYOND].max(initial=HIGHEST_GAS_ORDER_UNASKED)
         if highest > HIGHEST_GAS_ORDER_UNASKED:
             loads = find_loads(engine, centre, gas_orders=list_gas_orders(engine, highest))
@@ -215,7 +214,8 @@ class Worst(NamedTuple):
         order: Largest single order at this speed.
         alone: Value of this order, N or m.
         mode: Number of the mode that makes most of it, from 0.
-        resonance: Largest order that meets a mode there; None where none does.
+        resonance: Order with the largest amplitude of those that meet a mode there; None where none
+            does.
     """
 
     value: Real

@@ -104,11 +104,12 @@ def _answer(
     if response.points:
         place, _, told = motion.tell_highest(response)
         yield f"The point {place.name} moves most: {told}."
-    orders = response.orders
+    orders, speeds = response.orders, response.speeds_rpm.tolist()
+    ends = [number(speed, 4) for speed in dict.fromkeys((speeds[0], speeds[-1]))]
+    names = [order_name(order) for order in dict.fromkeys((orders[0], orders[-1]))]
     yield (
-        f"Orders that count: {order_name(orders[0])} to {order_name(orders[-1])}, "
-        f"{len(orders)} in all; speeds: {number(float(response.speeds_rpm[0]), 4)} to "
-        f"{number(float(response.speeds_rpm[-1]), 4)} rpm."
+        f"Orders that count: {' to '.join(names)}, {len(orders)} in all; "
+        f"speed{'s' * (len(ends) > 1)}: {' to '.join(ends)} rpm."
     )
     if response.loads.fired:
         silent = _tell_silent(response)

@@ -39,7 +39,7 @@ OWN_PLACES = (
 )
 
 
-_MEASURED = "Opposite the pin: what the measured mass stands for"
+_MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
 _UNCHANGED = 1e-9  # of the wanted weight: a change below this is none
 
 

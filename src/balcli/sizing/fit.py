@@ -1,5 +1,5 @@
 """Devices that an engine file leaves open (`unbalance = "fit"`): their unbalances, together, by
-least squares over what is to vanish.
+least squares over the quantities to cancel.
 
 Each order is solved by itself: a device is linear in its complex unbalance, and shakes at one order
 alone. Residuals count in shares of one cylinder's first order, so that force, moment and roll can
@@ -19,11 +19,11 @@ from ..engine.devices import build_device
 from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, NO_GAS, BalcliError
 from ..file.fields import join_words
-from ..file.model import Counterweight, EngineFile, Shaft
+from ..file.model import EngineFile
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from .fitting import find_effect
-from .planes import KINDS, DeviceTable, measure_direction
+from .planes import KINDS, DeviceTable, find_order, measure_direction
 from .remedy import Remedy
 from .residual import (
     BACKWARD_FORCE,
@@ -36,7 +36,7 @@ from .residual import (
 )
 from .schemes import FIT
 
-# What may be to vanish, and its parts; of `roll_total` the gas is a part of what is there.
+# Quantities that can be targets, and their parts; roll_total includes the gas.
 TARGETS = {
     "force": (FORWARD_FORCE, BACKWARD_FORCE),
     "moment": (FORWARD_MOMENT, BACKWARD_MOMENT),
@@ -45,7 +45,7 @@ TARGETS = {
 }
 _LOST = 1e-10  # of the largest singular value of an order: less determines nothing
 _NOTHING = 1e-12  # of the largest unbalance of an order: less is rounding
-_REASON = "In its place of the file: smallest sum of squares of what is left of {} at its order"
+_REASON = "Placed as in the file; smallest sum of squares of the remaining {} at its order"
 
 
 class Scales(NamedTuple):
@@ -99,7 +99,7 @@ def remove_to_fit(model: EngineFile) -> EngineFile:
         name: tuple(table for table in getattr(model, name) if not table.to_fit)
         for name in (kind.__name__.lower() for kind in KINDS)
     }
-    return model.model_copy(update=rest) if list_to_fit(model) else model
+    return model.model_copy(update=rest)
 
 
 def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = None) -> Remedy:
@@ -111,7 +111,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     Args:
         engine: The engine without these devices.
         model: The file with them.
-        targets: What is to vanish, of `TARGETS`; default: force and moment, as far as known.
+        targets: Quantities to cancel, of `TARGETS`; default: force and moment, as far as known.
 
     Raises:
         BalcliError: an unknown target, or one that the file does not determine.
@@ -120,7 +120,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     scales, notes = find_scales(engine), []
     by_order: dict[int, list[tuple[str, DeviceTable]]] = {}
     for name, table in list_to_fit(model):
-        by_order.setdefault(_find_order(table), []).append((name, table))
+        by_order.setdefault(find_order(table), []).append((name, table))
     found: dict[str, DeviceTable] = {}
     unknowns = rank = 0
     for order, tables in by_order.items():
@@ -152,7 +152,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
 
 
 def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, ...]:
-    """Return what is to vanish, each once."""
+    """Return the quantities to cancel, each once."""
     if targets is None:
         return ("force", "moment") if engine.places_known else ("force",)
     for target in targets:
@@ -163,12 +163,6 @@ def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, 
     if ROLL_TOTAL.name in targets and engine.gas is None:
         raise BalcliError(f"--target {ROLL_TOTAL.name}: {NO_GAS}")
     return tuple(dict.fromkeys(targets))
-
-
-def _find_order(table: DeviceTable) -> int:
-    if isinstance(table, Counterweight):
-        return 1
-    return abs(table.ratio) if isinstance(table, Shaft) else table.order
 
 
 def _set_up(

@@ -45,7 +45,7 @@ from .residual import (
     hold_steady,
 )
 
-_ROTATING = "The rotating mass of throws and rods turns with the crank: weights opposite to it"
+_ROTATING = "Weights opposite the rotating mass of throws and rods"
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
 
 
@@ -249,19 +249,22 @@ class Fitting(NamedTuple):
             return fitting.add_details(condition_number=fit.condition)
         return fitting
 
-    def balance_rotating(self) -> Fitting:
+    def balance_rotating(self, *, keep_overbalance: bool = True) -> Fitting:
         """With counterweights for the masses that turn with the crank pins, as far as those of the
         file do not balance them: one, where one takes their force and moment, else at both ends.
+
+        Args:
+            keep_overbalance: Whether counterweights of the file that balance more stay as they are.
         """
         engine, residual = self.engine, self.find_residual(1)
         if engine.rotary:
             return self
-        force, moment, scale = 0j, 0j, float(engine.cylinders.radius)
+        force, moment, radius = 0j, 0j, float(engine.cylinders.radius)
         for weighed, pin, z in zip(
             engine.weighed, engine.cylinders.pin_deg, engine.cylinders.z, strict=True
         ):
             direction = complex(unit(float(engine.first_axis_deg + pin)))
-            unbalance = float(weighed.rotating + weighed.share) * scale * direction
+            unbalance = float(weighed.rotating + weighed.share) * radius * direction
             force += unbalance
             moment += unbalance * (float(z) - residual.reference.z)
         pins = force
@@ -269,7 +272,7 @@ class Fitting(NamedTuple):
             if device.kind is DeviceKind.COUNTERWEIGHT:
                 force += complex(device.forward)
                 moment += complex(device.forward) * float(device.z - residual.reference.z)
-        if (pins.conjugate() * force).real < 0:  # the weights of the file balance more than that
+        if keep_overbalance and (pins.conjugate() * force).real < 0:
             return self
         parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}
         parts = {p: v if abs(v) > 4 * residual.noise.get(p, 0) else 0j for p, v in parts.items()}

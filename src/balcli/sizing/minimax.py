@@ -170,7 +170,7 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         reached_deg=reached.tolist(),
         direction_deg=[measure_direction(complex(each)) for each in left],
         relative_error_bound=circle.excess / circle.radius if circle.radius else 0.0,
-        **({} if options.orders else _compare_with_half(fitting.engine, circle)),
+        **({} if options.orders is not None else _compare_with_half(fitting.engine, circle)),
     )
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
 
@@ -178,7 +178,8 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
 def _name_orders(options: SchemeOptions) -> str:
     if options.orders is None:
         return "all orders"
-    return f"orders {', '.join(f'{order:g}' for order in options.orders)}"
+    named = ", ".join(f"{order:g}" for order in sorted({1, *options.orders}))
+    return f"orders {named}"
 
 
 def _split(

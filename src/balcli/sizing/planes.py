@@ -153,6 +153,13 @@ def name_kind(device: DeviceTable) -> str:
     return type(device).__name__.lower()
 
 
+def find_order(device: DeviceTable) -> int:
+    """Return the turns or strokes of a device for each turn of the crank."""
+    if isinstance(device, Counterweight):
+        return 1
+    return abs(device.ratio) if isinstance(device, Shaft) else device.order
+
+
 def find_unbalance(device: DeviceTable) -> float:
     """Unbalance of a device that a scheme made, kg m."""
     return (device.unbalance or 0.0) / 1e6

@@ -278,7 +278,7 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     )
     fitting = (
         Fitting.start(engine, "eccentric-slider")
-        .balance_rotating()
+        .balance_rotating(keep_overbalance=False)
         .add_details(
             unit_force_N=mass * radius * float(engine.omega) ** 2,
             fitted=to_document(optima[0]),

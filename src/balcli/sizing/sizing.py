@@ -54,8 +54,8 @@ from .shafts import size_couple_shaft, size_four_shaft, size_single_shaft, size_
 from .single_cylinder import size_eccentric_slider, size_oldham
 
 _AT_THROWS = (
-    "At every throw: what of order 1 turns with the crank there, so that neither main bearings nor "
-    "crankshaft have to carry it"
+    "At every throw, against the part of order 1 that turns with the crank, so that main bearings "
+    "and crankshaft do not carry it"
 )
 
 
@@ -138,14 +138,16 @@ def _add_at_throws(fitting: Fitting) -> Fitting:
 
 def _tell_not_needed(engine: Engine) -> str:
     what = "force or moment" if engine.places_known else "force"
-    text = f"Order 1 is balanced already: counterweights change no free {what}"
+    text = (
+        f"No {what} of order 1 turns with the crank: counterweights cannot reduce the free {what}"
+    )
     with_weights = fit_devices(engine, _add_at_throws(Fitting.start(engine, "")).remedy)
     states = [find_crank_loads(one) for one in (engine, with_weights)]
     before, after = (state.main_N if state else 0.0 for state in states)
     if after < before:
         text += (
-            ". At every throw (--planes throws) they lower the largest main bearing load by "
-            f"{1 - after / before:.0%}"
+            ". At every throw (--planes throws) counterweights lower the largest main bearing load "
+            f"by {1 - after / before:.0%}"
         )
     return text
 

@@ -14,8 +14,8 @@ from ..core.phasors import wrap_degrees
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
 from ..errors import BalcliError, check_number
-from ..file.model import Counterweight, Shaft, Slider
-from .planes import DeviceTable, find_unbalance, name_kind
+from ..file.model import Counterweight, Slider
+from .planes import DeviceTable, find_order, find_unbalance, name_kind
 from .remedy import Remedy
 
 ROUNDING = 1e-12  # of a hole: that much more than the deepest one is still one
@@ -131,7 +131,7 @@ def _check_figure(name: str, figure: float | None) -> float | None:
 
 
 def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practical:
-    unbalance, order = find_unbalance(device), _find_order(device)
+    unbalance, order = find_unbalance(device), find_order(device)
     radius = tools.radius or float(engine.cylinders.radius)
     disc_radius, disc_thickness = _find_disc(unbalance, tools)
     return Practical(
@@ -159,35 +159,30 @@ def _plan_holes(
     density = STEEL if tools.slug is None else tools.slug - STEEL
     deepest = min(rim, tools.max_depth or rim)
     of_one = find_drilled_unbalance(deepest, rim, tools.drill, density)
-    count = max(math.ceil(unbalance / of_one * (1 - ROUNDING)) if of_one else math.inf, 1)
-    room = tools.width or _find_room(engine)
-    if count * tools.drill > room * (1 + ROUNDING):
-        fitting = int(room / tools.drill * (1 + ROUNDING))
+    needed = unbalance / of_one * (1 - ROUNDING) if of_one else math.inf
+    count = max(float(np.ceil(needed)), 1.0)
+    room = tools.width or (_find_room(engine) if isinstance(device, Counterweight) else math.inf)
+    if count * tools.drill > room * (1 + ROUNDING) or math.isinf(count):
+        fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
         raise BalcliError(
             f"--drill {1e3 * tools.drill:g} mm: {1e6 * unbalance:.6g} g mm for {name_kind(device)} "
-            f"at z = {device.position:g} mm do not fit: {fitting} holes side by side have room on "
-            f"{1e3 * room:g} mm (--width) and make at most {1e6 * fitting * of_one:.6g} g mm; use "
+            f"at z = {device.position:g} mm do not fit: {fitting:.6g} holes side by side have room "
+            f"on {1e3 * room:g} mm (--width) and make at most "
+            f"{1e6 * fitting * of_one:.6g} g mm; use "
             "a larger drill or --radius, a larger --max-depth, or --slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)
     angle = float(wrap_degrees(device.angle + (180 if tools.slug is None else 0), 360))
-    return {"drill_depth_mm": 1e3 * depth, "holes": count, "hole_angle_deg": angle}
+    return {"drill_depth_mm": 1e3 * depth, "holes": int(count), "hole_angle_deg": angle}
 
 
 def _find_room(engine: Engine) -> float:
     """Return the smallest distance of neighboring throws, m; of one throw, or throws whose places
     are not known, the stroke.
     """
-    places = np.unique(engine.throws_m)
+    places = engine.joined_throws_m
     return float(np.diff(places).min()) if len(places) > 1 else 2 * float(engine.cylinders.radius)
-
-
-def _find_order(device: DeviceTable) -> int:
-    """Return turns or strokes for each turn of the crank."""
-    if isinstance(device, Counterweight):
-        return 1
-    return abs(device.ratio) if isinstance(device, Shaft) else device.order
 
 
 def _find_disc(unbalance: float, tools: Tools) -> tuple[float, float]:

@@ -59,12 +59,14 @@ class TorsionQuestion(NamedTuple):
         orders: Which of those that excite; None: all.
         holzer: Tables that are wanted.
         damper: Damper that is to be sized; the answer is then about the system that has it.
+        chosen: Whether `choose_orders` chose the orders.
     """
 
     speeds_rpm: Real | None = None
     orders: Real | None = None
     holzer: tuple[HolzerAsked, ...] = ()
     damper: DamperAsked | None = None
+    chosen: bool = False
 
 
 def ask(
@@ -267,7 +269,7 @@ def answer_question(
     if question.orders is None and source.engine is not None:
         share = NEGLIGIBLE if question.damper is None else NEGLIGIBLE_BARE
         chosen = choose_orders(source.system(), question.speeds_rpm, share)
-        question = question._replace(orders=chosen)
+        question = question._replace(orders=chosen, chosen=True)
     if question.damper is None or question.speeds_rpm is None:
         return _analyze_system(source.system(), question, tell)
     sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
@@ -304,7 +306,9 @@ def _analyze_system(
         shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
         modes=modes,
         orders=None if excitation is None else tuple(map(whole_order, excitation.orders.tolist())),
-        criticals=None if excitation is None else find_criticals(excitation, modes, span),
+        criticals=None
+        if excitation is None
+        else find_criticals(excitation, modes, span, slight=not question.chosen),
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
         response=response,
         barred_rpm=barred,
@@ -363,8 +367,9 @@ def analyze_torsion(
         source: an Engine whose file has [torsion]; or a chain of inertias and shafts: its path, its
             text or a dict of its tables (or those of such an engine).
         speeds_rpm: at which the forced vibration is wanted; default: modes and criticals alone.
-        orders: which of those that excite, multiples of 1/2; default: all of a chain, of an
-            engine those that contribute more than 0.1 % to the answer.
+        orders: which of those that excite, multiples of 1/2; default: all of a chain; of an
+            engine those to 32, but for the smallest, which together contribute less than 0.5 %
+            of the largest.
         damper: sized to make the largest stress over `speeds_rpm`, which have to be given, least;
             the answer is then that with it.
         damper_at: name of what carries it; default: the foremost part.

@@ -34,7 +34,7 @@ from ..file.torsion_tables import (
     find_shaft_inertia,
     find_stiffness,
 )
-from ..forces.spectrum import compute_spectra
+from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
 from .chain import (
     SAME_RATIO,
@@ -64,8 +64,8 @@ class PlannedNode(NamedTuple):
 
 
 class PlannedShaft(NamedTuple):
-    """A shaft between two nodes, with its loss factor, dashpot (N m s/rad), diameters, its inertia
-    (kg m2), and that which nothing counts, as the file gives no density.
+    """A shaft between two nodes, with its loss factor, dashpot (N m s/rad), diameters and inertia
+    (kg m2). `lost`: its inertia as of steel, left out because the file gives no density.
     """
 
     name: str
@@ -388,7 +388,7 @@ def build_engine_system(
         excitation=excitation,
         rated_rpm=model.operation.speed if own_speed else None,
         reference=front,
-        ends=(place[foremost], place[_find_end(joints[front:], throws[-1])]),
+        ends=(place[foremost], place[_find_end(joints[front:], gears, throws[-1])]),
         silent=engine.silent,
         file=name,
     )
@@ -454,18 +454,17 @@ def find_free_end(torsion: Torsion, throws: int) -> str:
     """
     names = [f"throw {k}" for k in range(1, throws + 1)]
     joints = _join_parts(torsion, throws)
-    gears = _find_gears(joints, names)
-    own = [j for j in joints[: len(torsion.front)] if abs(gears[j.part.name] - 1) <= SAME_RATIO]
-    return _find_end(own, names[0])
+    return _find_end(joints[: len(torsion.front)], _find_gears(joints, names), names[0])
 
 
-def _find_end(joints: Sequence[_Joint], start: str) -> str:
-    """Return the name of the node that most shafts lead to from a start; of several as far, that
-    of most inertia. The order of the joints does not count.
+def _find_end(joints: Sequence[_Joint], gears: Mapping[str, float], start: str) -> str:
+    """Return the name of the node at crank speed with the most shafts between it and a start; of
+    equals the one with the largest inertia. The order of the joints does not count.
     """
     steps = {start: (0, 0.0, start)}
-    for _ in joints:
-        for _, part, of in joints:
+    own = [joint for joint in joints if abs(gears[joint.part.name] - 1) <= SAME_RATIO]
+    for _ in own:
+        for _, part, of in own:
             if of in steps and part.name not in steps:
                 steps[part.name] = (steps[of][0] + 1, part.inertia or 0.0, part.name)
     return max(steps.values())[2]
@@ -512,7 +511,8 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     engine = replace(engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
     if orders is None:
         step = 1.0 if engine.gas is None else 2 / engine.strokes
-        orders = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step, step)
+        usual = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step, step)
+        orders = np.union1d(usual, list_gas_orders(engine))
     growing = compute_spectra(engine, orders, ("torque",), each=True)["torque"].x
     steady = np.zeros_like(growing)
     if engine.gas is not None:

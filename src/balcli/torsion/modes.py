@@ -238,8 +238,17 @@ def find_criticals(
     excitation: Excitation,
     modes: tuple[NaturalMode, ...],
     range_rpm: tuple[float, float] | None = None,
+    *,
+    slight: bool = True,
 ) -> tuple[Critical, ...]:
-    """Return the critical speeds, in a range (rpm) if there is one, most work first."""
+    """Return the critical speeds, most work first.
+
+    Args:
+        excitation: Orders and torques.
+        modes: Natural modes.
+        range_rpm: First and last speed, rpm; None: all speeds.
+        slight: Whether orders above ALWAYS_TORSION_ORDER count that do next to no work on a mode.
+    """
     orders, (low, high) = excitation.orders, range_rpm or (0.0, np.inf)
     found = []
     for mode in modes:
@@ -250,7 +259,8 @@ def find_criticals(
         counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
         counted &= phasors > _UNDRIVEN * (np.abs(torque) @ np.abs(moved))
         total = phasors[counted].sum()
-        counted &= (orders <= ALWAYS_TORSION_ORDER) | (phasors > _SLIGHT * total)
+        if not slight:
+            counted &= (orders <= ALWAYS_TORSION_ORDER) | (phasors > _SLIGHT * total)
         found += [
             Critical(
                 mode=mode.number,

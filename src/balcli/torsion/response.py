@@ -393,7 +393,8 @@ _BESIDE = 1.001  # times a critical speed: there an undamped resonance is high, 
 
 def choose_orders(system: TorsionalSystem, rpm: Real | None, share: float) -> Real:
     """Return the orders (orders,) that contribute to the torque of any shaft or the swing of the
-    free end; what the others contribute together is less than a share of the largest order's.
+    free end. Each of the others contributes less than a share of the largest at its own resonances,
+    and all of them together at speeds between; resonances of two orders do not meet.
 
     Args:
         system: With an excitation.
@@ -413,12 +414,14 @@ def choose_orders(system: TorsionalSystem, rpm: Real | None, share: float) -> Re
     probes = np.broadcast_to(np.linspace(rpm[0], rpm[-1], _PROBES), (len(orders), _PROBES))
     motion = move(system, np.concatenate([met, probes], axis=1) * _BESIDE)
     curves = np.concatenate([motion.torque, motion.angle[:, :, system.ends[:1]]], axis=-1)
-    sizes = np.abs(curves).max(axis=1)
-    level = sizes.max(axis=0)
-    shares = np.divide(sizes, level, out=np.zeros_like(sizes), where=level > 0).max(axis=1)
-    rising = np.argsort(shares, kind="stable")
-    left_out = rising[np.cumsum(shares[rising]) < share]
-    return np.delete(orders, left_out)
+    sizes = np.abs(curves)  # (orders, speeds, curves)
+    together = sizes[:, -_PROBES:].sum(axis=0)  # at the same speeds for all orders
+    level = np.maximum(sizes.max(axis=(0, 1)), together.max(axis=0))
+    shares = np.divide(sizes, level, out=np.zeros_like(sizes), where=level > 0)
+    largest = shares.max(axis=(1, 2))
+    rising = np.argsort(largest, kind="stable")
+    added = shares[rising, -_PROBES:].cumsum(axis=0).max(axis=(1, 2))
+    return np.delete(orders, rising[(added < share) & (largest[rising] < share)])
 
 
 # ------------------------------------------------------------------ barred speeds
