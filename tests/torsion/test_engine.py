@@ -7,8 +7,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import ask_torsion, refusal
+from support.commands import ask_torsion, refusal, run_here
 from support.diesel import INERTIAS, NATURAL_HZ, RUNNING_GEAR, write_diesel
+from support.paths import write
 
 ODE = 1e-6  # of the largest: what a time integration agrees to
 
@@ -366,3 +367,18 @@ def test_a_throw_for_each_cylinder_has_the_modes_of_the_pins():
     found = ask_torsion(f"{text}\n{own}")["modes"]
     frequencies = [mode["frequency_Hz"] for mode in found]
     assert frequencies == pytest.approx([443.20, 1103.33, 1645.70, 1983.69], rel=1e-5)
+
+
+def test_the_position_of_a_cylinder_moves_its_rod_and_not_its_throw(tmp_path):
+    """Where [crank] places the throws, in a file as in its variants."""
+    text = (
+        "crank.stroke = 90\ncrank.throws = [0, 120, 240]\ncrank.spacing = 100\nrod.length = 150\n"
+        "piston = { mass = 0.5, bore = 85 }\n[torsion]\nthrow_stiffness = [1e6, 2e6]\n"
+        'throw_inertia = [20000, 30000, 60000]\nrear = [{ name = "wheel", inertia = 2e5, stiffness = 1.5e6 }]\n'
+    )
+    moved = text + "[cylinder.3]\nposition = -60\n"
+    (plain, own) = (ask_torsion(one)["modes"] for one in (text, moved))
+    assert [mode["frequency_Hz"] for mode in own] == pytest.approx([mode["frequency_Hz"] for mode in plain], rel=1e-12)
+    file = write(tmp_path / "three.toml", moved)
+    row = run_here("sweep", file, "--vary", "piston.mass=0.5", "-q", "torsion.1.Hz").out.splitlines()[1]
+    assert float(row.split(",")[-1]) == pytest.approx(plain[0]["frequency_Hz"], rel=1e-12)

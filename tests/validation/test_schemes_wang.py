@@ -12,6 +12,7 @@ import math
 import numpy as np
 import pytest
 from support.cases import cases
+from support.commands import ask_json
 from support.engines import build_text, engine_text
 from support.remedies import figures, fit_scheme, size_scheme
 
@@ -286,3 +287,13 @@ def test_overbalance_figures_are_those_of_the_ellipse():
         force = compute_spectra(single(more=weight), [1], ("force",)).force
         wanted = (1 + math.sqrt(1 - 4 * k * math.cos(math.radians(alpha)) + 4 * k * k)) / 2
         assert force.major[0] / (M * R * single().omega ** 2) == pytest.approx(wanted, rel=1e-13)
+
+
+def test_a_slider_leaves_the_same_force_whatever_the_counterweights_of_the_file():
+    """One that balances more than the rotating mass would break the symmetry of the shafts."""
+    text = "crank.stroke = 84\nrod.length = 140\npiston.mass = 0.5\n"
+    left = []
+    for weight in ("", "[[counterweight]]\nunbalance = 20000\nangle = 180\n"):
+        document = ask_json("balance", "-", "--scheme", "eccentric-slider", stdin=text + weight)
+        left.append(document["after"]["peak"]["force_N"])
+    assert left[1] == pytest.approx(left[0], rel=1e-9)
