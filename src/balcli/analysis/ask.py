@@ -69,6 +69,8 @@ def _choose_result(
     asked: Request, for_people: bool
 ) -> tuple[Callable[[Engine], Any], Renderer[NamedResult[Any]]]:
     """Return what is found of an engine, and how it is shown."""
+    if not (asked.marine or asked.over_speed):
+        return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
     from . import speeds  # for those who ask for several
 
     if asked.marine:
@@ -80,14 +82,12 @@ def _choose_result(
             every_order=asked.whole,
         )
         return sheets, speeds.MARINE
-    if asked.over_speed:
 
-        def find_series(engine: Engine) -> Any:
-            ask = _ask(asked, engine, for_people)
-            return speeds.analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
+    def find_series(engine: Engine) -> Any:
+        ask = _ask(asked, engine, for_people)
+        return speeds.analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
 
-        return find_series, speeds.RENDERER
-    return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
+    return find_series, speeds.RENDERER
 
 
 def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Analysis]:

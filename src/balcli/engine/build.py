@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,6 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
-from ..file.gas_tables import Bearing, Flywheel
 from ..file.model import EngineFile
 from ..limits import MOST_SAMPLES
 from .articulation import check_articulation, check_knuckles
@@ -44,6 +43,9 @@ from .layout import are_places_known
 from .numbering import check_numbering, list_inferred
 from .parts import Parts
 from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
+
+if TYPE_CHECKING:
+    from ..file.gas_tables import Bearing, Flywheel
 
 
 def build(

@@ -30,7 +30,6 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
-from ..file.gas_tables import WIEBE_KEYS
 from ..file.model import EngineFile
 from .devices import build_devices
 from .figures import place_in_plane
@@ -429,13 +428,15 @@ def list_inferred(parts: Parts) -> Iterator[str]:
 
 
 def _list_defaults(parts: Parts) -> Iterator[str]:
-    """Yield places and burning of which the file says nothing, with their defaults."""
+    """Yield the defaults of places, inertia and burning that the file does not give."""
     model, gas = parts.model, parts.model.gas
     together = parts.plan.rods_on_throw > 1 and model.articulation is None
     if together and "stagger" not in model.layout.model_fields_set:
         yield "layout.stagger = 0"
+    if model.operation.speed_ripple and model.crank.inertia is None:
+        yield "crank.inertia = 0"
     if gas is not None and gas.cycle == "wiebe":
-        keys = (key for key in WIEBE_KEYS if key not in gas.model_fields_set)
+        keys = (key for key in gas.wiebe_keys if key not in gas.model_fields_set)
         yield from (f"gas.{key} = {getattr(gas, key):g}" for key in keys)
 
 

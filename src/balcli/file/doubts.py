@@ -156,11 +156,6 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
             f"layout.strokes is not given, and 4 is taken; engines with a stroke of {stroke:g} mm "
             f"at {speed:g} rpm are two-strokes: say layout.strokes = 2, or 4 if it is so"
         )
-    if model.operation.speed_ripple and crank.inertia is None:
-        yield (
-            "crank.inertia is not given: at uneven speed, couple C and inertia torque T leave out "
-            "the crankshaft except its unbalanced throws; give its moment of inertia"
-        )
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
         yield "[flywheel] counts for `torque`, not for `torsion`; write it as [[torsion.rear]], too"

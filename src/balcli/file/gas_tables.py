@@ -5,7 +5,7 @@ They are imported for files that have them (`names.CHAPTERS`).
 """
 
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from .fields import Choice, FileName, Number, OneOf, join_words
 from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size
@@ -38,6 +38,7 @@ class Gas(FileTable):
     """Pressure on the pistons over a cycle: measured, computed, or as harmonics of its torque."""
 
     choices = (Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),)
+    wiebe_keys: ClassVar[tuple[str, ...]] = WIEBE_KEYS
 
     indicator: Annotated[str, FileName()] | None = None
     """A measured diagram: CSV beside the engine file, headed angle_deg,pressure_bar (or _MPa,
@@ -109,7 +110,7 @@ class Gas(FileTable):
         if not computed:
             idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
         elif self.cycle != "wiebe":
-            idle.update(WIEBE_KEYS)
+            idle.update(self.wiebe_keys)
         if strokes == 2:
             idle.update(("exhaust", "intake_closes"))
         if not measured:
@@ -126,7 +127,7 @@ class Gas(FileTable):
             yield f"has {join_words(others)} beside {what}; these belong to a computed cycle"
 
     def _check_wiebe(self) -> Iterator[str]:
-        wiebe = [key for key in WIEBE_KEYS if key in self.model_fields_set]
+        wiebe = [key for key in self.wiebe_keys if key in self.model_fields_set]
         if wiebe and self.cycle not in (None, "wiebe"):
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
 
