@@ -97,5 +97,4 @@ MOST_TORSION_NODES = 200  # of a chain: modes of all of them take a second
 LARGEST_INERTIA = 1e18  # kg m2, of a damper or flywheel: its square is no overflow
 HIGHEST_TORSION_ORDER = 256  # a cycle is sampled 16 times as often
 MOST_TORSION_TORQUES = 10_000_000  # orders x speeds x shafts: all are kept, 8 bytes each
-ALWAYS_TORSION_ORDER = 12  # tables of builders end here: to it all criticals are listed
 HIGHEST_TORSION_ORDER_UNASKED = 32  # of cylinders, besides their firing order and its double

@@ -27,10 +27,7 @@ from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
 from .response import (
-    NEGLIGIBLE,
-    NEGLIGIBLE_BARE,
     TorsionResponse,
-    choose_orders,
     find_barred,
     find_response,
 )
@@ -59,14 +56,12 @@ class TorsionQuestion(NamedTuple):
         orders: Which of those that excite; None: all.
         holzer: Tables that are wanted.
         damper: Damper that is to be sized; the answer is then about the system that has it.
-        chosen: Whether `choose_orders` chose the orders.
     """
 
     speeds_rpm: Real | None = None
     orders: Real | None = None
     holzer: tuple[HolzerAsked, ...] = ()
     damper: DamperAsked | None = None
-    chosen: bool = False
 
 
 def ask(
@@ -266,10 +261,6 @@ def answer_question(
             not there; Holzer's table of a chain with loops; a damper that nothing can carry.
         InputError: what does not fit together in the file.
     """
-    if question.orders is None and source.engine is not None:
-        share = NEGLIGIBLE if question.damper is None else NEGLIGIBLE_BARE
-        chosen = choose_orders(source.system(), question.speeds_rpm, share)
-        question = question._replace(orders=chosen, chosen=True)
     if question.damper is None or question.speeds_rpm is None:
         return _analyze_system(source.system(), question, tell)
     sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
@@ -306,9 +297,7 @@ def _analyze_system(
         shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
         modes=modes,
         orders=None if excitation is None else tuple(map(whole_order, excitation.orders.tolist())),
-        criticals=None
-        if excitation is None
-        else find_criticals(excitation, modes, span, slight=not question.chosen),
+        criticals=None if excitation is None else find_criticals(excitation, modes, span),
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
         response=response,
         barred_rpm=barred,
@@ -368,8 +357,7 @@ def analyze_torsion(
             text or a dict of its tables (or those of such an engine).
         speeds_rpm: at which the forced vibration is wanted; default: modes and criticals alone.
         orders: which of those that excite, multiples of 1/2; default: all of a chain; of an
-            engine those to 32, but for the smallest, which together contribute less than 0.5 %
-            of the largest.
+            engine those to 32, that of firing and its double.
         damper: sized to make the largest stress over `speeds_rpm`, which have to be given, least;
             the answer is then that with it.
         damper_at: name of what carries it; default: the foremost part.

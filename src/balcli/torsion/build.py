@@ -503,8 +503,8 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     where the engine has some.
 
     Args:
-        orders: (orders,); None: all that are looked at, with halves where gas has them; see
-            `choose_orders`.
+        orders: (orders,); None: to HIGHEST_TORSION_ORDER_UNASKED, with halves where gas has them,
+            and as of `list_gas_orders` those of firing.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array(engine.joined_throw_of_rows)

@@ -62,7 +62,7 @@ def torsion(
         optional(
             "0.5-12|1,2.5",
             "Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all of a chain, "
-            "of an engine those that contribute.",
+            "to 32 of an engine, and that of firing.",
         ),
     ] = None,
     holzer: Annotated[

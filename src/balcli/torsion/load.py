@@ -122,7 +122,7 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
     """A file, or standard input for "-".
 
     Args:
-        orders: (orders,) by which an engine is excited; None: all of which `choose_orders` chooses.
+        orders: (orders,) by which an engine is excited; None: as of `excite_engine`.
         misfires: numbers of cylinders of an engine without gas force.
 
     Raises:

@@ -16,7 +16,6 @@ import numpy as np
 from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_shapes
-from ..limits import ALWAYS_TORSION_ORDER
 from .chain import Chain, Damping, find_still, follow_gears, grow_branches, incidence, rigid_motions
 from .system import Excitation, TorsionalSystem, whole_order
 
@@ -136,7 +135,6 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
 
 
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
-_SLIGHT = 1e-3  # share of the work on a mode below which a high order is not listed
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -238,8 +236,6 @@ def find_criticals(
     excitation: Excitation,
     modes: tuple[NaturalMode, ...],
     range_rpm: tuple[float, float] | None = None,
-    *,
-    slight: bool = True,
 ) -> tuple[Critical, ...]:
     """Return the critical speeds, most work first.
 
@@ -247,7 +243,6 @@ def find_criticals(
         excitation: Orders and torques.
         modes: Natural modes.
         range_rpm: First and last speed, rpm; None: all speeds.
-        slight: Whether orders above ALWAYS_TORSION_ORDER count that do next to no work on a mode.
     """
     orders, (low, high) = excitation.orders, range_rpm or (0.0, np.inf)
     found = []
@@ -259,8 +254,6 @@ def find_criticals(
         counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
         counted &= phasors > _UNDRIVEN * (np.abs(torque) @ np.abs(moved))
         total = phasors[counted].sum()
-        if not slight:
-            counted &= (orders <= ALWAYS_TORSION_ORDER) | (phasors > _SLIGHT * total)
         found += [
             Critical(
                 mode=mode.number,

@@ -20,6 +20,7 @@ from ..core.vibration import (
     Complex,
     Real,
     UndampedResonanceError,
+    frequencies,
     solve_equations,
 )
 from ..errors import BalcliError
@@ -241,13 +242,13 @@ class ChainMotion(NamedTuple):
 
 
 def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
-    """Return the vibration at speeds (speeds,), rpm, or (orders, speeds), those of each order.
+    """Return the vibration at speeds (speeds,), rpm.
 
     Raises:
         BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
     """
     excitation, speeds = system.require_excitation(), rpm * RPM
-    w = excitation.orders[:, None] * speeds
+    w = frequencies(excitation.orders, speeds)
     load = excitation.on_nodes(speeds, len(system.nodes))
     attached: Complex | float = 0.0
     if system.rings or system.pendulums:

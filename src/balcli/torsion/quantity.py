@@ -19,7 +19,7 @@ from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, re
 from .build import build_engine_system, excite_engine
 from .modes import find_chain_modes
 from .motion import stress_by_torque
-from .response import NEGLIGIBLE, choose_orders, count_columns, find_largest
+from .response import count_columns, find_largest
 from .system import Excitation, TorsionalSystem
 
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many
@@ -127,7 +127,6 @@ def _find_largest(
     if not places:
         return {}
     weights = np.isin(np.arange(count_columns(system)), list(places.values())).astype(float)
-    system = system.driven_at(choose_orders(system, speeds, NEGLIGIBLE))
     largest, by_torque = find_largest(system, speeds, weights).value, stress_by_torque(system)
     return {
         q: float(largest[shaft] * (by_torque[shaft] if q.part == "stress" else 1))

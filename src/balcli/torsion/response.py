@@ -21,7 +21,7 @@ from ..core.records import HIDDEN
 from ..core.vibration import ROUNDING, Complex, Real
 from ..process import Tell, tell_nobody
 from .modes import find_poles
-from .motion import compute_curves, move, refuse_unbounded, stress_by_torque
+from .motion import compute_curves, refuse_unbounded, stress_by_torque
 from .system import TorsionalSystem, whole_order
 
 _SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, in widths
@@ -382,46 +382,6 @@ def _add_up(orders: Real, phasors: Complex, tell: Tell) -> Real:
         found[some] = find_swing(orders, phasors[:, some]).half
         tell(some.stop / speeds)
     return found
-
-
-# ------------------------------------------------------------------ orders worth counting
-NEGLIGIBLE = 5e-3  # of the largest: orders that together contribute less are left out
-NEGLIGIBLE_BARE = 1e-3  # the same before a damper is fitted, which lowers the others
-_PROBES = 16  # speeds at which each order is tried, besides its criticals
-_BESIDE = 1.001  # times a critical speed: there an undamped resonance is high, and has a bound
-
-
-def choose_orders(system: TorsionalSystem, rpm: Real | None, share: float) -> Real:
-    """Return the orders (orders,) that contribute to the torque of any shaft or the swing of the
-    free end. Each of the others contributes less than a share of the largest at its own resonances,
-    and all of them together at speeds between; resonances of two orders do not meet.
-
-    Args:
-        system: With an excitation.
-        rpm: (speeds,) rising; None: from a quarter of the file's own speed to one and a half times.
-        share: Of the largest amplitude that an order has anywhere in the range.
-    """
-    orders = system.require_excitation().orders
-    poles: Real = np.zeros(0)
-    if not len(orders):
-        return orders
-    if rpm is None or len(rpm) > 1:
-        poles = find_poles(system).imag
-        poles = poles[poles > 0]
-    if rpm is None:
-        rpm = (system.rated_rpm or float(poles.min(initial=1e3)) / RPM) * np.array([0.25, 1.5])
-    met = np.clip(poles / (RPM * orders[:, None]), rpm[0], rpm[-1])
-    probes = np.broadcast_to(np.linspace(rpm[0], rpm[-1], _PROBES), (len(orders), _PROBES))
-    motion = move(system, np.concatenate([met, probes], axis=1) * _BESIDE)
-    curves = np.concatenate([motion.torque, motion.angle[:, :, system.ends[:1]]], axis=-1)
-    sizes = np.abs(curves)  # (orders, speeds, curves)
-    together = sizes[:, -_PROBES:].sum(axis=0)  # at the same speeds for all orders
-    level = np.maximum(sizes.max(axis=(0, 1)), together.max(axis=0))
-    shares = np.divide(sizes, level, out=np.zeros_like(sizes), where=level > 0)
-    largest = shares.max(axis=(1, 2))
-    rising = np.argsort(largest, kind="stable")
-    added = shares[rising, -_PROBES:].cumsum(axis=0).max(axis=(1, 2))
-    return np.delete(orders, rising[(added < share) & (largest[rising] < share)])
 
 
 # ------------------------------------------------------------------ barred speeds

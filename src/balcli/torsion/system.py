@@ -67,10 +67,8 @@ class Excitation(NamedTuple):
     growing: Complex
 
     def at(self, speeds: Real) -> Complex:
-        """Return torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s, or (orders,
-        speeds), those of each order.
-        """
-        grown = self.growing[:, None, :] * speeds[..., None] ** 2
+        """Return torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s."""
+        grown = self.growing[:, None, :] * speeds[:, None] ** 2
         return np.asarray(self.steady[:, None, :] + grown, complex)
 
     def on_nodes(self, speeds: Real, count: int) -> Complex:
