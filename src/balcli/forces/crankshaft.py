@@ -14,7 +14,7 @@ shaft and block is that of inertia alone, with the block's own devices.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -123,18 +123,16 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
         BalcliError: Too many orders of too many loads.
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
-    loads, z = _compute_loads(engine, every)
+    loads, z = compute_loads(engine, every)
     sections = np.unique(z)
     ahead = find_ahead(z, sections)
-    shear = _sum_weighted(loads, ahead, ahead)
-    bending = 1j * _sum_weighted(loads, find_arms(z, sections), bound_arms(z, sections))
+    shear, bending = _sum_weighted(loads, ahead, ahead), compute_bending(loads, z)
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
     _refuse_too_many_results(len(orders), len(z))
     bearings = None
     if (span := place_bearings(engine.joined_throws_m)) is not None:
-        shares = share_by_lever(z, span)
-        bearings = _with_peaks(span, _sum_weighted(loads, shares, shares), orders)
+        bearings = _with_peaks(span, compute_bearing_forces(loads, z, span), orders)
     return InnerLoads(
         _with_peaks(sections, shear, orders), _with_peaks(sections, bending, orders), bearings
     )
@@ -178,7 +176,26 @@ def place_bearings(throws_m: Array) -> Array | None:
     return np.array([2 * places[0] - between[0], *between, 2 * places[-1] - between[-1]])
 
 
-def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
+def compute_bending(loads: Phasors, z: Array) -> Phasors:
+    """Return bending moments, N m, phasors of shape (orders, sections), at each place of a load.
+
+    Args:
+        loads: Forces, shape (orders, loads).
+        z: Their positions, m, shape (loads,).
+    """
+    sections = np.unique(z)
+    return 1j * _sum_weighted(loads, find_arms(z, sections), bound_arms(z, sections))
+
+
+def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:
+    """Return forces on main bearings at these positions (`place_bearings`), N, phasors of shape
+    (orders, bearings); other arguments as for `compute_bending`.
+    """
+    shares = share_by_lever(z, bearings_m)
+    return _sum_weighted(loads, shares, shares)
+
+
+def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """Return the forces of each cylinder and counterweight, phasors of shape (orders, loads), and
     their positions, m, shape (loads,).
     """
@@ -186,11 +203,16 @@ def _compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
     each = compute_spectra(engine, orders, ["force"], each=True)["force"]
     more = [compute_device_force(engine, device, orders) for device in counterweights]
-    vectors = np.concatenate([each.vectors, *(force.vectors[..., None] for force in more)], axis=2)
-    noises = [np.broadcast_to(force.noise, force.forward.shape) for force in (each, *more)]
-    together = Phasors(orders, vectors, np.column_stack(noises))
     places = [*np.ravel(engine.cylinders.z), *(device.z for device in counterweights)]
-    return together, np.array(places, float)
+    return join_loads([each, *more]), np.array(places, float)
+
+
+def join_loads(loads: Sequence[Phasors]) -> Phasors:
+    """Return forces of shape (orders, loads) and of single loads as one, (orders, loads)."""
+    orders = loads[0].orders
+    vectors = [force.vectors.reshape(2, len(orders), -1) for force in loads]
+    noises = [np.broadcast_to(force.noise, force.forward.shape) for force in loads]
+    return Phasors(orders, np.concatenate(vectors, axis=2), np.column_stack(noises))
 
 
 def is_counterweight(device: Device) -> bool:

@@ -31,7 +31,9 @@ from .residual import (
     FORWARD_FORCE,
     FORWARD_MOMENT,
     ROLL,
+    Scales,
     find_residual,
+    find_scales,
     hold_steady,
 )
 from .schemes import FIT
@@ -48,20 +50,6 @@ _NOTHING = 1e-12  # of the largest unbalance of an order: less is rounding
 _REASON = "Placed as in the file; smallest sum of squares of the remaining {} at its order"
 
 
-class Scales(NamedTuple):
-    """What one cylinder makes.
-
-    Attributes:
-        force: largest first-order force of a cylinder alone, N.
-        moment: this force at the length of the engine, N m.
-        roll: this force at the crank radius, N m.
-    """
-
-    force: float
-    moment: float
-    roll: float
-
-
 class _Unknown(NamedTuple):
     """A device to fit: its name in messages, its table, and the columns of its real unknowns."""
 
@@ -69,16 +57,6 @@ class _Unknown(NamedTuple):
     table: DeviceTable
     held: bool
     columns: Array
-
-
-def find_scales(engine: Engine) -> Scales:
-    """Return the scales of an engine at its speed."""
-    radius = np.ravel(engine.cylinders.radius).astype(float)
-    masses = np.array([float(each.reciprocating) for each in engine.weighed])
-    z = np.ravel(engine.cylinders.z)
-    force = float(np.max(masses * radius)) * float(engine.omega) ** 2
-    length = max(float(np.ptp(z)), 2 * float(radius.max()))
-    return Scales(force, force * length, force * float(radius[0]))
 
 
 def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, cast
 
 from ..errors import BalcliError, wrong_type
 from ..file.fields import nearest
-from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER
+from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
 from .schemes import FIT, KNUCKLES, NAMES, SCHEMES
 
 # Of each option with numbers: their kind, whether they have to be finite, and what is right.
@@ -20,6 +20,7 @@ _NUMBERS: dict[str, tuple[type, bool, str]] = {
     "factor": (Real, False, "shares, such as (0.5,)"),
     "measured": (Real, True, "a mass in kg, such as 0.812"),
     "orders": (Real, True, "orders, such as (1, 2)"),
+    "small": (Real, True, "a share, such as 0.05"),
 }
 _SEVERAL = ("at", "planes", "factor", "orders")
 
@@ -39,6 +40,8 @@ class SchemeOptions(NamedTuple):
         roll: "zero": two shafts are placed such that the roll of inertia of this order
             vanishes, too.
         orders: orders of the force whose largest value is made smallest; default: all.
+        small: share of one cylinder below which what turns one way in an order is left.
+        step: name or number of a step of the ladder.
     """
 
     order: int | None = None
@@ -49,6 +52,12 @@ class SchemeOptions(NamedTuple):
     measured: float | None = None
     roll: str | None = None
     orders: tuple[float, ...] | None = None
+    small: float | None = None
+    step: str | None = None
+
+    def read_small(self) -> float:
+        """Return the share below which a part is small."""
+        return SMALL if self.small is None else self.small
 
     def check(self, scheme: str) -> None:
         """Refuse what the scheme does not know.
@@ -58,7 +67,8 @@ class SchemeOptions(NamedTuple):
         """
         self._check_numbers()
         taken = find_taken(scheme)
-        given = [name for name, value in self._asdict().items() if value is not None]
+        asked = self._replace(small=None)._asdict().items()  # that any scheme takes
+        given = [name for name, value in asked if value is not None]
         if strangers := [name for name in given if name not in taken]:
             others = " or ".join(name for name in SCHEMES if {*given} <= {*SCHEMES[name]})
             if scheme == "auto" and others:
@@ -73,6 +83,7 @@ class SchemeOptions(NamedTuple):
                 f"--order {self.order}: the order must be a whole number from 1 to "
                 f"{HIGHEST_SHAFT_ORDER}"
             )
+        check_small(self.read_small())
         if isinstance(self.planes, str) and self.planes not in ("ends", "throws"):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
@@ -105,6 +116,19 @@ class SchemeOptions(NamedTuple):
         if len(at) > 1:
             raise BalcliError("--at: this scheme has one place; give it once")
         return at[0]
+
+
+def check_small(share: float) -> float:
+    """Return a share below which a part is small.
+
+    Raises:
+        BalcliError: It is not one from 0 to MOST_SMALL.
+    """
+    if not 0 <= share <= MOST_SMALL:
+        raise BalcliError(
+            f"small {share:.0%}: give a share of one cylinder from 0 to {MOST_SMALL:.0%}"
+        )
+    return share
 
 
 def _are(values: Any, kind: type, finite: bool) -> bool:

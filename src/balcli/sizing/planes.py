@@ -26,14 +26,15 @@ SAME_PLACE = (
 
 
 def find_ends(engine: Engine) -> tuple[float, float]:
-    """z of the first and the last throw; where all stand in one plane, of the outermost cylinders,
-    or else devices; m.
+    """Return z of the end planes, m: first and last throw; of throws in one plane, half a bore to
+    either side of it, or without a bore the crank radius.
     """
-    throws = _find_reach(engine.throws_m)
-    cylinders = _find_reach(engine.cylinders.z)
-    devices = _find_reach([*engine.throws_m, *(float(device.z) for device in engine.devices)])
-    wide = [reach for reach in (throws, cylinders, devices) if reach[0] < reach[1]]
-    return wide[0] if wide else throws
+    low, high = _find_reach(engine.throws_m)
+    if low < high:
+        return low, high
+    bore = float(engine.bore_m)
+    half = bore / 2 if bore > 0 else float(engine.cylinders.radius)
+    return low - half, high + half
 
 
 def find_length(engine: Engine) -> tuple[float, float]:
@@ -90,14 +91,6 @@ def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, 
         z, enough = find_single_plane(engine, residual, sense)
         return (z,) if enough else find_ends(engine)
     return find_ends(engine) if residual.moment(sense) else ()
-
-
-def find_counterweight_planes(engine: Engine, residual: Residual) -> tuple[float, ...]:
-    """Planes (z, m) of counterweights for the part of order 1 that turns with the crank: both ends
-    of the crankshaft, but the fewest if all throws stand in one plane; none where nothing is left.
-    """
-    planes = find_planes(engine, residual, 1)
-    return find_ends(engine) if planes and len(set(engine.throws_m)) > 1 else planes
 
 
 def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:

@@ -14,6 +14,7 @@ from .planes import KINDS, DeviceTable, find_free, name_kind
 
 if TYPE_CHECKING:
     from .bobweights import Bobweight, FactorPeaks, PlaneNeed
+    from .ladder import Ladder
 
 
 class Remedy(NamedTuple):
@@ -33,6 +34,8 @@ class Remedy(NamedTuple):
         knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
         beyond: devices that no engine file can describe, SI.
         start: engine to which the devices are fitted, where it is not the one of the file.
+        ladder, step: what balances the engine step by step, and which of it this is (schemes auto
+            and step).
     """
 
     scheme: str
@@ -47,6 +50,8 @@ class Remedy(NamedTuple):
     knuckle_angles_deg: tuple[float, ...] = ()
     beyond: tuple[Device, ...] = ()
     start: Engine | None = None
+    ladder: Ladder | None = None
+    step: str = ""
 
     @property
     def counterweights(self) -> tuple[Counterweight, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Literal, NamedTuple
@@ -82,6 +83,39 @@ class Residual(NamedTuple):
     def size(self, *parts: ResidualPart) -> float:
         """Sum of the amplitudes of these parts at the engine's speed, N or N m."""
         return sum(abs(self.parts[part]) for part in parts) * self.newtons_per_kg_m
+
+
+class Scales(NamedTuple):
+    """What one cylinder makes.
+
+    Attributes:
+        force: largest first-order force of a cylinder alone, N.
+        moment: this force at the length of the engine, N m.
+        roll: this force at the crank radius, N m.
+    """
+
+    force: float
+    moment: float
+    roll: float
+
+
+def find_scales(engine: Engine) -> Scales:
+    """Return the scales of an engine at its speed."""
+    radius = np.ravel(engine.cylinders.radius).astype(float)
+    masses = np.array([float(each.reciprocating) for each in engine.weighed])
+    z = np.ravel(engine.cylinders.z)
+    force = float(np.max(masses * radius)) * float(engine.omega) ** 2
+    length = max(float(np.ptp(z)), 2 * float(radius.max()))
+    return Scales(force, force * length, force * float(radius[0]))
+
+
+def find_size(residual: Residual, sense: int, scales: Scales) -> float:
+    """Return the size of what turns in a sense (1 with the crank, -1 against it): force and moment
+    as shares of one cylinder's, the larger of both.
+    """
+    sizes = map(residual.size, FORWARD if sense > 0 else BACKWARD)
+    pairs = zip(sizes, (scales.force, scales.moment), strict=True)
+    return max((size / scale if scale else math.inf) if size else 0.0 for size, scale in pairs)
 
 
 class NothingToBalanceError(Exception):

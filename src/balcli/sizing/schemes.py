@@ -4,6 +4,8 @@ from __future__ import annotations
 
 SCHEMES: dict[str, tuple[str, ...]] = {
     "auto": (),
+    "complete": (),
+    "step": ("step",),
     "counterweights": ("order", "planes"),
     "factor": ("factor", "measured", "planes"),
     "minimax": ("planes", "position", "orders"),
@@ -28,7 +30,9 @@ NAMES = (*SCHEMES, KNUCKLES, FIT)
 
 # What each does, in a line.
 MEANINGS = {
-    "auto": "orders 1 and 2: counterweights, then shafts as far as needed",
+    "auto": "orders 1 and 2: counterweights, then shafts as far as they are worth one",
+    "complete": "all of orders 1 and 2, however small: counterweights, then shafts",
+    "step": "a step of the ladder that balance prints, by its name or number",
     "counterweights": "rotating masses, and what of order 1 turns with the crank",
     "factor": "the shop's balance factor, with the bobweight card",
     "minimax": "the counterweight that leaves the smallest peak force",

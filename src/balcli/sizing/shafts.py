@@ -19,15 +19,14 @@ from .fitting import (
     Fitting,
     Slot,
     explain_compensator,
-    explain_counterweights,
     explain_couple,
     explain_one_eccentric,
     explain_shaft,
 )
+from .ladder import add_at_ends
 from .options import SchemeOptions
 from .planes import (
     choose_plane,
-    find_counterweight_planes,
     locate_force,
     read_two_planes,
     takes_moment,
@@ -37,7 +36,6 @@ from .residual import (
     BACKWARD,
     BACKWARD_FORCE,
     BACKWARD_MOMENT,
-    FORWARD,
     FORWARD_FORCE,
     FORWARD_MOMENT,
     NothingToBalanceError,
@@ -63,9 +61,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     residual = choose_residual(engine, options, ("force", "moment") if two else ("force",), (-1,))
     fitting = Fitting.start(engine, "single-shaft", residual.order, residual.note)
     if residual.order == 1:
-        planes = find_counterweight_planes(engine, residual)
-        weights = [Slot("counterweight", 1, 1, z) for z in planes]
-        fitting = fitting.cancel(weights, FORWARD, explain_counterweights(residual))
+        fitting = add_at_ends(fitting, residual)
     if two:
         fitting = _add_two_eccentrics(fitting, residual, options)
     else:

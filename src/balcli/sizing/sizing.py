@@ -10,37 +10,31 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable
 
-import numpy as np
-
-from ..core.cylinders import DeviceKind
 from ..core.phasors import wrap_degrees
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import find_crank_loads
-from ..forces.spectrum import compute_spectra
 from .factor import size_by_factor
 from .fitting import (
     Fitting,
     Slot,
     explain_counterweights,
-    explain_shaft,
     explain_sliders,
     size_unbalances,
 )
+from .ladder import Ladder, add_at_throws, find_ladder, size_complete
 from .minimax import size_minimax
 from .options import SchemeOptions
 from .planes import (
     SAME_PLACE,
     choose_plane,
-    find_counterweight_planes,
+    find_ends,
     find_length,
-    find_planes,
     measure_direction,
     read_planes,
 )
 from .remedy import Remedy, fit_devices
 from .residual import (
-    BACKWARD,
     BACKWARD_FORCE,
     BACKWARD_MOMENT,
     FORWARD,
@@ -53,32 +47,30 @@ from .residual import (
 from .shafts import size_couple_shaft, size_four_shaft, size_single_shaft, size_two_shaft
 from .single_cylinder import size_eccentric_slider, size_oldham
 
-_AT_THROWS = (
-    "At every throw, against the part of order 1 that turns with the crank, so that main bearings "
-    "and crankshaft do not carry it"
-)
-
 
 def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
-    """Counterweights for the forward part of order 1, then shafts at -1, +2 and -2, each only where
-    that part is not balanced.
-
-    Counterweights stand in the end planes (first and last throw), or in the one plane of all throws
-    if that suffices; a shaft carries one eccentric where a force remains and one can take its
-    moment too, else two; two opposite ones where only a moment remains.
+    """Return the devices of the last step of the ladder that adds counterweights, or takes a part
+    worth a shaft.
     """
-    fitting = Fitting.start(engine, "auto")
-    # A device leaves other orders, and what turns the other way, as they are.
-    first, second = fitting.find_residual(1), fitting.find_residual(2)
-    slots = [Slot("counterweight", 1, 1, z) for z in find_counterweight_planes(engine, first)]
-    fitting = fitting.cancel(slots, FORWARD, explain_counterweights(first), first)
-    for residual, sense in ((first, -1), (second, 1), (second, -1)):
-        planes = find_planes(engine, residual, sense)
-        slots = [Slot("shaft", residual.order, sense, z) for z in planes]
-        parts = FORWARD if sense > 0 else BACKWARD
-        reason = explain_shaft(residual, sense, len(slots))
-        fitting = fitting.cancel(slots, parts, reason, residual)
-    return fitting.remedy
+    ladder = find_ladder(engine, (options or SchemeOptions()).read_small())
+    return _take_step(ladder, ladder.auto, "auto")
+
+
+def size_step(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Return the devices of the step asked for.
+
+    Raises:
+        BalcliError: no step, or one that is not listed.
+    """
+    if options.step is None:
+        raise BalcliError("scheme step: name one, such as --step 1; balance prints them all")
+    ladder = find_ladder(engine, options.read_small())
+    return _take_step(ladder, ladder.find(options.step).step, "step")
+
+
+def _take_step(ladder: Ladder, name: str, scheme: str) -> Remedy:
+    step = next(one for one in ladder.steps if one.step == name)
+    return step.remedy._replace(scheme=scheme, ladder=ladder, step=name)
 
 
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -98,13 +90,10 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "counterweights", 1)
     residual = fitting.find_residual(1)
     if options.planes == "throws":
-        return _add_at_throws(fitting).remedy
+        return add_at_throws(fitting).remedy
     if not any(residual.parts[part] for part in FORWARD):
         raise NothingToBalanceError(_tell_not_needed(engine))
-    if options.planes is None:
-        planes = find_counterweight_planes(engine, residual)
-    else:
-        planes = read_planes(engine, options)
+    planes = find_ends(engine) if options.planes is None else read_planes(engine, options)
     slots = [Slot("counterweight", 1, 1, z) for z in planes]
     if len(slots) > 1 or not engine.places_known:
         parts = FORWARD if len(slots) > 1 else [FORWARD_FORCE]
@@ -116,32 +105,12 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     return remedy
 
 
-def _add_at_throws(fitting: Fitting) -> Fitting:
-    """With a weight at every throw against what turns with the crank there: the forward force of
-    order 1 of its cylinders, and of the counterweights of the file that are nearest to it. If a
-    force or moment remains (stagger, weights of the file), the smallest addition takes it.
-    """
-    engine, throws = fitting.engine, fitting.engine.joined_throws_m
-    forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
-    unbalances = np.zeros(len(throws), complex)
-    np.add.at(unbalances, engine.joined_throw_of_rows, -forward / float(engine.omega) ** 2)
-    for device in engine.devices:
-        if device.kind is DeviceKind.COUNTERWEIGHT:
-            unbalances[np.abs(throws - device.z).argmin()] -= device.forward
-    slots = [Slot("counterweight", 1, 1, float(z)) for z in throws]
-    left = fitting.add(slots, unbalances, "").find_residual(1)
-    parts = FORWARD if engine.places_known else FORWARD[:1]
-    if any(left.parts[part] for part in parts):
-        unbalances = unbalances + size_unbalances(slots, left, parts).unbalances
-    return fitting.add(slots, unbalances.tolist(), _AT_THROWS)
-
-
 def _tell_not_needed(engine: Engine) -> str:
     what = "force or moment" if engine.places_known else "force"
     text = (
         f"No {what} of order 1 turns with the crank: counterweights cannot reduce the free {what}"
     )
-    with_weights = fit_devices(engine, _add_at_throws(Fitting.start(engine, "")).remedy)
+    with_weights = fit_devices(engine, add_at_throws(Fitting.start(engine, "")).remedy)
     states = [find_crank_loads(one) for one in (engine, with_weights)]
     before, after = (state.main_N if state else 0.0 for state in states)
     if after < before:
@@ -207,6 +176,8 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
 
 SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
     "auto": size_auto,
+    "complete": lambda engine, _: size_complete(engine),
+    "step": size_step,
     "counterweights": size_counterweights,
     "factor": size_by_factor,
     "minimax": size_minimax,
