@@ -27,7 +27,7 @@ from ..forces.spectrum import (
     merge_orders,
 )
 from ..forces.symmetry import Symmetry, Textbook, explain_symmetry, find_textbook
-from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER
+from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER, SMALL
 from ..show.figures import (
     EngineState,
     Peaks,
@@ -37,8 +37,9 @@ from ..show.figures import (
     measure_engine,
 )
 from ..show.result import Result
+from ..sizing.ladder import Ladder, find_ladder
+from ..sizing.options import check_small
 from ..sizing.remedy import Remedy, fit_devices
-from ..sizing.sizing import size_auto
 from .records import (
     CylinderShare,
     PeaksAndOrders,
@@ -50,7 +51,7 @@ from .records import (
 )
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
-QUANTITIES = (*UNASKED, "sizing")
+QUANTITIES = (*UNASKED, "sizing", "ladder")
 EXTRAS = ("inner", "guide")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
 
@@ -66,6 +67,7 @@ class Analysis(Result):
         assumed: What is taken because the engine file leaves it out.
         peak: Largest values over a revolution, all orders together.
         sizing: Devices of the scheme `auto`, and what is left with them.
+        ladder: What balances the engine, step by step.
         cylinders: Each cylinder alone, without devices.
         inner: Shear force and bending moment along the crankshaft; of an engine with gas, in its
             bearings and in the block as well.
@@ -82,6 +84,7 @@ class Analysis(Result):
     assumed: tuple[str, ...] | None = None
     peak: Peaks | None = None
     sizing: Sizing | None = None
+    ladder: Ladder | None = None
     cylinders: tuple[CylinderShare, ...] | None = None
     inner: Annotated[InnerLoads | None, WrittenAs(describe_inner)] = None
     guide: Annotated[GuideMoments | None, WrittenAs(describe_guide)] = None
@@ -169,6 +172,7 @@ def analyze(
     reasons: bool = False,
     guide_height_m: float | None = None,
     beside: Collection[Engine] = (),
+    small: float = SMALL,
 ) -> Analysis:
     """Free forces and moments of an engine, order by order.
 
@@ -176,14 +180,15 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of force, moment, couple, torque, roll, peak, sizing, inner, guide and gas, or a
-            text of them with commas between; default: all but sizing, inner and guide.
+        only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide and
+            gas, or a text of them with commas between; default: all but the four after peak.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
             moment; default: the rods' lengths.
         beside: engines that are analysed by the same orders: half orders have to be this one's, or
             one of theirs.
+        small: share of one cylinder's first order below which ladder and sizing leave a part.
 
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
@@ -195,6 +200,7 @@ def analyze(
     """
     wanted = _choose_quantities(check_engine("analyze", engine), only)
     _check_height(guide_height_m)
+    check_small(check_number("small", small, "give a share, such as 0.05"))
     check_type("by_cylinder", by_cylinder, bool, "give True or False")
     check_type("reasons", reasons, bool, "give True or False")
     check_type("beside", beside, Collection, "give engines, such as [engine]")
@@ -215,7 +221,7 @@ def analyze(
         assumed=list_assumed(engine.places_known, engine.inferred),
         peak=Peaks(find_peak(whole["force"]), find_peak(whole["moment"])) if peaked else None,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
-        **_compute_chapters(engine, asked, wanted, guide_height_m),
+        **_compute_chapters(engine, asked, wanted, guide_height_m, small),
         why=_explain(engine, visible.orders, shown) if reasons else None,
     )
 
@@ -232,8 +238,8 @@ def _check_height(guide_height_m: float | None) -> None:
 
 
 def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
-    """What is computed of an engine unless something is named: all but sizing; with gas, all that
-    it does, too.
+    """What is computed of an engine unless something is named: all but sizing and ladder; with gas,
+    all that it does, too.
     """
     return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
 
@@ -293,20 +299,31 @@ def _analyze_cylinders(
 
 class _Chapters(TypedDict, total=False):
     sizing: Sizing
+    ladder: Ladder
     inner: InnerLoads
     guide: GuideMoments
     travel: tuple[Stroke, ...]
 
 
 def _compute_chapters(
-    engine: Engine, asked: Array | None, wanted: Collection[str], guide_height_m: float | None
+    engine: Engine,
+    asked: Array | None,
+    wanted: Collection[str],
+    guide_height_m: float | None,
+    small: float,
 ) -> _Chapters:
-    """Return sizing, inner loads, guide moments and travel, as far as they are wanted or exist."""
+    """Return sizing, ladder, inner loads, guide moments and travel, as far as they are wanted or
+    exist.
+    """
     found: _Chapters = {}
-    if "sizing" in wanted:
-        remedy = size_auto(engine)
-        left = {*wanted, "force", "moment", "peak"} - {"sizing"}
-        found["sizing"] = Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
+    if "sizing" in wanted or "ladder" in wanted:
+        ladder = find_ladder(engine, small)
+        if "ladder" in wanted:
+            found["ladder"] = ladder
+        if "sizing" in wanted:
+            remedy = ladder.fit()
+            left = {*wanted, "force", "moment", "peak"} - {"sizing", "ladder"}
+            found["sizing"] = Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
     if "inner" in wanted:
         found["inner"] = find_inner_loads(engine, asked)
     if "guide" in wanted:

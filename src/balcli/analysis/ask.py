@@ -94,8 +94,10 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
     """Return `analyze` for an engine like this one, at any speed and by any orders."""
     if asked.quantities is None:
         wanted = list(list_usual_quantities(engine))
-        if not asked.over_speed:  # it is the same at all speeds
-            wanted.append("sizing")
+        if not asked.over_speed:  # they are the same at all speeds
+            wanted.append("ladder")
+            if asked.whole or not for_people:
+                wanted.append("sizing")
         if asked.whole and for_people:
             wanted.append("guide")
     else:
@@ -108,4 +110,5 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
         by_cylinder=asked.by_cylinder,
         reasons=asked.why,
         guide_height_m=asked.height_m,
+        small=asked.small,
     )

@@ -22,6 +22,7 @@ from ..shell.options import (
     OnlyParts,
     Orders,
     Output,
+    Small,
     Speed,
     UnitsOption,
     Whole,
@@ -29,6 +30,7 @@ from ..shell.options import (
     parse_only,
     parse_orders,
     parse_parts,
+    parse_small,
     parse_speed,
 )
 from ..shell.output import emit, refuse_overwriting, show
@@ -49,6 +51,7 @@ def analyze(
     why: analysis_options.Why = False,
     guide_height: GuideHeight = None,
     misfire: Misfire = None,
+    small: Small = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
@@ -68,7 +71,16 @@ def analyze(
     height_m = parse_guide_height(guide_height, units)
     words, misfires = parse_parts(only), tuple(misfire or ())
     asked = analysis_options.Request(
-        speeds_rpm, shown, *words, whole, by_cylinder, why, height_m, misfires, marine
+        speeds_rpm,
+        shown,
+        *words,
+        whole,
+        by_cylinder,
+        why,
+        height_m,
+        misfires,
+        marine,
+        parse_small(small),
     ).check()
     from .ask import answer
 
@@ -82,6 +94,7 @@ def compare(
     orders: Orders = None,
     only: Only = None,
     whole: Whole = False,
+    small: Small = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
@@ -100,7 +113,7 @@ def compare(
     _refuse_parts(chosen or (), paths)
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = name_engines([engine.name for engine in engines], paths)
-    found = compare_engines(engines, names, asked, chosen, whole)
+    found = compare_engines(engines, names, asked, chosen, whole, parse_small(small))
     show([found], RENDERER, form, output, units)
 
 

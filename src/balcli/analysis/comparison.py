@@ -15,6 +15,7 @@ from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, list_words, wrong_type
 from ..forces.kinds import EVERY_KIND, GAS, MOMENT, TORQUE, VECTORS, Kind
 from ..forces.spectrum import merge_orders
+from ..limits import SMALL
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import tell_speed
 from ..show.formats import Renderer
@@ -31,7 +32,9 @@ from ..show.sheet import (
     order_name,
     size_cell,
 )
-from .answer import QUANTITIES, Analysis, analyze
+from ..sizing.ladder import Ladder
+from .answer import UNASKED, Analysis, analyze
+from .devices_show import ladder_grid
 
 if TYPE_CHECKING:
     from ..forces.crankshaft import AlongCrank, InnerLoads
@@ -94,6 +97,7 @@ class Comparison(Result):
         engines: Names of the engines.
         speeds_rpm: Speed at which each is compared.
         figures: Figures of all engines.
+        ladders: What balances each engine, step by step.
         compared: The engines.
         whole: Whether people are shown negligible orders as well.
     """
@@ -102,6 +106,7 @@ class Comparison(Result):
     engines: tuple[str, ...]
     speeds_rpm: tuple[float, ...]
     figures: tuple[Line, ...]
+    ladders: tuple[Ladder, ...] | None = None
     compared: Annotated[tuple[Engine, ...], HIDDEN]
     whole: Annotated[bool, HIDDEN]
 
@@ -117,6 +122,7 @@ def compare_engines(
     orders: Iterable[float] | None = None,
     only: Collection[str] | None = None,
     whole: bool = False,
+    small: float = SMALL,
 ) -> Comparison:
     """The free forces and moments of several engines: the largest of each order, and peaks.
 
@@ -124,25 +130,29 @@ def compare_engines(
         engines: without trailing axes, at least two.
         names: what to call them.
         orders: default: all that `analyze` shows for one of them.
-        only: as in `analyze`; of sizing, the peaks that are left with the devices; default: all
-            but sizing, inner and guide, and gas where all engines have some.
+        only: as in `analyze`; of sizing, the peaks that are left with the devices; default: the
+            usual ones, and gas where all engines have some.
         whole: whether people are shown orders that are negligible, too; they are if orders are
             given.
+        small: as in `analyze`.
 
     Raises:
         BalcliError: fewer than two engines.
     """
     if len(engines) < 2:
         raise BalcliError("compare needs at least two engine files")
-    wanted = set(QUANTITIES) - {"sizing"} if only is None else set(only)
+    wanted = set(UNASKED) if only is None else set(only)
     if only is None and all(engine.gas is not None for engine in engines):
         wanted.add(GAS.name)
-    analyses = analyze_alike(engines, orders, partial(analyze, only=wanted, beside=engines))
+    analyses = analyze_alike(
+        engines, orders, partial(analyze, only=wanted, beside=engines, small=small)
+    )
     lines = list_lines(analyses, every_order=orders is not None)
     return Comparison(
         engines=tuple(names),
         speeds_rpm=tuple(float(engine.speed_rpm) for engine in engines),
         figures=lines,
+        ladders=tuple(one.ladder for one in analyses if one.ladder is not None) or None,
         compared=tuple(engines),
         whole=whole or orders is not None,
     )
@@ -274,8 +284,8 @@ def compare(
         names: what to call them; default: as their files do, or by number where names are missing
             or stand for several.
         orders: which to show; default: all that are not negligible in one of them.
-        only: any of force, moment, couple, torque, roll, peak, sizing, inner, guide, gas; default:
-            all but sizing, inner and guide.
+        only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide, gas;
+            default: all but the four after peak.
 
     Returns:
         Every figure in `result.figures`, with the values of all engines in SI units and their
@@ -341,6 +351,11 @@ def sheet(result: Comparison, system: System) -> Sheet:
         grids.append(
             Grid(title, heads, tuple(_row(line, unit, every=result.whole) for line in lines))
         )
+    for name, engine, ladder in zip(
+        result.engines, result.compared, result.ladders or (), strict=False
+    ):
+        grid = ladder_grid(ladder, engine, system)
+        grids.append(grid._replace(title=f"{name}: {grid.title}"))
     if nothing:
         grids.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
     return Sheet("Engines side by side", (_tell_speeds(result), *grids))

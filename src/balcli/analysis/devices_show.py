@@ -7,16 +7,29 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..file.model import Counterweight, Shaft, Slider
-from ..show.sheet import UNKNOWN, Grid, degrees, given, number
+from ..forces.kinds import FORCE, MOMENT, Kind
+from ..show.sheet import (
+    UNKNOWN,
+    Grid,
+    capitalized,
+    degrees,
+    given,
+    number,
+    size_cell,
+    size_text,
+)
+from ..sizing.ladder import Ladder, LeftOut
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import KEYS, find_value
 
 if TYPE_CHECKING:
+    from ..engine.engine import Engine
     from ..show.units import ShownUnit, System
     from ..sizing.workshop import Practical, Tools
 
 
+_ROUNDING = 1e-12  # of what one cylinder makes
 ANGLES = (
     "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
     "counterweights from cylinder 1's crank pin, of shafts from x."
@@ -45,6 +58,54 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
     rows = tuple(cells(*each) for each in zip(devices, remedy.free, strict=True))
     note = " ".join([ANGLES, *_explain_places(devices, remedy.free)])
     return Grid("", ("device", *heads), rows, note, words=(0, 3, 4))
+
+
+def ladder_grid(ladder: Ladder, engine: Engine, system: System) -> Grid:
+    """Return one row a step of the ladder, with sentences on what is fitted and what left out."""
+    steps, scale = ladder.steps, ladder.scale
+
+    def column(kind: Kind, key: str, least: float) -> tuple[str, list[str]]:
+        sizes = [getattr(step, key) or 0.0 for step in steps]
+        unit = system.unit(kind).fit(max(sizes))
+        return unit.name, [size_cell(size if size > least else 0.0, unit) for size in sizes]
+
+    columns = [("step", [f"{k} {step.step}" for k, step in enumerate(steps)])]
+    for name, kind, key, of_one in (
+        ("force", FORCE, "peak_force_N", scale.force_N),
+        ("moment", MOMENT, "peak_moment_Nm", scale.moment_Nm),
+        ("main bearing", FORCE, "main_bearing_N", scale.force_N),
+    ):
+        if of_one is not None and getattr(steps[0], key) is not None:
+            unit, cells = column(kind, key, _ROUNDING * of_one)
+            columns.append((f"{name}, {unit}", cells))
+    for name, key in (("weights", "counterweights"), ("shafts", "shafts")):
+        columns.append((name, [str(getattr(step, key) or UNKNOWN) for step in steps]))
+    mass = system.mass
+    weigh = (number(mass.of(step.mass_kg), 3) if step.mass_kg else UNKNOWN for step in steps)
+    columns.append((mass.name, [*weigh]))
+    at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
+    heads = tuple(head for head, _ in columns)
+    fitted = [step.step for step in steps].index(ladder.auto)
+    fits = f"balcli balance fits step {fitted}." if fitted else "balcli balance fits nothing."
+    left = (_tell_left_out(one, ladder, system) for one in ladder.left_out)
+    rows = tuple(zip(*(cells for _, cells in columns), strict=True))
+    return Grid(f"What balances it, step by step ({at})", heads, rows, " ".join([fits, *left]))
+
+
+def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
+    """Return a sentence on a step that is left out, with the larger of what it would take."""
+    share = f"{ladder.measure(out):.1f} % of one cylinder's first order"
+    what = out.step if out.step.endswith("s") or "every" in out.step else f"a {out.step}"
+    if (fall := out.main_bearing_N) is not None:
+        does = "lower" if fall >= 0 else "raise"
+        size = size_text(abs(fall), system.unit(FORCE).fit(abs(fall)))
+        takes = f"{does} the largest main bearing load by {size}"
+        return f"{capitalized(what)} would {takes} ({share}): left out."
+    force, moment = out.force_N, out.moment_Nm or 0.0
+    by_moment = moment / (ladder.scale.moment_Nm or 1) > force / ladder.scale.force_N
+    kind, value = (MOMENT, moment) if by_moment else (FORCE, force)
+    size = size_text(value, system.unit(kind).fit(value))
+    return f"{capitalized(what)} would remove {size} ({share}): left out."
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:

@@ -63,6 +63,7 @@ class Request(NamedTuple):
         height_m: Distance from the crankshaft to the middle of the guides; None: the rods' lengths.
         misfires: Numbers of the cylinders without gas.
         marine: Whether it is the sheet of marine builders.
+        small: Share of one cylinder's first order below which ladder and sizing leave a part.
     """
 
     speeds_rpm: tuple[float, ...]
@@ -75,6 +76,7 @@ class Request(NamedTuple):
     height_m: float | None
     misfires: tuple[int, ...]
     marine: bool
+    small: float
 
     @property
     def over_speed(self) -> bool:

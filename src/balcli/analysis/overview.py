@@ -6,9 +6,7 @@ which part needs shafts.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby
+from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,7 +15,6 @@ import numpy as np
 from ..core.cylinders import Device
 from ..core.phasors import Phasors
 from ..file.messages import ordinal
-from ..file.model import Counterweight, Shaft
 from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
 from ..show.engine_facts import tell_pivot
@@ -27,7 +24,6 @@ from ..show.sheet import (
     UNKNOWN,
     Facts,
     Grid,
-    Text,
     capitalized,
     degrees,
     number,
@@ -36,11 +32,10 @@ from ..show.sheet import (
     small_text,
 )
 from ..show.units import ShownUnit, System
-from ..sizing.planes import DeviceTable, find_unbalance
 from .order_tables import fit_largest, peak_facts
 
 if TYPE_CHECKING:
-    from .answer import Analysis, Sizing
+    from .answer import Analysis
 
 
 def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[float]:
@@ -123,46 +118,6 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
         pairs = [(name, _tell_roll(result, roll, system, every_order=every_order))]
     title = "Largest over a revolution" if peaks else f"About {tell_pivot(result.engine)}"
     return Facts((*pairs, *peaks), title)
-
-
-def sizing_in_brief(sizing: Sizing, system: System) -> Text:
-    """Which devices leave nothing of orders 1 and 2, in one sentence."""
-    known = sizing.after.moments_known
-    if not sizing.remedy.devices:
-        what = "Orders 1 and 2 need" if known else "The forces of orders 1 and 2 need"
-        unknown = "" if known else "; moments are not known"
-        return Text("Sizing", (f"{what} no counterweight and no shaft{unknown}.",))
-    texts: dict[str, str] = {}
-    for kind, group in groupby(sizing.remedy.devices, _tell_place):
-        devices = list(group)
-        planes = sorted({device.position for device in devices})
-        at = ", ".join(number(system.length.of(z / 1e3)) for z in planes)
-        sizes = tell_sizes(map(find_unbalance, devices), system.unbalance)
-        texts[f"{kind} {sizes}"] = f"at z = {at} {system.length.name}"
-    places = [*texts.values()]
-    fitted = "; ".join(map(" ".join, texts.items()))
-    if len(places) > 1 and len(set(places)) == 1:
-        fitted = "; ".join((*texts, f"all {places[0]}"))
-    left = "no free force or moment" if known else "no free force (moments are not known)"
-    steady = " at steady speed" if sizing.after.engine.ripple else ""
-    result = f"They leave {left} of orders 1 and 2{steady}. Details: balcli balance."
-    return Text("Sizing", (f"{capitalized(fitted)}.", result))
-
-
-def tell_sizes(unbalances: Iterable[float], unit: ShownUnit) -> str:
-    """Return unbalances as `2 x 35057 g mm`, in the order in which they stand."""
-    counted = Counter(size_text(unbalance, unit) for unbalance in unbalances)
-    return " + ".join(f"{count} × {text}" for text, count in counted.items())
-
-
-def _tell_place(device: DeviceTable) -> str:
-    match device:
-        case Counterweight():
-            return "counterweights:"
-        case Shaft():
-            return f"shaft at {device.ratio:+d}:"
-        case _:
-            return "sliders:"
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:

@@ -343,10 +343,12 @@ class SizedDevices:
 
     Attributes:
         scheme: Name of the scheme.
+        step: Step of the ladder that it fits.
         devices: The devices.
     """
 
     scheme: str
+    step: str
     devices: Annotated[Devices, INLINE]
 
 
@@ -363,8 +365,8 @@ KEYS = {
 
 
 def name_devices(remedy: Remedy) -> SizedDevices:
-    """Return the scheme and its devices."""
-    return SizedDevices(remedy.scheme, describe_devices(remedy))
+    """Return the scheme, its step and its devices."""
+    return SizedDevices(remedy.scheme, remedy.step, describe_devices(remedy))
 
 
 def describe_devices(remedy: Remedy) -> Devices:

@@ -19,7 +19,7 @@ from ..show.sheet import IN_BRIEF, NAMELESS, Facts, Grid, Sheet, Text, View, sen
 from ..show.units import System
 from . import sections
 from .answer import Analysis, Sizing
-from .devices_show import device_grid, device_rows, number_devices
+from .devices_show import device_grid, device_rows, ladder_grid, number_devices
 from .order_tables import (
     cylinder_table,
     direction_tables,
@@ -32,15 +32,18 @@ from .order_tables import (
 from .overview import (
     find_orders_that_matter,
     roll_and_peaks,
-    sizing_in_brief,
     tell_others,
     vectors_grid,
     verdict,
 )
 
 Part: TypeAlias = Grid | Facts | Text
-TEXTS = frozenset({"verdict", "sizing", "textbook"})  # parts that need no crank speed beside them
-TABLES = frozenset({"xy", "textbook", "sizing", "peak", "inner", "guide"})  # without a verdict
+TEXTS = frozenset(
+    {"verdict", "sizing", "ladder", "textbook"}
+)  # parts that need no crank speed beside them
+TABLES = frozenset(
+    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide"}
+)  # without a verdict
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
@@ -64,11 +67,10 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         spectra = share.spectra.with_moment_if(result.moments_known)
         yield cylinder_table(share.cylinder, spectra, system)
     yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
+    if result.ladder is not None:
+        yield ladder_grid(result.ladder, result.engine, system)
     if result.sizing is not None:
-        if view.whole or view.parts:
-            yield from _sizing_parts(result.sizing, system)
-        else:
-            yield sizing_in_brief(result.sizing, system)
+        yield from _sizing_parts(result.sizing, system)
 
 
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
@@ -150,15 +152,10 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
     remedy, after = sizing.remedy, sizing.after
     if not remedy.devices:
-        yield sizing_in_brief(sizing, system)
+        yield Text("Sizing", ("No counterweight and no shaft is worth fitting.",))
         return
     steady = ", at steady speed" if after.engine.ripple else ""
-    yield Text(
-        f"Sizing: what leaves no free force or moment of orders 1 and 2{steady}"
-        if after.moments_known
-        else f"Sizing: what leaves no free force of orders 1 and 2{steady} (moments are not known)",
-        tuple(dict.fromkeys(remedy.reasons)),
-    )
+    yield Text(f"Sizing: {remedy.step}{steady}", tuple(dict.fromkeys(remedy.reasons)))
     yield device_grid(remedy, system)
     yield peak_facts(after, system, "Largest with these devices")
 

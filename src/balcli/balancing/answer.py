@@ -27,13 +27,15 @@ from ..errors import BalcliError, InputError, check_type
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
 from ..file.model import EngineFile
 from ..forces.spectrum import merge_orders
+from ..limits import SMALL
 from ..shell.arguments import tell_arguments
 from ..show.result import Result
 from ..sizing.fit import list_to_fit, size_fit
+from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
 from ..sizing.planes import FIELDS, DeviceTable, name_kind
 from ..sizing.remedy import Remedy, fit_devices
-from ..sizing.schemes import FIT, KNUCKLES
+from ..sizing.schemes import FIT, KNUCKLES, LADDER
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Tools, find_practical
 
@@ -69,6 +71,7 @@ class Balance(Result):
         speed_note: How remedy and analyses differ in speed; empty if they do not.
         permitted: What a grade permits, if one was asked for.
         every_order: Whether orders were asked for, so that none of them is left out.
+        ladder: What balances the engine, step by step; None where articulated rods are changed.
     """
 
     remedy: Remedy
@@ -79,6 +82,7 @@ class Balance(Result):
     speed_note: str = ""
     permitted: PermittedUnbalance | None = None
     every_order: bool = False
+    ladder: Ladder | None = None
 
     @property
     def summary(self) -> str:
@@ -121,8 +125,14 @@ def balance_engine(
     orders = None if orders is None else tuple(orders)
     if scheme == "minimax" and orders is not None:
         options = (options or SchemeOptions())._replace(orders=orders)
+    asked = options or SchemeOptions()
+    if scheme in LADDER:
+        asked.check(scheme)
+        ladder = find_ladder(engine, asked.read_small())
+        return _answer(engine, ladder.fit(asked.step), orders, tools, ladder)
     remedy = size(engine, scheme, options)
-    return _answer(engine if remedy.start is None else remedy.start, remedy, orders, tools)
+    start = engine if remedy.start is None else remedy.start
+    return _answer(start, remedy, orders, tools, find_ladder(start, asked.read_small()))
 
 
 def balance_fit(
@@ -131,6 +141,7 @@ def balance_fit(
     targets: Sequence[str] | None = None,
     orders: Iterable[float] | None = None,
     tools: Tools | None = None,
+    small: float = SMALL,
 ) -> Balance:
     """Fit the devices whose unbalance is "fit" in an engine file.
 
@@ -140,15 +151,21 @@ def balance_fit(
         targets: What is to vanish, of "force", "moment", "roll" and "roll_total".
         orders: As of `balance_engine`.
         tools: As of `balance_engine`.
+        small: Share of one cylinder's first order below which the ladder leaves a part.
 
     Raises:
         BalcliError: An unknown target, or one that the file does not determine.
     """
-    return _answer(engine, size_fit(engine, model, targets), orders, tools)
+    ladder = find_ladder(engine, small)
+    return _answer(engine, size_fit(engine, model, targets), orders, tools, ladder)
 
 
 def _answer(
-    engine: Engine, remedy: Remedy, orders: Iterable[float] | None, tools: Tools | None
+    engine: Engine,
+    remedy: Remedy,
+    orders: Iterable[float] | None,
+    tools: Tools | None,
+    ladder: Ladder,
 ) -> Balance:
     """Return what a remedy leaves, and what the workshop has to know."""
     tools = tools or Tools()
@@ -156,7 +173,7 @@ def _answer(
     before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
     note = _UNEVEN if engine.ripple else ""
     every = orders is not None
-    return Balance(remedy, before, after, practical, tools, note, every_order=every)
+    return Balance(remedy, before, after, practical, tools, note, every_order=every, ladder=ladder)
 
 
 def analyze_both(

@@ -21,19 +21,21 @@ from ..shell.options import (
     EnginePath,
     Orders,
     Output,
+    Small,
     Speed,
     UnitsOption,
     parse_orders,
+    parse_small,
     parse_speed,
 )
 from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show, write_file
 from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme_options
 from ..shell.values import optional, read_length, read_mass, read_number
 from ..show.formats import Format, Units
+from ..sizing.options import SchemeOptions
 from ..sizing.schemes import FIT, KNUCKLES, MEANINGS, NAMES, SCHEMES
 
 if TYPE_CHECKING:
-    from ..sizing.options import SchemeOptions
     from ..sizing.workshop import Tools
     from .answer import Balance
 
@@ -66,6 +68,11 @@ Scheme = Annotated[
         show_default="auto; factor where --factor or --measured is given",
         help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}; --schemes explains them.",
     ),
+]
+
+
+Step = Annotated[
+    str | None, optional("STEP", "Fit this row of the ladder, by name or number, such as 1.")
 ]
 
 
@@ -186,7 +193,7 @@ def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Seq
             f'{name}: no device has unbalance = "fit", so that --scheme fit and --target have '
             "nothing to fit; give it to a [[counterweight]], [[shaft]] or [[slider]]"
         )
-    if scheme != FIT or any(value is not None for value in options):
+    if scheme != FIT or options != SchemeOptions(small=options.small):
         raise BalcliError(
             f'{name}: {open_devices[0]}.unbalance is "fit": balance fits the devices of the file, '
             f"and takes --target, but no other scheme (here {scheme}) and none of its options"
@@ -204,6 +211,8 @@ def balance(
     factor: scheme_options.Factor = None,
     measured: scheme_options.Measured = None,
     roll: scheme_options.Roll = None,
+    step: Step = None,
+    small: Small = None,
     target: Target = None,
     radius: Radius = None,
     thickness: Thickness = None,
@@ -239,6 +248,8 @@ def balance(
     from . import answer
 
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    share = None if small is None else parse_small(small)
+    options = options._replace(small=share, step=step)
     lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
     grade_mm_s = parse_grade(grade)
@@ -247,13 +258,14 @@ def balance(
     text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
     open_devices = [name for name, _ in list_to_fit(model)]
     usual = "factor" if form is BalanceFormat.CARD else FIT if open_devices else "auto"
+    usual = usual if step is None else "step"
     scheme = choose_scheme(scheme, options, usual)
     if even is not None and open_devices:
         raise BalcliError(f"--even belongs to the scheme {KNUCKLES}, which fits no devices")
     if open_devices or target is not None or scheme == FIT:
         _check_fit(name_file(path), scheme, options, open_devices)
         wanted = None if target is None else [each.strip() for each in target.split(",")]
-        result = answer.balance_fit(engine, model, wanted, asked, tools)
+        result = answer.balance_fit(engine, model, wanted, asked, tools, options.read_small())
     elif scheme == KNUCKLES or even is not None:
         result = answer.answer_knuckles(scheme, options, even, model, engine, asked)
     else:

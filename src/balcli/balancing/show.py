@@ -13,6 +13,7 @@ from ..analysis.devices_show import (
     device_grid,
     device_rows,
     holes_grid,
+    ladder_grid,
     number_devices,
     practical_grid,
 )
@@ -23,7 +24,7 @@ from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import find_crank_loads
-from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
+from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..show.csv import Columns, Rows
 from ..show.figures import figure_rows, list_assumed
 from ..show.formats import Renderer
@@ -41,9 +42,11 @@ from ..show.sheet import (
     order_name,
     sentence,
     size_cell,
+    size_text,
     tell_assumed_speed,
 )
 from ..show.units import SI, ShownUnit, System
+from ..sizing.ladder import Ladder
 from ..sizing.planes import find_unbalance, name_kind
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
@@ -58,9 +61,11 @@ _TURNING_WEIGHTS = (
 def sheet(result: Balance, system: System) -> Sheet:
     """Why and what, the workshop's figures, and both analyses side by side."""
     remedy, engine = result.remedy, result.before.engine
-    known, steady = result.before.moments_known, " at steady speed" * bool(engine.ripple)
+    known = result.before.moments_known
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = []
+    if result.ladder is not None:
+        parts.append(ladder_grid(result.ladder, engine, system))
     if change := tell_change(result, system):
         parts.append(Text("", (change,)))
     if remedy.reasons and not remedy.devices and not remedy.beyond:
@@ -75,10 +80,10 @@ def sheet(result: Balance, system: System) -> Sheet:
             Text("What is fitted", ("Shafts that no engine file describes; see Details.",))
         )
     else:
-        why = () if remedy.note or not known else (f"Orders 1 and 2 are balanced{steady}.",)
-        parts.append(Text("Nothing is fitted", why))
+        parts.append(Text("Nothing is fitted", ()))
     notes = (
         remedy.note and sentence(remedy.note),
+        _tell_left(result, system) if remedy.step else "",
         _tell_negligible(result),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),
@@ -90,7 +95,26 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("Forces alone", (sentence(MOMENTS_UNKNOWN),)))
     parts += [*_permitted(result, system), *details_parts(result, system)]
     parts += [_orders(result, system), _peaks(result, system), *_crank_loads(result, system)]
-    return Sheet(f"{engine.name or NAMELESS}: {remedy.scheme}{order}", tuple(parts))
+    fitted = f"{remedy.step} ({remedy.scheme})" if remedy.step else f"{remedy.scheme}{order}"
+    return Sheet(f"{engine.name or NAMELESS}: {fitted}", tuple(parts))
+
+
+def _tell_left(result: Balance, system: System) -> str:
+    """Return what a step leaves of orders 1 and 2, and the couple."""
+    left = []
+    for order in (1, 2):
+        found = []
+        for kind in (FORCE, MOMENT, COUPLE):
+            phasors = result.after.spectra[kind.name]
+            size = float(phasors.major[result.after.orders.tolist().index(order)])
+            if size and (kind is FORCE or result.after.moments_known):
+                found.append(f"{kind.name} {size_text(size, system.unit(kind).fit(size))}")
+        if found:
+            left.append(f"order {order}: {', '.join(found)}")
+    if left:
+        return f"Leaves {'; '.join(left)}."
+    what = "force or moment" if result.after.moments_known else "force"
+    return f"Leaves no {what} of orders 1 and 2."
 
 
 def _tell_negligible(result: Balance) -> str:
@@ -230,6 +254,7 @@ class BalanceDocument:
 
     Attributes:
         scheme: Name of the scheme.
+        step: Step of the ladder, of the schemes auto and step.
         order: Order that the scheme balances; null where it is none in particular.
         devices: The devices.
         reasons: Why these devices.
@@ -239,10 +264,12 @@ class BalanceDocument:
         before: Peaks and orders without the devices.
         after: Peaks and orders with the devices.
         permitted: What a balance grade permits in each plane.
+        ladder: What balances the engine, step by step.
     """
 
     format: Literal["balcli.balance/1"] = "balcli.balance/1"
     scheme: str
+    step: str | None = None
     order: int | None
     devices: Annotated[Devices, INLINE]
     reasons: tuple[str, ...]
@@ -252,6 +279,7 @@ class BalanceDocument:
     before: PeaksAndOrders
     after: PeaksAndOrders
     permitted: PermittedUnbalance | None = None
+    ladder: Ladder | None = None
 
 
 def _shorten(analysis: Analysis) -> PeaksAndOrders:
@@ -263,6 +291,7 @@ def document(result: Balance) -> Node:
     remedy = result.remedy
     described = BalanceDocument(
         scheme=remedy.scheme,
+        step=remedy.step or None,
         order=remedy.order,
         devices=describe_devices(remedy),
         reasons=remedy.reasons,
@@ -272,6 +301,7 @@ def document(result: Balance) -> Node:
         before=_shorten(result.before),
         after=_shorten(result.after),
         permitted=result.permitted,
+        ladder=result.ladder,
     )
     return to_document(described)
 

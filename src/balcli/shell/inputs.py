@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 # What says something of moments besides them, of all that can be asked for.
-ABOUT_MOMENTS = frozenset({"peak", "sizing", "guide", "xy", "textbook", "verdict"})
+ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "xy", "textbook", "verdict"})
 
 P = TypeVar("P")
 T = TypeVar("T")

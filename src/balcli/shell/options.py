@@ -10,14 +10,21 @@ import typer
 
 from ..errors import BalcliError
 from ..forces.kinds import GAS_KINDS, KINDS, VECTORS
-from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER, LONGEST_SHOWN, SMALLEST_POSITIVE
+from ..limits import (
+    HIGHEST_GUIDE_M,
+    HIGHEST_ORDER,
+    LONGEST_SHOWN,
+    MOST_SMALL,
+    SMALL,
+    SMALLEST_POSITIVE,
+)
 from ..show.formats import Format, Units
 from .file_names import format_option, parse_output
-from .values import doubt_thousands, optional, read_length, read_speed
+from .values import doubt_thousands, optional, read_length, read_share, read_speed
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
-WORDS_OF_ONLY = (*KINDS, "peak", "sizing", *GAS_KINDS, "inner", "guide", *PARTS)
+WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, "inner", "guide", *PARTS)
 
 
 EnginePath = Annotated[
@@ -87,7 +94,7 @@ Only = Annotated[
     str | None,
     optional(
         "WHAT,...",
-        f"Compute only some of {', '.join(KINDS)}, peak, sizing, gas; or inner "
+        f"Compute only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; or inner "
         "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
         "--only",
     ),
@@ -96,10 +103,15 @@ OnlyParts = Annotated[
     str | None,
     optional(
         "WHAT,...",
-        f"Only some of {', '.join(KINDS)}, peak, sizing, gas; inner (shear, bending, bearing "
-        "loads along crankshaft and block), guide (H- and X-type); or xy, textbook, verdict.",
+        f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, "
+        "bearing loads along crankshaft and block), guide (H- and X-type); or xy, textbook, "
+        "verdict.",
         "--only",
     ),
+]
+Small = Annotated[
+    str | None,
+    optional("5%", "Share of one cylinder's first order below which the ladder leaves a part."),
 ]
 Whole = Annotated[
     bool, typer.Option("--all", help="Every table and every order that is not rounding.")
@@ -206,6 +218,19 @@ def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
     if len(quantities) < len(words) and not vectors.intersection(quantities):
         quantities += sorted(vectors)
     return quantities, frozenset(words)
+
+
+def parse_small(text: str | None) -> float:
+    """Return the share of `--small`.
+
+    Raises:
+        BalcliError: no share from 0 to MOST_SMALL.
+    """
+    wanted = f"a share of one cylinder's first order from 0 to {MOST_SMALL:.0%}, such as 2%"
+    share = SMALL if text is None else read_share("--small", text, wanted)
+    if not 0 <= share <= MOST_SMALL:
+        raise BalcliError(f'--small "{text}": give {wanted}')
+    return share
 
 
 def parse_speed(text: str | None) -> float | None:

@@ -8,6 +8,7 @@ beside one cylinder.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -131,40 +132,43 @@ class Ladder:
     steps: tuple[Step, ...]
     left_out: tuple[LeftOut, ...]
 
-    def find(self, step: str) -> Step:
-        """Return a listed step by its name, or its number as text.
+    def fit(self, step: str | None = None) -> Remedy:
+        """Return the devices of a listed step.
+
+        Args:
+            step: Its name, or its number as text; None: `auto`.
 
         Raises:
             BalcliError: Nothing is fitted in this step, or it is not listed.
         """
+        name = self.auto if step is None else self._find_name(step)
+        remedy = next(one.remedy for one in self.steps if one.step == name)
+        return remedy._replace(scheme="auto" if step is None else "step", step=name)
+
+    def _find_name(self, step: str) -> str:
         names = [one.step for one in self.steps]
         at = int(step) if step.isdecimal() and len(step) < 4 else -1
         name = names[at] if 0 <= at < len(names) else step
         if name in names[1:]:
-            return self.steps[names.index(name)]
+            return name
         rows = ", ".join(f"{k} {name}" for k, name in enumerate(names))
         for out in self.left_out:
             if out.step == name:
                 moment = "" if out.moment_Nm is None else f" and {out.moment_Nm:.4g} N·m"
-                share = self._measure(out)
+                share = self.measure(out)
                 raise BalcliError(
                     f'step "{name}" is left out: it would take {out.force_N:.4g} N{moment}, '
-                    f"{share:.2g} % of one cylinder; --small {_below(share)}% lists it"
+                    f"{share:.2g} % of one cylinder; --small {max(math.floor(share), 0)}% lists it"
                 )
         why = "nothing is fitted as drawn" if name == AS_DRAWN else "there is no such step"
         raise BalcliError(f'step "{step[:60]}": {why}; this engine has {rows}')
 
-    def _measure(self, out: LeftOut) -> float:
+    def measure(self, out: LeftOut) -> float:
         """Return the size of what a step would take or relieve, % of one cylinder."""
         if out.main_bearing_N is not None:
             return 100 * out.main_bearing_N / self.scale.force_N
         moment = (out.moment_Nm or 0) / (self.scale.moment_Nm or 1)
         return 100 * max(out.force_N / self.scale.force_N, moment)
-
-
-def _below(percent: float) -> str:
-    """Return a round figure below a percentage."""
-    return f"{percent / 2:.1g}" if percent > 0 else "0"
 
 
 # ------------------------------------------------------------------ devices

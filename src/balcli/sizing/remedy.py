@@ -14,7 +14,6 @@ from .planes import KINDS, DeviceTable, find_free, name_kind
 
 if TYPE_CHECKING:
     from .bobweights import Bobweight, FactorPeaks, PlaneNeed
-    from .ladder import Ladder
 
 
 class Remedy(NamedTuple):
@@ -34,8 +33,7 @@ class Remedy(NamedTuple):
         knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
         beyond: devices that no engine file can describe, SI.
         start: engine to which the devices are fitted, where it is not the one of the file.
-        ladder, step: what balances the engine step by step, and which of it this is (schemes auto
-            and step).
+        step: name of the step of the ladder (schemes auto and step).
     """
 
     scheme: str
@@ -50,7 +48,6 @@ class Remedy(NamedTuple):
     knuckle_angles_deg: tuple[float, ...] = ()
     beyond: tuple[Device, ...] = ()
     start: Engine | None = None
-    ladder: Ladder | None = None
     step: str = ""
 
     @property

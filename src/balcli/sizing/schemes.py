@@ -19,6 +19,9 @@ SCHEMES: dict[str, tuple[str, ...]] = {
 }
 
 
+LADDER = ("auto", "step")  # steps of it
+
+
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
 
 

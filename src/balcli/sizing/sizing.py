@@ -1,8 +1,7 @@
 """Sizing of counterweights, balancer shafts and sliders: every scheme is a choice of devices for
 one least squares.
 
-Here: `auto`, the fewest weights and shafts that leave nothing free of orders 1 and 2;
-`counterweights`, for all of order 1 that turns with the crank; `slider`, for any order.
+Here: `counterweights`, for all of order 1 that turns with the crank; `slider`, for any order.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from .fitting import (
     explain_sliders,
     size_unbalances,
 )
-from .ladder import Ladder, add_at_throws, find_ladder, size_complete
+from .ladder import add_at_throws, find_ladder, size_complete
 from .minimax import size_minimax
 from .options import SchemeOptions
 from .planes import (
@@ -52,8 +51,7 @@ def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
     """Return the devices of the last step of the ladder that adds counterweights, or takes a part
     worth a shaft.
     """
-    ladder = find_ladder(engine, (options or SchemeOptions()).read_small())
-    return _take_step(ladder, ladder.auto, "auto")
+    return find_ladder(engine, (options or SchemeOptions()).read_small()).fit()
 
 
 def size_step(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -64,13 +62,7 @@ def size_step(engine: Engine, options: SchemeOptions) -> Remedy:
     """
     if options.step is None:
         raise BalcliError("scheme step: name one, such as --step 1; balance prints them all")
-    ladder = find_ladder(engine, options.read_small())
-    return _take_step(ladder, ladder.find(options.step).step, "step")
-
-
-def _take_step(ladder: Ladder, name: str, scheme: str) -> Remedy:
-    step = next(one for one in ladder.steps if one.step == name)
-    return step.remedy._replace(scheme=scheme, ladder=ladder, step=name)
+    return find_ladder(engine, options.read_small()).fit(options.step)
 
 
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
