@@ -13,7 +13,7 @@ from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.fields import join_words
 from ..forces.spectrum import compute_spectra
-from ..limits import HIGHEST_ORDER_SOUGHT
+from ..limits import HIGHEST_ORDER_SOUGHT, SMALL
 from .options import SchemeOptions
 
 PartKind = Literal["force", "moment", "roll"]  # names of kinds
@@ -113,9 +113,13 @@ def find_size(residual: Residual, sense: int, scales: Scales) -> float:
     """Return the size of what turns in a sense (1 with the crank, -1 against it): force and moment
     as shares of one cylinder's, the larger of both.
     """
-    sizes = map(residual.size, FORWARD if sense > 0 else BACKWARD)
-    pairs = zip(sizes, (scales.force, scales.moment), strict=True)
-    return max((size / scale if scale else math.inf) if size else 0.0 for size, scale in pairs)
+    return max(find_share(residual, part, scales) for part in (FORWARD if sense > 0 else BACKWARD))
+
+
+def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
+    """Return the size of a force or moment as a share of one cylinder's."""
+    size, scale = residual.size(part), scales.moment if part.kind == "moment" else scales.force
+    return (size / scale if scale else math.inf) if size else 0.0
 
 
 class NothingToBalanceError(Exception):
@@ -127,6 +131,10 @@ class NothingToBalanceError(Exception):
     def __init__(self, text: str, **details: float) -> None:
         super().__init__(text)
         self.details = details
+
+
+class OnlySmallError(Exception):
+    """All that a scheme takes is small, as its text says: it would fit what nobody builds."""
 
 
 def hold_steady(engine: Engine) -> Engine:
@@ -162,19 +170,19 @@ def choose_residual(
     senses: Sequence[int] = (1, -1),
 ) -> Residual:
     """What is left at the order asked for, or else at the lowest where something of these kinds is
-    not balanced.
+    not small.
 
     Args:
         senses: of rotation that count: 1 with the crank, -1 against it.
 
     Raises NothingToBalanceError if nothing of them is left, BalcliError for a moment that is not
-    known.
+    known, OnlySmallError if all that is left is small.
     """
     if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
     what = f"{' or '.join(kinds)}{' turning against the crank' * (tuple(senses) == (-1,))}"
     if options.order is None:
-        return _find_lowest(engine, kinds, senses, what)
+        return _find_lowest(engine, options, kinds, senses, what)
     residual = find_residual(engine, options.order)
     if any(residual.has(kind, senses) for kind in kinds):
         return residual
@@ -187,24 +195,78 @@ def choose_residual(
 
 
 def _find_lowest(
-    engine: Engine, kinds: Sequence[PartKind], senses: Sequence[int], what: str
+    engine: Engine,
+    options: SchemeOptions,
+    kinds: Sequence[PartKind],
+    senses: Sequence[int],
+    what: str,
 ) -> Residual:
-    """Return what is left at the lowest order that has some of these kinds; its note lists what
-    shakes at lower ones.
+    """Return what is left at the lowest order of which some of these kinds is not small; its note
+    lists what shakes at lower ones.
     """
+    scales, least = find_scales(engine), options.read_small()
+    sought = [ResidualPart(kind, sense) for kind in kinds for sense in senses]
     rests: dict[str, list[int]] = {}
+    found, small = [], []
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
-        if any(residual.has(kind, senses) for kind in kinds):
+        largest = max(find_share(residual, part, scales) for part in sought)
+        if largest and largest >= least:
             lowest = f"Order {order} is the lowest with a free {what}.{_tell_left_alone(rests)}"
             return residual._replace(note=lowest if rests else "")
-        if rest := _tell_rest(residual, kinds, senses):
+        rest = _tell_rest(residual, kinds, senses)
+        if largest:
+            small.append((largest, residual))
+            rest.append(f"its {what} is small")
+        if rest:
             rests.setdefault("; ".join(rest), []).append(order)
+        found.append(residual)
+    if small:
+        largest = max(small, key=lambda one: one[0])[1]
+        raise OnlySmallError(tell_small(largest, sought, found, scales))
     left_alone = _tell_left_alone(rests)
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
         f"--order names a higher one{'.' if left_alone else ''}{left_alone.removesuffix('.')}"
     )
+
+
+def tell_small(
+    largest: Residual, sought: Sequence[ResidualPart], found: Sequence[Residual], scales: Scales
+) -> str:
+    """Return why nothing is fitted: all that a scheme takes is small; and which scheme takes the
+    largest of what there is.
+
+    Args:
+        largest: What is left of the order with the largest part that the scheme takes.
+        sought: Parts that it takes.
+        found: What is left of all orders.
+        scales: What one cylinder makes.
+    """
+    part = max(sought, key=lambda one: find_share(largest, one, scales))
+    told = (
+        f"the largest {part.kind} {_turning(part)} is {_tell_size(largest, part)} "
+        f"(order {largest.order}), small beside one cylinder; --order {largest.order} fits it"
+    )
+    senses = {part.sense for part in sought}
+    parts = [part for part in (*FORWARD, *BACKWARD) if part.sense in senses]
+    every = [(find_share(one, part, scales), one, part) for one in found for part in parts]
+    share, one, part = max(every, key=lambda each: each[0])
+    if share < SMALL:
+        return told
+    takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
+    takes = "single-shaft" if part == BACKWARD_FORCE else takes
+    takes = "counterweights" if one.order * part.sense == 1 else takes
+    size, ratio = _tell_size(one, part), part.sense * one.order
+    return f"{told}. {takes} takes the {part.kind} of {size} at {ratio:+d}"
+
+
+def _turning(part: ResidualPart) -> str:
+    return "with the crank" if part.sense > 0 else "against the crank"
+
+
+def _tell_size(residual: Residual, part: ResidualPart) -> str:
+    return f"{residual.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
 
 
 def _tell_left_alone(rests: Mapping[str, Sequence[int]]) -> str:

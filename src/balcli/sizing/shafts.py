@@ -39,9 +39,13 @@ from .residual import (
     FORWARD_FORCE,
     FORWARD_MOMENT,
     NothingToBalanceError,
+    OnlySmallError,
     Residual,
     ResidualPart,
     choose_residual,
+    find_scales,
+    find_share,
+    tell_small,
 )
 
 _ROUNDING_M = 1e-9
@@ -177,7 +181,13 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
     fitting = Fitting.start(engine, "four-shaft").balance_rotating()
     residuals = [fitting.find_residual(order) for order in (1, 2)]
-    forces = [residual for residual in residuals if residual.has("force", (1, -1))]
+    sought, scales = (FORWARD_FORCE, BACKWARD_FORCE), find_scales(engine)
+    sizes = [max(find_share(one, part, scales) for part in sought) for one in residuals]
+    least = options.read_small()
+    forces = [one for one, size in zip(residuals, sizes, strict=True) if size and size >= least]
+    if not forces and any(sizes):
+        largest = max(zip(sizes, residuals, strict=True), key=lambda each: each[0])[1]
+        raise OnlySmallError(tell_small(largest, sought, residuals, scales))
     if not forces:
         raise NothingToBalanceError(
             "there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes "

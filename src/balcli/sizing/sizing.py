@@ -40,6 +40,7 @@ from .residual import (
     FORWARD_FORCE,
     FORWARD_MOMENT,
     NothingToBalanceError,
+    OnlySmallError,
     Residual,
     choose_residual,
 )
@@ -99,18 +100,15 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def _tell_not_needed(engine: Engine) -> str:
     what = "force or moment" if engine.places_known else "force"
-    text = (
-        f"No {what} of order 1 turns with the crank: counterweights cannot reduce the free {what}"
-    )
+    told = f"Order 1 is balanced already: counterweights change no free {what}."
     with_weights = fit_devices(engine, add_at_throws(Fitting.start(engine, "")).remedy)
-    states = [find_crank_loads(one) for one in (engine, with_weights)]
-    before, after = (state.main_N if state else 0.0 for state in states)
-    if after < before:
-        text += (
-            ". At every throw (--planes throws) counterweights lower the largest main bearing load "
-            f"by {1 - after / before:.0%}"
+    before, after = (find_crank_loads(one) for one in (engine, with_weights))
+    if before and after and after.main_N < before.main_N:
+        told += (
+            " At every throw (--planes throws) they lower the largest main bearing load from "
+            f"{before.main_N / 1e3:.4g} to {after.main_N / 1e3:.4g} kN."
         )
-    return text
+    return told
 
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
@@ -199,3 +197,5 @@ def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = N
         return SIZE[scheme](engine, asked)
     except NothingToBalanceError as reason:
         return Remedy(scheme, asked.order, note=str(reason), details=reason.details)
+    except OnlySmallError as reason:
+        raise BalcliError(f"{scheme}: {reason}") from None
