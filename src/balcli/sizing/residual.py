@@ -210,13 +210,13 @@ def _find_lowest(
     found, small = [], []
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
-        largest = max(find_share(residual, part, scales) for part in sought)
-        if largest and largest >= least:
+        share = max(find_share(residual, part, scales) for part in sought)
+        if share and share >= least:
             lowest = f"Order {order} is the lowest with a free {what}.{_tell_left_alone(rests)}"
             return residual._replace(note=lowest if rests else "")
         rest = _tell_rest(residual, kinds, senses)
-        if largest:
-            small.append((largest, residual))
+        if share:
+            small.append((share, residual))
             rest.append(f"its {what} is small")
         if rest:
             rests.setdefault("; ".join(rest), []).append(order)
