@@ -8,11 +8,11 @@ from support.remedies import fit_scheme, write_engine
 
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.remedy import Remedy, fit_devices
-from balcli.sizing.sizing import size_auto
+from balcli.sizing.sizing import size, size_auto
 
 
 def test_every_device_has_its_reason():
-    remedy = size_auto(build_text(write_engine(0, 240, 120)))
+    remedy = size(build_text(write_engine(0, 240, 120)), "complete")
     assert len(remedy.reasons) == len(remedy.devices) == 8
     assert remedy.reasons[0] == ("Order 1 moment turning with the crank: counterweights turn with it too and cancel it")
     assert remedy.reasons[-1].endswith(
@@ -32,10 +32,12 @@ def test_own_devices_count():
     assert [s.ratio for s in size_auto(fit_devices(engine, half)).shafts] == [-2]
 
 
-def test_staggered_rods_on_one_throw_get_planes_at_the_outer_cylinders():
-    remedy = size_auto(build_text(write_engine(0, layout="bank_angle = 60\nstagger = 24")))
-    assert {d.position for d in remedy.counterweights} == {0.0}  # forward vectors of both rods lie on the pin
-    assert {d.position for d in remedy.shafts if d.ratio == -1} == {-12.0, 12.0}
+def test_devices_of_one_throw_stand_half_a_bore_to_either_side():
+    text = write_engine(0, layout="bank_angle = 60\nstagger = 24")
+    for bore, planes in (("", {-50.0, 50.0}), ("bore = 80\n", {-40.0, 40.0})):
+        remedy = size_auto(build_text(text.replace("[piston]\n", f"[piston]\n{bore}")))
+        assert {d.position for d in remedy.counterweights} == planes
+        assert {d.position for d in remedy.shafts if d.ratio == -1} == planes
 
 
 def test_sizing_does_not_depend_on_speed():

@@ -405,7 +405,7 @@ def test_a_factor_alone_chooses_its_scheme(ford):
         assert found.status == 0
         assert "bobweight (51 %)" in found.out
     assert run_here("balance", ford, "--factor", "51%").out == in_full
-    assert "Ford 302: auto\n" in run_here("balance", ford).out
+    assert "Ford 302: counterweights at every throw (auto)\n" in run_here("balance", ford).out
 
 
 def test_a_table_with_a_row_for_each_factor(ford):

@@ -45,7 +45,7 @@ def devices(remedy: Remedy) -> list[tuple[float, ...]]:
 def test_a_remedy_does_not_depend_on_the_point_of_reference(name, scheme):
     """Moments are counted from it, but devices stand where the engine needs them."""
     plain, moved = (build_text(SMALL[name] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n"))
-    here, there = (size(e, scheme) for e in (plain, moved))
+    here, there = (size_scheme(e, scheme, small=0) for e in (plain, moved))
     assert len(there.devices) == len(here.devices)
     for one, other in zip(devices(here), devices(there), strict=True):
         assert other == pytest.approx(one, rel=1e-10, abs=1e-9)
@@ -306,7 +306,9 @@ def star(cylinders):
 
 def test_the_lowest_order_that_is_there_up_to_8():
     """Of a star of k cylinders, order k - 1 is the first that turns against the crank."""
-    assert size(star(9), "single-shaft").order == 8
+    assert size_scheme(star(9), "single-shaft", small=0).order == 8
+    with pytest.raises(BalcliError, match=r"against the crank is .* N \(order 8\), small beside one cylinder"):
+        size(star(9), "single-shaft")
     assert size(star(11), "single-shaft").note.startswith(
         "there is no free force turning against the crank of orders 1 to 8: nothing to balance"
     )
@@ -398,7 +400,7 @@ def test_dust_of_an_unbalance_is_no_device(scheme):
         remedy = size(build_text(vee + weight), scheme)
         assert not remedy.counterweights
         if scheme == "counterweights":
-            assert remedy.note.startswith("No force")
+            assert remedy.note.startswith("Order 1 is balanced already: counterweights change no free force")
 
 
 @pytest.mark.parametrize(
