@@ -16,7 +16,7 @@ from support.engines import GOOD, RADIAL, build_text, inline_engine, rotary_engi
 from support.paths import ENGINES
 
 from balcli.analysis import show as analysis
-from balcli.analysis.answer import QUANTITIES, analyze
+from balcli.analysis.answer import UNASKED, analyze
 from balcli.core.records import to_document
 from balcli.errors import BalcliError
 from balcli.shell.options import parse_parts
@@ -121,9 +121,11 @@ WIDE = [0, 72, 144, 216, 288]
 
 def parts(subject, view=IN_BRIEF, **options):
     """Titles of a sheet's parts, and the first cells of its first table."""
-    found = analysis.sheet(analyze(subject, only=QUANTITIES, **options), SYSTEMS["si"], view).parts
+    found = analysis.sheet(analyze(subject, only=[*UNASKED, "ladder"], **options), SYSTEMS["si"], view).parts
     first = next((part for part in found if isinstance(part, Grid)), None)
-    return [part.title.split(":")[0] for part in found], [row[0] for row in (() if first is None else first.rows)]
+    return [part.title.split(":")[0].split(" (")[0] for part in found], [
+        row[0] for row in (() if first is None else first.rows)
+    ]
 
 
 BRIEF = [
@@ -131,7 +133,7 @@ BRIEF = [
     "Verdict",
     "Largest by order, and its parts that turn with the crank and against it",
     "Largest over a revolution",
-    "Sizing",
+    "What balances it, step by step",
 ]
 
 
@@ -173,7 +175,8 @@ def test_an_unknown_quantity_is_refused_with_those_there_are():
     with pytest.raises(BalcliError) as caught:
         analyze(inline_engine([0]), only=["bending"])
     assert str(caught.value) == (
-        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, sizing, gas, inner, guide"
+        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
+        "sizing, ladder, gas, inner, guide"
     )
 
 

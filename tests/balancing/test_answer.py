@@ -63,6 +63,7 @@ def test_json_has_devices_reasons_and_both_analyses(file):
         "details",
         "before",
         "after",
+        "ladder",
     ]
     assert [s["ratio"] for s in doc["shafts"]] == [-2, 2]
     assert doc["shafts"][0]["at_mm"] == [-40, 60]
@@ -78,7 +79,13 @@ def test_csv_has_one_figure_a_line(file):
     rows = ask_csv("balance", file)
     devices = {(r["part"], r["figure"]): r["value"] for r in rows if r["part"].startswith("shaft")}
     assert devices["shaft 1", "ratio"] == "2"
-    assert {r["part"] for r in rows} == {"shaft 1", "shaft 2", "before", "after"}
+    assert {r["part"] for r in rows} == {
+        *(f"counterweight {k}" for k in (1, 2, 3, 4)),
+        "shaft 1",
+        "shaft 2",
+        "before",
+        "after",
+    }
     assert devices["shaft 2", "speed_rpm"] == "6000.0"
 
 
@@ -160,7 +167,9 @@ def engine():
 
 def test_practical_figures_follow_from_their_definitions():
     result = balance(engine(), "single-shaft", SchemeOptions(), tools=Tools(radius=0.06, disc=0.05))
-    weight, shaft = result.practical
+    *weights, shaft = result.practical
+    weight = weights[0]
+    assert [one.unbalance_kg_m for one in weights] == pytest.approx([weight.unbalance_kg_m] * 2)
     omega = engine().omega
     assert weight.mass_kg == pytest.approx(weight.unbalance_kg_m / 0.06)
     assert shaft.force_N == pytest.approx(shaft.unbalance_kg_m * omega**2)

@@ -84,6 +84,7 @@ def test_refusals():
     assert refusal("balance", V8, "--grade", 16, "--mass", -1) == (
         "--grade 16 --mass -1: both must be positive numbers"
     )
-    assert refusal("balance", ENGINES / "i4.toml", "--grade", 16, "--mass", 20).startswith(
-        "--grade: scheme auto fits no counterweights to the crankshaft"
+    asked = ("--scheme", "complete", "--grade", 16, "--mass", 20)
+    assert refusal("balance", ENGINES / "i4.toml", *asked).startswith(
+        "--grade: scheme complete fits no counterweights to the crankshaft"
     )

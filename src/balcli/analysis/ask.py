@@ -31,8 +31,7 @@ def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
     """CSV: the rows of the analysis, each after the engine's name."""
-    devices = "sizing" in one.view.parts
-    header, lines = chapter.rows(one.result, system, devices=devices)
+    header, lines = chapter.rows(one.result, system, named=one.view.parts)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
 
 from ..core.phasors import Array
+from ..core.records import list_figures, remove_unit, to_document
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
 from ..show.csv import Columns, Rows
@@ -17,6 +18,7 @@ from ..show.figures import FigureRow, figure_rows
 from ..show.formats import Renderer
 from ..show.sheet import IN_BRIEF, NAMELESS, Facts, Grid, Sheet, Text, View, sentence
 from ..show.units import System
+from ..sizing.ladder import Ladder
 from . import sections
 from .answer import Analysis, Sizing
 from .devices_show import device_grid, device_rows, ladder_grid, number_devices
@@ -183,20 +185,24 @@ def columns(result: Analysis) -> Columns:
     return Columns(values, units)
 
 
-def rows(result: Analysis, system: System, *, devices: bool = True) -> Rows:
+def rows(
+    result: Analysis, system: System, *, named: Collection[str] = ("sizing", "ladder")
+) -> Rows:
     """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve.
 
     Args:
-        devices: whether those of the sizing are wanted.
+        named: which of sizing and ladder (SI) are wanted.
     """
     header = ("cylinder", "quantity", "order", "figure", "value", "unit")
-    return Rows(header, _all_rows(result, system, devices=devices))
+    return Rows(header, _all_rows(result, system, named))
 
 
-def _all_rows(result: Analysis, system: System, *, devices: bool) -> Iterator[FigureRow]:
+def _all_rows(result: Analysis, system: System, named: Collection[str]) -> Iterator[FigureRow]:
     shares = {share.cylinder: share.spectra for share in result.cylinders or ()}
     yield from figure_rows(result, system, shares)
-    if devices and result.sizing is not None:
+    if "ladder" in named and result.ladder is not None:
+        yield from _list_ladder(result.ladder)
+    if "sizing" in named and result.sizing is not None:
         for part, device in number_devices(result.sizing.remedy.devices):
             for figure, value, unit in device_rows(device, system):
                 yield FigureRow(0, part, None, figure, value, unit)
@@ -208,6 +214,12 @@ def _all_rows(result: Analysis, system: System, *, devices: bool) -> Iterator[Fi
         yield from sections.list_guide(result.guide, system)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
+
+
+def _list_ladder(ladder: Ladder) -> Iterator[FigureRow]:
+    for step in ladder.steps:
+        for name, value, unit in list_figures(to_document(step), ("step",)):
+            yield FigureRow(0, step.step, None, remove_unit(name), value, unit)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)

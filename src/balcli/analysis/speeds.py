@@ -277,8 +277,8 @@ def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
 
 def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
     """CSV: the rows of each analysis after the engine's name and the speed."""
-    devices = "sizing" in one.view.parts
-    every = [analysis_show.rows(each, system, devices=devices) for each in one.result.analyses]
+    named = one.view.parts
+    every = [analysis_show.rows(each, system, named=named) for each in one.result.analyses]
     lines = (
         (name_cell(one.name), speed, *line)
         for speed, rows_of_one in zip(one.result.speeds_rpm, every, strict=True)
