@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..core.phasors import EPS, Array, Complex, unit
+from ..core.phasors import EPS, Array, Complex, compose, unit
 from ..engine.engine import Engine, check_engine, find_row
 from ..errors import check_number
 from ..forces.curves import (
@@ -22,7 +22,17 @@ from ..forces.curves import (
     compute_piecemeal,
     divide_revolution,
 )
-from ..forces.kinds import COUPLE, FORCE, GAS, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
+from ..forces.kinds import (
+    COUPLE,
+    FORCE,
+    GAS,
+    MOMENT,
+    ROLL,
+    ROLL_TOTAL,
+    TORQUE,
+    TORQUE_TOTAL,
+    VECTORS,
+)
 from ..forces.rod_forces import compute_rod_forces
 from ..forces.spectrum import take_gas
 from ..shell.arguments import check_count, tell_arguments
@@ -31,7 +41,7 @@ from ..show.figures import list_assumed
 from ..show.formats import Columnar
 from ..show.result import Result
 
-_MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
+_MOMENTS = [MOMENT.key_along(axis) for axis in ("x", "y", *MOMENT.upright)]
 
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
@@ -69,14 +79,22 @@ class Curves(Result):
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
     """Free force (N), moment, couple, inertia torque and roll (N m) of a whole engine, devices
-    included.
+    included; force and moment also by which way is up, if that is known.
 
     Args:
         engine: without trailing axes.
         crank_deg: shape (angles,).
     """
-    curves = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
-    return replace(curves, assumed=list_assumed(engine.places_known))
+    found = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
+    curves = dict(found.curves)
+    if engine.up_deg is not None:
+        for kind in VECTORS:
+            x, y = (curves[kind.key_along(axis)] for axis in "xy")
+            turned = unit(-engine.up_deg) * compose(x, y)
+            noise = 4 * EPS * np.abs(turned).max(initial=0)
+            for word, part in zip(kind.upright, (turned.real, turned.imag), strict=True):
+                curves[kind.key_along(word)] = np.where(np.abs(part) <= noise, 0.0, part)
+    return replace(found, curves=curves, assumed=list_assumed(engine.places_known))
 
 
 def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:

@@ -76,11 +76,12 @@ def order_tables(
 
 
 def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Yield vectors along x and y, as builders list them, if there are any; `every` as of
-    `order_tables`.
+    """Yield vectors along x and y, or vertical and horizontal where the file says which way is up,
+    as builders list them, if there are any; `every` as of `order_tables`.
     """
+    up = spectra.up_deg
     vectors = [
-        (kind, phasors, fit_largest(system.unit(kind), phasors))
+        (kind, phasors.turn(-(up or 0.0)), fit_largest(system.unit(kind), phasors))
         for kind, phasors in spectra.vectors()
     ]
     if not vectors:
@@ -92,16 +93,26 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
                 yield size_cell(abs(c), unit)
                 yield degrees(float(phase_deg(c))) if c else ""
 
-    axes = [kind.symbol + axis for kind, _, _ in vectors for axis in "xy"]
+    kinds = [kind for kind, _, _ in vectors]
+    if up is None:
+        title, heads = "Along x and y", [kind.symbol + axis for kind in kinds for axis in "xy"]
+        levers = (
+            "My is the moment of the forces along x (marine: M1V, M2V), Mx of those along y (M1H)."
+        )
+    else:
+        title, heads = (
+            f"Components with up at {up:g} deg from x",
+            [word for kind in kinds for word in kind.upright],
+        )
+        levers = "A vertical force makes a pitching moment, a horizontal one a yawing moment."
     units = ", ".join(unit.name for _, _, unit in vectors)
     yield _table(
-        f"Along x (vertical) and y (horizontal), {units}",
-        [head for axis in axes for head in (axis, "deg")],
+        f"{title}, {units}",
+        [head for axis in heads for head in (axis, "deg")],
         [phasors for _, phasors, _ in vectors],
         cells,
         every,
-        "Value = amplitude · cos(order · θ − angle). My is the moment of the "
-        "forces along x (marine: M1V, M2V), Mx of those along y (M1H).",
+        f"Value = amplitude · cos(order · θ − angle). {levers}",
     )
 
 

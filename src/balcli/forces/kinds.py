@@ -24,6 +24,8 @@ class Kind(NamedTuple):
         vector: Whether it is a vector of the x-y plane; a scalar acts about the crank's axis.
         dimension: Force or moment.
         plus, minus: Names of the kinds of which it is the sum and difference, if any.
+        prefix: How a vector has an axis: "along" it or "about" it.
+        upright: Names of the components of a vector by `frame.up`, and by the axis 90 deg ahead.
     """
 
     name: str
@@ -34,6 +36,8 @@ class Kind(NamedTuple):
     dimension: Dimension = "moment"
     plus: tuple[str, ...] = ()
     minus: tuple[str, ...] = ()
+    prefix: str = ""
+    upright: tuple[str, ...] = ()
 
     @property
     def si_unit(self) -> str:
@@ -45,14 +49,35 @@ class Kind(NamedTuple):
         """Names of the kinds from which this one is computed: itself, or those that it sums up."""
         return (*self.plus, *self.minus) or (self.name,)
 
+    def name_axes(self, up_deg: float | None) -> tuple[str, ...]:
+        """Return what both components of a vector are called: along x and y, or by `up_deg`."""
+        return self.upright if up_deg is not None else (f"{self.prefix} x", f"{self.prefix} y")
+
     def key_along(self, axis: str) -> str:
         """Return the JSON key of its component along an axis: `force_x_N`."""
         stem, _, unit = self.key.rpartition("_")
         return f"{stem}_{axis}_{unit}"
 
 
-FORCE = Kind("force", "free force", "F", "force_N", vector=True, dimension="force")
-MOMENT = Kind("moment", "free moment", "M", "moment_Nm", vector=True)
+FORCE = Kind(
+    "force",
+    "free force",
+    "F",
+    "force_N",
+    vector=True,
+    dimension="force",
+    prefix="along",
+    upright=("vertical", "horizontal"),
+)
+MOMENT = Kind(
+    "moment",
+    "free moment",
+    "M",
+    "moment_Nm",
+    vector=True,
+    prefix="about",
+    upright=("yawing", "pitching"),
+)
 COUPLE = Kind("couple", "couple C", "C", "couple_Nm")
 TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm")
 ROLL = Kind("roll", "roll C − T", "C − T", "roll_Nm", plus=("couple",), minus=("torque",))
