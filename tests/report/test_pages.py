@@ -92,7 +92,7 @@ def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
     root = ET.fromstring(draw_page(PageSubject(Study(five)), "polar", "svg"))
     texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
     assert [text for text in texts if text.startswith("Free force: negligible (")]
-    assert "moment along x, N·m" in texts
+    assert "moment about x, N·m" in texts
     assert "force along x, N" not in texts
 
 

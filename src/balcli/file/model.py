@@ -267,8 +267,8 @@ class Frame(FileTable):
     """x, y, z of the point about which all moments are taken; left out: on the crank axis,
     half-way between the first and the last throw. Example: [0, 0, 0]"""
     up: Angle | None = None
-    """Direction that points up on the test bed, from the x axis; with it results are named
-    vertical, horizontal, yawing and pitching. Example: 0"""
+    """Direction that points up on the test bed, from the x axis in the sense of rotation; left
+    out: results name x and y. Example: 0"""
 
 
 class Override(FileTable):

@@ -131,16 +131,17 @@ def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
-    """Where to draw the shafts that stand within the circle of the crank pins, where none can be:
-    beside the engine, those that turn with the crank on the right, the others on the left; x + iy
-    (m) by rows of the devices.
+    """Return places on the page for shafts within the circle of the crank pins, where none can
+    stand: those that turn with the crank to the right of the engine, the others to its left;
+    upwards + i to the right (m) by rows of the devices.
 
     Args:
         bore: m.
     """
     c = engine.cylinders
     r = float(c.radius)
-    across, reach = np.sin(np.radians(c.axis_of_each_deg)), r + r / c.lam + bore
+    leans = np.radians(c.axis_of_each_deg - (engine.up_deg or 0.0))
+    across, reach = np.sin(leans), r + r / c.lam + bore
     width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
     found: dict[int, complex] = {}
     rows: dict[tuple[int, bool], int] = {}  # of each shaft on its side of the engine
@@ -157,9 +158,9 @@ def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> dic
     """A device for the page, turned: unbalance in g mm, places in mm; `drawn`: where it is shown
     instead of its place.
     """
-    place = complex(device.place) if drawn is None else drawn
-    vectors = np.array([device.forward, device.backward, place])
+    vectors = np.array([device.forward, device.backward, device.place])
     forward, backward, place = (unit(turn_deg) * vectors).tolist()
+    place = place if drawn is None else drawn
     return {
         "order": order_number(device.order),
         "forward": [forward.real * 1e6, forward.imag * 1e6],
