@@ -276,29 +276,6 @@ def _settle(values: Array) -> Array:
     return np.where(np.abs(values) <= _ROUNDING * np.abs(values).max(initial=0), 0.0, values)
 
 
-def compute_curves(engine: Engine, cylinder: int | None, crank_deg: Array) -> Curves:
-    """Curves of the engine (cylinder None), or of the cylinder with this number.
-
-    Args:
-        engine: without trailing axes.
-        cylinder: as the engine file counts them.
-        crank_deg: shape (angles,).
-
-    Raises:
-        BalcliError: the engine has no such cylinder.
-    """
-    if cylinder is None:
-        found = compute_engine_curves(engine, crank_deg)
-    else:
-        found = compute_cylinder_curves(engine, cylinder, crank_deg)
-    if engine.gas is None:
-        return found
-
-    if cylinder is None:
-        return add_gas_torque(engine, found)
-    return add_cylinder_gas(engine, cylinder, found)
-
-
 @tell_arguments(step="step_deg")
 def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None) -> Curves:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
@@ -329,7 +306,12 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
 
 def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float) -> Curves:
     """Return the curves at angles this far apart over a cycle; errors as of `curves`."""
-    return compute_curves(engine, cylinder, divide_revolution(step_deg, engine.cycle_revolutions))
+    crank_deg = divide_revolution(step_deg, engine.cycle_revolutions)
+    if cylinder is None:
+        found = compute_engine_curves(engine, crank_deg)
+        return found if engine.gas is None else add_gas_torque(engine, found)
+    found = compute_cylinder_curves(engine, cylinder, crank_deg)
+    return found if engine.gas is None else add_cylinder_gas(engine, cylinder, found)
 
 
 def columns(curves: Curves) -> Columns:

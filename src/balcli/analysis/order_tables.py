@@ -44,6 +44,8 @@ if TYPE_CHECKING:
 Cells = tuple[str, ...]
 WHOLE_TURN = 360 - 1e-6  # deg
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
+_LEVERS = "My is the moment of the forces along x (marine: M1V, M2V), Mx of those along y (M1H)."
+_UPRIGHT_LEVERS = "A vertical force makes a pitching moment, a horizontal one a yawing moment."
 _AS_BUILT = (
     "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
     "without devices, at steady speed."
@@ -93,18 +95,11 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
                 yield size_cell(abs(c), unit)
                 yield degrees(float(phase_deg(c))) if c else ""
 
-    kinds = [kind for kind, _, _ in vectors]
-    if up is None:
-        title, heads = "Along x and y", [kind.symbol + axis for kind in kinds for axis in "xy"]
-        levers = (
-            "My is the moment of the forces along x (marine: M1V, M2V), Mx of those along y (M1H)."
-        )
-    else:
-        title, heads = (
-            f"Components with up at {up:g} deg from x",
-            [word for kind in kinds for word in kind.upright],
-        )
-        levers = "A vertical force makes a pitching moment, a horizontal one a yawing moment."
+    title, levers = "Along x and y", _LEVERS
+    heads = [kind.symbol + axis for kind, *_ in vectors for axis in "xy"]
+    if up is not None:
+        title, levers = f"Components with up at {up:g} deg from x", _UPRIGHT_LEVERS
+        heads = [word for kind, *_ in vectors for word in kind.upright]
     units = ", ".join(unit.name for _, _, unit in vectors)
     yield _table(
         f"{title}, {units}",

@@ -387,7 +387,7 @@ def _tell_direction(k: int, vector: _Vector) -> str:
     """
     kind, axis_deg, up = vector.kind, float(vector.phasors.axis_deg[k]), vector.up_deg
     angle = degrees(axis_deg, 180)
-    axis = f"{kind.prefix} {_AXES.get(angle) or f'an axis at {angle} deg'}"
+    axis = kind.tell_axis(_AXES.get(angle) or f"an axis at {angle} deg")
     if up is None:
         return axis
     names = dict(zip(_AXES, kind.upright, strict=True))

@@ -24,7 +24,7 @@ from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
 from ..names import NOTEBOOK, VARY, import_name
-from .numbering import doubt_firing, doubt_splay, find_fitting_splay
+from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
 if TYPE_CHECKING:
@@ -159,8 +159,7 @@ class Engine:
         of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
             return of_gas
-        of_crank = (*doubt_firing(self.model), *doubt_splay(self.model))
-        return (*find_suspicious(self.model), *of_crank, *of_gas)
+        return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
 
     @property
     def speed_assumed(self) -> bool:

@@ -161,7 +161,7 @@ class Candidate:
         radius = float(np.max(c.radius))
         one = mass * radius * (self.model.operation.speed * RPM) ** 2
         known = self._knows_places or parts.plan.throws == 1
-        return max(force, known * moment / max(float(np.ptp(c.z)), 2 * radius)) / one
+        return max(force, known * moment / max(float(np.ptp(c.z)), 2 * radius)) / (one or np.inf)
 
     @property
     def _knows_places(self) -> bool:
@@ -475,10 +475,12 @@ USUAL_FLAT_ORDERS = {
 
 def doubt_firing(model: EngineFile) -> Iterator[str]:
     """Yield warnings: a numbering that was inferred, a crank inferred from an order that nobody
-    builds, and throws with which all cylinders fire in one revolution of two.
+    builds, and throws with which all cylinders fire in one revolution of two; without a firing
+    order, a splay of the wrong sign.
     """
     parts = Parts(model)
     if parts.order is None:
+        yield from _doubt_splay(model) if model.crank.splay else ()
         return
     layout, plan = model.layout, parts.plan
     if layout.numbering is not None and "numbering" not in layout.model_fields_set:
@@ -506,13 +508,9 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
             )
 
 
-def doubt_splay(model: EngineFile) -> Iterator[str]:
-    """Yield a warning if the splay of split pins leaves what its opposite would balance, and no
-    firing order says which of both is meant.
-    """
+def _doubt_splay(model: EngineFile) -> Iterator[str]:
+    """Yield a warning if the splay of split pins leaves what its opposite would balance."""
     splay = model.crank.splay
-    if not splay or model.layout.firing_order is not None:
-        return
     opposite = model.with_table("crank", splay=-splay)
     here, there = (Candidate(each, []).backward_share for each in (model, opposite))
     if there < SMALL <= here:

@@ -11,6 +11,7 @@ from typing import Literal, NamedTuple
 
 Dimension = Literal["force", "moment"]
 _SI: dict[Dimension, str] = {"force": "N", "moment": "N·m"}
+_UPRIGHT = {"force": ("vertical", "horizontal"), "moment": ("yawing", "pitching")}
 
 
 class Kind(NamedTuple):
@@ -24,8 +25,6 @@ class Kind(NamedTuple):
         vector: Whether it is a vector of the x-y plane; a scalar acts about the crank's axis.
         dimension: Force or moment.
         plus, minus: Names of the kinds of which it is the sum and difference, if any.
-        prefix: How a vector has an axis: "along" it or "about" it.
-        upright: Names of the components of a vector by `frame.up`, and by the axis 90 deg ahead.
     """
 
     name: str
@@ -36,8 +35,6 @@ class Kind(NamedTuple):
     dimension: Dimension = "moment"
     plus: tuple[str, ...] = ()
     minus: tuple[str, ...] = ()
-    prefix: str = ""
-    upright: tuple[str, ...] = ()
 
     @property
     def si_unit(self) -> str:
@@ -49,9 +46,20 @@ class Kind(NamedTuple):
         """Names of the kinds from which this one is computed: itself, or those that it sums up."""
         return (*self.plus, *self.minus) or (self.name,)
 
-    def name_axes(self, up_deg: float | None) -> tuple[str, ...]:
-        """Return what both components of a vector are called: along x and y, or by `up_deg`."""
-        return self.upright if up_deg is not None else (f"{self.prefix} x", f"{self.prefix} y")
+    @property
+    def upright(self) -> tuple[str, str]:
+        """Names of the components of a vector by `frame.up`, and by the axis 90 deg ahead."""
+        return _UPRIGHT[self.dimension]
+
+    def tell_axis(self, axis: str) -> str:
+        """Return an axis along which a force acts, or about which a moment does."""
+        return f"{'along' if self.dimension == 'force' else 'about'} {axis}"
+
+    def name_components(self, up_deg: float | None) -> tuple[str, str]:
+        """Return names of the components of a vector, by x and y or by `up_deg` if it is known."""
+        if up_deg is None:
+            return f"{self.name} {self.tell_axis('x')}", f"{self.name} {self.tell_axis('y')}"
+        return f"{self.upright[0]} {self.name}", f"{self.upright[1]} {self.name}"
 
     def key_along(self, axis: str) -> str:
         """Return the JSON key of its component along an axis: `force_x_N`."""
@@ -59,25 +67,8 @@ class Kind(NamedTuple):
         return f"{stem}_{axis}_{unit}"
 
 
-FORCE = Kind(
-    "force",
-    "free force",
-    "F",
-    "force_N",
-    vector=True,
-    dimension="force",
-    prefix="along",
-    upright=("vertical", "horizontal"),
-)
-MOMENT = Kind(
-    "moment",
-    "free moment",
-    "M",
-    "moment_Nm",
-    vector=True,
-    prefix="about",
-    upright=("yawing", "pitching"),
-)
+FORCE = Kind("force", "free force", "F", "force_N", vector=True, dimension="force")
+MOMENT = Kind("moment", "free moment", "M", "moment_Nm", vector=True)
 COUPLE = Kind("couple", "couple C", "C", "couple_Nm")
 TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm")
 ROLL = Kind("roll", "roll C − T", "C − T", "roll_Nm", plus=("couple",), minus=("torque",))

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.phasors import Array, Complex, Phasors
-from ..forces.kinds import Kind
 from .plot_style import BLUE, INK, PAPER, RED, SOFT, put_legend_above
 from .sheet import NOTHING, VISIBLE, number, order_name, size_text
 from .units import ShownUnit
@@ -26,15 +25,16 @@ _ORDER_ANGLE = 36  # degrees of the order's own angle, at which both of its vect
 _BOX: Any = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 
 
-def set_up_plane(ax: Axes, largest: float, labels: Sequence[str] = ("", "")) -> float:
+def set_up_plane(ax: Axes, largest: float, names: Sequence[str] = (), unit: str = "") -> float:
     """Make the axes a square with the origin in its middle; return half its side.
 
     Args:
         ax: Axes of the picture.
         largest: Size of the largest vector, in the unit of the axes.
-        labels: Labels of the axis upwards and of the axis to the right.
+        names: Components upwards and to the right, for the labels of the axes; empty: no labels.
+        unit: Unit of the axes.
     """
-    up, right = labels
+    up, right = (f"{name}, {unit}" for name in names) if names else ("", "")
     limit = 1.25 * (largest or 1.0)
     ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel=right, ylabel=up)
     ax.locator_params(nbins=5)
@@ -72,20 +72,11 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
             written.append(spot)
 
 
-def label_axes(kind: Kind, up_deg: float | None, unit: str) -> list[str]:
-    """Return the labels of the axes for a force or moment, as for `set_up_plane`."""
-    names = kind.name_axes(up_deg)
-    if up_deg is not None:
-        return [f"{name} {kind.name}, {unit}" for name in names]
-    return [f"{kind.name} {name}, {unit}" for name in names]
-
-
 def draw_locus(
     ax: Axes,
     curve: Phasors,
-    kind: Kind,
+    names: Sequence[str],
     unit: ShownUnit,
-    up_deg: float | None = None,
     before: Phasors | None = None,
 ) -> None:
     """Draw where the tip of a vector goes in a revolution, dashed where it went `before`."""
@@ -93,7 +84,7 @@ def draw_locus(
     paths = [each.values(np.radians(np.arange(find_period_deg(each) + 1))) for each in shown]
     largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
     s = unit.fit(float(most))
-    limit = set_up_plane(ax, float(most) / s.size, label_axes(kind, up_deg, s.name))
+    limit = set_up_plane(ax, float(most) / s.size, names, s.name)
     path, *others = (each / s.size for each in paths)
     angles = np.arange(len(path), dtype=float)
     for old in others:
@@ -126,17 +117,15 @@ def find_period_deg(curve: Phasors) -> int:
 
 
 def draw_order(
-    ax: Axes, curve: Phasors, k: int, kind: Kind, unit: ShownUnit, up_deg: float | None = None
+    ax: Axes, curve: Phasors, k: int, what: str, names: Sequence[str], unit: ShownUnit
 ) -> None:
     """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
     order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_ORDER_ANGLE))
     s = unit.fit(float(curve.major[k]))
     forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size
     path = forward * np.exp(1j * FINE) + backward * np.exp(-1j * FINE)
-    set_up_plane(ax, float(np.abs(path).max()), label_axes(kind, up_deg, s.name))
-    ax.set_title(
-        f"{kind.name}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°"
-    )
+    set_up_plane(ax, float(np.abs(path).max()), names, s.name)
+    ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
     ax.plot(path.imag, path.real, color=INK)
     start = 0j
     for vector, colour, style, way in (

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import chain, islice, tee
+from itertools import islice, tee
 from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
@@ -23,7 +23,7 @@ import numpy as np
 from ..core.phasors import Array
 from ..engine.engine import Engine, check_engine, take_model
 from ..engine.load import concerns_gas
-from ..engine.numbering import doubt_firing, doubt_splay
+from ..engine.numbering import doubt_firing
 from ..engine.parse import read
 from ..errors import BalcliError, InputError, naming_file
 from ..file.doubts import find_suspicious
@@ -92,8 +92,7 @@ class Sweep:
     def doubts(self) -> list[str]:
         """What is unlikely of the file, unless it varies."""
         with naming_file(self.name):
-            found = find_suspicious(self.file), doubt_firing(self.file), doubt_splay(self.file)
-            all_of_file = [*chain(*found)]
+            all_of_file = [*find_suspicious(self.file), *doubt_firing(self.file)]
         varied = [p.path.rstrip(".0123456789") for p in self.parameters]
         return [d for d in all_of_file if not any(one in d for one in varied)]
 

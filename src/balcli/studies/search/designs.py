@@ -234,7 +234,7 @@ def parse_objective(
         weights |= dict.fromkeys(_parse_sizes(name, with_gas), share)
         all_weighted &= bool(weight)
     if not all_weighted:
-        _refuse_several_units(tuple(weights), "maximise" if maximise else "minimise")
+        _refuse_several_units(weights, "maximise" if maximise else "minimise")
     bounds: dict[AnyQuantity, float] = {}
     for text in limits:
         name, less, bound = text.partition("<")
@@ -250,18 +250,17 @@ def parse_objective(
 _RATIOS = {("N", "N·m"): "1/m", ("N·m", "N"): "m"}  # of units, in short
 
 
-def _refuse_several_units(quantities: Sequence[AnyQuantity], option: str) -> None:
+def _refuse_several_units(quantities: Iterable[AnyQuantity], option: str) -> None:
     """Raise BalcliError if quantities that are to be added up have different units."""
-    units = list(dict.fromkeys(q.unit or "1" for q in quantities))
-    ratios = {unit: _RATIOS.get((units[0], unit), f"{units[0]}/{unit}") for unit in units[1:]}
-    weights = (
-        f"{q.name}=8 ({ratios[unit]})" if (unit := q.unit or "1") in ratios else f"{q.name}=1"
-        for q in quantities
+    units = {q.name: q.unit or "1" for q in quantities}
+    first, *others = dict.fromkeys(units.values())
+    if not others:
+        return
+    ratios = {unit: f"=8 ({_RATIOS.get((first, unit), f'{first}/{unit}')})" for unit in others}
+    weights = ", ".join(name + ratios.get(unit, "=1") for name, unit in units.items())
+    raise BalcliError(
+        f"--{option} adds up {' and '.join([first, *others])}; give weights: {weights}"
     )
-    if ratios:
-        raise BalcliError(
-            f"--{option} adds up {' and '.join(units)}; give weights: {', '.join(weights)}"
-        )
 
 
 def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
