@@ -29,7 +29,7 @@ def engine(throws: list[float], layout: str = "") -> EngineFile:
 
 
 def test_in_line_four() -> None:
-    found = search_least(load(SHUFFLED), "throws", "moment.1.major,force.1.major=1").results
+    found = search_least(load(SHUFFLED), "throws", "moment.1.major=1,force.1.major=1").results
     assert [r.design["throws"] for r in found] == [[0, 180, 180, 0], [0, 180, 0, 180], [0, 0, 180, 180]]
     assert found[0].objective == 0
 
@@ -45,7 +45,7 @@ def test_in_line_four() -> None:
     ],
 )
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
-    file, wanted = (engine(throws, layout), parse_objective("moment.1.major,moment.2.backward=2,force.1.major=0.5"))
+    file, wanted = (engine(throws, layout), parse_objective("moment.1.major=1,moment.2.backward=2,force.1.major=0.5"))
     every = np.array(
         sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])]
     )
