@@ -137,8 +137,8 @@ def search(
         str | None,
         optional(
             "WHAT[=WEIGHT],...",
-            "What should be small, such as moment.1.major=1,force.2.major=0.5 (different units need "
-            "weights); any quantity that sweep has, such as shaft.flywheel.torque.",
+            "What should be small, such as moment.1.major=1,force.2.major=0.5 (different units "
+            "need weights); any quantity that sweep has, such as shaft.flywheel.torque.",
             "--minimise",
             "--minimize",
         ),
