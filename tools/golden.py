@@ -179,7 +179,7 @@ sweep engines/i4.toml --vary rod.ratio=1:2
 sweep engines/i4.toml --vary rod.ratio=0.2:0.3:0.1 -q nosuch
 search engines/i5.toml --over throws --minimise moment.1.major -f json
 search engines/i6.toml --over firing_order --minimise moment.1.major -f json
-search engines/v6_60.toml --over bank_angle --minimise force.2.major,moment.2.major=0.5 -f json
+search engines/v6_60.toml --over bank_angle --minimise force.2.major=1,moment.2.major=0.5 -f json
 search engines/v6_90_split.toml --over splay --minimise moment.1.major -f csv
 search engines/i4.toml --over rod.ratio=0.2:0.3 --minimise force.2.major -f json
 search engines/i5.toml --over throws --minimise moment.2.major

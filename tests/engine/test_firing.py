@@ -205,3 +205,19 @@ def test_a_pin_a_rounding_error_short_of_a_turn_is_at_its_place():
 def test_an_order_is_not_doubted_where_it_is_even_or_none_is(parts):
     doubts = engine(**parts).doubts
     assert not [doubt for doubt in doubts if "firing" in doubt or "splay" in doubt]
+
+
+@pytest.mark.parametrize(
+    ("splay", "more", "words"),
+    [
+        (60, {}, "crank.splay = 60: what turns against the crank in order 1 is 75 % of one"),
+        (-60, {}, ""),
+        (60, {"firing_order": [1, 2, 3, 4, 5, 6]}, ""),
+    ],
+)
+def test_a_splay_of_the_wrong_sign_is_doubted(splay, more, words):
+    """A 60-degree V6 with six pins has no moment against the crank; with the other sign it has."""
+    pins = {"throws": [0, 240, 120], "spacing": 100, "splay": splay}
+    doubts = [d for d in engine(crank=pins, layout={"bank_angle": 60, **more}).doubts if "splay" in d]
+    assert len(doubts) == bool(words)
+    assert all(doubt.startswith(words) and "0 % with crank.splay = -60" in doubt for doubt in doubts)

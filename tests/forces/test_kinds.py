@@ -13,7 +13,7 @@ from balcli.forces.spectrum import Spectra, compute_spectra
 
 
 def test_every_kind_is_a_member_of_spectra_in_the_order_of_the_table():
-    assert [field.name for field in fields(Spectra)] == ["orders", *EVERY_KIND]
+    assert [field.name for field in fields(Spectra)] == ["orders", "up_deg", *EVERY_KIND]
 
 
 def test_vectors_and_scalars_are_all_kinds():

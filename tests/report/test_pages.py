@@ -23,6 +23,7 @@ from balcli.analysis.answer import QUANTITIES, analyze
 from balcli.analysis.plot import draw_vector_bars, visible_rows
 from balcli.balancing.answer import balance_engine as balance
 from balcli.core.phasors import Phasors
+from balcli.forces.kinds import FORCE, MOMENT
 from balcli.report.names import OF_GAS, PAGES
 from balcli.report.pages import PageSubject, draw_panel, make_page
 from balcli.report.study import Study
@@ -92,7 +93,7 @@ def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
     root = ET.fromstring(draw_page(PageSubject(Study(five)), "polar", "svg"))
     texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
     assert [text for text in texts if text.startswith("Free force: negligible (")]
-    assert "moment along x, N·m" in texts
+    assert "moment about x, N·m" in texts
     assert "force along x, N" not in texts
 
 
@@ -142,7 +143,7 @@ def test_orders_that_are_always_shown_are_1_and_2():
 def test_crank_angles_do_not_lie_on_one_another(ax):
     """Along a straight line that is run to and fro, two places of the tip are the same."""
     ones = np.array([1.0 + 0j])
-    draw_locus(ax, Phasors.of(np.array([1.0]), ones, ones, np.zeros(1)), "force", SI.force)
+    draw_locus(ax, Phasors.of(np.array([1.0]), ones, ones, np.zeros(1)), FORCE.name_components(None), SI.force)
     places = np.array([text.get_position() for text in ax.texts if "°" in text.get_text()])
     assert len(places) > 2
     apart = np.abs(places[:, None] - places[None])
@@ -212,7 +213,7 @@ def test_locus_has_x_upwards(ax):
             )
         )
     )
-    draw_locus(ax, one.spectra.force, "force", SI.force)
+    draw_locus(ax, one.spectra.force, FORCE.name_components(None), SI.force)
     right, up = next(line for line in ax.lines if len(line.get_xdata()) > 100).get_data()
     force = 0.8 * 0.045 * (3000 * np.pi / 30) ** 2
     assert (right[0], up[0]) == pytest.approx((0, force))
@@ -224,7 +225,7 @@ def test_a_small_locus_says_its_size_instead_of_crank_angles(ax, share, marked):
     """Marks would lie on one another."""
     before = Phasors.of(np.array([1.0]), np.array([100 + 0j]), np.zeros(1, complex), np.zeros(1))
     after = replace(before, vectors=share * before.vectors)
-    draw_locus(ax, after, "force", SI.force, before)
+    draw_locus(ax, after, FORCE.name_components(None), SI.force, before)
     texts = [text.get_text() for text in ax.texts]
     assert ("60°" in texts) == marked
     assert (f"at most {100 * share:g} N" in texts) != marked
@@ -235,7 +236,7 @@ def test_a_small_locus_says_its_size_instead_of_crank_angles(ax, share, marked):
 
 def test_bars_are_both_vectors_and_add_up_to_the_largest_value(ax, four):
     force = four.spectra.force
-    draw_vector_bars(ax, force, "force", SI.force)
+    draw_vector_bars(ax, force, FORCE.name_components(None), SI.force)
     rows = visible_rows(force)
     heights = np.array([bar.get_height() for bar in ax.patches[: 2 * len(rows)]]).reshape(2, -1)
     unit = 1e3 if force.major.max() >= 5000 else 1
@@ -252,7 +253,7 @@ def test_a_balanced_quantity_says_so(ax):
             )
         )
     )
-    draw_locus(ax, six.spectra.moment, "moment", SI.moment)
+    draw_locus(ax, six.spectra.moment, MOMENT.name_components(None), SI.moment)
     assert "balanced" in [text.get_text() for text in ax.texts]
 
 

@@ -40,6 +40,7 @@ def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
         "note: standard input: not in the file: operation.speed = 1000 rpm",
         "note: standard input: not in the file: frame.reference: on the crank axis, half-way between the first "
         "and the last throw",
+        "note: standard input: not in the file: frame.up: results name x and y",
         "note: standard input: not in the file: rod.mass: a rod without mass",
         WARNING.strip(),
         f"note: {target}: written, {target.stat().st_size} bytes",

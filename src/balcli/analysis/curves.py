@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..core.phasors import EPS, Array, Complex, unit
+from ..core.phasors import EPS, Array, Complex, compose, unit
 from ..engine.engine import Engine, check_engine, find_row
 from ..errors import check_number
 from ..forces.curves import (
@@ -22,7 +22,17 @@ from ..forces.curves import (
     compute_piecemeal,
     divide_revolution,
 )
-from ..forces.kinds import COUPLE, FORCE, GAS, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
+from ..forces.kinds import (
+    COUPLE,
+    FORCE,
+    GAS,
+    MOMENT,
+    ROLL,
+    ROLL_TOTAL,
+    TORQUE,
+    TORQUE_TOTAL,
+    VECTORS,
+)
 from ..forces.rod_forces import compute_rod_forces
 from ..forces.spectrum import take_gas
 from ..shell.arguments import check_count, tell_arguments
@@ -31,7 +41,7 @@ from ..show.figures import list_assumed
 from ..show.formats import Columnar
 from ..show.result import Result
 
-_MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
+_MOMENTS = [MOMENT.key_along(axis) for axis in ("x", "y", *MOMENT.upright)]
 
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
 
@@ -69,14 +79,22 @@ class Curves(Result):
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
     """Free force (N), moment, couple, inertia torque and roll (N m) of a whole engine, devices
-    included.
+    included; force and moment also by which way is up, if that is known.
 
     Args:
         engine: without trailing axes.
         crank_deg: shape (angles,).
     """
-    curves = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
-    return replace(curves, assumed=list_assumed(engine.places_known))
+    found = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
+    curves = dict(found.curves)
+    if engine.up_deg is not None:
+        for kind in VECTORS:
+            x, y = (curves[kind.key_along(axis)] for axis in "xy")
+            turned = unit(-engine.up_deg) * compose(x, y)
+            noise = 4 * EPS * np.abs(turned).max(initial=0)
+            for word, part in zip(kind.upright, (turned.real, turned.imag), strict=True):
+                curves[kind.key_along(word)] = np.where(np.abs(part) <= noise, 0.0, part)
+    return replace(found, curves=curves, assumed=list_assumed(engine.places_known))
 
 
 def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
@@ -258,29 +276,6 @@ def _settle(values: Array) -> Array:
     return np.where(np.abs(values) <= _ROUNDING * np.abs(values).max(initial=0), 0.0, values)
 
 
-def compute_curves(engine: Engine, cylinder: int | None, crank_deg: Array) -> Curves:
-    """Curves of the engine (cylinder None), or of the cylinder with this number.
-
-    Args:
-        engine: without trailing axes.
-        cylinder: as the engine file counts them.
-        crank_deg: shape (angles,).
-
-    Raises:
-        BalcliError: the engine has no such cylinder.
-    """
-    if cylinder is None:
-        found = compute_engine_curves(engine, crank_deg)
-    else:
-        found = compute_cylinder_curves(engine, cylinder, crank_deg)
-    if engine.gas is None:
-        return found
-
-    if cylinder is None:
-        return add_gas_torque(engine, found)
-    return add_cylinder_gas(engine, cylinder, found)
-
-
 @tell_arguments(step="step_deg")
 def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None) -> Curves:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
@@ -311,7 +306,12 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
 
 def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float) -> Curves:
     """Return the curves at angles this far apart over a cycle; errors as of `curves`."""
-    return compute_curves(engine, cylinder, divide_revolution(step_deg, engine.cycle_revolutions))
+    crank_deg = divide_revolution(step_deg, engine.cycle_revolutions)
+    if cylinder is None:
+        found = compute_engine_curves(engine, crank_deg)
+        return found if engine.gas is None else add_gas_torque(engine, found)
+    found = compute_cylinder_curves(engine, cylinder, crank_deg)
+    return found if engine.gas is None else add_cylinder_gas(engine, cylinder, found)
 
 
 def columns(curves: Curves) -> Columns:

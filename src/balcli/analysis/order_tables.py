@@ -44,6 +44,8 @@ if TYPE_CHECKING:
 Cells = tuple[str, ...]
 WHOLE_TURN = 360 - 1e-6  # deg
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
+_LEVERS = "My is the moment of the forces along x (marine: M1V, M2V), Mx of those along y (M1H)."
+_UPRIGHT_LEVERS = "A vertical force makes a pitching moment, a horizontal one a yawing moment."
 _AS_BUILT = (
     "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
     "without devices, at steady speed."
@@ -76,11 +78,12 @@ def order_tables(
 
 
 def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Yield vectors along x and y, as builders list them, if there are any; `every` as of
-    `order_tables`.
+    """Yield vectors along x and y, or vertical and horizontal where the file says which way is up,
+    as builders list them, if there are any; `every` as of `order_tables`.
     """
+    up = spectra.up_deg
     vectors = [
-        (kind, phasors, fit_largest(system.unit(kind), phasors))
+        (kind, phasors.turn(-(up or 0.0)), fit_largest(system.unit(kind), phasors))
         for kind, phasors in spectra.vectors()
     ]
     if not vectors:
@@ -92,16 +95,19 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
                 yield size_cell(abs(c), unit)
                 yield degrees(float(phase_deg(c))) if c else ""
 
-    axes = [kind.symbol + axis for kind, _, _ in vectors for axis in "xy"]
+    title, levers = "Along x and y", _LEVERS
+    heads = [kind.symbol + axis for kind, *_ in vectors for axis in "xy"]
+    if up is not None:
+        title, levers = f"Components with up at {up:g} deg from x", _UPRIGHT_LEVERS
+        heads = [word for kind, *_ in vectors for word in kind.upright]
     units = ", ".join(unit.name for _, _, unit in vectors)
     yield _table(
-        f"Along x (vertical) and y (horizontal), {units}",
-        [head for axis in axes for head in (axis, "deg")],
+        f"{title}, {units}",
+        [head for axis in heads for head in (axis, "deg")],
         [phasors for _, phasors, _ in vectors],
         cells,
         every,
-        "Value = amplitude · cos(order · θ − angle). My is the moment of the "
-        "forces along x (marine: M1V, M2V), Mx of those along y (M1H).",
+        f"Value = amplitude · cos(order · θ − angle). {levers}",
     )
 
 

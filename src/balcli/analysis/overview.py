@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.phasors import Phasors
+from ..core.phasors import Phasors, wrap_degrees
 from ..file.messages import ordinal
 from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
@@ -152,7 +152,6 @@ _NAMES = dict(
 )
 _MOST_HIGH_ORDERS = 8  # near the lock dozens matter: these one by one, the others together
 _AXES = {"0.0": "x", "90.0": "y"}
-_SWAYS = {"x": "yawing", "y": "pitching"}
 _Row = tuple[int, float]  # index of an order, and the order
 _UNKNOWN: Mapping[str, float] = MappingProxyType({})
 _UNEVEN = (
@@ -164,10 +163,15 @@ _UNEVEN = (
 class _Vector(NamedTuple):
     """Force or moment, and what one cylinder makes of it (0: not known)."""
 
-    what: str
+    kind: Kind
     phasors: Phasors
     unit: ShownUnit
     single: float
+    up_deg: float | None
+
+    @property
+    def what(self) -> str:
+        return self.kind.name
 
     def size(self, k: int) -> str:
         unit, value = self.unit_at(k), float(self.phasors.major[k])
@@ -198,7 +202,7 @@ def verdict(
         devices: Devices of the file, which are not named as what would cancel an order.
     """
     vectors = [
-        _Vector(kind.name, phasors, system.unit(kind), single.get(kind.name, 0.0))
+        _Vector(kind, phasors, system.unit(kind), single.get(kind.name, 0.0), spectra.up_deg)
         for kind, phasors in spectra.vectors()
     ]
     if not vectors:
@@ -328,14 +332,23 @@ def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device])
         cure = ""
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
     parts = f"{ahead} turns with the crank, {against} against it"
-    direction = _tell_direction(what, float(phasors.axis_deg[k]))
+    direction = _tell_direction(k, vector)
     return f"{what} of up to {size} {direction} ({parts})", cure
 
 
-def _tell_direction(what: str, axis_deg: float) -> str:
-    """A force acts along an axis, a moment about it."""
+def _tell_direction(k: int, vector: _Vector) -> str:
+    """Return the axis along which a force acts, or about which a moment does; and what that is
+    called where the file says which way is up.
+    """
+    kind, axis_deg, up = vector.kind, float(vector.phasors.axis_deg[k]), vector.up_deg
     angle = degrees(axis_deg, 180)
-    axis = _AXES.get(angle) or f"an axis at {angle} deg"
-    if what != "moment":
-        return f"along {axis}"
-    return f"{_SWAYS[axis]} (about {axis})" if axis in _SWAYS else f"about {axis}"
+    axis = kind.tell_axis(_AXES.get(angle) or f"an axis at {angle} deg")
+    if up is None:
+        return axis
+    names = dict(zip(_AXES, kind.upright, strict=True))
+    if name := names.get(degrees(float(wrap_degrees(axis_deg - up, 180)), 180)):
+        return f"{name} ({axis})"
+    turned, unit = vector.phasors.turn(-up), vector.unit_at(k)
+    parts = zip((turned.x[k], turned.y[k]), kind.upright, strict=True)
+    sizes = " and ".join(f"{number(unit.of(abs(c)), 4)} {name}" for c, name in parts)
+    return f"{axis}, {sizes}"

@@ -264,7 +264,7 @@ def place_spectra(
     parts["force"] = force
     parts["moment"] = turn * parts["moment"] + 1j * z * force
     parts["couple"] = parts["couple"] + force.about(x + 1j * y)
-    return Spectra(n, **{kind.name: add_parts(kind, parts) for kind, _ in own.items()})
+    return Spectra(n, None, **{kind.name: add_parts(kind, parts) for kind, _ in own.items()})
 
 
 def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
@@ -289,7 +289,8 @@ def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spec
         parts["gas"], taken_of_gas = _gear(one.gas or none, other.gas or none, arrangement)
         parts["torque_total"] = parts["torque"] + parts["gas"]
         parts["roll_total"] = parts["roll"] - taken_of_gas
-    return Spectra(one.orders, **{name: found.drop_noise() for name, found in parts.items()})
+    found = {name: phasors.drop_noise() for name, phasors in parts.items()}
+    return Spectra(one.orders, one.up_deg, **found)
 
 
 def _gear(one: Phasors, other: Phasors, arrangement: Arrangement) -> tuple[Phasors, Phasors]:

@@ -211,6 +211,11 @@ class Phasors:
         """Components along y as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
         return self._project(-1j)
 
+    def turn(self, degrees: float) -> Phasors:
+        """Return the vectors turned by an angle."""
+        noise = self.noise + 2 * EPS * self.major
+        return Phasors(self.orders, unit(degrees) * self.vectors, noise)
+
     def _project(self, turn: complex) -> Complex:
         """Components along the axis that this factor turns onto x."""
         ahead, against = turn * self.forward, turn * self.backward

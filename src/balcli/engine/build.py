@@ -86,6 +86,7 @@ def build(
         speed_rpm=figures.take("operation.speed", model.operation.speed),
         ripple=parts.find_ripple(),
         reference_m=places.reference,
+        up_deg=model.frame.up,
         devices=tuple(build_devices(model, figures, parts.pins.axes_deg[1])),
         weighed=tuple(parts.weighed[number] for number in parts.numbers),
         places_known=are_places_known(model, parts.plan, varied or ()),

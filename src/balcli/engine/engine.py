@@ -75,6 +75,7 @@ class Engine:
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
+        up_deg: Direction that points up, deg from x; None where the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
         weighed: Masses behind each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
@@ -111,6 +112,7 @@ class Engine:
     crank_inertia: Figure | None = None
     flywheel_inertia: Figure | None = None
     bearings: Bearings | None = None
+    up_deg: float | None = None
     inferred: tuple[str, ...] = ()
     model: EngineFile | None = None
 

@@ -31,6 +31,7 @@ from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
 from ..file.model import EngineFile
+from ..limits import SMALL
 from .devices import build_devices
 from .figures import place_in_plane
 from .layout import (
@@ -148,6 +149,19 @@ class Candidate:
         place, own = place_in_plane(x, y), select_cylinders(few, which)
         loads = Loads(c, devices, place, z, Phases(c, orders), own, square)
         return loads.force.drop_noise(), loads.moment.drop_noise()
+
+    @property
+    def backward_share(self) -> float:
+        """Part of order 1 that turns against the crank, over the first order of the largest
+        cylinder, of force and moment the larger; moments count where their arms are known.
+        """
+        force, moment = (float(abs(p.backward[0])) for p in self.balance)
+        parts, c = self.parts, self.parts.cylinders
+        mass = max(float(each.reciprocating) for each in parts.weighed.values())
+        radius = float(np.max(c.radius))
+        one = mass * radius * (self.model.operation.speed * RPM) ** 2
+        known = self._knows_places or parts.plan.throws == 1
+        return max(force, known * moment / max(float(np.ptp(c.z)), 2 * radius)) / (one or np.inf)
 
     @property
     def _knows_places(self) -> bool:
@@ -461,10 +475,12 @@ USUAL_FLAT_ORDERS = {
 
 def doubt_firing(model: EngineFile) -> Iterator[str]:
     """Yield warnings: a numbering that was inferred, a crank inferred from an order that nobody
-    builds, and throws with which all cylinders fire in one revolution of two.
+    builds, and throws with which all cylinders fire in one revolution of two; without a firing
+    order, a splay of the wrong sign.
     """
     parts = Parts(model)
     if parts.order is None:
+        yield from _doubt_splay(model) if model.crank.splay else ()
         return
     layout, plan = model.layout, parts.plan
     if layout.numbering is not None and "numbering" not in layout.model_fields_set:
@@ -490,6 +506,19 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
                 f"layout.firing_order: {order} needs the throws {listed}, which nobody builds; "
                 f"usual is {usual}; if it is so, give crank.throws"
             )
+
+
+def _doubt_splay(model: EngineFile) -> Iterator[str]:
+    """Yield a warning if the splay of split pins leaves what its opposite would balance."""
+    splay = model.crank.splay
+    opposite = model.with_table("crank", splay=-splay)
+    here, there = (Candidate(each, []).backward_share for each in (model, opposite))
+    if there < SMALL <= here:
+        yield (
+            f"crank.splay = {splay:g}: what turns against the crank in order 1 is {100 * here:.3g} "
+            f"% of one cylinder's first order, and {100 * there:.3g} % with crank.splay = "
+            f"{-splay:g}; change the sign, or give layout.firing_order"
+        )
 
 
 def _find_usual_orders(parts: Parts) -> str:

@@ -266,6 +266,9 @@ class Frame(FileTable):
     reference: Triple | None = None
     """x, y, z of the point about which all moments are taken; left out: on the crank axis,
     half-way between the first and the last throw. Example: [0, 0, 0]"""
+    up: Angle | None = None
+    """Direction that points up on the test bed, from the x axis in the sense of rotation; left
+    out: results name x and y. Example: 0"""
 
 
 class Override(FileTable):

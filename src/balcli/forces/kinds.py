@@ -11,6 +11,7 @@ from typing import Literal, NamedTuple
 
 Dimension = Literal["force", "moment"]
 _SI: dict[Dimension, str] = {"force": "N", "moment": "N·m"}
+_UPRIGHT = {"force": ("vertical", "horizontal"), "moment": ("yawing", "pitching")}
 
 
 class Kind(NamedTuple):
@@ -44,6 +45,21 @@ class Kind(NamedTuple):
     def parts(self) -> tuple[str, ...]:
         """Names of the kinds from which this one is computed: itself, or those that it sums up."""
         return (*self.plus, *self.minus) or (self.name,)
+
+    @property
+    def upright(self) -> tuple[str, str]:
+        """Names of the components of a vector by `frame.up`, and by the axis 90 deg ahead."""
+        return _UPRIGHT[self.dimension]
+
+    def tell_axis(self, axis: str) -> str:
+        """Return an axis along which a force acts, or about which a moment does."""
+        return f"{'along' if self.dimension == 'force' else 'about'} {axis}"
+
+    def name_components(self, up_deg: float | None) -> tuple[str, str]:
+        """Return names of the components of a vector, by x and y or by `up_deg` if it is known."""
+        if up_deg is None:
+            return f"{self.name} {self.tell_axis('x')}", f"{self.name} {self.tell_axis('y')}"
+        return f"{self.upright[0]} {self.name}", f"{self.upright[1]} {self.name}"
 
     def key_along(self, axis: str) -> str:
         """Return the JSON key of its component along an axis: `force_x_N`."""

@@ -53,12 +53,14 @@ class Spectra:
 
     Attributes:
         orders: Orders, ascending, shape (orders,).
+        up_deg: Direction that points up, deg from x; None where the file gives none.
         force: Free force, N.
         moment, couple, torque, roll: N m; the torque is the inertia torque on the crank.
         gas, torque_total, roll_total: N m, of the gas, and of gas and inertia.
     """
 
     orders: Array
+    up_deg: float | None = None
     force: Phasors | None = None
     moment: Phasors | None = None
     couple: Phasors | None = None
@@ -90,7 +92,8 @@ class Spectra:
 
     def only(self, kinds: Collection[str]) -> Spectra:
         """Return the spectra of these kinds alone, by their names."""
-        return Spectra(self.orders, **{k.name: p for k, p in self.items() if k.name in kinds})
+        found = {kind.name: p for kind, p in self.items() if kind.name in kinds}
+        return Spectra(self.orders, self.up_deg, **found)
 
     def with_moment_if(self, known: bool) -> Spectra:
         """Return the spectra, with a computed moment as nan unless it is known."""
@@ -106,13 +109,13 @@ class Spectra:
             return self
         wanted = np.asarray(orders, float)
         rows = np.searchsorted(self.orders, wanted)
-        return Spectra(wanted, **{kind.name: p.select_rows(rows) for kind, p in self.items()})
+        found = {kind.name: p.select_rows(rows) for kind, p in self.items()}
+        return Spectra(wanted, self.up_deg, **found)
 
     def select_place(self, place: int) -> Spectra:
         """Return the spectra of one place along the trailing axis."""
-        return Spectra(
-            self.orders, **{kind.name: p.select_place(place) for kind, p in self.items()}
-        )
+        found = {kind.name: p.select_place(place) for kind, p in self.items()}
+        return Spectra(self.orders, self.up_deg, **found)
 
 
 def compute_spectra(
@@ -144,9 +147,8 @@ def compute_spectra(
     found = _compute_inertia(engine, wanted, parts - {"gas"}, each)
     if "gas" in parts:
         found["gas"] = compute_gas_torque(engine, wanted, each=each)
-    return Spectra(
-        wanted, **{name: add_parts(EVERY_KIND[name], found).drop_noise() for name in kinds}
-    )
+    sums = {name: add_parts(EVERY_KIND[name], found).drop_noise() for name in kinds}
+    return Spectra(wanted, engine.up_deg, **sums)
 
 
 def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:

@@ -69,7 +69,7 @@ def compute_spectra_in_time(
             found = compute_spectra(engine, dense_orders(most, mixed), some)
             counted = count_in_time([p for _, p in found.items()], timetable, orders)
             in_time |= zip((kind.name for kind, _ in found.items()), counted, strict=True)
-    return Spectra(orders, **in_time), timetable.turns
+    return Spectra(orders, None, **in_time), timetable.turns
 
 
 def _find_timetable(engine: Engine, step: float, waves: int, orders: int) -> Timetable:

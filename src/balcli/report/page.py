@@ -18,12 +18,12 @@ from ..balancing import show as balance
 from ..balancing.answer import Balance, balance_engine
 from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
-from ..core.phasors import Array, Phasors
+from ..core.phasors import Array, Phasors, unit
 from ..engine.engine import Engine
 from ..errors import BalcliError, warn
 from ..file.model import EngineFile
 from ..forces.curves import find_torque_curves
-from ..forces.kinds import MOMENT, VECTORS
+from ..forces.kinds import FORCE, MOMENT, VECTORS
 from ..forces.spectrum import take_gas
 from ..mounts import show as mounts
 from ..mounts.answer import report_mounts
@@ -53,7 +53,9 @@ ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to b
 
 
 def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, Any]:
-    """The mechanism, and what shakes as the engine is and with devices fitted."""
+    """The mechanism, and what shakes as the engine is and with devices fitted; turned so that up is
+    up where the file says which way that is.
+    """
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
     bore = bore or ASSUMED_BORE * stroke
@@ -62,6 +64,7 @@ def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, An
         "stroke": stroke,
         "bore": bore,
         "rotary": isinstance(engine.cylinders.linkage, Rotary),
+        "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "cylinders": _cylinder_entries(engine),
         "variants": [_variant_entry(name, each, system, bore) for name, each in shown.items()],
         "units": {
@@ -86,7 +89,7 @@ def _cylinder_entries(engine: Engine) -> list[dict[str, Any]]:
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
     columns = {
         "number": engine.numbers,
-        "axis": c.axis_of_each_deg,
+        "axis": c.axis_of_each_deg - (engine.up_deg or 0.0),
         "phase": c.angle_deg,
         "z": c.z * 1e3,
         "rod": np.broadcast_to(np.ravel(c.radius / c.lam) * 1e3, c.count),
@@ -109,12 +112,13 @@ def _cylinder_entries(engine: Engine) -> list[dict[str, Any]]:
 def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> dict[str, Any]:
     drawn = place_beside(result.engine, bore / 1e3)
     devices = enumerate(result.engine.devices)
+    turn = -(result.engine.up_deg or 0.0)
     entry: dict[str, Any] = {"force": [], "moment": []} | {
-        kind.name: _vector_rows(phasors, system.unit(kind))
+        kind.name: _vector_rows(phasors.turn(turn), system.unit(kind))
         for kind, phasors in result.spectra.vectors()
         if result.moments_known or kind is not MOMENT
     }
-    entry["devices"] = [_device_entry(device, drawn.get(row)) for row, device in devices]
+    entry["devices"] = [_device_entry(device, drawn.get(row), turn) for row, device in devices]
     return {"label": label, **entry}
 
 
@@ -127,16 +131,17 @@ def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
-    """Where to draw the shafts that stand within the circle of the crank pins, where none can be:
-    beside the engine, those that turn with the crank on the right, the others on the left; x + iy
-    (m) by rows of the devices.
+    """Return places on the page for shafts within the circle of the crank pins, where none can
+    stand: those that turn with the crank to the right of the engine, the others to its left;
+    upwards + i to the right (m) by rows of the devices.
 
     Args:
         bore: m.
     """
     c = engine.cylinders
     r = float(c.radius)
-    across, reach = np.sin(np.radians(c.axis_of_each_deg)), r + r / c.lam + bore
+    leans = np.radians(c.axis_of_each_deg - (engine.up_deg or 0.0))
+    across, reach = np.sin(leans), r + r / c.lam + bore
     width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
     found: dict[int, complex] = {}
     rows: dict[tuple[int, bool], int] = {}  # of each shaft on its side of the engine
@@ -149,12 +154,13 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
     return found
 
 
-def _device_entry(device: Device, drawn: complex | None) -> dict[str, Any]:
-    """A device for the page: unbalance in g mm, places in mm; `drawn`: where it is shown instead of
-    its place.
+def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> dict[str, Any]:
+    """A device for the page, turned: unbalance in g mm, places in mm; `drawn`: where it is shown
+    instead of its place.
     """
-    forward, backward = complex(device.forward), complex(device.backward)
-    place = complex(device.place) if drawn is None else drawn
+    vectors = np.array([device.forward, device.backward, device.place])
+    forward, backward, place = (unit(turn_deg) * vectors).tolist()
+    place = place if drawn is None else drawn
     return {
         "order": order_number(device.order),
         "forward": [forward.real * 1e6, forward.imag * 1e6],

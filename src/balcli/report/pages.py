@@ -27,7 +27,7 @@ from ..analysis.plot import (
 from ..balancing.bobweight_page import percent
 from ..core.phasors import Array, Phasors
 from ..forces.crankshaft import AlongCrank
-from ..forces.kinds import EVERY_KIND, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
+from ..forces.kinds import EVERY_KIND, FORCE, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
 from ..show.engine_facts import tell_pivot
 from ..show.plane import FINE, draw_locus, draw_order, set_up_plane
 from ..show.plot_style import (
@@ -73,7 +73,7 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
     ahead, against = banks.force.forward[0, shown], banks.force.backward[0, shown]
     turn = np.exp(1j * FINE)
     paths = (ahead[:, None] * turn + against[:, None] / turn) / s.size
-    set_up_plane(ax, float(np.abs(paths).max()), "force", s.name)
+    set_up_plane(ax, float(np.abs(paths).max()), FORCE.name_components(None), s.name)
     for path, angle, shade in zip(paths, _BANKS_DEG, np.linspace(0, 0.9, 7), strict=True):
         colour = colormaps["viridis"](shade)
         ax.plot(
@@ -129,10 +129,18 @@ class PageSubject:
         return self.study.now
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
-        """Return a force, a moment or the roll now, and before the devices were fitted."""
+        """Return a force, a moment or the roll now, and before the devices were fitted; forces and
+        moments along the axes of the picture.
+        """
         name = ROLL.name if quantity == ABOUT else quantity
+        turn = 0.0 if quantity == ABOUT else -(self.now.engine.up_deg or 0.0)
         before = self.study.before
-        return self.now.spectra[name], None if before is None else before.spectra[name]
+        now = self.now.spectra[name].turn(turn)
+        return now, None if before is None else before.spectra[name].turn(turn)
+
+    def name_components(self, quantity: str) -> tuple[str, str]:
+        """Return names of the components of a force or moment upwards and to the right."""
+        return KINDS[quantity].name_components(self.now.engine.up_deg)
 
     def unit(self, quantity: str) -> ShownUnit:
         """Return the unit in which a quantity is drawn."""
@@ -220,7 +228,7 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
         scalars = subject.list_scalars(with_gas=what == "spectrum")
     ax.set_title(subject.title(what, quantity))
     if what == "polar":
-        draw_locus(ax, curve, quantity, unit, before)
+        draw_locus(ax, curve, subject.name_components(quantity), unit, before)
     elif what == "spectrum" and scalars:
         draw_scalar_bars(ax, scalars, unit)
     elif what == "spectrum":
@@ -230,8 +238,8 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
         read = np.real if scalars else np.abs
         lines = {label: each.values(crank).real for label, each in scalars.items()}
         if not scalars:
-            values = curve.values(crank)
-            lines = {"along x": values.real, "along y": values.imag, "size": np.abs(values)}
+            values, (up, across) = curve.values(crank), subject.name_components(quantity)
+            lines = {up: values.real, across: values.imag, "size": np.abs(values)}
         old = None if before is None else read(before.values(crank))
         draw_curves(ax, crank, lines, "moment" if scalars else quantity, unit, old)
 
@@ -284,7 +292,8 @@ def _lay_out_orders(fig: Figure, subject: PageSubject) -> str:
     fig.set_size_inches(max(1.0 + 3.3 * columns, 4.3), 0.4 + 3.5 * height)
     for place, (quantity, curve, k) in enumerate(found, 1):
         ax = fig.add_subplot(height, columns, place)
-        draw_order(ax, curve, k, quantity, subject.unit(quantity))
+        names, unit = subject.name_components(quantity), subject.unit(quantity)
+        draw_order(ax, curve, k, quantity, names, unit)
     return words
 
 

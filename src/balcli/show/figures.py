@@ -62,6 +62,32 @@ class Vector:
 
 
 @dataclass(frozen=True)
+class FreeForce(Vector):
+    """One order of a free force.
+
+    Attributes:
+        vertical: Component along `frame.up`; left out where the file does not give it.
+        horizontal: Component 90 deg ahead of `frame.up`; left out likewise.
+    """
+
+    vertical: Component | None = None
+    horizontal: Component | None = None
+
+
+@dataclass(frozen=True)
+class FreeMoment(Vector):
+    """One order of a free moment.
+
+    Attributes:
+        yawing: Component about `frame.up`; left out where the file does not give it.
+        pitching: Component about the axis 90 deg ahead of `frame.up`; left out likewise.
+    """
+
+    yawing: Component | None = None
+    pitching: Component | None = None
+
+
+@dataclass(frozen=True)
 class Harmonic:
     """One order of a torque: cos * cos(order * angle) + sin * sin(order * angle).
 
@@ -97,8 +123,8 @@ class OrderFigures:
     """
 
     order: float
-    force_N: Vector | None = None
-    moment_Nm: Vector | None = None
+    force_N: FreeForce | None = None
+    moment_Nm: FreeMoment | None = None
     couple_Nm: Harmonic | None = None
     inertia_torque_Nm: Harmonic | None = None
     roll_Nm: Harmonic | None = None
@@ -238,7 +264,11 @@ def clean(value: Figure) -> float | None:
 # ------------------------------------------------------------------ order by order
 def list_orders(spectra: Spectra) -> list[OrderFigures]:
     """Return one record an order, with the kinds that were computed."""
-    columns: Node = {kind.key: list_vectors(phasors) for kind, phasors in spectra.vectors()}
+    free: dict[Kind, type[Vector]] = {FORCE: FreeForce, MOMENT: FreeMoment}
+    columns: Node = {
+        kind.key: list_vectors(phasors, free[kind], spectra.up_deg)
+        for kind, phasors in spectra.vectors()
+    }
     columns |= {kind.key: list_harmonics(phasors) for kind, phasors in spectra.scalars()}
     return [
         OrderFigures(order=order, **{key: column[k] for key, column in columns.items()})
@@ -246,17 +276,21 @@ def list_orders(spectra: Spectra) -> list[OrderFigures]:
     ]
 
 
-def list_vectors(phasors: Phasors) -> list[Vector]:
-    """Return forces or moments, one an order."""
+def list_vectors(
+    phasors: Phasors, record: type[Vector] = Vector, up_deg: float | None = None
+) -> list[Vector]:
+    """Return forces or moments, one an order, with components by `up_deg` if it is known."""
     p = phasors
     columns = (column.tolist() for column in (p.forward, p.backward, p.major, p.minor, p.axis_deg))
-    along = (list(map(Component, *_find_parts(c, p.orders))) for c in (p.x, p.y))
-    return list(map(Vector, *columns, *along, p.balanced.tolist()))
+    upright = () if up_deg is None else _list_components(p.turn(-up_deg))
+    return list(map(record, *columns, *_list_components(p), p.balanced.tolist(), *upright))
 
 
-def _find_parts(c: Complex, orders: Array) -> tuple[list[float], list[float]]:
-    phases = np.where((c != 0) & (orders > 0), phase_deg(c), np.nan)
-    return np.abs(c).tolist(), phases.tolist()
+def _list_components(phasors: Phasors) -> Iterator[list[Component]]:
+    """Yield the components along x, one an order, and those along y."""
+    for c in (phasors.x, phasors.y):
+        phases = np.where((c != 0) & (phasors.orders > 0), phase_deg(c), np.nan)
+        yield list(map(Component, np.abs(c).tolist(), phases.tolist()))
 
 
 def list_harmonics(phasors: Phasors) -> list[Harmonic]:

@@ -1,10 +1,12 @@
 """Pictures in the plane of forces and moments: loci and rotating vectors.
 
-The plane is seen from the free end: x up, y to the right, so that the crank turns clockwise.
+The plane is seen from the free end: x up, y to the right, so that the crank turns clockwise. Where
+the file says which way is up, that is up in the pictures.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,15 +25,16 @@ _ORDER_ANGLE = 36  # degrees of the order's own angle, at which both of its vect
 _BOX: Any = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 
 
-def set_up_plane(ax: Axes, largest: float, what: str = "", unit: str = "") -> float:
+def set_up_plane(ax: Axes, largest: float, names: Sequence[str] = (), unit: str = "") -> float:
     """Make the axes a square with the origin in its middle; return half its side.
 
     Args:
         ax: Axes of the picture.
         largest: Size of the largest vector, in the unit of the axes.
-        what, unit: Quantity and unit for the labels of the axes; empty: no labels.
+        names: Components upwards and to the right, for the labels of the axes; empty: no labels.
+        unit: Unit of the axes.
     """
-    up, right = (f"{what} along {axis}, {unit}" if what else "" for axis in "xy")
+    up, right = (f"{name}, {unit}" for name in names) if names else ("", "")
     limit = 1.25 * (largest or 1.0)
     ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel=right, ylabel=up)
     ax.locator_params(nbins=5)
@@ -70,14 +73,18 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
 
 
 def draw_locus(
-    ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
+    ax: Axes,
+    curve: Phasors,
+    names: Sequence[str],
+    unit: ShownUnit,
+    before: Phasors | None = None,
 ) -> None:
     """Draw where the tip of a vector goes in a revolution, dashed where it went `before`."""
     shown = [curve] if before is None else [curve, before]
     paths = [each.values(np.radians(np.arange(find_period_deg(each) + 1))) for each in shown]
     largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
     s = unit.fit(float(most))
-    limit = set_up_plane(ax, float(most) / s.size, what, s.name)
+    limit = set_up_plane(ax, float(most) / s.size, names, s.name)
     path, *others = (each / s.size for each in paths)
     angles = np.arange(len(path), dtype=float)
     for old in others:
@@ -109,13 +116,15 @@ def find_period_deg(curve: Phasors) -> int:
     return 720 // min(repeats, 24) if repeats else 360
 
 
-def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> None:
+def draw_order(
+    ax: Axes, curve: Phasors, k: int, what: str, names: Sequence[str], unit: ShownUnit
+) -> None:
     """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
     order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_ORDER_ANGLE))
     s = unit.fit(float(curve.major[k]))
     forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size
     path = forward * np.exp(1j * FINE) + backward * np.exp(-1j * FINE)
-    set_up_plane(ax, float(np.abs(path).max()), what, s.name)
+    set_up_plane(ax, float(np.abs(path).max()), names, s.name)
     ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
     ax.plot(path.imag, path.real, color=INK)
     start = 0j

@@ -58,7 +58,7 @@ def find_numbers(model: EngineFile) -> dict[str, Number]:
     numbers: dict[str, Number] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
-    for path in _list_idle_paths(model, numbers):
+    for path in (*_list_idle_paths(model, numbers), "frame.up"):  # up names results alone
         del numbers[path]
     for k in range(len(model.layout.firing_intervals or ())):  # of a cycle: none varies alone
         del numbers[f"layout.firing_intervals.{k + 1}"]

@@ -230,6 +230,6 @@ def _draw_polar(
 ) -> None:
     """Draw the path of a force's tip, x up and y to the right; `largest` of all its pictures, N."""
     s = unit.fit(largest)
-    limit = set_up_plane(ax, largest / s.size, "", "")
+    limit = set_up_plane(ax, largest / s.size)
     draw_path(ax, force / s.size, crank_deg, 45, limit)
     ax.text(0.98, 0.02, s.name, transform=ax.transAxes, ha="right", va="bottom", fontsize=7)

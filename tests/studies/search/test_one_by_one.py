@@ -194,7 +194,7 @@ def test_four_numbers_together_balance_four_cranks(tmp_path):
         for key, ends in zip(keys, ["0:360"] * 2 + ["100:2000"] * 2, strict=True)
         for arg in ("--over", f"{key}={ends}")
     ]
-    found = search(path, *over, "--minimise", "force.1.major,moment.1.major")
+    found = search(path, *over, "--minimise", "force.1.major=1,moment.1.major=1")
     end = np.exp(1j * np.radians(120))
     inner = np.linalg.solve(np.array([[1, 1], [450, 1200]]), -400 * np.array([1 + end, 1800 * end]))
     expected = [*(np.degrees(np.angle(inner)) % 360), *np.abs(inner)]

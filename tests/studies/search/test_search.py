@@ -15,10 +15,8 @@ from balcli.engine.parse import parse as load
 from balcli.errors import BalcliError, InputError
 from balcli.file.model import EngineFile
 from balcli.forces.quantity import evaluate_quantities
-from balcli.show.units import SYSTEMS
 from balcli.studies.quantities import parse_quantities
 from balcli.studies.search.answer import search_arrangements
-from balcli.studies.search.command import sheet
 from balcli.studies.search.designs import fires_evenly, parse_objective, write_design
 from balcli.studies.search.throws import find_best_throws, tabulate_contributions
 
@@ -31,7 +29,7 @@ def engine(throws: list[float], layout: str = "") -> EngineFile:
 
 
 def test_in_line_four() -> None:
-    found = search_least(load(SHUFFLED), "throws", "moment.1.major,force.1.major=1").results
+    found = search_least(load(SHUFFLED), "throws", "moment.1.major=1,force.1.major=1").results
     assert [r.design["throws"] for r in found] == [[0, 180, 180, 0], [0, 180, 0, 180], [0, 0, 180, 180]]
     assert found[0].objective == 0
 
@@ -47,7 +45,7 @@ def test_in_line_four() -> None:
     ],
 )
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
-    file, wanted = (engine(throws, layout), parse_objective("moment.1.major,moment.2.backward=2,force.1.major=0.5"))
+    file, wanted = (engine(throws, layout), parse_objective("moment.1.major=1,moment.2.backward=2,force.1.major=0.5"))
     every = np.array(
         sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])]
     )
@@ -325,12 +323,28 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
             (),
             "roll.2.cos has a sign or a direction; name a size such as roll.2.major",
         ),
+        (
+            "moment.1.major,moment.2.major,force.1.major=2",
+            (),
+            "--minimise adds up N·m and N; give weights: moment.1.major=1, moment.2.major=1, force.1.major=8 (m)",
+        ),
+        (
+            "fluctuation,torque.max",
+            (),
+            "--minimise adds up 1 and N·m; give weights: fluctuation=1, torque.max=8 (1/N·m)",
+        ),
     ],
 )
 def test_mistakes_of_objectives(minimise: str, limits: tuple[str, ...], message: str) -> None:
     with pytest.raises(BalcliError) as caught:
         parse_objective(minimise, limits)
     assert str(caught.value).startswith(message)
+
+
+def test_units_are_added_up_where_each_has_a_weight():
+    objective = parse_objective("force.1.major=1,moment.1.major=8")
+    assert list(objective.weights.values()) == [1, 8]
+    assert list(parse_objective("force.1.major,force.2.major").weights.values()) == [1, 1]
 
 
 def test_peaks_do_not_add_up() -> None:
@@ -372,15 +386,6 @@ def test_articulated_rods_count_once_for_their_throw() -> None:
     for q, whole in zip(quantities, evaluate_quantities(build(file), quantities), strict=True):
         sums = found.throws[:, :, range(4), range(4)].sum(axis=2)[..., None]
         assert found.read(q, sums)[0] == pytest.approx(float(whole), rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("minimise", "told"), [("moment.1.major,force.1.major=2", True), ("moment.1.major,moment.2.major", False)]
-)
-def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool) -> None:
-    found = search_least(load(SHUFFLED), "throws", minimise)
-    (grid,) = sheet(found, SYSTEMS["si"]).parts
-    assert ("Objective: N·m and N added as plain numbers" in grid.note) is told
 
 
 def test_throws_that_follow_from_the_firing_order_are_permuted_like_those_given():

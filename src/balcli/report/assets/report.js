@@ -156,7 +156,7 @@
     const above = !scene.rotary && spread(Math.sin) > spread(Math.cos) * 1.01;      // flat engines are seen from below
     const height = ([x, y]) => above ? y : x;
     byId("side-caption").textContent = `From ${above ? "below" : "the side"}: `
-      + `z to the right, free end on the left; ${above ? "y" : "x"} up`;
+      + `z to the right, free end on the left; ${scene.axes[above ? 1 : 0]} up`;
     const corners = [[near - bore * 0.75, -1.4 * r], [far + bore * 0.75, 1.4 * r]];
     for (const c of scene.cylinders) {
       for (const v of [-0.5 * bore, 0.5 * bore]) {
@@ -245,8 +245,8 @@
       ring: element("circle", { class: "axis", r: HALF * share }, svg),
       label: element("text", { class: "scale", x: 3, y: -HALF * share - 2 }, svg),
     }));
-    element("text", { class: "scale", x: -9, y: -104 }, svg).textContent = "x";
-    element("text", { class: "scale", x: 104, y: -3 }, svg).textContent = "y";
+    element("text", { class: "scale", x: -9, y: -104 }, svg).textContent = scene.axes[0][0];
+    element("text", { class: "scale", x: 104, y: -3 }, svg).textContent = scene.axes[1][0];
     const old = element("path", { class: "old" }, svg);
     const curve = element("path", { class: "curve" }, svg), chain = element("g", {}, svg);
     const line = { class: "vector", id: `${id}-vector`, x1: 0, y1: 0 };
@@ -272,7 +272,7 @@
         set(tip, { cx: y * scale, cy: -x * scale });
         const whole = Math.round(Math.atan2(y, x) * 180 / Math.PI);
         const direction = String(whole === -180 ? 180 : whole + 0).replace("-", "−");
-        const where = size < unit.least ? "negligible" : `at ${direction}° from x`;
+        const where = size < unit.least ? "negligible" : `at ${direction}° from ${scene.axes[0]}`;
         now.textContent = size ? `${figure(size, unit)} ${where}` : "balanced";
         chain.replaceChildren();
         let at = [0, 0];
@@ -296,7 +296,7 @@
 
   // ---------------------------------------------------------------- controls
   if (scene.rotary) {
-    byId("end-caption").textContent = "From the free end: x up, y to the right; "
+    byId("end-caption").textContent = `From the free end: ${scene.axes[0]} up, ${scene.axes[1]} to the right; `
       + "the cylinders turn clockwise, the crank stands still";
   }
   if (scene.variants.some((variant) => variant.devices.some((d) => d.beside))) {

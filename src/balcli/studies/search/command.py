@@ -90,9 +90,6 @@ def _notes(result: Search) -> Iterator[str]:
         (q.name for q in result.objective.quantities), result.over.split(", ")
     ):
         yield speeds
-    added = list(dict.fromkeys(q.unit for q in result.objective.weights))
-    if len(added) > 1:
-        yield f"Objective: {' and '.join(added)} added as plain numbers; NAME=W weighs them."
 
 
 def _cells(result: Search, one: Found) -> tuple[str, ...]:
@@ -140,8 +137,8 @@ def search(
         str | None,
         optional(
             "WHAT[=WEIGHT],...",
-            "What should be small, such as moment.1.major,force.2.major=0.5; any quantity that "
-            "sweep has, such as shaft.flywheel.torque.",
+            "What should be small, such as moment.1.major=1,force.2.major=0.5 (different units "
+            "need weights); any quantity that sweep has, such as shaft.flywheel.torque.",
             "--minimise",
             "--minimize",
         ),

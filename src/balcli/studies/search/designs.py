@@ -211,7 +211,7 @@ def parse_objective(
     maximise: str | None = None,
     with_gas: bool = False,
 ) -> Objective:
-    """Read `moment.1.major,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
+    """Read `moment.1.major=1,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
 
     Args:
         minimise: Weighted sum that should be small.
@@ -220,16 +220,21 @@ def parse_objective(
         with_gas: Whether the engine has gas.
 
     Raises:
-        BalcliError: An unknown quantity, or a wrong weight or limit.
+        BalcliError: An unknown quantity, a wrong weight or limit, or quantities in several units
+            of which one has no weight.
     """
     if (minimise is None) == (maximise is None):
         raise BalcliError("give exactly one of --minimise and --maximise")
     goal = maximise or minimise or ""
     weights: dict[AnyQuantity, float] = {}
+    all_weighted = True
     for term in goal.split(","):
         name, _, weight = term.partition("=")
         share = _parse_positive(weight, term) if weight else 1.0
         weights |= dict.fromkeys(_parse_sizes(name, with_gas), share)
+        all_weighted &= bool(weight)
+    if not all_weighted:
+        _refuse_several_units(weights, "maximise" if maximise else "minimise")
     bounds: dict[AnyQuantity, float] = {}
     for text in limits:
         name, less, bound = text.partition("<")
@@ -240,6 +245,22 @@ def parse_objective(
             )
         bounds |= dict.fromkeys(_parse_sizes(name, with_gas), _parse_positive(bound, text))
     return Objective(weights, bounds, maximise is not None)
+
+
+_RATIOS = {("N", "N·m"): "1/m", ("N·m", "N"): "m"}  # of units, in short
+
+
+def _refuse_several_units(quantities: Iterable[AnyQuantity], option: str) -> None:
+    """Raise BalcliError if quantities that are to be added up have different units."""
+    units = {q.name: q.unit or "1" for q in quantities}
+    first, *others = dict.fromkeys(units.values())
+    if not others:
+        return
+    ratios = {unit: f"=8 ({_RATIOS.get((first, unit), f'{first}/{unit}')})" for unit in others}
+    weights = ", ".join(name + ratios.get(unit, "=1") for name, unit in units.items())
+    raise BalcliError(
+        f"--{option} adds up {' and '.join([first, *others])}; give weights: {weights}"
+    )
 
 
 def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
