@@ -1,5 +1,7 @@
 """Diagrams and torque curves as people have them, and files that are no engine files."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from support.commands import run_here
@@ -92,6 +94,7 @@ def test_orders_that_do_not_rise_are_named(tmp_path):
         ('<?xml version="1.0"?>\n<engine stroke="86"/>\n', "XML or HTML"),
         ("angle_deg,torque_Nm\n0,1\n", "a table of columns (CSV)"),
         ("a;b\n0;1\n", "a table of columns (CSV)"),
+        ("# log\nangle_deg,torque_Nm\n" + "0.5,1\n" * 100_000, "a table of columns (CSV)"),
         ("stroke: 86\nrod: 144\n", "a file of another program"),
     ],
 )
@@ -100,6 +103,17 @@ def test_a_file_of_another_format_is_named_in_one_line(text, kind):
         parse_toml(text, "file")
     assert str(caught.value).startswith(f"file: is {kind}, no engine file; ")
     assert "\n" not in str(caught.value)
+
+
+def test_a_long_column_is_read_no_farther_than_the_limit(tmp_path):
+    path = write(tmp_path / "torque.csv", "angle_deg,torque_Nm\n" + "10\n" * 1_000_000)
+    tracemalloc.start()
+    try:
+        with pytest.raises(BalcliError, match="more than 20000 rows"):
+            read_curve(path)
+        assert tracemalloc.get_traced_memory()[1] < 30e6
+    finally:
+        tracemalloc.stop()
 
 
 def test_a_bore_is_shown_in_the_unit_of_the_file():

@@ -6,11 +6,12 @@ import csv
 import math
 import re
 from collections.abc import Sequence
+from io import StringIO
 from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import BalcliError
-from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, MOST_ROWS
+from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, LONGEST_ROW, MOST_ROWS
 from .fields import shorten
 from .toml import read_bytes
 from .units import PLAIN, Dimension, convert
@@ -120,11 +121,24 @@ def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
         raise BalcliError(f"{path}: {error}") from None
 
 
+def _list_lines(text: str) -> dict[int, str]:
+    """Return the lines that are neither empty nor comments, by their numbers from 1."""
+    lines: dict[int, str] = {}
+    for number, line in enumerate(StringIO(text, newline=None), 1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        if len(line) > LONGEST_ROW:
+            raise ValueError(f"line {number}: has more than {LONGEST_ROW} characters")
+        if len(lines) > MOST_ROWS:  # besides the heading
+            raise ValueError(
+                f"has more than {MOST_ROWS} rows; keep every tenth row, or the mean of the cycles"
+            )
+        lines[number] = line.rstrip("\n")
+    return lines
+
+
 def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
-    numbered = enumerate(text.splitlines(), 1)
-    lines = {n: line for n, line in numbered if line.strip() and not line.lstrip().startswith("#")}
-    if len(lines) > MOST_ROWS:
-        raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
+    lines = _list_lines(text)
     first = next(iter(lines.values()), "")
     # The comma, where none of them is there; tabs after a comma are room.
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)

@@ -107,7 +107,8 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
             "lists or tables are nested too deeply; an engine file needs no more than four levels"
         )
     except OverflowError as error:
-        message = str(error)
+        kind = _find_format(text if isinstance(text, str) else text.decode("utf-8-sig", "replace"))
+        message = f"is {kind}, no engine file; {ENGINE_FILE}" if kind else str(error)
     except ValueError:  # Python reads no more digits
         message = "has a number of thousands of digits"
     raise InputError([Problem("", message)], file)
@@ -115,14 +116,13 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
 
 def _find_format(text: str) -> str:
     """Return the format of a text that is no TOML; empty where it was probably meant as TOML."""
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    first, start = next(iter(lines), ""), text.lstrip()[:1]
-    if start == "{" or (start == "[" and not re.match(r"\[{1,2}[\w. \t-]+\]", first)):
+    found = re.search(r"^[ \t]*([^\s#].*)", text, re.M)
+    first = found[1] if found else ""
+    if first[:1] == "{" or (first[:1] == "[" and not re.match(r"\[{1,2}[\w. \t-]+\]", first)):
         return "JSON"
-    if start == "<":
+    if first[:1] == "<":
         return "XML or HTML"
-    toml = re.compile(r"""[\w."' -]+=|\[{1,2}[^\]]|#""")
-    if any(toml.match(line) for line in lines):
+    if re.search(r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[^\]])""", text, re.M) or not first:
         return ""
     parted = re.search(r"[,;\t]|\d\s+[-+.\d]", first) is not None
     return "a table of columns (CSV)" if parted else "a file of another program"
