@@ -15,7 +15,10 @@ from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
 from .examples import is_example
 from .fields import nearest
 
-ENGINE_FILE = "no engine file; that is TOML text with tables such as [crank], [rod] and [piston]: `balcli new` writes one"
+ENGINE_FILE = (
+    "no engine file; that is TOML text with tables such as [crank], [rod] and [piston]: "
+    "`balcli new` writes one"
+)
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
 _LONGEST_LINE = 80  # that is shown
