@@ -9,9 +9,14 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from enum import IntEnum
+from itertools import islice
 from numbers import Real
 from os import PathLike
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
+
+from .limits import MOST_LIST_VALUES
+
+T = TypeVar("T")
 
 # All but tabs and line ends; Unicode's own turn the direction of text, or end a paragraph.
 CONTROL_CHARACTERS = (
@@ -173,6 +178,18 @@ def check_number(name: str, value: object, wanted: str) -> float:
         return math.inf
 
 
+def list_values(name: str, values: Iterable[T], most: int = MOST_LIST_VALUES) -> list[T]:
+    """Return an argument of the library as a list, however many values it would yield.
+
+    Raises:
+        BalcliError: it has more than `most`.
+    """
+    listed = list(islice(values, most + 1))
+    if len(listed) > most:
+        raise BalcliError(f"{name}: has more than {most} values; give at most {most}")
+    return listed
+
+
 def list_words(
     name: str, words: str | Iterable[str], example: str = '["force", "moment"]'
 ) -> list[str]:
@@ -184,7 +201,7 @@ def list_words(
     if isinstance(words, str):
         return [word.strip() for word in words.split(",")]
     check_type(name, words, Iterable, f"give words, such as {example}")
-    listed = list(words)
+    listed = list_values(name, words)
     for word in listed:
         check_type(name, word, str, f"give words, such as {example}")
     return listed

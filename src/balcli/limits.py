@@ -14,6 +14,7 @@ DEEPEST_KEY = 32  # parts of a dotted key: the memory of tomllib grows with thei
 LONGEST_NAME = 200  # characters; the name stands in every line of a CSV
 LONGEST_FILE_NAME = 255  # of a file that an engine file names: file systems have no longer ones
 MOST_ROWS = 20_000  # of such a file: a diagram of 720 deg in steps of 0.05 has 14 400
+LONGEST_ROW = 10_000  # characters: hundreds of columns
 LARGEST_IN_COLUMNS = 1e30  # of a figure in such a file, either way: its products are no overflow
 LONGEST_FIGURE = 100  # characters of a number with its unit: no regular expression sees more
 LONGEST_SHOWN = 60  # characters of a value that a message repeats: it stays one line

@@ -207,9 +207,14 @@ def test_mistakes_of_harmonics(beside, rows, told):
 
 
 def test_a_diagram_may_have_so_many_rows(beside):
-    rows = "\n".join(f"{k * 0.03:.2f},0.1" for k in range(20001))
-    path = beside('indicator = "p.csv"\n', content=f"angle_deg,pressure_MPa\n{rows}\n")
-    with pytest.raises(InputError, match=r"p\.csv: has 20002 lines; at most 20000 are read"):
+    rows = [f"{k * 0.036:.3f},0.1\n" for k in range(20001)]
+    head = "# measured\nangle_deg,pressure_MPa\n\n"
+    load(beside('indicator = "p.csv"\n', content=head + "".join(rows[:-1])))
+    path = beside('indicator = "p.csv"\n', content=head + "".join(rows))
+    with pytest.raises(InputError, match=r"p\.csv: has more than 20000 rows; keep every tenth row"):
+        load(path)
+    path = beside('indicator = "p.csv"\n', content=f"{head}1,{'0' * 20_000}\n")
+    with pytest.raises(InputError, match=r"p\.csv: line 4: has more than 10000 characters"):
         load(path)
     path = beside('indicator = "p.csv"\n', content=f"angle_deg,pressure_MPa\n{' ' * 6_000_000}")
     with pytest.raises(InputError, match=r"p\.csv: has more than 6 MB"):

@@ -1,5 +1,7 @@
 """Diagrams and torque curves as people have them, and files that are no engine files."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from support.commands import run_here
@@ -77,6 +79,39 @@ def test_a_torque_has_the_unit_of_its_heading(tmp_path, head, size, mark):
     assert read_curve(write(tmp_path / "torque.csv", text)).mean == pytest.approx(15 * size, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("rows", "answer"),
+    [
+        ("0;985,5\n360;1.025\n", "line 3: 1.025: is the point between thousands? Write 1025, or 1.0250 if"),
+        ("0;985\n180;-1.025\n360;985\n", "line 3: -1.025: is the point between thousands?"),
+        ("0;1.025,5\n360;985,5\n", 'line 2: "1.025,5" is not a number'),
+        ("0;985\n360;1 025\n", 1005),
+        ("0;985\n360;1\u202f025\n", 1005),
+        ("0;985.000\n360;1.025\n", 493.0125),
+        ("0;985\n360;1.0250\n", 493.0125),
+        ("0;0.985\n360;100\n", 50.4925),
+    ],
+)
+def test_thousands_in_columns_are_no_decimals(tmp_path, rows, answer):
+    path = write(tmp_path / "torque.csv", f"angle_deg;torque_Nm\n{rows}")
+    if isinstance(answer, str):
+        with pytest.raises(BalcliError) as caught:
+            read_curve(path)
+        assert answer in str(caught.value)
+    else:
+        assert read_curve(path).mean == pytest.approx(answer)
+
+
+def test_a_comma_between_thousands_of_a_quoted_cell_is_refused(tmp_path):
+    with pytest.raises(BalcliError, match='line 2: "1,025" is not a number'):
+        read_curve(write(tmp_path / "torque.csv", 'angle_deg,torque_Nm\n0,"1,025"\n360,985\n'))
+
+
+def test_more_numbers_than_heads_are_refused_where_blanks_part_them(tmp_path):
+    with pytest.raises(BalcliError, match="line 3: has 3 columns, the heading 2"):
+        read_curve(write(tmp_path / "torque.csv", "angle_deg torque_Nm\n0 985\n360 1 025\n"))
+
+
 def test_orders_that_do_not_rise_are_named(tmp_path):
     write(tmp_path / "t.csv", "order,cos,sin\n0,3,0\n2,1,1\n1.5,1,1\n")
     text = ENGINE.replace('indicator = "p.csv"\nzero = "gas-exchange"', 'harmonics = "t.csv"')
@@ -92,6 +127,7 @@ def test_orders_that_do_not_rise_are_named(tmp_path):
         ('<?xml version="1.0"?>\n<engine stroke="86"/>\n', "XML or HTML"),
         ("angle_deg,torque_Nm\n0,1\n", "a table of columns (CSV)"),
         ("a;b\n0;1\n", "a table of columns (CSV)"),
+        ("# log\nangle_deg,torque_Nm\n" + "0.5,1\n" * 100_000, "a table of columns (CSV)"),
         ("stroke: 86\nrod: 144\n", "a file of another program"),
     ],
 )
@@ -100,6 +136,17 @@ def test_a_file_of_another_format_is_named_in_one_line(text, kind):
         parse_toml(text, "file")
     assert str(caught.value).startswith(f"file: is {kind}, no engine file; ")
     assert "\n" not in str(caught.value)
+
+
+def test_a_long_column_is_read_no_farther_than_the_limit(tmp_path):
+    path = write(tmp_path / "torque.csv", "angle_deg,torque_Nm\n" + "10\n" * 1_000_000)
+    tracemalloc.start()
+    try:
+        with pytest.raises(BalcliError, match="more than 20000 rows"):
+            read_curve(path)
+        assert tracemalloc.get_traced_memory()[1] < 30e6
+    finally:
+        tracemalloc.stop()
 
 
 def test_a_bore_is_shown_in_the_unit_of_the_file():

@@ -274,6 +274,12 @@ def test_in_a_page_colours_follow_it_and_ids_are_its_own(drawn):
     ET.fromstring(text)
 
 
+def test_in_a_page_a_name_in_a_picture_stays_as_it_is():
+    name = '#1a1a1a id="a url(#b href="#c'
+    text = style.inline_svg(f'<svg><g id="a" fill="#1a1a1a"/><text>{name}</text></svg>'.encode(), "here")
+    assert text == f'<svg><g id="here-a" fill="var(--ink)"/><text>{name}</text></svg>'
+
+
 @pytest.mark.parametrize("share", [0, 0.5])
 def test_of_a_share_of_gas_its_pressure_is_drawn(share):
     """Over that in the crankcase, 1 bar."""

@@ -1,5 +1,7 @@
 """What is wrong names the function's own arguments, not the options of the command line."""
 
+from itertools import count, repeat
+
 import pytest
 from support.cases import cases
 
@@ -28,6 +30,25 @@ def test_errors_name_arguments(ask, given, options, told):
     kind, message = refused(getattr(balcli, ask), *given, **options)
     assert issubclass(kind, balcli.BalcliError)
     assert message == told
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda: balcli.analyze(V8, range(1_000_000)),
+        lambda: balcli.analyze(V8, count()),
+        lambda: balcli.analyze(V8, only=repeat("force", 1_000_000)),
+        lambda: balcli.balance(V8, orders=repeat(1, 1_000_000)),
+        lambda: balcli.compare(V8, V8, names=repeat("a", 1_000_000)),
+        lambda: balcli.analyze_torsion(CHAIN, range(1_000_000)),
+        lambda: balcli.sweep(V8, {"rod.ratio": range(10_000_001)}, "force.1.major"),
+        lambda: balcli.sweep(V8, {"rod.ratio": [0.2, 0.3]}, repeat("force.1.major", 1_000_000)),
+        lambda: balcli.load({"crank": {"stroke": 90, "throws": repeat(0, 1_000_000)}}),
+    ],
+)
+def test_iterables_are_read_no_farther_than_a_limit(ask):
+    with pytest.raises(balcli.BalcliError, match=r"has more than \d+ values|holds 20002 values"):
+        ask()
 
 
 def test_a_sweep_of_one_value_is_no_picture():

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from ..core.phasors import Array
 from ..core.records import HIDDEN
 from ..engine.engine import Engine, check_engine
-from ..errors import BalcliError, list_words, wrong_type
+from ..errors import BalcliError, list_values, list_words, wrong_type
 from ..forces.kinds import EVERY_KIND, GAS, MOMENT, TORQUE, VECTORS, Kind
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
@@ -310,7 +310,7 @@ def compare(
 
 def _check_names(names: object) -> list[str]:
     if isinstance(names, Iterable) and not isinstance(names, str):
-        listed = list(names)
+        listed = list_values("names", names)
         if all(isinstance(name, str) for name in listed):
             return listed
     raise wrong_type("names", names, 'give a text for each engine, such as ["before", "after"]')

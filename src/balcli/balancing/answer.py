@@ -23,7 +23,7 @@ from ..engine.build import build
 from ..engine.engine import Engine, check_engine
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
-from ..errors import BalcliError, InputError, check_type
+from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
 from ..file.model import EngineFile
 from ..forces.spectrum import merge_orders
@@ -122,7 +122,7 @@ def balance_engine(
     check_type("balance", scheme, str, 'give the name of a scheme, such as "counterweights"')
     check_type("balance", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")
     check_type("balance", tools, (Tools, NoneType), "give Tools(radius=0.05)")
-    orders = None if orders is None else tuple(orders)
+    orders = None if orders is None else tuple(list_values("orders", orders))
     if scheme == "minimax" and orders is not None:
         options = (options or SchemeOptions())._replace(orders=orders)
     asked = options or SchemeOptions()

@@ -24,6 +24,9 @@ _NEEDED = {
     "planes": 'name the planes that take weights, such as planes = ["front", "rear"]',
     "run": "write [[run]] for every run, the rotor as found first",
 }
+RUNS_FILE = (
+    "no file of runs; that is TOML text with tables such as [[run]]: `balcli new field` writes one"
+)
 
 
 def read_runs(source: str | Path) -> RunsFile:
@@ -38,7 +41,7 @@ def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
     """The runs that a TOML text describes; `file` is its name in messages. Raises InputError with
     every mistake.
     """
-    return check_runs(parse_toml(text, file), file)
+    return check_runs(parse_toml(text, file, RUNS_FILE), file)
 
 
 def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:

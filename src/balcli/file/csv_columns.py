@@ -6,16 +6,19 @@ import csv
 import math
 import re
 from collections.abc import Sequence
+from io import StringIO
 from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import BalcliError
-from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, MOST_ROWS
+from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, LONGEST_ROW, MOST_ROWS
 from .fields import shorten
 from .toml import read_bytes
 from .units import PLAIN, Dimension, convert
 
 GAUGE_UNITS = ("barg", "psig")  # over the atmosphere
+_THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
+_SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # between thousands
 
 
 class Head(NamedTuple):
@@ -120,11 +123,24 @@ def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
         raise BalcliError(f"{path}: {error}") from None
 
 
+def _list_lines(text: str) -> dict[int, str]:
+    """Return the lines that are neither empty nor comments, by their numbers from 1."""
+    lines: dict[int, str] = {}
+    for number, line in enumerate(StringIO(text, newline=None), 1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        if len(line) > LONGEST_ROW:
+            raise ValueError(f"line {number}: has more than {LONGEST_ROW} characters")
+        if len(lines) > MOST_ROWS:  # besides the heading
+            raise ValueError(
+                f"has more than {MOST_ROWS} rows; keep every tenth row, or the mean of the cycles"
+            )
+        lines[number] = line.rstrip("\n")
+    return lines
+
+
 def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
-    numbered = enumerate(text.splitlines(), 1)
-    lines = {n: line for n, line in numbered if line.strip() and not line.lstrip().startswith("#")}
-    if len(lines) > MOST_ROWS:
-        raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
+    lines = _list_lines(text)
     first = next(iter(lines.values()), "")
     # The comma, where none of them is there; tabs after a comma are room.
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
@@ -134,14 +150,19 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
         first = re.sub(r"[\[(][^\])]*[\])]", lambda unit: unit[0].replace(" ", "_"), first)
         lines |= {next(iter(lines)): re.sub(r"\s+(?=[\[(])", "_", first.strip())}
         lines = {n: " ".join(line.split()) for n, line in lines.items()}
-    if mark != ",":
-        lines = {n: line.replace(",", ".").replace(mark, ",") for n, line in lines.items()}
-    numbers, cells = list(lines)[1:], csv.reader(lines.values())
+    numbers, cells = list(lines)[1:], csv.reader(lines.values(), delimiter=mark)
     heading = [cell.strip() for cell in next(cells, [])]
     found = [_find_head(head, heading, wanted, mark) for head in wanted]
     places = [place for place, _, _ in found]
-    width = len(heading) if mark == "," else None
-    rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
+    width = len(heading) if mark in ", " else None
+    texts = [_find_cells(row, places, width, n) for row, n in zip(cells, numbers, strict=False)]
+    for column in zip(*texts, strict=True):
+        _refuse_thousands(column, numbers)
+    comma = "," if mark == "," else "."  # what a comma in a number stands for
+    rows = tuple(
+        tuple(_read_number(cell, comma, n) for cell in row)
+        for row, n in zip(texts, numbers, strict=False)
+    )
     heads = tuple(heading[place] for place in places)
     _, units, scales = zip(*found, strict=True)
     return NumberColumns(heads, rows, tuple(numbers), units, scales)
@@ -161,7 +182,7 @@ def _find_head(
     raise ValueError(f"the heading {found} has no {wanted.usual}; head the file {usual}{also}")
 
 
-def _read_row(row: list[str], places: list[int], width: int | None, line: int) -> tuple[float, ...]:
+def _find_cells(row: list[str], places: list[int], width: int | None, line: int) -> list[str]:
     """`width`: of the heading, beyond which no number may stand; None: one may."""
     if len(row) <= max(places):
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
@@ -170,12 +191,26 @@ def _read_row(row: list[str], places: list[int], width: int | None, line: int) -
             f"line {line}: has {len(row)} columns, the heading {width}; name every column in the "
             "heading, or, where decimals have commas, part columns by semicolons there and below"
         )
-    return tuple(_read_number(row[place], line) for place in places)
+    return [row[place].strip() for place in places]
 
 
-def _read_number(cell: str, line: int) -> float:
+def _refuse_thousands(column: Sequence[str], lines: Sequence[int]) -> None:
+    """Raise ValueError where points are rather between thousands: all of them have three digits
+    behind, and other numbers have a decimal comma, or three digits and no point.
+    """
+    pointed = [(cell, line) for cell, line in zip(column, lines, strict=False) if "." in cell]
+    others = any(re.match(r"[+-]?\d*(,|\d{3}$)", cell) for cell in column)
+    if pointed and others and all(re.fullmatch(_THOUSANDS, cell) for cell, _ in pointed):
+        cell, line = pointed[0]
+        raise ValueError(
+            f"line {line}: {cell}: is the point between thousands? Write "
+            f"{cell.replace('.', '')}, or {cell}0 if it parts decimals"
+        )
+
+
+def _read_number(cell: str, comma: str, line: int) -> float:
     try:
-        number = float(cell)
+        number = float(re.sub(_SPACE, "", cell.replace(",", comma)))
     except ValueError:
         number = math.nan
     if not abs(number) <= LARGEST_IN_COLUMNS:

@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..errors import InputError, Problem, wrong_type
+from ..limits import MOST_KEY_VALUES
 from .fields import RIGID, Number
 from .model import EngineFile, label_table
 from .table import FileTable, document_keys
@@ -72,7 +74,7 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     if isinstance(value, (list, tuple, range, Iterator)):
-        return [_plain(inner) for inner in value]
+        return [_plain(inner) for inner in islice(value, MOST_KEY_VALUES + 1)]
     return value
 
 

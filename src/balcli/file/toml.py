@@ -16,7 +16,8 @@ from .examples import is_example
 from .fields import nearest
 
 ENGINE_FILE = (
-    "that is TOML text with tables such as [crank], [rod] and [piston]: `balcli new` writes one"
+    "no engine file; that is TOML text with tables such as [crank], [rod] and [piston]: "
+    "`balcli new` writes one"
 )
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
@@ -80,12 +81,13 @@ def name_file(source: str | Path) -> str:
     return "standard input" if str(source) == "-" else str(source)
 
 
-def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
+def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> dict[str, Any]:
     """Return TOML as nested dicts.
 
     Args:
         text: of the file.
         file: its name, for messages.
+        right: what a text of another format is not, and what would be right.
 
     Raises:
         InputError: it is no TOML, or larger than any file is.
@@ -96,18 +98,19 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
         line = error.object[: error.start].count(b"\n") + 1
         message = f"is not UTF-8 text (line {line}); save it as UTF-8"
         if b"\0" in error.object[:1000] and error.object[:2] not in (b"\xff\xfe", b"\xfe\xff"):
-            message = f"is no text, and no engine file; {ENGINE_FILE}"
+            message = f"is no text, and {right}"
     except tomllib.TOMLDecodeError as error:
         decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
         message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, str(error))}"
         if kind := _find_format(decoded):
-            message = f"is {kind}, no engine file; {ENGINE_FILE}"
+            message = f"is {kind}, {right}"
     except RecursionError:
         message = (
             "lists or tables are nested too deeply; an engine file needs no more than four levels"
         )
     except OverflowError as error:
-        message = str(error)
+        kind = _find_format(text if isinstance(text, str) else text.decode("utf-8-sig", "replace"))
+        message = f"is {kind}, {right}" if kind else str(error)
     except ValueError:  # Python reads no more digits
         message = "has a number of thousands of digits"
     raise InputError([Problem("", message)], file)
@@ -115,14 +118,13 @@ def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
 
 def _find_format(text: str) -> str:
     """Return the format of a text that is no TOML; empty where it was probably meant as TOML."""
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    first, start = next(iter(lines), ""), text.lstrip()[:1]
-    if start == "{" or (start == "[" and not re.match(r"\[{1,2}[\w. \t-]+\]", first)):
+    found = re.search(r"^[ \t]*([^\s#].*)", text, re.M)
+    first = found[1] if found else ""
+    if first[:1] == "{" or (first[:1] == "[" and not re.match(r"\[{1,2}[\w. \t-]+\]", first)):
         return "JSON"
-    if start == "<":
+    if first[:1] == "<":
         return "XML or HTML"
-    toml = re.compile(r"""[\w."' -]+=|\[{1,2}[^\]]|#""")
-    if any(toml.match(line) for line in lines):
+    if re.search(r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[^\]])""", text, re.M) or not first:
         return ""
     parted = re.search(r"[,;\t]|\d\s+[-+.\d]", first) is not None
     return "a table of columns (CSV)" if parted else "a file of another program"

@@ -175,6 +175,8 @@ DENSITY = Dimension("g/cm^3", "a density", ("7.85 g/cm^3", "7850 kg/m^3"))
 SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", ("79.3 GPa", "11.5e6 psi"))
 STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number")
+# Below this, a figure with exactly three decimals is rather one with a point between thousands.
+_LEAST_WITH_DECIMALS = {SPEED: 100, STIFFNESS: 1, TORSIONAL_STIFFNESS: 1000}
 _KINDS = (  # how one speaks of what has these units; the first that has the powers
     Dimension("J", "a torque or an energy"),
     *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, STIFFNESS, DAMPING),
@@ -192,7 +194,7 @@ _SIGNS = str.maketrans("−–º˚“”″⁄’", '--°°"""/\'')
 _CYRILLIC = dict(
     pair.split(":")
     for pair in """
-    мкм:um мм:mm см:cm дм:dm м:m мг:mg г:g кг:kg т:t мс:ms с:s сек:s мин:min ч:h
+    мкм:um мм:mm Мм:Mm см:cm дм:dm м:m мг:mg г:g гр:gr кг:kg т:t мс:ms с:s сек:s мин:min ч:h
     рад:rad град:deg об:turn Гц:Hz кГц:kHz Н:N кН:kN МН:MN Нм:Nm кНм:kNm кгм:kgm гмм:gmm гсм:gcm
     кгс:kgf тс:tf ат:at атм:atm бар:bar Па:Pa кПа:kPa МПа:MPa ГПа:GPa
     Дж:J кДж:kJ МДж:MJ Вт:W кВт:kW л:l
@@ -205,8 +207,9 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS)),
     (r".+", lambda m: m[0].translate(_SIGNS)),
     (r"(?i)\br\.p\.m\.?", "rpm"),
+    (r"M(?:PA|pa)\b", "MPa"),
     (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
-    (r"[а-яёА-ЯЁ]+", lambda m: _CYRILLIC.get(m[0], m[0])),
+    (r"[а-яёА-ЯЁ]+", lambda m: _CYRILLIC.get(m[0]) or _CYRILLIC.get(m[0].lower(), m[0])),
     (r"(?<=\d)\s*[x×·⋅*]\s*10\^([+-]?\d{1,3})\b", r"e\1"),
     (
         r"^(\s*[+-]?[1-9]\d{0,2})((?:[ '_]\d{3})+)(?![\d/]| \d{3}|\s*/\s*\d)",
@@ -271,6 +274,13 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
         raise ValueError("divides by zero") from None
     except OverflowError:
         raise ValueError("is too large a number") from None
+    point = re.match(r"\s*[+-]?([1-9]\d{0,2})\.(\d{3})(?![\d.,/eE])", text)
+    if point and abs(exact) < _LEAST_WITH_DECIMALS.get(dimension, 0):
+        decimals, thousands = f"{point[1]}.{point[2]}0", point[1] + point[2]
+        raise ValueError(
+            f"has three decimals, or a point between thousands: write {decimals} or {thousands}; "
+            f"{wanted(dimension)}"
+        )
     return exact
 
 
@@ -402,10 +412,13 @@ def _find(name: str) -> Unit | None:
     one = name.removesuffix("s")
     if one != name and len(one) > 1 and name.islower():
         return _find(one)
-    if name.isupper() and name[1:] and (found := _find(name.lower())):
+    lower = name.lower()
+    if not name[1:]:
+        return None
+    if name.isupper() and (found := _find(lower)):
         return found
-    alike = _by_lower_case()[name.lower()] - {name} if name[1:] else set()  # Kg, KPa, Rpm
-    return _find(alike.pop()) if len(alike) == 1 else None
+    alike = _by_lower_case()[lower] or _by_lower_case()[lower.removesuffix("s")]
+    return _find(next(iter(alike))) if len(alike) == 1 else None  # Kg, KPa, Rpm, Lbs
 
 
 @cache

@@ -33,7 +33,7 @@ from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, un
 from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
 from ..engine.gas import CylinderGas, EngineGas
-from ..errors import NO_GAS, BalcliError, wrong_type
+from ..errors import NO_GAS, BalcliError, list_values, wrong_type
 from ..file.fields import shorten
 from ..limits import (
     HIGHEST_GAS_ORDER_UNASKED,
@@ -318,7 +318,7 @@ def _list_numbers(orders: object) -> list[float]:
     strange: object = orders
     is_number = isinstance(orders, np.ndarray) and orders.ndim == 0
     if isinstance(orders, Iterable) and not (is_number or isinstance(orders, (str, bytes))):
-        given = list(orders)
+        given = list_values("orders", orders)
         strangers = [one for one in given if not isinstance(one, (int, float, np.number))]
         if not strangers:
             return given

@@ -7,13 +7,14 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
 from inspect import signature
+from itertools import islice
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
-from ..errors import BalcliError, InputError, wrong_type
+from ..errors import BalcliError, InputError, list_values, wrong_type
 from ..file.fields import shorten
 from ..forces.spectrum import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
@@ -67,7 +68,7 @@ def join_names(function: str, words: Words | None) -> str | None:
     if words is None or isinstance(words, str):
         return words
     if isinstance(words, Iterable):
-        listed = list(words)
+        listed = list_values(function, words)
         if all(isinstance(word, str) for word in listed):
             return ",".join(listed)
     raise wrong_type(function, words, 'give names, such as ["force.2.major", "moment.1.backward"]')
@@ -93,6 +94,8 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
     """
     if speeds_rpm is None:
         return None
+    if isinstance(speeds_rpm, range):  # which may stand for thousands of millions
+        speeds_rpm = list_values("speeds_rpm", speeds_rpm, MOST_SPEEDS)
     try:
         given = np.asarray(speeds_rpm)
         if given.dtype.kind not in "iufO":  # numpy would read numbers out of texts
@@ -168,9 +171,10 @@ def read_position(name: str, value: object) -> tuple[float, float, float]:
         TypeError: it is not three numbers.
     """
     try:
-        if any(isinstance(number, str) for number in value):  # type: ignore[attr-defined]
+        numbers = list(islice(value, 4))  # type: ignore[call-overload]
+        if any(isinstance(number, str) for number in numbers):
             raise TypeError
-        x, y, z = map(float, value)  # type: ignore[call-overload]
+        x, y, z = map(float, numbers)
     except (TypeError, ValueError, OverflowError):
         raise wrong_type(name, value, "give x, y and z in m, such as (0.3, 0, 0)") from None
     return x, y, z

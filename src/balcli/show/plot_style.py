@@ -121,10 +121,14 @@ def inline_svg(svg: bytes, name: str) -> str:
     text = svg.decode()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.S)
-    text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text)
+    text = re.sub(r"<[^>]*>", lambda tag: _adapt_tag(tag[0], name), text)
     size = r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"'
-    text = re.sub(size, r'\1 style="max-width: \2pt"', text, count=1)
-    return re.sub("|".join(NAMES), lambda colour: f"var(--{NAMES[colour[0]]})", text)
+    return re.sub(size, r'\1 style="max-width: \2pt"', text, count=1)
+
+
+def _adapt_tag(tag: str, name: str) -> str:
+    tag = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", tag)
+    return re.sub("|".join(NAMES), lambda colour: f"var(--{NAMES[colour[0]]})", tag)
 
 
 def fit_name(name: str, most: int = 90) -> str:
