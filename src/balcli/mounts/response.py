@@ -25,9 +25,9 @@ from ..core.vibration import (
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError
+from ..file.fields import order_number
 from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
-from ..show.sheet import order_number
 from .build import BodyModes, MountedBody
 from .loads import BodyLoads, find_loads
 from .records import (

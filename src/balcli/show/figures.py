@@ -15,10 +15,10 @@ from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
 from ..engine.engine import Engine, SilentCylinders
+from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.spectrum import Spectra
-from .sheet import order_number
 from .units import ShownUnit, System
 
 

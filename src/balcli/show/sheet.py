@@ -81,11 +81,6 @@ def sentence(text: str) -> str:
     return f"{capitalized(text).removesuffix('.')}."
 
 
-def order_number(order: float) -> int | float:
-    """An order as it is written: whole ones without a point."""
-    return int(order) if order == int(order) else float(order)
-
-
 def order_name(order: float) -> str:
     """An order as a table shows it: 2, ½, 1½."""
     whole, half = divmod(order, 1)

@@ -17,7 +17,7 @@ from ..core.vibration import Real
 from ..engine.engine import Engine, take_model
 from ..engine.load import build_tables
 from ..errors import BalcliError, check_type
-from ..file.fields import printable
+from ..file.fields import order_number, printable
 from ..file.plain_tables import take_tables
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
@@ -31,7 +31,7 @@ from .response import (
     find_barred,
     find_response,
 )
-from .system import TorsionalSystem, whole_order
+from .system import TorsionalSystem
 
 BEYOND = 1.5  # times the file's own speed to which criticals are listed: engines overspeed
 BREAKING = 1000e6  # Pa of vibratory stress: the best steel yields below
@@ -296,7 +296,7 @@ def _analyze_system(
         nodes=tuple(map(ChainNode, system.nodes, chain.inertia.tolist(), system.gears.tolist())),
         shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
         modes=modes,
-        orders=None if excitation is None else tuple(map(whole_order, excitation.orders.tolist())),
+        orders=None if excitation is None else tuple(map(order_number, excitation.orders.tolist())),
         criticals=None if excitation is None else find_criticals(excitation, modes, span),
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
         response=response,

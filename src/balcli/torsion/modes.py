@@ -16,8 +16,9 @@ import numpy as np
 from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_shapes
+from ..file.fields import order_number
 from .chain import Chain, Damping, find_still, follow_gears, grow_branches, incidence, rigid_motions
-from .system import Excitation, TorsionalSystem, whole_order
+from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
 _SIGMA = np.exp(0.25j * np.pi)  # where no pole can be: off both axes, and it would grow
@@ -257,7 +258,7 @@ def find_criticals(
         found += [
             Critical(
                 mode=mode.number,
-                order=whole_order(float(orders[k])),
+                order=order_number(float(orders[k])),
                 speed_rpm=float(rpm[k]),
                 phase_sum=float(phasors[k] / np.abs(torque[k]).max()),
                 work_share=float(phasors[k] / total),
