@@ -104,10 +104,9 @@ class RunningBody(NamedTuple):
         own = largest_of_ellipse(running.read(running.move(some)[..., None, :])).max(axis=0)
         roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
         sizes = roll[:, None, None] * running.bound_response(every, some)
-        shares = np.divide(sizes, own, out=np.zeros_like(sizes), where=own > 0)
-        # Of an order and all higher ones.
-        beyond = shares[::-1].cumsum(axis=0)[::-1].max(axis=(1, 2))
-        highest = every[beyond > _BEYOND].max(initial=HIGHEST_GAS_ORDER_UNASKED)
+        beyond = sizes[::-1].cumsum(axis=0)[::-1]  # of an order and all higher ones
+        needed = (beyond > _BEYOND * own).any(axis=(1, 2))
+        highest = every[needed].max(initial=HIGHEST_GAS_ORDER_UNASKED)
         if highest > HIGHEST_GAS_ORDER_UNASKED:
             loads = find_loads(engine, centre, gas_orders=list_gas_orders(engine, highest))
             running = running._replace(loads=loads)
