@@ -175,19 +175,19 @@ def size_damper(
     def resize(logarithm: float) -> Damper:
         return first.model_copy(update={figure: start * math.exp(logarithm)})
 
-    def judge(damper: Damper | None) -> float:
-        """Return the largest stress or torque of the shafts there without it; inf: no bound."""
+    def judge(system: TorsionalSystem) -> float:
+        """Return the largest stress or torque of the shafts of the bare system; inf: no bound."""
         tell(min(next(tried) / _RESPONSES, 1.0))
         try:
-            return _find_hardest(build(damper), speeds, weights)[2]
+            return _find_hardest(system, speeds, weights)[2]
         except BalcliError:
             return math.inf
 
-    farther = _minimise(lambda logarithm: judge(resize(logarithm)), width)
+    farther = _minimise(lambda logarithm: judge(build(resize(logarithm))), width)
     best = float(f"{start * math.exp(farther):.6g}")
     damper = first.model_copy(update={figure: best})
     measure, unit = ("stress", "Pa") if any(bare.sections) else ("torque", "Nm")
-    before, after = judge(None), judge(damper)
+    before, after = judge(bare), judge(build(damper))
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
         name, size = DAMPER_KEYS[key]
