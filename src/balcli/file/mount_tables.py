@@ -56,8 +56,8 @@ class Body(FileTable):
     cg: Triple
     """x, y, z of the centre of gravity, in the engine's axes. Example: [12, -8, 35]"""
     inertia: Tensor
-    """Xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity, as they stand in
-    the matrix (products of inertia with minus). Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
+    """Elements xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity (products
+    of inertia with minus). Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
     1.34e6, -0.472e6]"""
     gravity: Direction = (-1.0, 0.0, 0.0)
     """Direction of the weight, of any length. Example: [-1, 0, 0]"""
