@@ -136,7 +136,7 @@ def _measure(
     def add_up(where: Real) -> None:
         found[where] = find_swing(orders, phasors[:, where]).half
 
-    first = np.arange(len(rpm))[:, None] == found.argmax(axis=0)
+    first = (np.arange(len(rpm))[:, None] == found.argmax(axis=0)) & (found > 0)
     add_up(first)
     level = np.maximum(least[:count], np.where(first, found, 0).max(axis=0))
     add_up(~first & (found > 0) & (found >= _NEAR * (level.max() if together else level)))

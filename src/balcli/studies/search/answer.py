@@ -318,7 +318,9 @@ def _search_numbers(
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
     """Return how much is evaluated: less where each candidate takes a computation of its own."""
     if alone:
-        return Effort(_SLOW, 3, 1e-10) if box.size == 1 else Effort(2 * _SLOW * box.size, 3, 1e-8)
+        if box.size == 1:
+            return Effort(_SLOW, 3, 1e-10, steps=5)
+        return Effort(2 * _SLOW * box.size, 3, 1e-8, same=1e-2, steps=5)
     if box.size > 1:
         return Effort(_SPREAD, 24, 1e-15)
     highest = max(q.order for q in choose_of_engine(objective.quantities))
