@@ -13,7 +13,7 @@ from support.rotors import head, names, polar, random_rotor, run, table, three_r
 
 from balcli.core.unbalance import STEEL
 from balcli.errors import BalcliError
-from balcli.field.answer import find_corrections
+from balcli.field.answer import balance_rotor, find_corrections
 from balcli.field.read import parse_runs
 
 RELATIVE = 1e-12
@@ -495,3 +495,23 @@ def test_polar_of_the_tests_is_read_back():
     (one,) = parse_runs(head(1) + run([3 - 4j])).run[0].readings
     assert one == pytest.approx(3 - 4j, rel=1e-15)
     assert polar(5j) == "5 @ 90"
+
+
+def test_a_repeated_run_has_no_correction_in():
+    """Found, two trials, the first trial again and found again: balancing goes on from the rotor as
+    found; a run with other weights has a correction in.
+    """
+    alpha, found = np.array([[2.0, 0.5j], [0.3, 1.5]]), np.array([40.0, 30j])
+
+    def run(name, **weights):
+        on = np.array([weights.get("a", 0), weights.get("b", 0)])
+        readings = [f"{abs(v):.15g} @ {np.degrees(np.angle(v)):.15g}" for v in found + alpha @ on]
+        return {"name": name, "readings": readings, "weights": {k: f"{v} @ 0" for k, v in weights.items()}}
+
+    runs = [run("found"), run("a", a=5), run("b", b=6), run("a again", a=5), run("found again")]
+    result = balance_rotor({"planes": ["a", "b"], "run": runs})
+    assert result.trimmed is None
+    np.testing.assert_allclose(result.before, found, rtol=1e-12)
+    assert [each.add for each in result.corrections] == [None, None]
+    runs.insert(4, run("correction", a=5, b=6))
+    assert balance_rotor({"planes": ["a", "b"], "run": runs}).trimmed == "correction"

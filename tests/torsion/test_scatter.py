@@ -104,9 +104,9 @@ def test_what_does_not_scatter(tmp_path):
         "engine, of its mounts and of torsion one after the other"
     )
     told = refusal("scatter", path, "-q", "torsion.1.Hz", "--samples", "30000")
-    assert told == ("30000 samples: torsion.1.Hz is computed one by one, from 1 to 20000 are allowed")
+    assert told == "30 000 samples: give from 1 to 20 000, as torsion.1.Hz is computed one by one"
     none = ("--mass-scatter", "0%", "--stiffness-scatter", "0%")
     told = refusal("scatter", path, "-q", "torsion.1.Hz", *none)
-    assert told == "nothing deviates; give a tolerance, such as --stiffness-scatter 15%"
+    assert told == "all tolerances are 0; give one, such as --stiffness-scatter 15%"
     told = refusal("scatter", path, "-q", "shaft.x.torque")
     assert told.startswith('shaft.x.torque: the file has no shaft "x"')

@@ -31,7 +31,10 @@ SHOWN = 6  # sources of each quantity in a table
 BOUND = "Bound: nominal value plus all changes below; a variant may lie slightly beyond"
 _SHAPES = {
     "uniform": "evenly distributed",
-    "normal": "normally distributed, one third of each tolerance being the standard deviation",
+    "normal": (
+        "normally distributed with a third of the tolerance as standard deviation, so that 1 of "
+        "370 deviations exceeds it"
+    ),
 }
 
 

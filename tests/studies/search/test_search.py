@@ -380,7 +380,7 @@ def test_articulated_rods_count_once_for_their_throw() -> None:
 def test_a_sum_of_forces_and_moments_is_said_to_be_one(minimise: str, told: bool) -> None:
     found = search_least(load(SHUFFLED), "throws", minimise)
     (grid,) = sheet(found, SYSTEMS["si"]).parts
-    assert ("Objective: N·m and N added as plain numbers" in grid.note) is told
+    assert ("The objective adds N·m and N as plain numbers" in grid.note) is told
 
 
 def test_throws_that_follow_from_the_firing_order_are_permuted_like_those_given():
