@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 
-class _AlikeOrEach:
+class AlikeOrEach:
     """Figures along the three own axes of a mount, or one that holds along all three."""
 
     def __init__(self, one: Number) -> None:
@@ -41,8 +41,8 @@ Tensor = Annotated[tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], _si
 Direction = Annotated[tuple[Annotated[float, Number(PLAIN, most=1e9)], ...], _three]
 Directions = Annotated[tuple[Direction, ...], _two]
 Turns = Annotated[tuple[Angle, ...], _three]
-Stiffnesses = Annotated[tuple[Annotated[float, _Stiffness], ...], _three, _AlikeOrEach(_Stiffness)]
-Dampings = Annotated[tuple[Annotated[float, _Damping], ...], _three, _AlikeOrEach(_Damping)]
+Stiffnesses = Annotated[tuple[Annotated[float, _Stiffness], ...], _three, AlikeOrEach(_Stiffness)]
+Dampings = Annotated[tuple[Annotated[float, _Damping], ...], _three, AlikeOrEach(_Damping)]
 
 UNIT = INERTIA.unit
 _PERPENDICULAR = 1e-6  # cosine between two axes that are

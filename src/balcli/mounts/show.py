@@ -108,14 +108,14 @@ def _answer(
     ends = [number(speed, 4) for speed in dict.fromkeys((speeds[0], speeds[-1]))]
     names = [order_name(order) for order in dict.fromkeys((orders[0], orders[-1]))]
     yield (
-        f"Orders that count: {' to '.join(names)}, {len(orders)} in all; "
+        f"Orders included: {' to '.join(names)}, {len(orders)} in all; "
         f"speed{'s' * (len(ends) > 1)}: {' to '.join(ends)} rpm."
     )
     if response.loads.fired:
         silent = _tell_silent(response)
-        yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
+        yield f"Inertia and gas torque, with the same gas diagram at every speed{silent}."
     else:
-        yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
+        yield "Inertia only: gas torque, which also rolls an engine, is not included."
     if result.assumed_rpm is not None:
         told = f"{number(result.assumed_rpm, 4)} rpm, which is assumed"
         yield f"The file gives no speed: these are the largest up to {told}."

@@ -20,6 +20,7 @@ from ..errors import BalcliError, wrong_type
 from ..file.fields import Number, nearest, shorten
 from ..file.messages import SYNONYMS
 from ..file.model import EngineFile, Override
+from ..file.mount_tables import AlikeOrEach
 from ..file.table import FileTable
 from ..file.units import BARE_FIGURE, convert_exactly
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
@@ -94,6 +95,13 @@ def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:
         if isinstance(value, FileTable):
             yield from _numbers_of(f"{path}.{key}", value)
         elif isinstance(value, tuple):
+            marks = type(table).model_fields[key].metadata
+            if (
+                number is not None
+                and len(set(value)) == 1
+                and any(isinstance(mark, AlikeOrEach) for mark in marks)
+            ):
+                yield f"{path}.{key}", number  # all of them together
             for k, item in enumerate(value, 1):
                 if isinstance(item, FileTable):
                     yield from _numbers_of(f"{path}.{key}.{k}", item)
