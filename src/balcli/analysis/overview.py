@@ -365,13 +365,9 @@ def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device])
         return f"{what} of {size}, turning against the crank", "" if against_fitted else cure
     cure = shafts.format(f"two balancer shafts, at +{order} and -{order}")
     if order == 1:
-        by_weights, shaft = (
-            "counterweights cancel the first",
-            "a balancer shaft at -1 times crank speed",
-        )
-        cure = (
-            f"{shaft} cancels the second" if ahead_fitted else f"{by_weights}, {shaft} the second"
-        )
+        weights = "" if ahead_fitted else "counterweights cancel the first, "
+        shaft = "a balancer shaft at -1 times crank speed"
+        cure = f"{weights}{shaft}{' cancels' if ahead_fitted else ''} the second"
     if against_fitted:
         cure = "counterweights cancel the first" * (order == 1 and not ahead_fitted)
     elif ahead_fitted and order > 1:

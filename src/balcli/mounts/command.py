@@ -20,7 +20,7 @@ from ..show.units import SYSTEMS
 
 Orders = Annotated[
     str | None,
-    optional("1-8|1,2,4", "Orders that count; default: all that contribute.", "--orders"),
+    optional("1-8|1,2,4", "Orders to include; default: all that contribute.", "--orders"),
 ]
 
 

@@ -136,7 +136,7 @@ TORSION = Chapter(
 CHAPTERS = (ENGINE, GUIDE, CYCLE, MOUNTS, TORSION)
 # Quantities that are the largest of a range of speeds: its ends over the engine's speed, in words.
 _RANGES = (
-    (("mount.", "point."), "Mounts and points", (1 / 8, 1.0), "1/8 of the engine's speed to all"),
+    (("mount.", "point."), "Mounts and points", (1 / 8, 1.0), "1/8 to 1 times the engine's speed"),
     (("shaft.",), "Shafts", (0.5, 1.5), "0.5 to 1.5 times the engine's speed"),
 )
 BEGINNINGS = tuple(dict.fromkeys(each for chapter in CHAPTERS for each in chapter.beginnings))

@@ -386,7 +386,7 @@ def _name_gas(excitation: Excitation, where_counted: str = "") -> str:
     """Return how far the gas of an engine counts; nothing of a chain."""
     if not excitation.growing.any():
         return ""
-    alone = " Of inertia alone: the torque of the gas is not in this."
+    alone = " Inertia only; gas torque is not included."
     return where_counted if excitation.steady.any() else alone
 
 
@@ -431,7 +431,7 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         yield "barred speeds", text
     if bare:
         named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
-        yield "not judged", f"{named}: no diameter, so that no stress is known"
+        yield "not checked", f"{named}: no diameter, so the stress is not known"
 
 
 RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
