@@ -161,3 +161,10 @@ def test_a_name_of_the_whole_engine_comes_before_that_of_one_cylinder(name, mean
     with pytest.raises(BalcliError) as caught:
         parse_parameter(f"{name}=120,130", load(GOOD))
     assert str(caught.value).startswith(f"{name}: unknown parameter; did you mean {meant}")
+
+
+def test_a_figure_that_stands_for_all_axes_of_a_mount_varies_as_one():
+    text = (ENGINES / "i4_mounts.toml").read_text()
+    left = text.replace("stiffness = [190, 90, 90]", "stiffness = 140", 1)
+    assert "mount.left.stiffness" not in find_numbers(load(text))
+    assert {"mount.left.stiffness", "mount.left.stiffness.2"} <= find_numbers(load(left)).keys()

@@ -247,3 +247,13 @@ def test_a_table_names_what_varies():
     assert "Spread of 2 random engines" in out
     assert "\nfluctuation        0.005377" in out
     assert "a variant may lie slightly beyond" in out
+
+
+def test_a_table_says_tolerances_parts_and_units_that_fit():
+    """Equal parts share a row, and a force of 19 634 N is in kN."""
+    out = run_here("scatter", ENGINES / "i4.toml", "--length-scatter", "0.2%", "--samples", "20000").out
+    told = " ".join(out.split())
+    assert "Spread of 20 000 random engines" in told
+    assert "piston mass, rod mass, throw mass ±0.5 %; rod length ±0.2 %" in told
+    assert "force.2.major, kN 19.634" in told
+    assert "92.4 throw mass 1, 2, 3, 4" in told
