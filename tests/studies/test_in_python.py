@@ -75,7 +75,7 @@ def test_a_sweep_too_large_to_keep_names_the_command(monkeypatch):
     with pytest.raises(balcli.BalcliError) as caught:
         balcli.sweep(FOUR, {"rod.ratio": [0.25, 0.3]}, ["force.2.major", "force.4.major"])
     assert str(caught.value) == (
-        "4 figures are too many to keep (3 are allowed): balcli sweep -o FILE.parquet writes them as they are computed"
+        "4 values are too many to keep; give at most 3, or use balcli sweep -o FILE.parquet, which writes them as they are computed"
     )
 
 

@@ -80,7 +80,7 @@ def report_mounts(
         asked = None if orders is None else check_orders(orders)
         if asked is not None and asked[0] == 0:
             raise BalcliError(
-                "order 0 does not vibrate: what is steady is told as rest; leave it out"
+                "order 0 is steady and does not vibrate; leave it out (see the table At rest)"
             )
         engines = [] if engine is None else [engine]
         if engine is not None and scheme is not None:

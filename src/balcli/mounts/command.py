@@ -91,8 +91,8 @@ def mounts(
         )
     if result.response is None and any((speeds, orders, scheme, misfire)):
         warn(
-            f"{name}: nothing shakes this body, so speeds, orders, misfires and schemes say "
-            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
+            f"{name}: has no engine, so --speeds, --orders, --misfire and --scheme have no effect; "
+            "add [crank], [rod] and [piston], or name an engine file after this one"
         )
     warn_each(result.doubts, name)
     if plot is not None and drawn is not None:

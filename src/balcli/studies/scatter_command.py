@@ -128,7 +128,7 @@ def scatter(
         typer.Option(
             "--length-scatter",
             metavar="PERCENT",
-            help="Tolerance of every rod length; what else the file says of the rods stays.",
+            help="Tolerance of every rod length; the other rod data are kept.",
         ),
     ] = "0%",
     angle: Annotated[

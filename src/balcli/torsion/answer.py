@@ -225,24 +225,24 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
         if wide > WIDE_SWING:
             yield (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, computed as if that were small: at "
-                f"{WIDE_SWING:.0f} deg one on a circle is 0.8 % out of tune, farther out more; "
-                f"with {wide / WIDE_SWING:.2g} times their mass they would swing by about "
+                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings: at "
+                f"{WIDE_SWING:.0f} deg a pendulum on a circle is 0.8 % out of tune, beyond more; "
+                f"{wide / WIDE_SWING:.2g} times their mass would limit the swing to about "
                 f"{WIDE_SWING:.0f} deg"
             )
-    question = "is the damping (loss, damping) of all that twists right?"
+    question = "check the damping (loss, damping) of all shafts and nodes"
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
     swing = response.free_end_worst
     if hardest is not None and (stress := hardest.worst.stress_Pa or 0.0) > BREAKING:
         yield (
-            f"{printable(hardest.name)} would bear {stress / 1e6:.4g} N/mm2 at "
-            f"{hardest.worst.speed_rpm:.5g} rpm, which no steel does; {question}"
+            f"{printable(hardest.name)} has {stress / 1e6:.4g} N/mm² at "
+            f"{hardest.worst.speed_rpm:.5g} rpm, more than any steel bears; {question}"
         )
     elif swing.half_swing_deg > ASTOUNDING:
         yield (
-            f"{printable(system.free_end)} would swing by {swing.half_swing_deg:.4g} deg at "
-            f"{swing.speed_rpm:.5g} rpm, which is too far for what is computed here, small swings; "
-            f"is an inertia missing, or the speed too low? {question.capitalize()}"
+            f"{printable(system.free_end)} swings by {swing.half_swing_deg:.4g} deg at "
+            f"{swing.speed_rpm:.5g} rpm, but the computation assumes small swings; is an inertia "
+            f"missing, or the speed too low? {question.capitalize()}"
         )
 
 

@@ -323,8 +323,8 @@ def _propose(
         radius = given["radius"] / 1e3 if "radius" in given else crank_radius
         if radius is None:
             raise BalcliError(
-                "--damper pendulum: a chain has no crank that says how far out pendulums hang: "
-                f"give {printable(system.nodes[node])} one, such as damper = "
+                "--damper pendulum: a chain has no crank radius for the pendulums; "
+                f"give {printable(system.nodes[node])} a radius, such as damper = "
                 '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
             )
         length = radius * (system.gears[node] / order) ** 2
@@ -337,8 +337,8 @@ def _propose(
     except ValidationError as error:
         wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
         raise BalcliError(
-            f"--damper {asked.kind}: the best there cannot be: {wrong.path}: {wrong.message}; are "
-            "inertias and stiffnesses of the system in the right units?"
+            f"--damper {asked.kind}: the best damper is impossible: {wrong.path}: {wrong.message}; "
+            "check the units of inertias and stiffnesses"
         ) from None
 
 

@@ -315,8 +315,8 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
         raise ValueError(
-            "Holzer's table cannot have what meshes with a fixed node; fix it, too, and leave the "
-            "gear out"
+            "Holzer's table does not take gears that mesh with a fixed node; fix the other node as "
+            "well, and leave the gear out"
         )
     parents, node = {branch.child: branch.parent for branch in branches}, first
     while node in parents:

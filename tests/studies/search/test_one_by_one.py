@@ -111,7 +111,7 @@ def test_the_firing_order_decides_where_gas_fires_in_two_turns(tmp_path):
         tmp_path / "six.toml", SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]")
     )
     told = refusal("search", path, "--over", "throws", "--minimise", "torque.2.amplitude")
-    assert told.startswith("with [gas] in four strokes the firing order decides, too")
+    assert told.startswith("with [gas] in four strokes the result depends on the firing order as well")
 
 
 def test_a_number_in_a_range(tmp_path):

@@ -196,7 +196,7 @@ def search_arrangements(
     if not found:
         asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         words = named if "." in named else named.replace("_", " ")
-        raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
+        raise BalcliError(f"no {words} can {' and '.join(asked or ['make an engine'])}")
     return Search(
         model=model,
         over=named,

@@ -420,8 +420,8 @@ def rank_one_by_one(
     every = list(islice(designs, MOST_DESIGNS_ONE_BY_ONE + 1))
     if len(every) > MOST_DESIGNS_ONE_BY_ONE:
         raise BalcliError(
-            f"there are more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, and each takes a "
-            "computation of its own: give crank.throws, or look for what inertia alone does"
+            f"more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, too many to compute one by one; "
+            "give crank.throws, or search by quantities of inertia such as moment.1.major"
         )
     rows: list[list[Array]] = []
     for k, design in enumerate(every, 1):
