@@ -190,7 +190,8 @@ def search(
         list[str] | None,
         optional(
             "WHAT<VALUE",
-            "What must stay below a value (N, N·m, Hz, Pa), such as 'moment.2.major<100'.",
+            "What must stay below a value (N, N·m, Hz, Pa, or with its unit), such as "
+            "'moment.2.major<100' or 'shaft.flywheel.stress<60 N/mm^2'.",
             "--limit",
         ),
     ] = None,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from typing import Annotated, Any, NamedTuple, TypeAlias
@@ -27,6 +28,7 @@ from ...errors import BalcliError, InputError
 from ...file.edit import set_keys
 from ...file.model import EngineFile
 from ...file.plain_tables import change_tables
+from ...file.units import Dimension, convert
 from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity
 from ...limits import MOST_DESIGNS_ONE_BY_ONE
@@ -238,7 +240,8 @@ def parse_objective(
                 f'--limit "{text}": give a quantity and what it must stay below, such as '
                 '"moment.2.major<100"'
             )
-        bounds |= dict.fromkeys(_parse_sizes(name, with_gas), _parse_positive(bound, text))
+        limited = _parse_sizes(name, with_gas)
+        bounds |= dict.fromkeys(limited, _parse_positive(bound, text, limited[0].unit))
     return Objective(weights, bounds, maximise is not None)
 
 
@@ -256,12 +259,19 @@ def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
     return found
 
 
-def _parse_positive(text: str, whole: str) -> float:
-    """Return a positive number; `whole` is the text that it stands in."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
+def _parse_positive(text: str, whole: str, unit: str = "") -> float:
+    """Return a positive number, in this unit where it has none.
+
+    Args:
+        text: Number, or a figure with a unit such as `60 N/mm^2`.
+        whole: Text that it stands in, for messages.
+        unit: Unit of the result.
+    """
+    number = math.nan
+    for read in (float, lambda each: convert(each, Dimension(unit.replace("·", " "), "a limit"))):
+        with suppress(ValueError):
+            number = read(text)
+            break
     if not 0 < number < math.inf:
         raise BalcliError(f'"{whole}": {text.strip() or "nothing"} is no positive number')
     return number
