@@ -139,8 +139,8 @@ def test_more_values_than_are_kept_are_refused_before_there_are_any() -> None:
     with pytest.raises(BalcliError) as found:
         parse_parameter("rod.ratio=0.2:0.3:1e-10", load(GOOD))
     assert str(found.value) == (
-        '"rod.ratio=0.2:0.3:1e-10": has 1000000001 values; give a step that leads from the first to '
-        "the last in at most 1e+07 steps"
+        '"rod.ratio=0.2:0.3:1e-10": has 1 000 000 001 values; give a step with 1 to 10 000 000 '
+        "values from the first to the last"
     )
 
 

@@ -24,6 +24,7 @@ from ..file.mount_tables import AlikeOrEach
 from ..file.table import FileTable
 from ..file.units import BARE_FIGURE, convert_exactly
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
+from ..show.sheet import count_name
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 
@@ -259,8 +260,8 @@ def _read_values(text: str, number: Number) -> NDArray[np.float64]:
     count = math.floor((last - first) / step) + 1
     if not 0 < count <= MOST_PARAMETER_VALUES:
         raise ValueError(
-            f"has {max(count, 0)} values; give a step that leads from the first to the last in at "
-            f"most {MOST_PARAMETER_VALUES:g} steps"
+            f"has {count_name(max(count, 0))} values; give a step with 1 to "
+            f"{count_name(MOST_PARAMETER_VALUES)} values from the first to the last"
         )
     return ladder(first, step, count)
 

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
-from typing import Annotated, Literal, NamedTuple, TypeAlias
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
@@ -57,9 +57,6 @@ _GRID, _SPREAD = 720, 2048  # candidates of one number, of several
 _SLOW = 32  # candidates a number, where each takes a computation of its own
 
 
-Lines: TypeAlias = tuple[tuple[Design, Design], ...]
-
-
 class SearchRange(NamedTuple):
     """A number that is searched over.
 
@@ -89,7 +86,6 @@ class Search(Result):
         ranges: The numbers that were searched over.
         constant: Whether the numbers change nothing of the objective.
         refused: Values of the numbers that make no engine, and why; empty if all do.
-        lines: Pairs of equally good designs, with others on the line between them.
         even_firing: Whether only arrangements that can fire evenly were looked at.
     """
 
@@ -101,7 +97,6 @@ class Search(Result):
     ranges: Annotated[tuple[SearchRange, ...], HIDDEN] = ()
     constant: Annotated[bool, HIDDEN] = False
     refused: Annotated[str, HIDDEN] = ""
-    lines: Annotated[Lines, HIDDEN] = ()
     even_firing: Annotated[bool, HIDDEN] = False
 
     @property
@@ -177,11 +172,8 @@ def search_arrangements(
     ranges = read_ranges(model, wanted)
     named = ", ".join(one.key for one in ranges) or wanted[0]
     constant, refused = False, ""
-    lines: Lines = ()
     if ranges:
-        candidates, lines, constant, refused = _search_numbers(
-            model, ranges, objective, even_firing, tell
-        )
+        candidates, constant, refused = _search_numbers(model, ranges, objective, even_firing, tell)
     elif objective.is_sum_over_cylinders:
         if named == "throws":
             base = drop_firing_order(give_throws(model))
@@ -205,7 +197,6 @@ def search_arrangements(
         ranges=ranges,
         constant=constant,
         refused=refused,
-        lines=tuple(ends for ends in lines if any(ends[0] == one.design for one in found)),
         even_firing=even_firing,
     )
 
@@ -292,9 +283,9 @@ def _search_numbers(
     objective: Objective,
     even_firing: bool,
     tell: Tell,
-) -> tuple[Iterator[Found], Lines, bool, str]:
-    """Return the local optima over some numbers, best first; the ends of lines of equally good
-    values; whether the numbers change nothing; and which values make no engine, and why.
+) -> tuple[Iterator[Found], bool, str]:
+    """Return the local optima over some numbers, best first; whether the numbers change nothing;
+    and which values make no engine, and why.
 
     Raises:
         InputError: no values make an engine.
@@ -316,17 +307,17 @@ def _search_numbers(
     refused = judge.refused
     if not np.isfinite(optima.merits.excess).any() and refused is not None:
         raise InputError(refused.problems)
-    designs, ends_of_lines = (
+    designs, lines = (
         [dict(zip((one.key for one in ranges), place, strict=True)) for place in places.tolist()]
         for places in (optima.places, optima.lines)
     )
-    found = rank_designs(designs, judge.evaluate(optima.places), objective) if designs else iter(())
+    found: Iterator[Found] = iter(())
+    if designs:
+        found = rank_designs(designs, judge.evaluate(optima.places), objective, lines)
     costs = optima.merits.cost
     same = np.ptp(costs) <= _ROUNDING * np.abs(costs).max()
     why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
-    constant = bool(same and spans.all() and not why)
-    pairs = () if constant else zip(designs, ends_of_lines, strict=True)
-    return found, tuple((one, other) for one, other in pairs if one != other), constant, why
+    return found, bool(same and spans.all() and not why), why
 
 
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:

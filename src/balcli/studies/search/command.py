@@ -26,7 +26,7 @@ from ..quantity_names import tell_speeds
 if TYPE_CHECKING:
     from ...show.units import ShownUnit, System
     from .answer import Search
-    from .designs import Design, Found
+    from .designs import Found
 
 
 _EQUAL = 1e-9  # relative difference of objectives that are equal
@@ -99,12 +99,10 @@ def _notes(result: Search) -> Iterator[str]:
     if result.constant:
         same = " and ".join(q.name for q in result.objective.weights)
         yield f"No effect on {same}: the same at every value searched."
-    for row, one in enumerate(result.results, 1):
-        for other in (other for first, other in result.lines if first == one.design):
-            yield (
-                f"Row {row} stands for a straight line of equally good points, which passes "
-                f"{_point(result, other)} as well."
-            )
+    for row, one in enumerate(() if result.constant else result.results, 1):
+        if one.line and one.line != one.design:
+            point = ", ".join(map(_setting, one.line.values()))
+            yield f"Row {row} stands for a straight line of equally good points through ({point})."
     for key in result.at_ends:
         yield f"The best {key} is an end of its range; a wider range may contain a better value."
     assumed = tell_assumed_speed(result.model)
@@ -116,14 +114,6 @@ def _notes(result: Search) -> Iterator[str]:
     added = list(dict.fromkeys(q.unit for q in result.objective.weights))
     if len(added) > 1:
         yield f"The objective adds {' and '.join(added)} as plain numbers; NAME=W weighs them."
-
-
-def _point(result: Search, design: Design) -> str:
-    """Return a design in words, such as `bank angle 60 deg, splay 30 deg`."""
-    return ", ".join(
-        " ".join(filter(None, (_in_words(key), _setting(value), result.find_unit(key))))
-        for key, value in design.items()
-    )
 
 
 def _cells(result: Search, one: Found, units: Mapping[str, ShownUnit]) -> tuple[str, ...]:

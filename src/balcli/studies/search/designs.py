@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array
-from ...core.records import INLINE
+from ...core.records import HIDDEN, INLINE
 from ...engine.build import build
 from ...engine.engine import Engine
 from ...engine.figures import ranked
@@ -59,11 +59,13 @@ class Found:
             of a number, and its value.
         objective: Value of the objective.
         quantities: Value of each quantity by its name.
+        line: Another design of a line of equally good ones; itself or None where there is none.
     """
 
     design: Annotated[Design, INLINE]
     objective: float
     quantities: Mapping[str, float]
+    line: Annotated[Design | None, HIDDEN] = None
 
 
 def list_changes(design: Design) -> dict[str, Any]:
@@ -396,7 +398,10 @@ def rank_throws(model: EngineFile, throws: Array, objective: Objective) -> Itera
 
 
 def rank_designs(
-    designs: Sequence[Design], values: Mapping[AnyQuantity, Array], objective: Objective
+    designs: Sequence[Design],
+    values: Mapping[AnyQuantity, Array],
+    objective: Objective,
+    lines: Sequence[Design] = (),
 ) -> Iterator[Found]:
     """Yield the designs that keep the limits, best first, with their figures.
 
@@ -404,13 +409,14 @@ def rank_designs(
         designs: Arrangements.
         values: Each quantity, shape (designs,).
         objective: Objective of the search.
+        lines: For each design `Found.line`.
     """
     merit = objective.judge(values)
     for k in Merit(merit.excess, ranked(merit.cost)).rank():
         if merit.excess[k] == 0 and np.isfinite(merit.cost[k]):
             figures = {q.name: float(value[k]) for q, value in values.items()}
             total = -merit.cost[k] if objective.maximise else merit.cost[k]
-            yield Found(designs[k], float(total), figures)
+            yield Found(designs[k], float(total), figures, lines[k] if lines else None)
 
 
 def rank_one_by_one(

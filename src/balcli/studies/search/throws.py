@@ -29,6 +29,7 @@ from ...forces.quantity import Quantity
 from ...forces.spectrum import compute_spectra, with_only
 from ...limits import MOST_ARRANGEMENTS
 from ...process import Tell, tell_nobody
+from ...show.sheet import count_name
 from ..quantities import AnyQuantity, choose_of_engine
 from .designs import Design, Found, Objective, fires_evenly, name_throws, rank_throws
 
@@ -197,8 +198,8 @@ def find_best_throws(
     given = np.mod(np.asarray(model.crank.throws, float), 360.0)
     if _count_sequences(np.unique(given, return_counts=True)[1]) > MOST_ARRANGEMENTS:
         raise BalcliError(
-            f"crank.throws: {len(given)} throws have more than {MOST_ARRANGEMENTS:g} arrangements, "
-            "too many to search"
+            f"crank.throws: {len(given)} throws have more than {count_name(MOST_ARRANGEMENTS)} "
+            "arrangements, too many to search"
         )
     turned: dict[bytes, Array] = {}  # counted from each angle that can be cylinder 1's, once
     for row in np.sort(count_from(given[:, None], given)):
