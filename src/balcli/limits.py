@@ -67,7 +67,6 @@ LARGEST_TABLE_VALUE = 10**9  # in such a range
 HIGHEST_POWER = 200  # of lambda in a table of series: exact fractions, a second or two
 
 # Advice --------------------------------------------------------------------------------------
-SMALL = 0.05  # of one cylinder's first order: what turns one way in an order is left if below
 
 # Variants ------------------------------------------------------------------------------------
 MOST_PARAMETERS = 16  # that vary at once: each is an axis of arrays, which have up to 32

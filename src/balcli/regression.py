@@ -18,7 +18,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .analysis.answer import analyze
+from .analysis.answer import Analysis, analyze
 from .analysis.curves import compute_engine_curves
 from .core.records import to_document
 from .engine.engine import Engine
@@ -164,7 +164,7 @@ def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
 
 def _is_record(path: Path) -> bool:
     try:
-        return bool(_read(path)["format"] == "balcli.analysis/1")
+        return bool(_read(path)["format"] == Analysis.format)
     except _BROKEN:
         return False
 

@@ -280,12 +280,18 @@ def test_a_slug_adds_what_it_is_heavier_than_steel_on_its_own_side():
     assert removed(holes, 0.02, 17_000 - STEEL) == pytest.approx(20_000, rel=1e-9)
 
 
-def test_holes_that_do_not_fit_on_the_crank_are_an_error():
-    """Side by side along the stroke of a single, or along --width; nothing is written."""
+def test_holes_that_do_not_fit_on_the_crank_are_an_error(tmp_path):
+    """Side by side along the stroke of a single, or along --width. The answer without holes is
+    printed first; nothing is written.
+    """
     for drill in (1e-4, 1e-170):
         with pytest.raises(BalcliError, match="do not fit"):
             plan_holes(20_000, drill=drill)
-    message = refusal("balance", "-", "--drill", "2", stdin=SINGLE)
+    written = tmp_path / "new.toml"
+    done = run_here("balance", "-", "--drill", "2", "--write", written, stdin=SINGLE)
+    message = done.err
+    assert (done.status, written.exists()) == (2, False)
+    assert done.out == run_here("balance", "-", stdin=SINGLE).out
     assert all(part in message for part in ("--drill 2 mm", "g mm", "holes side by side", "--width", "--slug"))
     assert plan_holes(20_000, drill=0.02, max_depth=0.05, width=0.06).holes == 3
     with pytest.raises(BalcliError, match="2 holes side by side"):

@@ -59,7 +59,7 @@ def test_two_rows_are_set_by_the_first():
 def test_a_cylinder_of_the_second_row_that_is_not_as_the_first_is_named(goal, own, uneven):
     text = RADIAL.replace("stroke = 120", "stroke = 120\nthrows = [0, 180]\nspacing = 160")
     found = even_knuckles(enginefile.parse(f"{text}\n[cylinder.10]\n{own}\n"), goal)
-    told = "not so cylinder 10: the knuckle pins of a bank turn alike, as its first throw asks"
+    told = "not cylinder 10: all knuckle pins of a bank get the angle that suits its first throw"
     assert found.reasons[1:] == (told,) * uneven
 
 
@@ -87,7 +87,8 @@ def test_an_engine_without_articulated_rods():
     with pytest.raises(BalcliError) as caught:
         even_knuckles(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
     assert (
-        str(caught.value) == "knuckles: this engine has no articulated rods; an engine file says so with [articulation]"
+        str(caught.value)
+        == "knuckles: this engine has no articulated rods; an engine file describes them in [articulation]"
     )
 
 

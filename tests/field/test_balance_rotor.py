@@ -13,7 +13,7 @@ from support.rotors import head, names, polar, random_rotor, run, table, three_r
 
 from balcli.core.unbalance import STEEL
 from balcli.errors import BalcliError
-from balcli.field.answer import find_corrections
+from balcli.field.answer import balance_rotor, find_corrections
 from balcli.field.read import parse_runs
 
 RELATIVE = 1e-12
@@ -399,8 +399,8 @@ def test_a_correction_in_the_other_sense_is_doubted(known):
     start = head(1, 'influence = [["1 @ 0"]]' if known else "")
     (doubt,) = find_corrections(parse_runs('weights = "with"\n' + start + runs)).doubts
     assert doubt == (
-        "'in' reads 16 @ 90.0 at sensor 1, far from 0 @ 0.0, which the other runs predict; had "
-        'angles of weights been counted the other way round, weights = "against", it would be near'
+        "'in' reads 16 @ 90.0 at sensor 1; the other runs predict 0 @ 0.0; with "
+        'weights = "against", angles of weights the other way round, it fits'
     )
     assert find_corrections(parse_runs(start + runs)).doubts == ()
 
@@ -411,8 +411,8 @@ def test_a_run_far_from_what_others_foretell_is_doubted():
     off = 'sensors = ["rear"]\n' + head(1) + runs + run([9], [("p1", -5)])
     *_, doubt = find_corrections(parse_runs(off)).doubts
     assert doubt == (
-        "'run 3' reads 9 @ 0.0 at rear, far from 3 @ 0.0, which the other runs predict; are its "
-        "weights where the file says, and is the machine as it was? Else leave the run out"
+        "'run 3' reads 9 @ 0.0 at rear; the other runs predict 3 @ 0.0; check its weights and the "
+        "state of the machine, or leave the run out"
     )
     near = head(1) + runs + run([5], [("p1", -5)])
     assert find_corrections(parse_runs(near)).doubts == ()
@@ -440,7 +440,7 @@ def test_planes_that_are_nearly_alike_are_doubted():
     text = head(2, 'influence = [["1 @ 0", "1 @ 0"], ["1 @ 0", "1.1 @ 0"]]') + run([1, 2])
     (doubt,) = find_corrections(parse_runs(text)).doubts
     assert doubt.startswith(
-        "what planes p1 and p2 do, other planes do nearly as well: only 4.8% of what one does is its"
+        "planes p1 and p2 have nearly the same effect as other planes: only 4.8% of the effect of one"
     )
     assert doubt.endswith("try --without p1")
 
@@ -451,7 +451,7 @@ def test_planes_that_are_alike_together_are_not_said_to_be_alike_each():
         3, 'influence = [["1 @ 0", "0 @ 0", "1 @ 0"], ["0 @ 0", "1 @ 0", "1 @ 0"], ["0 @ 0", "0 @ 0", "0.1 @ 0"]]'
     ) + run([1, 2, 3])
     (doubt,) = find_corrections(parse_runs(text)).doubts
-    assert doubt.startswith("what planes p1, p2 and p3 do, other planes do nearly as well: only 7.1%")
+    assert doubt.startswith("planes p1, p2 and p3 have nearly the same effect as other planes: only 7.1%")
 
 
 def test_what_is_permitted_is_not_judged_in_a_plane_left_out():
@@ -460,8 +460,8 @@ def test_what_is_permitted_is_not_judged_in_a_plane_left_out():
     assert find_corrections(parse_runs(text)).doubts == ()
     found = find_corrections(parse_runs(text), without=["rear"])
     assert found.doubts[0] == (
-        "the permitted unbalance is judged without rear: what is there is not known, and readings "
-        f"of up to {found.largest:.4g} stay"
+        "the permitted unbalance is judged without rear, whose unbalance is unknown; readings of "
+        f"up to {found.largest:.4g} remain"
     )
 
 
@@ -495,3 +495,23 @@ def test_polar_of_the_tests_is_read_back():
     (one,) = parse_runs(head(1) + run([3 - 4j])).run[0].readings
     assert one == pytest.approx(3 - 4j, rel=1e-15)
     assert polar(5j) == "5 @ 90"
+
+
+def test_a_repeated_run_has_no_correction_in():
+    """Found, two trials, the first trial again and found again: balancing goes on from the rotor as
+    found; a run with other weights has a correction in.
+    """
+    alpha, found = np.array([[2.0, 0.5j], [0.3, 1.5]]), np.array([40.0, 30j])
+
+    def run(name, **weights):
+        on = np.array([weights.get("a", 0), weights.get("b", 0)])
+        readings = [f"{abs(v):.15g} @ {np.degrees(np.angle(v)):.15g}" for v in found + alpha @ on]
+        return {"name": name, "readings": readings, "weights": {k: f"{v} @ 0" for k, v in weights.items()}}
+
+    runs = [run("found"), run("a", a=5), run("b", b=6), run("a again", a=5), run("found again")]
+    result = balance_rotor({"planes": ["a", "b"], "run": runs})
+    assert result.trimmed is None
+    np.testing.assert_allclose(result.before, found, rtol=1e-12)
+    assert [each.add for each in result.corrections] == [None, None]
+    runs.insert(4, run("correction", a=5, b=6))
+    assert balance_rotor({"planes": ["a", "b"], "run": runs}).trimmed == "correction"

@@ -83,7 +83,7 @@ def test_a_resonance_is_that_of_the_mode_that_moves(tmp_path):
     near = run_here("mounts", path, "--speeds", "660:3000:20", "--orders", "2").out
     of_roll = f"(roll, {roll:.1f} Hz)"
     told = f"the slowest speed of the range; most of the force is mode 4 {of_roll}."
-    assert " at 660 rpm, of which order 2 alone makes " in near
+    assert " at 660 rpm at mount 1; order 2 alone makes " in near
     assert told in near
     out = run_here("mounts", path, "--speeds", "500:3000:20", "--orders", "2").out
     assert re.search(rf"Order 2 meets mode 4 {re.escape(of_roll)} at [\d.]+ rpm: resonance", out)
@@ -190,8 +190,8 @@ def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path, asked):
     status, out, err = run_here("mounts", bare, *asked)
     assert (status, out) == (0, run_here("mounts", bare).out)
     assert err == (
-        f"warning: {bare}: nothing shakes this body, so speeds, orders, misfires and schemes say "
-        "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one\n"
+        f"warning: {bare}: has no engine, so --speeds, --orders, --misfire and --scheme have no "
+        "effect; add [crank], [rod] and [piston], or name an engine file after this one\n"
     )
 
 
@@ -205,7 +205,7 @@ def test_the_page_rocks_the_body(four):
     """Its motion at one speed is that of the point in the answer, to the figures of the page."""
     page = ask("report", four, "-o", "-")
     assert "On its mounts" in page
-    assert "feels most" in page
+    assert "Largest mount force" in page
     data = rocking_of(page)
     said = ask_json("mounts", four)["response"]
     k = 20
@@ -237,7 +237,7 @@ def test_speeds_that_are_none(four, text, message):
 
 def test_orders_that_do_not_vibrate(four):
     told = refusal("mounts", four, "--orders", "0-2")
-    assert told.endswith("order 0 does not vibrate: what is steady is told as rest; leave it out")
+    assert told.endswith("order 0 is steady and does not vibrate; leave it out (see the table At rest)")
 
 
 def test_an_engine_that_shakes_nothing(tmp_path):
@@ -247,7 +247,7 @@ def test_an_engine_that_shakes_nothing(tmp_path):
     path.write_text(text + block("loss = 0.1"), encoding="utf-8")
     status, out, _ = run_here("mounts", path)
     assert status == 0
-    assert "The mounts feel nothing of the orders that count." in out
+    assert "The orders included put no force on the mounts." in out
 
 
 def test_too_much_is_refused():
@@ -265,5 +265,5 @@ def test_the_starting_file_runs(tmp_path):
     path = tmp_path / "four.toml"
     assert run_here("new", "mounts", path) == (0, "", "")
     out = ask("mounts", path)
-    assert "feels most" in out
+    assert "Largest mount force" in out
     assert run_here("analyze", path).status == 0

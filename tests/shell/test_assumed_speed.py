@@ -7,7 +7,7 @@ from support.commands import run_here
 from support.engines import GOOD, changed
 from support.paths import ENGINES
 
-TOLD = "The file gives no speed: figures are those at 1000 rpm."
+TOLD = "The file gives no speed; results are for 1000 rpm."
 OF_ORDER_2 = ("--minimise", "force.2.major")
 
 
@@ -24,7 +24,7 @@ def test_an_assumed_speed_is_told(command: str, options: list[str], others: list
 
 
 def test_mounts_say_up_to_which_assumed_speed_they_go() -> None:
-    told = "The file gives no speed: these are the largest up to 1000 rpm, which is assumed."
+    told = "The file gives no speed; 1000 rpm is assumed."
     own = (ENGINES / "i4_mounts.toml").read_text(encoding="utf-8")
     speed = next(line for line in own.splitlines() if line.startswith("speed "))
     without = own.replace(speed, "")

@@ -13,6 +13,7 @@ from support.paths import ENGINES
 
 from balcli import errors
 from balcli.shell import progress
+from balcli.show.sheet import count_name
 
 unix = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
@@ -182,7 +183,7 @@ def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(on_mounts: bool, mon
     status, out, err = run_here(*args, all_of_them)
     assert out == whole.out
     assert status == 130
-    assert err == (f"balcli: stopped after {some} of {all_of_them} samples; the figures are of these\n")
+    assert err == (f"balcli: stopped after {some} of {count_name(all_of_them)} samples; the results cover only these\n")
 
 
 @unix

@@ -82,7 +82,7 @@ def test_nothing_to_fit_leaves_the_text():
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_what_no_file_can_describe_is_not_written(scheme):
     remedy = size_scheme(build_text(SINGLE), scheme)
-    with pytest.raises(BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"):
+    with pytest.raises(BalcliError, match=f"scheme {scheme}: an engine file cannot describe its devices"):
         insert_remedy(SINGLE.encode(), remedy)
 
 

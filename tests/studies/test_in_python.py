@@ -75,7 +75,7 @@ def test_a_sweep_too_large_to_keep_names_the_command(monkeypatch):
     with pytest.raises(balcli.BalcliError) as caught:
         balcli.sweep(FOUR, {"rod.ratio": [0.25, 0.3]}, ["force.2.major", "force.4.major"])
     assert str(caught.value) == (
-        "4 figures are too many to keep (3 are allowed): balcli sweep -o FILE.parquet writes them as they are computed"
+        "4 values are too many to keep; give at most 3, or use balcli sweep -o FILE.parquet, which writes them as they are computed"
     )
 
 
@@ -170,7 +170,7 @@ def test_stiffness_of_mounts_scatters():
 
 
 def test_a_tolerance_that_concerns_no_quantity_is_refused():
-    with pytest.raises(balcli.BalcliError, match=r"^stiffness: is of mounts and shafts, and none "):
+    with pytest.raises(balcli.BalcliError, match=r"^stiffness: force.1.major depends on no mount and no shaft"):
         balcli.scatter(FOUR, "force.1.major", mass="1%", stiffness="10%", samples=20)
 
 

@@ -139,8 +139,8 @@ def test_more_values_than_are_kept_are_refused_before_there_are_any() -> None:
     with pytest.raises(BalcliError) as found:
         parse_parameter("rod.ratio=0.2:0.3:1e-10", load(GOOD))
     assert str(found.value) == (
-        '"rod.ratio=0.2:0.3:1e-10": has 1000000001 values; give a step that leads from the first to '
-        "the last in at most 1e+07 steps"
+        '"rod.ratio=0.2:0.3:1e-10": has 1 000 000 001 values; give a step with 1 to 10 000 000 '
+        "values from the first to the last"
     )
 
 
@@ -161,3 +161,10 @@ def test_a_name_of_the_whole_engine_comes_before_that_of_one_cylinder(name, mean
     with pytest.raises(BalcliError) as caught:
         parse_parameter(f"{name}=120,130", load(GOOD))
     assert str(caught.value).startswith(f"{name}: unknown parameter; did you mean {meant}")
+
+
+def test_a_figure_that_stands_for_all_axes_of_a_mount_varies_as_one():
+    text = (ENGINES / "i4_mounts.toml").read_text()
+    left = text.replace("stiffness = [190, 90, 90]", "stiffness = 140", 1)
+    assert "mount.left.stiffness" not in find_numbers(load(text))
+    assert {"mount.left.stiffness", "mount.left.stiffness.2"} <= find_numbers(load(left)).keys()

@@ -134,7 +134,7 @@ def test_a_folder_of_somebody_else_is_refused(name):
 
 def test_what_does_not_go_into_a_folder_is_refused():
     assert refuse_sweep(*ASKED, "-o", "out/", "-f", "csv") == (
-        "--output out/: a folder takes Parquet files, but --format says csv; leave one of them out"
+        "--output out/: a folder takes Parquet files, but --format is csv; leave one of them out"
     )
     assert refuse_sweep(*ASKED, "-o", "out/", "--plot", "a.svg") == (
         "--plot a.svg: figures that go into a folder are not kept for a picture; write one file, or leave --plot out"

@@ -314,10 +314,9 @@ def test_a_damper_that_cannot_be_is_told_in_words():
     told = run_here("torsion", "-", *asked, stdin=thin)
     assert (told.status, told.out) == (2, "")
     assert re.sub(r"(6\.1)\d+", r"\1", told.err) == (
-        "balcli: --damper viscous: the best there cannot be: damper.damping: 6.1e-17 is "
+        "balcli: --damper viscous: the best damper is impossible: damper.damping: 6.1e-17 is "
         'too small; a torsional damping is wanted: a bare number in N m s/rad, or "2 N m s/rad" or '
-        '"18 lbf in s/rad", at least 1e-12; are inertias and stiffnesses of the system in the right '
-        "units?\n"
+        '"18 lbf in s/rad", at least 1e-12; check the units of inertias and stiffnesses\n'
     )
 
 

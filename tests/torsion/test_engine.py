@@ -290,7 +290,7 @@ def test_a_rotary_has_no_crankshaft_that_twists():
         throw_inertia = 30000
         """
     assert refusal("torsion", "-", stdin=text) == (
-        "standard input: torsion: is for crankshafts that turn; that of a rotary stands still"
+        "standard input: torsion: needs a crankshaft that turns; that of a rotary engine does not"
     )
 
 

@@ -93,20 +93,20 @@ def test_every_throw_deviates_by_itself_and_with_gas(tmp_path):
     }
     assert found["p05"] < found["p95"]
     out = run_here("scatter", path, "-q", "torsion.1.Hz", "--samples", "3").out
-    assert "Spread of 3 crankshafts" in out
+    assert "Spread of 3 random crankshafts" in out
 
 
 def test_what_does_not_scatter(tmp_path):
     path = write(tmp_path / "two.toml", TWO)
     told = refusal("scatter", path, "-q", "torsion.1.Hz,force.2.major")
     assert told == (
-        "torsion.1.Hz and force.2.major have tolerances of their own; ask for quantities of the "
-        "engine, of its mounts and of torsion one after the other"
+        "torsion.1.Hz, force.2.major: engine, mounts and torsion have different tolerances; ask for "
+        "quantities of one of them at a time"
     )
     told = refusal("scatter", path, "-q", "torsion.1.Hz", "--samples", "30000")
-    assert told == ("30000 samples: torsion.1.Hz is computed one by one, from 1 to 20000 are allowed")
+    assert told == "30 000 samples: give from 1 to 20 000, as torsion.1.Hz is computed one by one"
     none = ("--mass-scatter", "0%", "--stiffness-scatter", "0%")
     told = refusal("scatter", path, "-q", "torsion.1.Hz", *none)
-    assert told == "nothing deviates; give a tolerance, such as --stiffness-scatter 15%"
+    assert told == "all tolerances are 0; give one, such as --stiffness-scatter 15%"
     told = refusal("scatter", path, "-q", "shaft.x.torque")
     assert told.startswith('shaft.x.torque: the file has no shaft "x"')

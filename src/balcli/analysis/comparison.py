@@ -13,6 +13,7 @@ from ..core.phasors import Array
 from ..core.records import HIDDEN
 from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, list_values, list_words, wrong_type
+from ..file.fields import order_number
 from ..forces.kinds import EVERY_KIND, GAS, MOMENT, TORQUE, VECTORS, Kind
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
@@ -251,7 +252,7 @@ def _list_by_order(
     kind: Kind, orders: Array, sizes: Array
 ) -> Iterator[tuple[Kind, float | None, float]]:
     for order, size in zip(orders.tolist(), sizes.tolist(), strict=True):
-        yield kind, int(order) if order % 1 == 0 else order, size
+        yield kind, order_number(order), size
 
 
 def _list_loads(inner: InnerLoads) -> tuple[AlongCrank | None, ...]:

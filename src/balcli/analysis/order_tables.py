@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engine.figures import find_first_largest
+from ..file.fields import order_number
 from ..forces.kinds import FORCE, GAS_KINDS, KINDS, MOMENT, ROLL, Kind
 from ..show.figures import peak_deg, phase_deg, size_or_mean
 from ..show.sheet import (
@@ -26,7 +27,6 @@ from ..show.sheet import (
     degrees,
     number,
     order_name,
-    order_number,
     size_cell,
     size_text,
     small_text,

@@ -282,7 +282,8 @@ def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) 
         worth += [(k, order, sizes)] if sizes else []
     alone = len(worth) if len(worth) == _MOST_HIGH_ORDERS + 1 else _MOST_HIGH_ORDERS
     for _, order, sizes in worth[:alone]:
-        cure = f"; rarely balanced, it would take shafts at {order:g} times crank speed" * steady
+        shafts = f"it would need shafts at {order:g} times crank speed"
+        cure = f"; usually left unbalanced ({shafts})" * steady
         yield f"{_order_name(order)}: {', '.join(sizes)}{cure}."
     if others := [(k, order) for k, order, _ in worth[alone:]]:
         first, last = others[0][1], others[-1][1]
@@ -312,7 +313,7 @@ def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device])
     if not vector.matters(k):
         return f"{what} of up to {size}, negligible", ""
     forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
-    shafts = "nothing on the crankshaft cancels it; it needs {} times crank speed"
+    shafts = "counterweights cannot cancel it; use {} times crank speed"
     if backward == 0:
         cure = shafts.format(f"a balancer shaft at +{order}")
         by_weights = "counterweights on the crankshaft cancel it"
@@ -323,15 +324,15 @@ def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device])
         return f"{what} of {size}, turning against the crank", "" if against_fitted else cure
     cure = shafts.format(f"two balancer shafts, at +{order} and -{order}")
     if order == 1:
-        cure = "counterweights cancel the first part, a shaft at -1 times crank speed the second"
-        if ahead_fitted:
-            cure = "a shaft at -1 times crank speed cancels the second part"
+        weights = "" if ahead_fitted else "counterweights cancel the first, "
+        shaft = "a balancer shaft at -1 times crank speed"
+        cure = f"{weights}{shaft}{' cancels' if ahead_fitted else ''} the second"
     if against_fitted:
-        cure = "counterweights cancel the first part" * (order == 1 and not ahead_fitted)
+        cure = "counterweights cancel the first" * (order == 1 and not ahead_fitted)
     elif ahead_fitted and order > 1:
         cure = ""
     ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
-    parts = f"{ahead} turns with the crank, {against} against it"
+    parts = f"{ahead} {unit.name} rotates with the crank, {against} {unit.name} against it"
     direction = _tell_direction(k, vector)
     return f"{what} of up to {size} {direction} ({parts})", cure
 

@@ -13,6 +13,7 @@ from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..core.records import INLINE, Reached, WrittenAs
 from ..file import model
+from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
 from ..forces.guide import GuideMoments
 from ..forces.spectrum import Spectra
@@ -24,7 +25,6 @@ from ..show.figures import (
     list_orders,
     list_vectors,
 )
-from ..show.sheet import order_number
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance
 from ..sizing.remedy import Remedy
 

@@ -18,6 +18,7 @@ import numpy as np
 from ..core.phasors import Array
 from ..core.records import HIDDEN, WrittenAs, remove_unit
 from ..engine.engine import Engine
+from ..file.fields import order_number
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import engine_facts
@@ -34,7 +35,6 @@ from ..show.sheet import (
     capitalized,
     given,
     order_name,
-    order_number,
     size_cell,
     size_text,
 )

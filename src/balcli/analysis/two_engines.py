@@ -40,6 +40,7 @@ from ..show.figures import (
     list_assumed,
     list_orders,
     measure_engine,
+    place_in_mm,
 )
 from ..show.formats import Renderer
 from ..show.result import Result
@@ -53,11 +54,6 @@ if TYPE_CHECKING:
 
 Load = Literal["first", "second", "both"]
 LOADS: tuple[str, ...] = get_args(Load)
-
-
-def as_millimetres(place_m: tuple[float, ...]) -> tuple[float, ...]:
-    """Return a place in mm."""
-    return tuple(1e3 * float(v) for v in place_m)
 
 
 @dataclass(frozen=True)
@@ -97,7 +93,7 @@ class Arrangement:
     """
 
     phase_deg: float = 0.0
-    at_m: Annotated[tuple[float, ...], WrittenAs(as_millimetres, "at_mm")] = (0.0, 0.0, 0.0)
+    at_m: Annotated[tuple[float, ...], WrittenAs(place_in_mm, "at_mm")] = (0.0, 0.0, 0.0)
     turn_deg: float = 0.0
     reverse: bool = False
     load: str = "first"

@@ -280,7 +280,7 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
         )
     if model.articulation is None or not isinstance(linkage, Articulated):
         raise BalcliError(
-            "knuckles: this engine has no articulated rods; an engine file says so with "
+            "knuckles: this engine has no articulated rods; an engine file describes them in "
             "[articulation]"
         )
     masters, close = linkage.master, _CLOSE[goal]
@@ -308,8 +308,8 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     uneven[rows] = False  # of these the reasons list the banks
     if others := sorted(engine.numbers[row] for row in np.flatnonzero(uneven)):
         told = f"cylinder{'s' * (len(others) > 1)} {', '.join(map(str, others))}"
-        alike = "the knuckle pins of a bank turn alike, as its first throw asks"
-        reasons = (*reasons, f"not so {told}: {alike}")
+        alike = "all knuckle pins of a bank get the angle that suits its first throw"
+        reasons = (*reasons, f"not {told}: {alike}")
     return Knuckles(goal, better, angles_deg, find_travel(c), after, reasons)
 
 
@@ -402,8 +402,8 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
         return new
     if remedy.beyond:
         raise BalcliError(
-            f"scheme {remedy.scheme}: no engine file can describe its devices (shafts of variable "
-            "speed, couplings), so that they cannot be written; balance shows what they leave"
+            f"scheme {remedy.scheme}: an engine file cannot describe its devices (shafts of "
+            "variable speed, couplings), so nothing is written; leave --write out"
         )
     if remedy.scheme == FIT:
         return _fill_in(old, remedy, file)

@@ -245,6 +245,7 @@ def balance(
     form = choose_balance_format(output, form)
     require_ending(write, ".toml", "--write")
     from ..sizing.fit import list_to_fit, remove_to_fit
+    from ..sizing.workshop import HolesDoNotFitError
     from . import answer
 
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
@@ -262,20 +263,32 @@ def balance(
     scheme = choose_scheme(scheme, options, usual)
     if even is not None and open_devices:
         raise BalcliError(f"--even belongs to the scheme {KNUCKLES}, which fits no devices")
-    if open_devices or target is not None or scheme == FIT:
+    fits = open_devices or target is not None or scheme == FIT
+    if fits:
         _check_fit(name_file(path), scheme, options, open_devices)
-        wanted = None if target is None else [each.strip() for each in target.split(",")]
-        result = answer.balance_fit(engine, model, wanted, asked, tools, options.read_small())
-    elif scheme == KNUCKLES or even is not None:
-        result = answer.answer_knuckles(scheme, options, even, model, engine, asked)
-    else:
-        result = answer.balance_engine(engine, scheme, options, asked, tools)
+    wanted = None if target is None else [each.strip() for each in target.split(",")]
+
+    def find(tools: Tools) -> Balance:
+        if fits:
+            return answer.balance_fit(engine, model, wanted, asked, tools, options.read_small())
+        if scheme == KNUCKLES or even is not None:
+            return answer.answer_knuckles(scheme, options, even, model, engine, asked)
+        return answer.balance_engine(engine, scheme, options, asked, tools)
+
+    misfit = None
+    try:
+        result = find(tools)
+    except HolesDoNotFitError as error:
+        misfit, holes = error, ("drill", "max_depth", "slug", "width")
+        result = find(tools._replace(**dict.fromkeys(holes)))
     permitted = answer.permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
     result = replace(result, permitted=permitted)
-    if write is not None:
+    if write is not None and misfit is None:
         refuse_leaving_files(text, path, write)
         new = answer.insert_remedy(text, result.remedy, name_file(path))
         if rpm is not None:
             new = set_keys(new, "operation", {"speed": rpm}, "as balanced by balcli")
         write_file(new, write)
     show_balance(result, form, output, units)
+    if misfit is not None:
+        raise misfit

@@ -129,7 +129,8 @@ def _tell_negligible(result: Balance) -> str:
         k, one = orders.index(remedy.order), before.of_one_cylinder
         vectors = before.spectra.vectors()
         small = all(p.major[k] < NEGLIGIBLE * one[kind.name] for kind, p in vectors)
-    return f"Order {remedy.order} is negligible beside one cylinder, hardly worth a device." * small
+    negligible = f"Order {remedy.order} is negligible against one cylinder's"
+    return f"{negligible} and hardly worth a device." * small
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:

@@ -17,7 +17,7 @@ from ..core.phasors import Array, unit
 from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_numbers, head_rows
 
 Cosine: TypeAlias = Callable[[Array], Array]  # of degrees
-ROUGH = "author's approximation: cos 45° taken as 0.706"
+ROUGH = "cos 45° taken as 0.706"
 
 
 def _cos(degrees: Array) -> Array:
@@ -39,7 +39,7 @@ def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
     """Table 1: radii of the two shafts over gamma, their ratio, and the same for their rates."""
     gamma = as_numbers(printed.headings())
     stub = printed.column(printed.columns[0])
-    explanations = [Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough)))]
+    explanations = [Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough)), "approximation")]
     rows = head_rows(stub, _paths(gamma, _cos))
     return printed.compare(printed.columns, rows, explanations=explanations)
 
@@ -55,7 +55,7 @@ def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
 def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
     """Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
     gammas = [float(text) if text else None for text in printed.column("gamma_deg")]
-    explanations = [Explanation(ROUGH, _sliders(printed, gammas, _rough))]
+    explanations = [Explanation(ROUGH, _sliders(printed, gammas, _rough), "approximation")]
     rows = _sliders(printed, gammas, _cos)
     return printed.compare(printed.columns, rows, explanations=explanations, stub=2)
 

@@ -47,6 +47,7 @@ class Explanation:
 
     kind: str
     rows: tuple[Row, ...]
+    category: ErratumClass = "method"
 
 
 def name_class(category: ErratumClass) -> ErratumClass:
@@ -125,9 +126,8 @@ class Table(Result):
         for i, (row, words) in enumerate(zip(self.exact, self.printed, strict=True)):
             for j, (value, text) in enumerate(zip(row, words, strict=True)):
                 if text is not None and deviates(value, text):
-                    supposed = [(each.kind, each.rows[i][j]) for each in self.explanations]
-                    kind = _find_kind(value, text, supposed)
-                    category = _classify(kind)
+                    supposed = [(e.category, e.kind, e.rows[i][j]) for e in self.explanations]
+                    category, kind = _explain(value, text, supposed)
                     yield Erratum(i, self.columns[j], text, value, kind, self.label(i), category)
 
 
@@ -182,29 +182,23 @@ def explain_figure(value: Cell, text: str) -> str | None:
     return ", digits transposed" if y in swaps else None
 
 
-def _find_kind(value: Cell, text: str, supposed: Sequence[tuple[str, Cell]]) -> str:
-    """Return the kind of an erratum: the first explanation that leads to it, or what its digits
-    show.
+def _explain(
+    value: Cell, text: str, supposed: Sequence[tuple[ErratumClass, str, Cell]]
+) -> tuple[ErratumClass, str]:
+    """Return the class and kind of an erratum: of the first explanation that leads to it, or by
+    what its digits show.
     """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
-        return "misprint"
-    for kind, other in supposed:
+        return "misprint", "misprint"
+    for category, kind, other in supposed:
         differs = isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value)
         if differs and (found := explain_figure(other, text)) is not None:
-            return kind + found
+            whose = "author's approximation: " if category == "approximation" else ""
+            return category, whose + kind + found
     error = abs(round_like(value, printed) - printed).scaleb(-_exponent(printed))
-    kind = "misprint" if error > 1 else "last digit"
-    return kind + (explain_figure(value, text) or "")
-
-
-def _classify(kind: str) -> ErratumClass:
-    """Return the class of a wrong figure from the words of its kind."""
-    if kind.startswith("misprint"):
-        return "misprint"
-    if kind.startswith("author's approximation"):
-        return "approximation"
-    return "rounding" if "last digit" in kind or "rounded" in kind else "method"
+    digits = explain_figure(value, text) or ""
+    return ("misprint", f"misprint{digits}") if error > 1 else ("rounding", f"last digit{digits}")
 
 
 def _exponent(printed: Decimal) -> int:
@@ -264,22 +258,24 @@ class Print:
         return Table(self.name, self.title, self.source, *shape, tuple(explanations), stub)
 
     def compare_answers(
-        self, answers: Sequence[float], others: Sequence[tuple[str, int, float]]
+        self, answers: Sequence[float], others: Sequence[tuple[ErratumClass, str, int, float]]
     ) -> Table:
         """Return the exact answers of worked examples, which stand at the ends of the rows.
 
         Args:
             answers: Exact answers.
-            others: What authors took instead: the kind of erratum, the number of the answer (from
-                0), their value.
+            others: What authors took instead: class and kind of the erratum, the number of the
+                answer (from 0), their value.
         """
         rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
         blank: Row = (None,) * len(self.columns)
         explanations = [
             Explanation(
-                kind, tuple((*blank[1:], value if k == n else None) for k in range(len(rows)))
+                kind,
+                tuple((*blank[1:], value if k == n else None) for k in range(len(rows))),
+                category,
             )
-            for kind, n, value in others
+            for category, kind, n, value in others
         ]
         return self.compare(self.columns, rows, explanations=explanations, stub=4)
 

@@ -106,8 +106,8 @@ def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Tab
         head_rows(stub, exact(orders, lam)),
         printed.align_cells(stub, columns),
         [
-            Explanation("author's approximation: first term of the series alone", first(1)),
-            Explanation("author's approximation: two terms of the series", first(2)),
+            Explanation("first term of the series alone", first(1), "approximation"),
+            Explanation("two terms of the series", first(2), "approximation"),
         ],
     )
 

@@ -42,7 +42,7 @@ def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
     for words, (r, length, e, stroke, rpm) in zip(printed.rows, lines, strict=True):
         rows.append(row(words, Cm_m_per_s=stroke * rpm / 30e3, xi=e / r, **{"lambda": r / length}))
         supposed.append(row(words, **{"lambda": r / 280}))
-    shorter = Explanation("misprint, as with l = 280 mm", tuple(supposed))
+    shorter = Explanation("misprint, as with l = 280 mm", tuple(supposed), "misprint")
     return printed.compare(printed.columns, rows, explanations=[shorter], stub=2)
 
 

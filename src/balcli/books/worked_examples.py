@@ -22,7 +22,7 @@ from ..core.piecewise import polyline, resolved
 from ..core.speed_ripple import surplus
 from ..file import units
 from ..file.units import POUND_FORCE, STANDARD_GRAVITY
-from .recomputed import Print, Ranges, Table, as_numbers, load_print
+from .recomputed import ErratumClass, Print, Ranges, Table, as_numbers, load_print
 
 
 @cache
@@ -37,11 +37,11 @@ def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
     energy = surplus(uicker).energy
     answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
     whole = _uicker_inertia(_simpson_mean() * 4 * np.pi)
-    others = (
-        ("author's approximation: two terms of the motion", 0, _bevan(two_terms=True)),
-        ("the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
-        ("the work of a whole cycle is taken for the fluctuation of energy", 4, whole),
-    )
+    others: list[tuple[ErratumClass, str, int, float]] = [
+        ("approximation", "two terms of the motion", 0, _bevan(two_terms=True)),
+        ("method", "the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
+        ("method", "the work of a whole cycle is taken for the fluctuation of energy", 4, whole),
+    ]
     return printed.compare_answers(answers, others)
 
 
@@ -96,11 +96,11 @@ GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     """Exact answers next to the printed ones, in the order of the book."""
     rounded = _round(1.79 * 37400 / 32.2)
-    others = (
-        ("author's approximation: omega taken as 418 rad/s", 1, _round(_acceleration(418.0))),
-        ("follows from the rounded figures 1.79 and 37400, g = 32.2", 2, rounded),
-        ("author's approximation: g taken as 32.2 ft/s^2", 7, _second(32.2)[-1]),
-    )
+    others: list[tuple[ErratumClass, str, int, float]] = [
+        ("approximation", "omega taken as 418 rad/s", 1, _round(_acceleration(418.0))),
+        ("rounding", "follows from the rounded figures 1.79 and 37400, g = 32.2", 2, rounded),
+        ("approximation", "g taken as 32.2 ft/s^2", 7, _second(32.2)[-1]),
+    ]
     return printed.compare_answers((*_first(), *_second(), *_third()), others)
 
 

@@ -96,10 +96,10 @@ def build_gas(parts: Parts) -> EngineGas:
                 torques[row] = _read_harmonics(name, read(name, _HARMONICS), piston, strokes)
             else:
                 columns = read(name, HEADS)
-                pressure = build_diagram(gas, name, columns, strokes)
+                pressure, left = build_diagram(gas, source.path, name, columns, strokes)
                 torques[row] = press(piston, pressure, pressure.breaks, gas.crankcase * BAR)
                 imep = torques[row].imep
-                doubts += list_doubts(gas, source.path, name, columns, pressure, imep)
+                doubts += (*left, *list_doubts(gas, source.path, columns, pressure, imep))
         except InputError as error:
             problems += error.problems
         except BalcliError as error:

@@ -37,8 +37,16 @@ NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engi
 SAME_IMEP = 0.03  # by which a diagram may miss the stated mean effective pressure
 
 
-def build_diagram(gas: Gas, name: str, columns: NumberColumns, strokes: int) -> PiecewiseCurve:
-    """Return the absolute pressure (Pa) over a cycle by the columns of the file of this name.
+def build_diagram(
+    gas: Gas, path: str, name: str, columns: NumberColumns, strokes: int
+) -> tuple[PiecewiseCurve, list[str]]:
+    """Return the absolute pressure (Pa) at cycle angles, and warnings of the rows that it leaves.
+
+    Args:
+        gas: The table of the file.
+        path, name: Key and name of the diagram's file.
+        columns: Columns of this file.
+        strokes: 4 or 2.
 
     Raises:
         BalcliError: The first mistake in the file, by its line.
@@ -49,12 +57,27 @@ def build_diagram(gas: Gas, name: str, columns: NumberColumns, strokes: int) -> 
         found = columns.as_written(below, 1)
         message = f"line {columns.lines[below]}: the {kind} pressure is {found}: give {right}"
         raise BalcliError(f"{name}: {message}{hint}")
-    angle, pressure, _ = _read(gas, columns, 180.0 * strokes)
+    period = 180.0 * strokes
+    angle, pressure, count = _average_cycles(gas, columns, period)
     for row, message in find_diagram_mistakes(angle, pressure, strokes=strokes):
         line = "" if row is None else f"line {columns.lines[row]}: "
         raise BalcliError(f"{name}: {line}{message}")
     firing = 360.0 if gas.zero == "gas-exchange" else 0.0
-    return draw_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
+    curve = draw_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
+    left = [f"{path}: {name}: has {count} cycles; their mean is taken"] if count > 1 else []
+    first, last = (float(pressure[k]) / (columns.scales[1] * BAR) for k in (0, -1))
+    if first != last and _is_closed(angle, period):
+        unit = _name_unit(columns)
+        left.append(
+            f"{path}: {name}: the last row closes the cycle with {last:.4g} {unit}, the first has "
+            f"{first:.4g} {unit}; the first is taken"
+        )
+    return curve, left
+
+
+def _name_unit(columns: NumberColumns) -> str:
+    """Return the unit of a diagram's pressures, for absolute ones."""
+    return columns.units[1].removesuffix("g")
 
 
 def _absolute(gas: Gas, columns: NumberColumns) -> Array:
@@ -63,7 +86,7 @@ def _absolute(gas: Gas, columns: NumberColumns) -> Array:
     return np.array(columns.column(1)) * BAR + gauge
 
 
-def _read(gas: Gas, columns: NumberColumns, period: float) -> tuple[Array, Array, int]:
+def _average_cycles(gas: Gas, columns: NumberColumns, period: float) -> tuple[Array, Array, int]:
     """Return angles (deg) and absolute pressures (Pa) of a cycle, and how many the file has: of
     several, one after the other, the mean at the angles of the first.
     """
@@ -147,28 +170,18 @@ def find_diagram_mistakes(
 
 
 def list_doubts(
-    gas: Gas, path: str, name: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
+    gas: Gas, path: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
 ) -> Iterator[str]:
-    """Yield what is suspicious of a diagram, each with its path in the engine file.
+    """Yield warnings of the pressures of a diagram.
 
     Args:
         gas: The table of the file.
-        path, name: Key and name of the diagram's file.
+        path: Key of the diagram's file.
         columns: Columns of this file.
         found: Pressure at cycle angles, Pa.
         imep: Indicated mean effective pressure, Pa.
     """
-    angle, pressure, count = _read(gas, columns, math.degrees(found.period))
-    if count > 1:
-        yield f"{path}: {name}: has {count} cycles; their mean is taken"
-    unit = columns.units[1].removesuffix("g")
-    scale = columns.scales[1] * BAR  # Pa
-    first, last = pressure[0] / scale, pressure[-1] / scale
-    if first != last and _is_closed(angle, math.degrees(found.period)):
-        yield (
-            f"{path}: {name}: the last row closes the cycle with {last:.4g} {unit}, the first has "
-            f"{first:.4g} {unit}; the first is taken"
-        )
+    unit, scale = _name_unit(columns), columns.scales[1] * BAR  # Pa
     top, value = find_highest(found)
     if abs(math.degrees(top)) > NEAR_DEG:
         yield (

@@ -317,11 +317,10 @@ def check_firing(
         if off > TOLERANCE_DEG:
             yield Problem(
                 "layout.firing_order",
-                f"cylinder {i} is not at top dead centre when it fires: its crank pin stands "
-                f"{float(np.ravel(ahead)[0]) % 360:.6g} deg ahead of cylinder {first}'s, and would "
-                f"have to stand at {float(np.ravel(wanted)[0]):.6g} deg (allowed difference "
-                f"{TOLERANCE_DEG:g} deg); change crank.throws, crank.splay, firing_order or "
-                "firing_intervals",
+                f"cylinder {i} is not at top dead centre when it fires: its crank pin is "
+                f"{float(np.ravel(ahead)[0]) % 360:.6g} deg ahead of cylinder {first}'s, but would "
+                f"have to be {float(np.ravel(wanted)[0]):.6g} deg ahead (within {TOLERANCE_DEG:g} "
+                "deg); change crank.throws, crank.splay, firing_order or firing_intervals",
             )
             return
 

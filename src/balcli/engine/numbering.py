@@ -293,9 +293,9 @@ def check_numbering(parts: Parts) -> Iterator[Problem]:
     order = "-".join(map(str, parts.order or ()))
     if engines:
         several = f"one of {len(engines)} engines" if len(engines) > 1 else "this engine"
-        told = f"is not given, and with the firing order {order} the file may mean {several}"
+        told = f"is missing, and with the firing order {order} the file may mean {several}"
     elif engines := _find_remedies(parts):
-        told = f"is not given, and no usual one fits the firing order {order}; it may mean"
+        told = f"is missing, and the firing order {order} fits no usual numbering; it may mean"
     else:
         yield from (
             p._replace(message=f"{p.message}, or give layout.numbering" + _suggest(parts))

@@ -22,7 +22,7 @@ from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
 from ..errors import InputError, Problem
-from ..file.model import ONE_BY_ONE, Articulation, EngineFile
+from ..file.model import ONE_BY_ONE, PISTON_PARTS, Articulation, EngineFile
 from .figures import (
     FileFigures,
     RodFigures,
@@ -53,7 +53,6 @@ if TYPE_CHECKING:
 ALL_KEYS = frozenset(EngineFile.model_fields) | {
     f"{path}.{key}" for path, table in ONE_BY_ONE.items() for key in table.model_fields
 }
-PISTON_PARTS = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that are masses
 
 
 # ------------------------------------------------------------------ pistons and rods
@@ -419,7 +418,7 @@ class Parts:
         weighed whole.
         """
         table, take = self.model.piston, self.figures.take_optional
-        given = {key: take(f"piston.{key}", getattr(table, key)) for key in PISTON_PARTS}
+        given = {key: take(f"piston.{key}", getattr(table, key)) for key in ("mass", *PISTON_PARTS)}
         return {key: mass for key, mass in given.items() if mass is not None}
 
     def weigh_gear(self, place: RodPlace) -> RunningGear:

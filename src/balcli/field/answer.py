@@ -58,19 +58,19 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
     alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
     if len(alike) > 1:
         yield (
-            f"what planes {join_words([each.plane for each in alike])} do, other planes do nearly "
-            f"as well: only {min(each.own_effect for each in alike):.1%} of what one does is its "
-            f"own (condition {result.condition:.3g}), so errors of reading grow as much; if their "
-            f"weights are large, try --without {alike[0].plane}"
+            f"planes {join_words([each.plane for each in alike])} have nearly the same effect as "
+            f"other planes: only {min(each.own_effect for each in alike):.1%} of the effect of one "
+            f"is its own (condition {result.condition:.3g}), so reading errors grow as much; if "
+            f"their weights are large, try --without {alike[0].plane}"
         )
     if result.file.grade is not None or result.file.shares is not None:
         for key, hint in list_missing(result.file).items():
             yield f"{key}: is missing, so no unbalance is judged; give it, such as {hint}"
     if result.left_out and result.permitted is not None:
         yield (
-            f"the permitted unbalance is judged without {' and '.join(result.left_out)}: what is "
-            f"there is not known, and readings of up to {result.largest:.4g} {result.unit or ''}"
-        ).rstrip() + " stay"
+            f"the permitted unbalance is judged without {' and '.join(result.left_out)}, whose "
+            f"unbalance is unknown; readings of up to {result.largest:.4g} {result.unit or ''}"
+        ).rstrip() + " remain"
     trials = _find_largest_trials(result.file)
     if result.file.influence is None:
         for correction in result.corrections:
@@ -130,19 +130,13 @@ def _doubt_runs(result: FieldBalance) -> Iterator[str]:
             for value in (series.readings[row, sensor], predicted[row, sensor])
         )
         turned, _ = _predict(series._replace(weights=np.conj(series.weights)), used)
-        remedy = (
-            "are its weights where the file says, and is the machine as it was? Else leave the run "
-            "out"
-        )
+        remedy = "check its weights and the state of the machine, or leave the run out"
         if np.abs(series.readings - turned).max() <= _SURPRISING * largest:
             other = "with" if file.senses[1] == "against" else "against"
-            remedy = (
-                "had angles of weights been counted the other way round, weights = "
-                f'"{other}", it would be near'
-            )
+            remedy = f'with weights = "{other}", angles of weights the other way round, it fits'
         yield (
             f"'{file.name_run(series.numbers[row])}' reads {read} at "
-            f"{result.readings[sensor].sensor}, far from {expected}, which the other runs predict; "
+            f"{result.readings[sensor].sensor}; the other runs predict {expected}; "
             f"{remedy}"
         )
 

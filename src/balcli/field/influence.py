@@ -4,8 +4,10 @@ At each speed the readings V depend on the weights U by `V = V0 + alpha U` (Good
 86, 1964, 273). The coefficients alpha and the readings as found V0 are fitted to all runs by least
 squares; where there are just enough runs, this is `alpha = (V - V0) / U`.
 
-A run that comes after the coefficients are determined has a *correction* in: balancing goes on from
-the last of them. All complex numbers here turn in the sense in which phases of readings count.
+A run that comes after the coefficients are determined, with weights that no earlier run had, has a
+*correction* in: balancing goes on from the last of them. A repeated run is none.
+
+All complex numbers here turn in the sense in which phases of readings count.
 
 All readings are taken to have errors of one size. The fit shows it: by the readings that the
 coefficients do not give, and by the readings that no weights cancel. To first order the errors e
@@ -27,6 +29,7 @@ from ..errors import InputError, Problem
 from ..file.fields import join_words
 from .tables import RunsFile
 
+_SAME = 1e-9  # share of the largest weight by which equal weights may differ
 _ROUNDING = 1e-13  # share of the largest reading below which a change is rounding
 _OUTSIDE = 0.05  # probability that an unbalance lies farther from its estimate than its scatter
 
@@ -119,10 +122,10 @@ def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Inf
             raise InputError([_explain_undetermined(file, series, used)], name)
         alpha, found = fit_coefficients(series)
         latest, on = found, np.zeros(planes, dtype=complex)
-        if len(series.numbers) > count:
-            latest, on = series.readings[-1], series.weights[-1]
-            if series.numbers[-1] > trim:
-                trim, goes_on = series.numbers[-1], on
+        if (last := find_last_correction(series, count)) is not None:
+            latest, on = series.readings[last], series.weights[last]
+            if series.numbers[last] > trim:
+                trim, goes_on = series.numbers[last], on
         speeds = np.full(len(found), series.speed_rpm, dtype=object)
         blocks.append((speeds, alpha, found, latest, latest - alpha @ on))
     speeds, alpha, found, latest, bare = map(np.concatenate, zip(*blocks, strict=True))
@@ -182,8 +185,8 @@ def find_scatter(
             design, readings = design[:, :1], readings - series.weights @ series.given.T
         inverse, bare = np.linalg.pinv(design), ~series.weights.any(axis=1)
         taken, moved = bare / max(bare.sum(), 1) if bare.any() else inverse[0], after
-        if len(readings) > (count_needed(series, used) or 0):
-            taken, moved = np.arange(len(readings)) == len(readings) - 1, after - series.weights[-1]
+        if (last := find_last_correction(series, count_needed(series, used) or 0)) is not None:
+            taken, moved = np.arange(len(readings)) == last, after - series.weights[last]
         if series.given is None:
             taken = taken + moved / (np.abs(series.weights).max() or 1.0) @ inverse[1:]
         gains.append(np.full(len(scale), np.linalg.norm(taken) ** 2))
@@ -217,6 +220,17 @@ def count_needed(series: Series, used: Collection[int]) -> int | None:
     design, unknowns = _design(series), _count_unknowns(series, used)
     counts = range(1, len(design) + 1)
     return next((n for n in counts if np.linalg.matrix_rank(design[:n]) == unknowns), None)
+
+
+def find_last_correction(series: Series, count: int) -> int | None:
+    """Return the place of the last run after the first `count` whose weights none of these had, or
+    that no weights had either; None: there is none.
+    """
+    states = series.weights
+    apart = np.abs(states[:, np.newaxis] - states[:count]).max(axis=2)
+    same = apart <= _SAME * np.abs(states).max()
+    fresh = np.flatnonzero(~same.any(axis=1))
+    return int(fresh[-1]) if len(fresh) else None
 
 
 def _design(series: Series) -> Complex:

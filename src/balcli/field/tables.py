@@ -131,8 +131,8 @@ class PlaceAngles(Number):
         if isinstance(value, list) and 1 <= len(value) <= MOST_PLACES:
             return tuple(super(PlaceAngles, self).read(angle) for angle in value)
         raise ValueError(
-            f"{shorten(value)} does not say where weights can go; give the number of places all "
-            f'round (up to {MOST_PLACES}), a list of their angles, or "{FREE}" for any angle'
+            f"{shorten(value)} is no list of places; give the number of equally spaced places (up "
+            f'to {MOST_PLACES}), a list of their angles, or "{FREE}" for any angle'
         )
 
     def json(self) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from .fields import WrittenFigure, count_lambda_digits, printable
-from .model import EngineFile
+from .model import PISTON_PARTS, EngineFile
 from .units import ask_unit
 
 # Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
@@ -267,9 +267,7 @@ def _has_crosshead(model: EngineFile) -> bool:
 
 def _weigh_piston(model: EngineFile) -> float:
     """Return the mass of a whole piston, kg."""
-    piston = model.piston
-    parts = (piston.mass, piston.piston, piston.pin, piston.rings, piston.locks)
-    return sum(mass for mass in parts if mass is not None)
+    return sum(getattr(model.piston, key) or 0.0 for key in ("mass", *PISTON_PARTS))
 
 
 def _weigh_rod(model: EngineFile) -> float:

@@ -66,6 +66,11 @@ def as_written(value: float, unit: str) -> str:
     return printable(text.strip())
 
 
+def order_number(order: float) -> int | float:
+    """Return an order as it is written: a whole one without a point."""
+    return int(order) if order == int(order) else float(order)
+
+
 def counted(count: int, what: str) -> str:
     """Return a number with its noun: "1 place", "2 places"."""
     return f"{count} {what}{'s' * (count != 1)}"
@@ -208,7 +213,7 @@ class Whole(_Field):
         number: float = value  # type: ignore[assignment]
         if not self.least <= number <= self.most or (number == 0 and not self.zero):
             raise ValueError(f"{shorten(value)} is out of range; {wanted}")
-        return int(number) if number % 1 == 0 else number
+        return order_number(number)
 
     def json(self) -> dict[str, Any]:
         kind = {"type": "number", "multipleOf": 0.5} if self.halves else {"type": "integer"}

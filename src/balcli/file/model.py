@@ -122,12 +122,13 @@ class Rod(FileTable):
     """A pendulum test, instead of inertia."""
 
 
+PISTON_PARTS = ("piston", "pin", "rings", "locks")  # keys of [piston], instead of its mass
+
+
 class Piston(FileTable):
     """One piston with its rings, pin and locks: weighed together, or part by part."""
 
-    choices = (
-        Choice((("mass",), ("piston", "pin", "rings", "locks")), required=True, complete=True),
-    )
+    choices = (Choice((("mass",), PISTON_PARTS), required=True, complete=True),)
 
     bore: Size | None = None
     """Cylinder bore. Example: 86"""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 
-class _AlikeOrEach:
+class AlikeOrEach:
     """Figures along the three own axes of a mount, or one that holds along all three."""
 
     def __init__(self, one: Number) -> None:
@@ -41,8 +41,8 @@ Tensor = Annotated[tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], _si
 Direction = Annotated[tuple[Annotated[float, Number(PLAIN, most=1e9)], ...], _three]
 Directions = Annotated[tuple[Direction, ...], _two]
 Turns = Annotated[tuple[Angle, ...], _three]
-Stiffnesses = Annotated[tuple[Annotated[float, _Stiffness], ...], _three, _AlikeOrEach(_Stiffness)]
-Dampings = Annotated[tuple[Annotated[float, _Damping], ...], _three, _AlikeOrEach(_Damping)]
+Stiffnesses = Annotated[tuple[Annotated[float, _Stiffness], ...], _three, AlikeOrEach(_Stiffness)]
+Dampings = Annotated[tuple[Annotated[float, _Damping], ...], _three, AlikeOrEach(_Damping)]
 
 UNIT = INERTIA.unit
 _PERPENDICULAR = 1e-6  # cosine between two axes that are
@@ -56,8 +56,8 @@ class Body(FileTable):
     cg: Triple
     """x, y, z of the centre of gravity, in the engine's axes. Example: [12, -8, 35]"""
     inertia: Tensor
-    """Xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity, as they stand in
-    the matrix (products of inertia with minus). Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
+    """Elements xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity (products
+    of inertia with minus). Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
     1.34e6, -0.472e6]"""
     gravity: Direction = (-1.0, 0.0, 0.0)
     """Direction of the weight, of any length. Example: [-1, 0, 0]"""

@@ -71,7 +71,7 @@ FORCE = Kind("force", "free force", "F", "force_N", vector=True, dimension="forc
 MOMENT = Kind("moment", "free moment", "M", "moment_Nm", vector=True)
 COUPLE = Kind("couple", "couple C", "C", "couple_Nm")
 TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm")
-ROLL = Kind("roll", "roll C − T", "C − T", "roll_Nm", plus=("couple",), minus=("torque",))
+ROLL = Kind("roll", "roll moment", "C − T", "roll_Nm", plus=("couple",), minus=("torque",))
 
 GAS = Kind("gas", "gas torque", "Tg", "gas_torque_Nm")
 TORQUE_TOTAL = Kind("torque_total", "total torque", "T + Tg", "torque_Nm", plus=("torque", "gas"))

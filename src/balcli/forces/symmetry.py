@@ -28,6 +28,7 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Array
 from ..engine.engine import Engine
 from ..engine.gas import EngineGas
+from ..file.fields import order_number
 from .kinds import KINDS, Kind
 from .spectrum import Spectra, compute_spectra, merge_orders
 
@@ -278,7 +279,7 @@ def _find_reasons(
             verdict = "none" if not there else "nearly" if size < NEARLY else "unbalanced"
             if there and balanced[0]:
                 verdict = "symmetry" if all(balanced) else "chance"
-            number = int(order) if order % 1 == 0 else order
+            number = order_number(order)
             rest = _compare_with_textbook(book, group if there else "", number, row)
             yield Reason(number, group, verdict, 0.0 if balanced[0] else size, *rest)
 

@@ -15,13 +15,13 @@ from ..core.vibration import Real
 from ..engine.engine import Engine, check_engine, take_model
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError, check_type
+from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..file.plain_tables import take_tables
 from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_mapping, check_speeds, tell_arguments
-from ..show.sheet import order_number
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
@@ -80,7 +80,7 @@ def report_mounts(
         asked = None if orders is None else check_orders(orders)
         if asked is not None and asked[0] == 0:
             raise BalcliError(
-                "order 0 does not vibrate: what is steady is told as rest; leave it out"
+                "order 0 is steady and does not vibrate; leave it out (see the table At rest)"
             )
         engines = [] if engine is None else [engine]
         if engine is not None and scheme is not None:

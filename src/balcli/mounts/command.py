@@ -20,7 +20,7 @@ from ..show.units import SYSTEMS
 
 Orders = Annotated[
     str | None,
-    optional("1-8|1,2,4", "Orders that count; default: all that contribute.", "--orders"),
+    optional("1-8|1,2,4", "Orders to include; default: all that contribute.", "--orders"),
 ]
 
 
@@ -91,8 +91,8 @@ def mounts(
         )
     if result.response is None and any((speeds, orders, scheme, misfire)):
         warn(
-            f"{name}: nothing shakes this body, so speeds, orders, misfires and schemes say "
-            "nothing of it: add [crank], [rod] and [piston], or name an engine file after this one"
+            f"{name}: has no engine, so --speeds, --orders, --misfire and --scheme have no effect; "
+            "add [crank], [rod] and [piston], or name an engine file after this one"
         )
     warn_each(result.doubts, name)
     if plot is not None and drawn is not None:

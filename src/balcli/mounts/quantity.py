@@ -107,18 +107,18 @@ class Variants:
             engine = self._engines.build(
                 {path: v for path, v in values.items() if path.partition(".")[0] not in _TABLES}
             )
-            if self._leans:
-                mean = find_loads(engine, mounted.body.centre).mean
-            if self._curves:
-                omega = choose_speeds(engine, values, choose_mount_speeds) * RPM
-                running = RunningBody.choose(mounted, modes, engine, omega)
-                running.refuse_resonance(omega)
-                running = running.select(self._curves)
-                worst = find_worst(running, omega, running.find_peaks(omega))
-                largest = {
-                    k: value if k < len(mounted.names) else 1e3 * value  # N, mm
-                    for k, value in zip(self._curves, worst.value.tolist(), strict=True)
-                }
+        if self._curves:
+            omega = choose_speeds(engine, values, choose_mount_speeds) * RPM
+            running = RunningBody.choose(mounted, modes, engine, omega)
+            running.refuse_resonance(omega)
+            running, mean = running.select(self._curves), running.loads.mean
+            worst = find_worst(running, omega, running.find_peaks(omega))
+            largest = {
+                k: value if k < len(mounted.names) else 1e3 * value  # N, mm
+                for k, value in zip(self._curves, worst.value.tolist(), strict=True)
+            }
+        elif self._leans:
+            mean = find_loads(engine, mounted.body.centre).mean
         rest = np.linalg.norm(settle(mounted, mean).forces, axis=-1).tolist()
         found = []
         for q in self._quantities:

@@ -25,9 +25,9 @@ from ..core.vibration import (
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError
+from ..file.fields import order_number
 from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
-from ..show.sheet import order_number
 from .build import BodyModes, MountedBody
 from .loads import BodyLoads, find_loads
 from .records import (
@@ -104,10 +104,9 @@ class RunningBody(NamedTuple):
         own = largest_of_ellipse(running.read(running.move(some)[..., None, :])).max(axis=0)
         roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
         sizes = roll[:, None, None] * running.bound_response(every, some)
-        shares = np.divide(sizes, own, out=np.zeros_like(sizes), where=own > 0)
-        # Of an order and all higher ones.
-        beyond = shares[::-1].cumsum(axis=0)[::-1].max(axis=(1, 2))
-        highest = every[beyond > _BEYOND].max(initial=HIGHEST_GAS_ORDER_UNASKED)
+        beyond = sizes[::-1].cumsum(axis=0)[::-1]  # of an order and all higher ones
+        needed = (beyond > _BEYOND * own).any(axis=(1, 2))
+        highest = every[needed].max(initial=HIGHEST_GAS_ORDER_UNASKED)
         if highest > HIGHEST_GAS_ORDER_UNASKED:
             loads = find_loads(engine, centre, gas_orders=list_gas_orders(engine, highest))
             running = running._replace(loads=loads)

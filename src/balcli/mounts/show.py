@@ -95,30 +95,29 @@ def _answer(
     if value:
         worst = place.worst
         yield (
-            f"The mount {place.name} feels most: {told}, of which order {order_name(worst.order)} "
+            f"Largest mount force: {told} at mount {place.name}; order {order_name(worst.order)} "
             f"alone makes {force.show(worst, 'order_force_N')} {force.unit.name}. "
             f"{_explain(result, response, worst)}"
         )
     else:
-        yield "The mounts feel nothing of the orders that count."
+        yield "The orders included put no force on the mounts."
     if response.points:
         place, _, told = motion.tell_highest(response)
-        yield f"The point {place.name} moves most: {told}."
+        yield f"Largest motion: {told} at point {place.name}."
     orders, speeds = response.orders, response.speeds_rpm.tolist()
     ends = [number(speed, 4) for speed in dict.fromkeys((speeds[0], speeds[-1]))]
     names = [order_name(order) for order in dict.fromkeys((orders[0], orders[-1]))]
     yield (
-        f"Orders that count: {' to '.join(names)}, {len(orders)} in all; "
+        f"Orders included: {' to '.join(names)}, {len(orders)} in all; "
         f"speed{'s' * (len(ends) > 1)}: {' to '.join(ends)} rpm."
     )
     if response.loads.fired:
         silent = _tell_silent(response)
-        yield f"Of inertia and the torque of the gas, the same diagram at every speed{silent}."
+        yield f"Inertia and gas torque, with the same gas diagram at every speed{silent}."
     else:
-        yield "Of inertia alone: the torque of the gas, which rolls an engine too, is not in this."
+        yield "Inertia only: gas torque, which also rolls an engine, is not included."
     if result.assumed_rpm is not None:
-        told = f"{number(result.assumed_rpm, 4)} rpm, which is assumed"
-        yield f"The file gives no speed: these are the largest up to {told}."
+        yield f"The file gives no speed; {number(result.assumed_rpm, 4)} rpm is assumed."
     for other in result.beside:
         yield f"With {other.name} {''.join(_compare(response, other.response, force, motion))}."
 
@@ -134,7 +133,7 @@ def _compare(own: BodyResponse, other: BodyResponse, force: Kind, motion: Kind) 
         less = f": {size if abs(change) >= _SAME else 'as much'}" if before else ""
         where = "the largest force of any mount is"
         if kind is motion:
-            where = f"; the point {place.name} moves most,"
+            where = f"; the largest motion at {place.name} is"
         yield f"{where} {told}{less}"
     if other.loads.fired != own.loads.fired:
         yield ", its gas included" if other.loads.fired else ", of inertia alone"

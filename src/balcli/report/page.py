@@ -21,6 +21,7 @@ from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors, unit
 from ..engine.engine import Engine
 from ..errors import BalcliError, warn
+from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.curves import find_torque_curves
 from ..forces.kinds import FORCE, MOMENT, VECTORS
@@ -32,7 +33,7 @@ from ..mounts.rigid_body import PROJECTION, find_corners
 from ..process import Tell, tell_nobody
 from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
-from ..show.sheet import NEGLIGIBLE, ON_A_PAGE, Facts, Grid, Text, order_number
+from ..show.sheet import NEGLIGIBLE, ON_A_PAGE, Facts, Grid, Text
 from ..show.units import ShownUnit, System
 from ..sizing.options import SchemeOptions
 from ..torsion import plot as twisting, show as torsion

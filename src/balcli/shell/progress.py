@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 import typer
 
 from ..errors import Exit, is_quiet, say
+from ..show.sheet import count_name
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
@@ -55,7 +56,7 @@ class Progress:
         """Return the work done, such as "20000 of 4000000 variants" or "0.50% of the work"."""
         if self._total is None:
             return f"{self.done:.2%} of the {self._what}"
-        return f"{self.done:.0f} of {self._total:.0f} {self._what}"
+        return f"{count_name(self.done)} of {count_name(self._total)} {self._what}"
 
     def close(self) -> None:
         """Remove the bar."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Annotated, NamedTuple, Protocol
@@ -15,10 +15,10 @@ from ..core.peaks import Peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
 from ..engine.engine import Engine, SilentCylinders
+from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.spectrum import Spectra
-from .sheet import order_number
 from .units import ShownUnit, System
 
 
@@ -230,12 +230,17 @@ def name_engine(engine: Engine | EngineFile) -> EngineName:
     return EngineName(engine.name)
 
 
+def place_in_mm(place_m: Iterable[Figure]) -> tuple[float, ...]:
+    """Return a place given in m."""
+    return tuple(1e3 * float(v) for v in place_m)
+
+
 def describe_state(engine: Engine) -> EngineState:
     """Return speed, cylinders without gas and point of reference of an engine."""
     return EngineState(
         speed_rpm=float(engine.speed_rpm),
         **silent_entries(engine.silent),
-        reference_mm=tuple(float(v) * 1e3 for v in engine.reference_m),
+        reference_mm=place_in_mm(engine.reference_m),
     )
 
 

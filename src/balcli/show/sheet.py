@@ -81,9 +81,9 @@ def sentence(text: str) -> str:
     return f"{capitalized(text).removesuffix('.')}."
 
 
-def order_number(order: float) -> int | float:
-    """An order as it is written: whole ones without a point."""
-    return int(order) if order == int(order) else float(order)
+def count_name(count: float) -> str:
+    """A whole number as people read it, 100 000, in groups from five digits on."""
+    return f"{count:,.0f}".replace(",", " ") if abs(count) >= 10_000 else f"{count:.0f}"
 
 
 def order_name(order: float) -> str:
@@ -201,4 +201,4 @@ def tell_assumed_speed(model: EngineFile | None) -> str:
     """A sentence, where there is a file that gives no speed."""
     if model is None or "speed" in model.operation.model_fields_set:
         return ""
-    return f"The file gives no speed: figures are those at {model.operation.speed:g} rpm."
+    return f"The file gives no speed; results are for {model.operation.speed:g} rpm."

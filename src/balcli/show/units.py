@@ -108,8 +108,11 @@ SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 
 def unit_of_name(name: str) -> ShownUnit:
-    """The unit of this name, which gives way to a larger one if it is that of force or moment."""
-    return next((unit for unit in (SI.force, SI.moment) if unit.name == name), ShownUnit(name, 1))
+    """Return the unit of this name, which gives way to a larger one if it is that of force, moment
+    or stress.
+    """
+    scaled = (SI.force, SI.moment, SI.stress)
+    return next((unit for unit in scaled if unit.name == name), ShownUnit(name, 1))
 
 
 def name_with_unit(name: str, unit: str) -> str:

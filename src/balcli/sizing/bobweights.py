@@ -8,6 +8,7 @@ from typing import Annotated
 from ..core.records import HIDDEN, INLINE, Node, Polar
 from ..engine.engine import Engine
 from ..engine.rods import CylinderMasses
+from ..file.model import PISTON_PARTS
 from .planes import measure_direction
 
 DEFINITION = (
@@ -21,7 +22,7 @@ NO_THROW = (
 )
 WHOLE_PISTON = "piston complete"
 ROTATING = ("big end", "rod bearing", "oil")
-PISTON = (WHOLE_PISTON, "piston", "pin", "rings", "locks")
+PISTON = (WHOLE_PISTON, *PISTON_PARTS)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,7 +23,7 @@ from ..file.model import EngineFile
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from .fitting import find_effect
-from .planes import KINDS, DeviceTable, find_order, measure_direction
+from .planes import TABLES, DeviceTable, find_order, measure_direction
 from .remedy import Remedy
 from .residual import (
     BACKWARD_FORCE,
@@ -64,9 +64,9 @@ def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:
     the file.
     """
     return [
-        (f"{kind.__name__.lower()}.{number}", table)
-        for kind in KINDS
-        for number, table in enumerate(getattr(model, kind.__name__.lower()), 1)
+        (f"{key}.{number}", table)
+        for key in TABLES
+        for number, table in enumerate(getattr(model, key), 1)
         if table.to_fit
     ]
 
@@ -74,8 +74,7 @@ def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:
 def remove_to_fit(model: EngineFile) -> EngineFile:
     """Return the file without the devices whose unbalance is "fit"."""
     rest = {
-        name: tuple(table for table in getattr(model, name) if not table.to_fit)
-        for name in (kind.__name__.lower() for kind in KINDS)
+        key: tuple(table for table in getattr(model, key) if not table.to_fit) for key in TABLES
     }
     return model.model_copy(update=rest)
 

@@ -138,6 +138,7 @@ FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
     Slider: ("order", "unbalance", "direction", "angle", "at", "position"),
 }
 KINDS = tuple(FIELDS)
+TABLES = ("counterweight", "shaft", "slider")  # of these kinds in an engine file
 _ROUNDING = 1e-12  # of the largest eccentric: less together is no force
 
 

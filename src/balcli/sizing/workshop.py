@@ -77,12 +77,16 @@ class Practical:
     hole_angle_deg: float | None = None
 
 
+class HolesDoNotFitError(BalcliError):
+    """More holes are needed than have room side by side on the crank."""
+
+
 def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, ...]:
     """Figures of all devices, in the order of `remedy.devices`.
 
     Raises:
-        BalcliError: tools that cannot be, or that do not go together; holes that do not fit on the
-            crank.
+        BalcliError: tools that cannot be, or that do not go together.
+        HolesDoNotFitError: Holes do not fit on the crank.
         TypeError: one is no number.
     """
     tools = Tools(*map(_check_figure, Tools._fields, tools))
@@ -152,7 +156,7 @@ def _plan_holes(
     """Return as few holes as the depth allows.
 
     Raises:
-        BalcliError: more holes than have room side by side.
+        HolesDoNotFitError: More holes are needed than have room side by side.
     """
     if tools.drill is None or isinstance(device, Slider):
         return {}
@@ -164,12 +168,13 @@ def _plan_holes(
     room = tools.width or (_find_room(engine) if isinstance(device, Counterweight) else math.inf)
     if count * tools.drill > room * (1 + ROUNDING) or math.isinf(count):
         fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
-        raise BalcliError(
-            f"--drill {1e3 * tools.drill:g} mm: {1e6 * unbalance:.6g} g mm for {name_kind(device)} "
-            f"at z = {device.position:g} mm do not fit: {fitting:.6g} holes side by side have room "
-            f"on {1e3 * room:g} mm (--width) and make at most "
-            f"{1e6 * fitting * of_one:.6g} g mm; use "
-            "a larger drill or --radius, a larger --max-depth, or --slug"
+        needed_holes = "" if math.isinf(count) else f"{count:g} holes for "
+        raise HolesDoNotFitError(
+            f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm of "
+            f"{name_kind(device)} at z = {device.position:g} mm do not fit: {fitting:g} holes side "
+            f"by side have room on {1e3 * room:g} mm (--width) and make at most "
+            f"{1e6 * fitting * of_one:.6g} g mm; use a larger drill or --radius, a larger "
+            "--max-depth, or --slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)

@@ -20,9 +20,11 @@ from ..errors import BalcliError, list_values, wrong_type
 from ..file.fields import Number, nearest, shorten
 from ..file.messages import SYNONYMS
 from ..file.model import EngineFile, Override
+from ..file.mount_tables import AlikeOrEach
 from ..file.table import FileTable
 from ..file.units import BARE_FIGURE, convert_exactly
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
+from ..show.sheet import count_name
 
 _EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 
@@ -94,6 +96,13 @@ def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:
         if isinstance(value, FileTable):
             yield from _numbers_of(f"{path}.{key}", value)
         elif isinstance(value, tuple):
+            marks = type(table).model_fields[key].metadata
+            if (
+                number is not None
+                and len(set(value)) == 1
+                and any(isinstance(mark, AlikeOrEach) for mark in marks)
+            ):
+                yield f"{path}.{key}", number  # all of them together
             for k, item in enumerate(value, 1):
                 if isinstance(item, FileTable):
                     yield from _numbers_of(f"{path}.{key}.{k}", item)
@@ -253,8 +262,8 @@ def _read_values(text: str, number: Number) -> NDArray[np.float64]:
     count = math.floor((last - first) / step) + 1
     if not 0 < count <= MOST_PARAMETER_VALUES:
         raise ValueError(
-            f"has {max(count, 0)} values; give a step that leads from the first to the last in at "
-            f"most {MOST_PARAMETER_VALUES:g} steps"
+            f"has {count_name(max(count, 0))} values; give a step with 1 to "
+            f"{count_name(MOST_PARAMETER_VALUES)} values from the first to the last"
         )
     return ladder(first, step, count)
 

@@ -228,5 +228,7 @@ def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
             found = getattr(found, part)
         elif isinstance(found, tuple):
             found = found[int(part) - 1]
+    if isinstance(found, tuple) and len(set(found)) == 1:
+        found = found[0]  # one number for all
     value = float(found) if isinstance(found, int | float) else None
     return FileNumber(path, RIGID if value == math.inf else value, unit, meaning)

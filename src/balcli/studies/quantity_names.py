@@ -134,13 +134,10 @@ TORSION = Chapter(
     ),
 )
 CHAPTERS = (ENGINE, GUIDE, CYCLE, MOUNTS, TORSION)
-_OF_SHAFTS = (
-    "Of shafts: the largest from half to 1.5 times the engine's speed; what resonates at other "
-    "speeds, which are passed, is not in it."
-)
-_OF_MOUNTS = (
-    "Of mounts and points: the largest from an eighth of the engine's speed up to it; what "
-    "resonates at other speeds is not in it."
+# Quantities that are the largest of a range of speeds: its ends over the engine's speed, in words.
+_RANGES = (
+    (("mount.", "point."), "Mounts and points", (1 / 8, 1.0), "1/8 to 1 times the engine's speed"),
+    (("shaft.",), "Shafts", (0.5, 1.5), "0.5 to 1.5 times the engine's speed"),
 )
 BEGINNINGS = tuple(dict.fromkeys(each for chapter in CHAPTERS for each in chapter.beginnings))
 _OF_CYCLE = tuple(form.pattern for form in CYCLE.forms)
@@ -170,13 +167,16 @@ def _shorten(chapter: Chapter) -> Iterator[str]:
         yield f"{stem}.{parts}" if stem else parts
 
 
-def tell_speeds(names: Iterable[str], varied: Iterable[str] = ()) -> str:
-    """Return over which speeds quantities of these names are the largest, where one could be
-    misled; where the speed varies, they are those at each speed.
+def tell_speeds(names: Iterable[str], rpm: float, varied: Iterable[str] = ()) -> str:
+    """Return over which speeds quantities of these names are the largest, for an engine's speed;
+    where the speed varies, they are those at each speed.
     """
     if "operation.speed" in varied:
         return ""
     asked = [name for name in names if not name.endswith(".static")]
-    told = [_OF_MOUNTS] * any(name.startswith(("mount.", "point.")) for name in asked)
-    told += [_OF_SHAFTS] * any(name.startswith("shaft.") for name in asked)
-    return " ".join(told)
+    return " ".join(
+        f"{what}: largest value from {low * rpm:g} to {high * rpm:g} rpm ({words}); resonances at "
+        "other speeds are not included."
+        for starts, what, (low, high), words in _RANGES
+        if any(name.startswith(starts) for name in asked)
+    )

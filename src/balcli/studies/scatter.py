@@ -26,8 +26,10 @@ from ..limits import MOST_SINGLE_SAMPLES, MOST_TOLERANCE_SAMPLES
 from ..process import Tell, tell_nobody
 from ..shell.arguments import Words, check_count, join_names, tell_arguments
 from ..show.result import Result
+from ..show.sheet import count_name
 from .deviations import (
     THROW_MASS,
+    Source,
     Tolerances,
     list_mounts,
     list_parts,
@@ -86,6 +88,7 @@ class Scatter(Result):
         model: The engine file.
         units: SI unit of each quantity, by its name.
         varied: What the variants are, for tables: engines.
+        parts: What deviates, with its tolerance.
     """
 
     format: Literal["balcli.scatter/1"] = "balcli.scatter/1"
@@ -96,11 +99,12 @@ class Scatter(Result):
     model: Annotated[EngineFile, HIDDEN]
     units: Annotated[dict[str, str], HIDDEN]
     varied: Annotated[str, HIDDEN]
+    parts: Annotated[tuple[Source, ...], HIDDEN]
 
     @property
     def summary(self) -> str:
         """The engine and the number of samples."""
-        return f"of {self.model.name or 'an engine'}: {self.samples} samples"
+        return f"of {self.model.name or 'an engine'}: {count_name(self.samples)} samples"
 
 
 # ------------------------------------------------------------------ tolerances as users give them
@@ -185,15 +189,19 @@ class Variants:
         apart = kinds & {MOUNTS, TORSION}
         if apart and len(kinds) > 1:
             raise BalcliError(
-                f"{' and '.join(q.name for q in asked[:2])} have tolerances of their own; ask for "
-                "quantities of the engine, of its mounts and of torsion one after the other"
+                f"{', '.join(q.name for q in asked)}: engine, mounts and torsion have different "
+                "tolerances; ask for quantities of one of them at a time"
             )
         if within.stiffness is not None and not apart:
             raise BalcliError(
-                "--stiffness-scatter: is of mounts and shafts, and none of these quantities asks"
+                f"--stiffness-scatter: {', '.join(q.name for q in asked)} depends on no mount and "
+                "no shaft; leave it out, or ask for a quantity such as mode.roll.Hz"
             )
         if angles := [q.name for q in of_engine if q.unit == "deg"]:
-            raise BalcliError(f"{angles[0]} is a direction, which has no mean; ask for sizes")
+            raise BalcliError(
+                f"{angles[0]} is a direction and has no mean; ask for a magnitude, such as "
+                f"{angles[0].rpartition('.')[0]}.major"
+            )
         if of_engine:
             refuse_unknown(build(model), of_engine)
         refuse_unknown_of_chapters(model, asked)
@@ -210,7 +218,7 @@ class Variants:
             sources = list_parts(model, within)
         self.model, self.sources = model, tuple(each for each in sources if each.tolerance)
         if not self.sources:
-            raise BalcliError(f"nothing deviates; give a tolerance, such as {give}")
+            raise BalcliError(f"all tolerances are 0; give one, such as {give}")
         self._evaluator = Evaluator(model, asked)
         paths = [path for source in self.sources for path in source.figures]
         of_gas = any(q.kind in GAS_KINDS for q in of_engine)
@@ -240,8 +248,8 @@ class Variants:
             return np.stack(self._evaluator.evaluate(of_file, shape, engine), axis=1)
         except InputError as error:
             raise BalcliError(
-                f"within these tolerances an engine cannot be ({error.problems[0].message}); give "
-                "smaller ones"
+                f"some engines within these tolerances are impossible: "
+                f"{error.problems[0].message}; give smaller tolerances"
             ) from None
 
     def _weigh_throws(self, engine: Engine, figures: dict[str, Array]) -> Engine:
@@ -261,8 +269,10 @@ class Variants:
         samples = self.usual if drawing.samples is None else drawing.samples
         most = MOST_SINGLE_SAMPLES if self._slow else MOST_TOLERANCE_SAMPLES
         if not 1 <= samples <= most:
-            why = f"{self.asked[0].name} is computed one by one, " if self._slow else ""
-            raise BalcliError(f"{samples} samples: {why}from 1 to {most} are allowed")
+            why = f", as {self.asked[0].name} is computed one by one" if self._slow else ""
+            raise BalcliError(
+                f"{count_name(samples)} samples: give from 1 to {count_name(most)}{why}"
+            )
         tolerances = np.array([source.tolerance for source in self.sources])
         ends = np.diag(tolerances)
         nominal = np.array(self._evaluator.evaluate({}, (1,)))[:, 0]
@@ -278,6 +288,7 @@ class Variants:
             model=self.model,
             units={q.name: q.unit for q in self.asked},
             varied=self.varied,
+            parts=self.sources,
         )
 
     def _evaluate_random(self, samples: int, tolerances: Array, drawing: Drawing) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,7 +18,8 @@ from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
 from ..show.csv import Rows
 from ..show.formats import Renderer
-from ..show.sheet import NAMELESS, Grid, Sheet, number, tell_assumed_speed
+from ..show.sheet import NAMELESS, Grid, Sheet, count_name, number, tell_assumed_speed
+from ..show.units import name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
 
 if TYPE_CHECKING:
@@ -26,10 +28,14 @@ if TYPE_CHECKING:
 
 
 SHOWN = 6  # sources of each quantity in a table
-BOUND = "bound: nominal and all changes added up, to first order: a variant may go a little beyond"
-_NORMAL = (
-    "; normal deviations exceed a tolerance, three times their standard deviation, in 1 of 370"
-)
+BOUND = "Bound: nominal value plus all changes below; a variant may lie slightly beyond"
+_SHAPES = {
+    "uniform": "evenly distributed",
+    "normal": (
+        "normally distributed with a third of the tolerance as standard deviation, so that 1 of "
+        "370 deviations exceeds it"
+    ),
+}
 
 
 def document(result: Scatter) -> dict[str, Any]:
@@ -48,33 +54,53 @@ def rows(result: Scatter, _system: System) -> Rows:
 
 
 def sheet(result: Scatter, system: System) -> Sheet:
-    """Return percentiles in SI units, and the tolerances that matter most."""
-    table = rows(result, system)
-    names = [", ".join(filter(None, (name, result.units[name]))) for name in result.quantities]
-    bound = BOUND + (_NORMAL if result.distribution == "normal" else "")
-    notes = (bound, tell_speeds(result.quantities), tell_assumed_speed(result.model))
-    spread = Grid(
-        f"Spread of {result.samples} {result.varied}",
+    """Return percentiles and the tolerances that matter most, each quantity in the unit that fits
+    it.
+    """
+    table, lines, causes = rows(result, system), [], []
+    for (name, spread), line in zip(result.quantities.items(), table.lines, strict=True):
+        unit = unit_of_name(result.units[name]).fit(max(map(abs, (spread.max, spread.nominal))))
+        head = name_with_unit(name, unit.name)
+        lines.append((head, *(number(value / unit.size) for value in line[1:-1])))
+        parts = _group_parts(spread.sensitivity, unit.size)[:SHOWN] or [("0", "nothing")]
+        causes += [(head if k == 0 else "", *pair) for k, pair in enumerate(parts)]
+    speeds = tell_speeds(result.quantities, result.model.operation.speed)
+    notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", speeds, tell_assumed_speed(result.model))
+    spread_of_all = Grid(
+        f"Spread of {count_name(result.samples)} random {result.varied}",
         tuple(table.header[:-1]),
-        tuple(
-            (name, *map(number, line[1:-1])) for name, line in zip(names, table.lines, strict=True)
-        ),
-        note=". ".join(filter(None, notes)),
+        tuple(lines),
+        note=" ".join(filter(None, notes)),
     )
-    causes = [
-        [f"{source}: {number(change, 3)}" for source, change in s.sensitivity.items()]
-        for s in result.quantities.values()
-    ]
-    shares = Grid(
-        "What each tolerance alone changes, most first",
-        ("quantity", *(f"{k}." for k in range(1, SHOWN + 1))),
-        tuple(
-            (name, *(texts + [""] * SHOWN)[:SHOWN])
-            for name, texts in zip(names, causes, strict=True)
-        ),
-        words=tuple(range(SHOWN + 1)),
+    changes = Grid(
+        "What each tolerance alone changes, largest first",
+        ("quantity", "change", "made by each of"),
+        tuple(causes),
+        words=(0, 2),
     )
-    return Sheet(result.model.name or NAMELESS, (spread, shares))
+    return Sheet(result.model.name or NAMELESS, (spread_of_all, changes))
+
+
+def _list_tolerances(result: Scatter) -> str:
+    """Return the tolerances of all kinds of parts and how deviations are distributed."""
+    kinds: dict[str, dict[str, None]] = {}
+    for part in result.parts:
+        words = part.name.split()
+        kind = words[0] if words[0] in ("stiffness", "inertia") else " ".join(words[:2])
+        size = f"{100 * part.tolerance:g} %" if part.relative else f"{part.tolerance:g} deg"
+        kinds.setdefault(size, {})[kind] = None
+    told = "; ".join(f"{', '.join(names)} ±{size}" for size, names in kinds.items())
+    return f"Tolerances: {told}; {_SHAPES[result.distribution]}"
+
+
+def _group_parts(changes: Mapping[str, float], unit: float) -> list[tuple[str, str]]:
+    """Return changes and the parts that make them, without those that change nothing."""
+    groups: dict[tuple[str, str], list[str]] = {}
+    for name, change in changes.items():
+        if change:
+            stem, _, last = name.rpartition(" ")
+            groups.setdefault((number(change / unit, 3), stem), []).append(last)
+    return [(change, f"{stem} {', '.join(each)}") for (change, stem), each in groups.items()]
 
 
 RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
@@ -102,7 +128,7 @@ def scatter(
         typer.Option(
             "--length-scatter",
             metavar="PERCENT",
-            help="Tolerance of every rod length; what else the file says of the rods stays.",
+            help="Tolerance of every rod length; the other rod data are kept.",
         ),
     ] = "0%",
     angle: Annotated[
@@ -180,4 +206,4 @@ def scatter(
     with reporting_until_stopped("samples", count) as progress:
         found = variants.draw(Drawing(count, seed, distribution.value, progress))
     show([found], RENDERER, form, output)
-    exit_if_cut_short(progress, "the figures are of these")
+    exit_if_cut_short(progress, "the results cover only these")

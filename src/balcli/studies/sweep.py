@@ -36,6 +36,7 @@ from ..limits import MOST_KEPT_FIGURES, MOST_PARAMETERS, MOST_THREADS
 from ..process import count_cores
 from ..shell.arguments import Words, check_count, check_mapping, join_names, tell_arguments
 from ..show.result import Result
+from ..show.sheet import count_name
 from .evaluator import Evaluator
 from .parameters import Parameter, choose_values, parse_parameter, tell_variant
 from .quantities import AnyQuantity, parse_quantities, refuse_unknown_of_chapters
@@ -381,8 +382,9 @@ def compute_sweep(sweep: Sweep, threads: int) -> Swept:
     count = sweep.variants * len(sweep.quantities)
     if count > MOST_KEPT_FIGURES:
         raise BalcliError(
-            f"{count} figures are too many to keep ({MOST_KEPT_FIGURES} are allowed): balcli sweep "
-            "-o FILE.parquet writes them as they are computed"
+            f"{count_name(count)} values are too many to keep; give at most "
+            f"{count_name(MOST_KEPT_FIGURES)}, or use balcli sweep -o FILE.parquet, which writes "
+            "them as they are computed"
         )
     share = partial(share_among_threads, threads=threads)
     return Swept(sweep, tuple(join_chunks(sweep, evaluate_chunks(sweep, share))))

@@ -169,7 +169,7 @@ def _choose_target(
         return file, format_of(file, form, VARIANTS, usual)
     if form not in (None, VariantsFormat.PARQUET):
         raise BalcliError(
-            f"--output {output.path}/: a folder takes Parquet files, but --format says {form}; "
+            f"--output {output.path}/: a folder takes Parquet files, but --format is {form}; "
             "leave one of them out"
         )
     if plot is not None:

@@ -20,7 +20,7 @@ from ..show import plot_style as style
 from ..show.csv import Columns, json_text
 from ..show.figures import name_engine
 from ..show.formats import Columnar
-from ..show.sheet import NAMELESS, Grid, Sheet, given, number, tell_assumed_speed
+from ..show.sheet import NAMELESS, Grid, Sheet, count_name, given, number, tell_assumed_speed
 from ..show.units import ShownUnit, name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
 
@@ -123,11 +123,12 @@ def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
     notes = []
     if left_out:
         rows.insert(FIRST, ("…",) * len(sweep.columns))
-        whole = len(figures) + left_out
-        notes += [f"{whole} variants, of which {left_out} are not shown: -o X.csv writes all."]
+        whole, missing = count_name(len(figures) + left_out), count_name(left_out)
+        notes += [f"{whole} variants, {missing} of them not shown; -o X.csv writes all."]
     if "operation.speed" not in sweep.columns and (assumed := tell_assumed_speed(sweep.file)):
         notes += [assumed]
-    if speeds := tell_speeds((q.name for q in sweep.quantities), sweep.columns):
+    rpm = sweep.file.operation.speed
+    if speeds := tell_speeds((q.name for q in sweep.quantities), rpm, sweep.columns):
         notes += [speeds]
     grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
     return Sheet(f"{sweep.file.name or NAMELESS}: variants", (grid,))
@@ -148,12 +149,12 @@ def check_drawable(sweep: Sweep) -> None:
     several = len(_varied_parameters(sweep))
     if not 0 < several <= 2:
         raise BalcliError(
-            f"a picture shows one or two parameters with several values each, not {several}"
+            f"{several} parameters have several values; a picture shows one or two of them"
         )
     if sweep.variants > MOST_PICTURE_VARIANTS:
         raise BalcliError(
-            f"{sweep.variants} variants are too many for one picture; "
-            f"{MOST_PICTURE_VARIANTS} are allowed"
+            f"{count_name(sweep.variants)} variants are too many for a picture; give at most "
+            f"{count_name(MOST_PICTURE_VARIANTS)}"
         )
 
 

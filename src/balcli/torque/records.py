@@ -9,6 +9,7 @@ from ..core.piecewise import PiecewiseCurve
 from ..core.records import HIDDEN, INLINE
 from ..core.speed_ripple import Surplus
 from ..engine.engine import Engine
+from ..file.fields import order_number
 from ..forces.spectrum import Spectra
 from ..show.figures import Harmonic, list_harmonics
 from ..show.result import Result
@@ -168,5 +169,4 @@ def list_torques(spectra: Spectra) -> list[Torques]:
 
 def write_whole(value: float) -> float | int:
     """Return a number to 1e-9, a whole one without a decimal point."""
-    near = round(float(value), 9)
-    return int(near) if near == int(near) else near
+    return order_number(round(float(value), 9))

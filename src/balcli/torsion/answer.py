@@ -17,7 +17,7 @@ from ..core.vibration import Real
 from ..engine.engine import Engine, take_model
 from ..engine.load import build_tables
 from ..errors import BalcliError, check_type
-from ..file.fields import printable
+from ..file.fields import order_number, printable
 from ..file.plain_tables import take_tables
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
@@ -31,7 +31,7 @@ from .response import (
     find_barred,
     find_response,
 )
-from .system import TorsionalSystem, whole_order
+from .system import TorsionalSystem
 
 BEYOND = 1.5  # times the file's own speed to which criticals are listed: engines overspeed
 BREAKING = 1000e6  # Pa of vibratory stress: the best steel yields below
@@ -225,24 +225,24 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
         if wide > WIDE_SWING:
             yield (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, computed as if that were small: at "
-                f"{WIDE_SWING:.0f} deg one on a circle is 0.8 % out of tune, farther out more; "
-                f"with {wide / WIDE_SWING:.2g} times their mass they would swing by about "
+                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings: at "
+                f"{WIDE_SWING:.0f} deg a pendulum on a circle is 0.8 % out of tune, beyond more; "
+                f"{wide / WIDE_SWING:.2g} times their mass would limit the swing to about "
                 f"{WIDE_SWING:.0f} deg"
             )
-    question = "is the damping (loss, damping) of all that twists right?"
+    question = "check the damping (loss, damping) of all shafts and nodes"
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
     swing = response.free_end_worst
     if hardest is not None and (stress := hardest.worst.stress_Pa or 0.0) > BREAKING:
         yield (
-            f"{printable(hardest.name)} would bear {stress / 1e6:.4g} N/mm2 at "
-            f"{hardest.worst.speed_rpm:.5g} rpm, which no steel does; {question}"
+            f"{printable(hardest.name)} has {stress / 1e6:.4g} N/mm² at "
+            f"{hardest.worst.speed_rpm:.5g} rpm, more than any steel bears; {question}"
         )
     elif swing.half_swing_deg > ASTOUNDING:
         yield (
-            f"{printable(system.free_end)} would swing by {swing.half_swing_deg:.4g} deg at "
-            f"{swing.speed_rpm:.5g} rpm, which is too far for what is computed here, small swings; "
-            f"is an inertia missing, or the speed too low? {question.capitalize()}"
+            f"{printable(system.free_end)} swings by {swing.half_swing_deg:.4g} deg at "
+            f"{swing.speed_rpm:.5g} rpm, but the computation assumes small swings; is an inertia "
+            f"missing, or the speed too low? {question.capitalize()}"
         )
 
 
@@ -296,7 +296,7 @@ def _analyze_system(
         nodes=tuple(map(ChainNode, system.nodes, chain.inertia.tolist(), system.gears.tolist())),
         shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
         modes=modes,
-        orders=None if excitation is None else tuple(map(whole_order, excitation.orders.tolist())),
+        orders=None if excitation is None else tuple(map(order_number, excitation.orders.tolist())),
         criticals=None if excitation is None else find_criticals(excitation, modes, span),
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
         response=response,

@@ -126,9 +126,9 @@ def _doubt_light_shafts(
             len(heavy) > _MOST_NAMED
         )
         yield (
-            f"{counted(len(heavy), 'plain shaft')} without a density ({', '.join(names)}): an "
-            f"inertia of {sum(each.lost for each in heavy):.4g} kg m2, as of steel, counts "
-            f"nowhere; give density = {STEEL} (g/cm3), and half of it counts at either end"
+            f"{counted(len(heavy), 'plain shaft')} without a density ({', '.join(names)}): their "
+            f"inertia, {sum(each.lost for each in heavy):.4g} kg m2 in steel, is left out; give "
+            f"density = {STEEL} (g/cm3), which puts half of it at either end"
         )
 
 
@@ -526,7 +526,7 @@ def _find_misfits(
     torsion: Torsion, model: EngineFile, engine: Engine, throws: Sequence[str]
 ) -> Iterator[Problem]:
     if engine.rotary:
-        yield Problem("torsion", "is for crankshafts that turn; that of a rotary stands still")
+        yield Problem("torsion", "needs a crankshaft that turns; that of a rotary engine does not")
         return
     yield from _check_throws(torsion, model, len(throws), len(engine.throws_m))
     joints = _join_parts(torsion, len(throws))
@@ -543,7 +543,7 @@ def _find_misfits(
             hint = suggest_nearest(of, names, f"there are {listed}")
             yield Problem(f"{path}.of", f"{shorten(of)} is no part; {hint}")
         elif part.name not in led:
-            text = f"{shorten(of)} does not lead to the crankshaft; name what the part hangs on"
+            text = f"{shorten(of)} is not connected to the crankshaft; name a part that is"
             yield Problem(f"{path}.of", text)
 
 

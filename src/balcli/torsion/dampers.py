@@ -175,19 +175,19 @@ def size_damper(
     def resize(logarithm: float) -> Damper:
         return first.model_copy(update={figure: start * math.exp(logarithm)})
 
-    def judge(damper: Damper | None) -> float:
-        """Return the largest stress or torque of the shafts there without it; inf: no bound."""
+    def judge(system: TorsionalSystem) -> float:
+        """Return the largest stress or torque of the shafts of the bare system; inf: no bound."""
         tell(min(next(tried) / _RESPONSES, 1.0))
         try:
-            return _find_hardest(build(damper), speeds, weights)[2]
+            return _find_hardest(system, speeds, weights)[2]
         except BalcliError:
             return math.inf
 
-    farther = _minimise(lambda logarithm: judge(resize(logarithm)), width)
+    farther = _minimise(lambda logarithm: judge(build(resize(logarithm))), width)
     best = float(f"{start * math.exp(farther):.6g}")
     damper = first.model_copy(update={figure: best})
     measure, unit = ("stress", "Pa") if any(bare.sections) else ("torque", "Nm")
-    before, after = judge(None), judge(damper)
+    before, after = judge(bare), judge(build(damper))
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
         name, size = DAMPER_KEYS[key]
@@ -323,8 +323,8 @@ def _propose(
         radius = given["radius"] / 1e3 if "radius" in given else crank_radius
         if radius is None:
             raise BalcliError(
-                "--damper pendulum: a chain has no crank that says how far out pendulums hang: "
-                f"give {printable(system.nodes[node])} one, such as damper = "
+                "--damper pendulum: a chain has no crank radius for the pendulums; "
+                f"give {printable(system.nodes[node])} a radius, such as damper = "
                 '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
             )
         length = radius * (system.gears[node] / order) ** 2
@@ -337,8 +337,8 @@ def _propose(
     except ValidationError as error:
         wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
         raise BalcliError(
-            f"--damper {asked.kind}: the best there cannot be: {wrong.path}: {wrong.message}; are "
-            "inertias and stiffnesses of the system in the right units?"
+            f"--damper {asked.kind}: the best damper is impossible: {wrong.path}: {wrong.message}; "
+            "check the units of inertias and stiffnesses"
         ) from None
 
 

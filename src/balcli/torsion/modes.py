@@ -16,8 +16,9 @@ import numpy as np
 from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_shapes
+from ..file.fields import order_number
 from .chain import Chain, Damping, find_still, follow_gears, grow_branches, incidence, rigid_motions
-from .system import Excitation, TorsionalSystem, whole_order
+from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
 _SIGMA = np.exp(0.25j * np.pi)  # where no pole can be: off both axes, and it would grow
@@ -257,7 +258,7 @@ def find_criticals(
         found += [
             Critical(
                 mode=mode.number,
-                order=whole_order(float(orders[k])),
+                order=order_number(float(orders[k])),
                 speed_rpm=float(rpm[k]),
                 phase_sum=float(phasors[k] / np.abs(torque[k]).max()),
                 work_share=float(phasors[k] / total),
@@ -314,8 +315,8 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
         raise ValueError(
-            "Holzer's table cannot have what meshes with a fixed node; fix it, too, and leave the "
-            "gear out"
+            "Holzer's table does not take gears that mesh with a fixed node; fix the other node as "
+            "well, and leave the gear out"
         )
     parents, node = {branch.child: branch.parent for branch in branches}, first
     while node in parents:

@@ -19,10 +19,11 @@ from ..core.peaks import find_swing, sum_amplitudes
 from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import ROUNDING, Complex, Real
+from ..file.fields import order_number
 from ..process import Tell, tell_nobody
 from .modes import find_poles
 from .motion import compute_curves, refuse_unbounded, stress_by_torque
-from .system import TorsionalSystem, whole_order
+from .system import TorsionalSystem
 
 _SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, in widths
 _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
@@ -135,7 +136,7 @@ def _measure(
     def add_up(where: Real) -> None:
         found[where] = find_swing(orders, phasors[:, where]).half
 
-    first = np.arange(len(rpm))[:, None] == found.argmax(axis=0)
+    first = (np.arange(len(rpm))[:, None] == found.argmax(axis=0)) & (found > 0)
     add_up(first)
     level = np.maximum(least[:count], np.where(first, found, 0).max(axis=0))
     add_up(~first & (found > 0) & (found >= _NEAR * (level.max() if together else level)))
@@ -330,7 +331,7 @@ def find_response(
     end = len(system.shafts)
     there, _ = compute_curves(system, largest.rpm[: end + 1])
     by_order = np.abs(there[:, range(end + 1), range(end + 1)])  # of each curve where it is largest
-    named_orders = list(map(whole_order, orders.tolist()))
+    named_orders = list(map(order_number, orders.tolist()))
     shafts = []
     for k, name in enumerate(system.shafts):
         by_torque = None if (section := system.sections[k]) is None else section.stress_by_torque

@@ -269,7 +269,7 @@ def _show_criticals(result: TorsionAnalysis, excitation: Excitation) -> Grid | T
 def _name_scope(result: TorsionAnalysis, excitation: Excitation) -> str:
     """Return which orders, speeds, dampers and torques critical speeds are of."""
     rated = result.system.rated_rpm
-    note = f"Of {_list_runs(excitation.orders)}."
+    note = f"Included: {_list_runs(excitation.orders)}."
     if left_out := _list_left_out(result.system):
         note += f" Without {left_out}, which shift them."
     if result.response is not None:
@@ -279,10 +279,10 @@ def _name_scope(result: TorsionAnalysis, excitation: Excitation) -> str:
 
 
 def _list_runs(orders: Real) -> str:
-    """Return orders in words: "orders 1 to 9, 12"; with halves "orders 0.5 to 6 by halves, 9"."""
+    """Return orders in words: "orders 1 to 9, 12"; with halves "orders ½ to 6 in steps of ½, 9"."""
     step = 1.0 if np.all(orders % 1 == 0) else 0.5
     runs = np.split(orders, np.flatnonzero(np.abs(np.diff(orders) - step) > 1e-9) + 1)
-    halves = " by halves" * (step < 1)
+    halves = " in steps of ½" * (step < 1)
     parts = [
         f"{order_name(float(run[0]))} to {order_name(float(run[-1]))}{halves}"
         if len(run) > 2
@@ -386,7 +386,7 @@ def _name_gas(excitation: Excitation, where_counted: str = "") -> str:
     """Return how far the gas of an engine counts; nothing of a chain."""
     if not excitation.growing.any():
         return ""
-    alone = " Of inertia alone: the torque of the gas is not in this."
+    alone = " Inertia only; gas torque is not included."
     return where_counted if excitation.steady.any() else alone
 
 
@@ -431,7 +431,7 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         yield "barred speeds", text
     if bare:
         named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
-        yield "not judged", f"{named}: no diameter, so that no stress is known"
+        yield "not checked", f"{named}: no diameter, so the stress is not known"
 
 
 RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

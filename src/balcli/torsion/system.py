@@ -17,11 +17,6 @@ from ..errors import BalcliError
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 
 
-def whole_order(order: float) -> float:
-    """Return an order as it is written: a whole one without a point."""
-    return int(order) if order == int(order) else order
-
-
 class ShaftSection(NamedTuple):
     """Outer and inner diameter of a shaft, m."""
 

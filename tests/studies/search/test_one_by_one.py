@@ -13,6 +13,7 @@ from support.commands import ask_csv, ask_json, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
 
+import balcli
 from balcli.engine.parse import parse
 from balcli.process import tell_nobody
 from balcli.studies.search import designs as evaluate
@@ -110,7 +111,7 @@ def test_the_firing_order_decides_where_gas_fires_in_two_turns(tmp_path):
         tmp_path / "six.toml", SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]")
     )
     told = refusal("search", path, "--over", "throws", "--minimise", "torque.2.amplitude")
-    assert told.startswith("with [gas] in four strokes the firing order decides, too")
+    assert told.startswith("with [gas] in four strokes the result depends on the firing order as well")
 
 
 def test_a_number_in_a_range(tmp_path):
@@ -372,3 +373,36 @@ def test_where_no_round_number_is_as_good_the_place_is_as_exact_as_the_function(
     assert smooth == pytest.approx(math.e, abs=3e-6)
     (edge,) = find_best(lambda x: x if x > math.e else math.inf, 0.0, 10.0)
     assert 0 < edge - math.e < 1e-9
+
+
+def test_on_a_line_on_which_limits_are_kept_only_its_optima_are_results():
+    """Even firing keeps bank angle less splay at a multiple of 120 deg: each result is the least of
+    its line, by engines at every 5 deg of the bank angle; so is each least value there a result.
+    """
+    engine = balcli.load_example("v6_90_split")
+    over, goal = ["bank_angle", "splay"], "moment.1.major"
+    found = balcli.search(engine, over, goal, even_firing=True)
+    reached = sorted(one.objective for one in found.results)
+    banks, least = np.arange(0, 181, 5.0), []
+    for turn in (0, 120, 240):
+        splays = (banks - turn + 180) % 360 - 180
+        changed = [
+            engine.vary({"layout.bank_angle": b, "crank.splay": s, "layout.firing_order": None})
+            for b, s in zip(banks, splays, strict=True)
+        ]
+        sizes = [balcli.analyze(each, [1], "moment").spectra.moment.major[0] for each in changed]
+        ends = np.concatenate([[np.inf], sizes, [np.inf]])
+        least += [v for v, a, b in zip(sizes, ends[:-2], ends[2:], strict=True) if v < min(a, b)]
+    np.testing.assert_allclose(reached, sorted(least), rtol=1e-6, atol=1e-6)
+
+
+def test_a_line_of_equally_good_points_is_one_result():
+    """Pistons 1 and 2 of an in-line four as heavy as each other leave no first-order force."""
+    engine = balcli.load_example("i4")
+    over = [f"cylinder.{n}.piston_mass=0.4:0.6" for n in (1, 2)]
+    found = balcli.search(engine, over, "force.1.major")
+    assert [one.objective for one in found.results] == [pytest.approx(0, abs=1e-6)]
+    other = found.results[0].line
+    assert other != found.results[0].design
+    assert other["cylinder.1.piston_mass"] == pytest.approx(other["cylinder.2.piston_mass"], abs=1e-6)
+    assert "Row 1 stands for a straight line of equally good points" in " ".join(str(found).split())

@@ -411,3 +411,10 @@ firing_order = [1, 5, 3, 6, 2, 4]
     assert given.results[0].objective == 0
     assert [one.design for one in derived.results] == [one.design for one in given.results]
     assert [one.objective for one in derived.results] == [one.objective for one in given.results]
+
+
+@pytest.mark.parametrize("limit", ["shaft.a.stress<6e7", "shaft.a.stress<60 N/mm^2", "shaft.a.stress<60 MPa"])
+def test_a_limit_may_have_a_unit(limit):
+    assert list(parse_objective("moment.1.major", [limit]).limits.values()) == [pytest.approx(6e7, rel=1e-15)]
+    with pytest.raises(BalcliError, match="3 kg is no positive number"):
+        parse_objective("moment.1.major", ["shaft.a.stress<3 kg"])

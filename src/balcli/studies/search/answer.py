@@ -86,6 +86,7 @@ class Search(Result):
         ranges: The numbers that were searched over.
         constant: Whether the numbers change nothing of the objective.
         refused: Values of the numbers that make no engine, and why; empty if all do.
+        even_firing: Whether only arrangements that can fire evenly were looked at.
     """
 
     format: Literal["balcli.search/1"] = "balcli.search/1"
@@ -96,6 +97,7 @@ class Search(Result):
     ranges: Annotated[tuple[SearchRange, ...], HIDDEN] = ()
     constant: Annotated[bool, HIDDEN] = False
     refused: Annotated[str, HIDDEN] = ""
+    even_firing: Annotated[bool, HIDDEN] = False
 
     @property
     def at_ends(self) -> tuple[str, ...]:
@@ -186,7 +188,7 @@ def search_arrangements(
     if not found:
         asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         words = named if "." in named else named.replace("_", " ")
-        raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
+        raise BalcliError(f"no {words} can {' and '.join(asked or ['make an engine'])}")
     return Search(
         model=model,
         over=named,
@@ -195,6 +197,7 @@ def search_arrangements(
         ranges=ranges,
         constant=constant,
         refused=refused,
+        even_firing=even_firing,
     )
 
 
@@ -304,11 +307,13 @@ def _search_numbers(
     refused = judge.refused
     if not np.isfinite(optima.merits.excess).any() and refused is not None:
         raise InputError(refused.problems)
-    designs = [
-        dict(zip((one.key for one in ranges), place, strict=True))
-        for place in optima.places.tolist()
-    ]
-    found = rank_designs(designs, judge.evaluate(optima.places), objective) if designs else iter(())
+    designs, lines = (
+        [dict(zip((one.key for one in ranges), place, strict=True)) for place in places.tolist()]
+        for places in (optima.places, optima.lines)
+    )
+    found: Iterator[Found] = iter(())
+    if designs:
+        found = rank_designs(designs, judge.evaluate(optima.places), objective, lines)
     costs = optima.merits.cost
     same = np.ptp(costs) <= _ROUNDING * np.abs(costs).max()
     why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
@@ -318,7 +323,9 @@ def _search_numbers(
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
     """Return how much is evaluated: less where each candidate takes a computation of its own."""
     if alone:
-        return Effort(_SLOW, 3, 1e-10) if box.size == 1 else Effort(2 * _SLOW * box.size, 3, 1e-8)
+        if box.size == 1:
+            return Effort(_SLOW, 3, 1e-10, steps=5)
+        return Effort(2 * _SLOW * box.size, 3, 1e-8, same=1e-2, steps=5)
     if box.size > 1:
         return Effort(_SPREAD, 24, 1e-15)
     highest = max(q.order for q in choose_of_engine(objective.quantities))

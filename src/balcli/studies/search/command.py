@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -20,13 +20,16 @@ from ...shell.values import optional
 from ...show.csv import Columns, Rows
 from ...show.formats import Renderer
 from ...show.sheet import NAMELESS, Grid, Sheet, number, tell_assumed_speed
-from ...show.units import name_with_unit
+from ...show.units import name_with_unit, unit_of_name
 from ..quantity_names import tell_speeds
 
 if TYPE_CHECKING:
-    from ...show.units import System
+    from ...show.units import ShownUnit, System
     from .answer import Search
     from .designs import Found
+
+
+_EQUAL = 1e-9  # relative difference of objectives that are equal
 
 
 def columns(result: Search) -> Columns:
@@ -50,24 +53,35 @@ def rows(result: Search, _system: System) -> Rows:
 
 
 def sheet(result: Search, _system: System) -> Sheet:
-    """Return the best arrangements, a row each, with figures in SI units. One quantity alone is its
-    own objective.
+    """Return the best arrangements, a row each, with each figure in the unit that fits it. One
+    quantity alone is its own objective.
     """
     first = result.results[0]
-    units = {q.name: q.unit for q in result.objective.quantities}
+    units = {
+        q.name: unit_of_name(q.unit).fit(max(one.quantities[q.name] for one in result.results))
+        for q in result.objective.quantities
+    }
     heads = [
         *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design),
         *(["objective"] if _is_sum(result) else []),
-        *(name_with_unit(name, units[name]) for name in first.quantities),
+        *(name_with_unit(name, units[name].name) for name in first.quantities),
     ]
     grid = Grid(
-        f"Best {_in_words(result.over)}",
+        _title(result),
         tuple(heads),
-        tuple(_cells(result, one) for one in result.results),
+        tuple(_cells(result, one, units) for one in result.results),
         note=" ".join(_notes(result)),
         words=tuple(range(len(first.design))),
     )
     return Sheet(result.model.name or NAMELESS, (grid,))
+
+
+def _title(result: Search) -> str:
+    """Return what the rows are: the best, or all equally good."""
+    costs = [one.objective for one in result.results]
+    equal = len(costs) > 1 and max(costs) - min(costs) <= _EQUAL * max(map(abs, costs))
+    word = "No best" if result.constant else "Equally good" if equal else "Best"
+    return f"{word} {_in_words(result.over)}{' with even firing' if result.even_firing else ''}"
 
 
 def _in_words(over: str) -> str:
@@ -76,27 +90,34 @@ def _in_words(over: str) -> str:
 
 
 def _notes(result: Search) -> Iterator[str]:
+    angles = [one for one in result.ranges if "." not in one.key]  # whose range nobody gave
+    if angles:
+        ends = (f"{_in_words(a.key)} {a.ends[0]:g} to {a.ends[1]:g} deg" for a in angles)
+        yield f"Searched: {', '.join(ends)}."
     if result.refused:
-        yield f"Not every value of the range makes an engine; with {result.refused}."
+        yield f"Some of these values make no engine, such as {result.refused}."
     if result.constant:
-        done = "maximised" if result.objective.maximise else "minimised"
-        yield f"{result.over} changes nothing of what is {done}: it is the same at every value."
+        same = " and ".join(q.name for q in result.objective.weights)
+        yield f"No effect on {same}: the same at every value searched."
+    for row, one in enumerate(() if result.constant else result.results, 1):
+        if one.line and one.line != one.design:
+            point = ", ".join(map(_setting, one.line.values()))
+            yield f"Row {row} stands for a straight line of equally good points through ({point})."
     for key in result.at_ends:
-        yield (f"The best {key} is an end of the range that was searched: beyond it may be better.")
+        yield f"The best {key} is an end of its range; a wider range may contain a better value."
     assumed = tell_assumed_speed(result.model)
     if assumed and "operation.speed" not in result.over.split(", "):
         yield assumed
-    if speeds := tell_speeds(
-        (q.name for q in result.objective.quantities), result.over.split(", ")
-    ):
+    names, rpm = (q.name for q in result.objective.quantities), result.model.operation.speed
+    if speeds := tell_speeds(names, rpm, result.over.split(", ")):
         yield speeds
 
 
-def _cells(result: Search, one: Found) -> tuple[str, ...]:
+def _cells(result: Search, one: Found, units: Mapping[str, ShownUnit]) -> tuple[str, ...]:
     return (
         *map(_setting, one.design.values()),
         *([number(one.objective)] if _is_sum(result) else []),
-        *map(number, one.quantities.values()),
+        *(number(value / units[name].size) for name, value in one.quantities.items()),
     )
 
 
@@ -156,7 +177,8 @@ def search(
         list[str] | None,
         optional(
             "WHAT<VALUE",
-            "What must stay below a value (N, N·m, Hz, Pa), such as 'moment.2.major<100'.",
+            "What must stay below a value (N, N·m, Hz, Pa, or with its unit), such as "
+            "'moment.2.major<100' or 'shaft.flywheel.stress<60 N/mm^2'.",
             "--limit",
         ),
     ] = None,

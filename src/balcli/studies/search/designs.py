@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from typing import Annotated, Any, NamedTuple, TypeAlias
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array
-from ...core.records import INLINE
+from ...core.records import HIDDEN, INLINE
 from ...engine.build import build
 from ...engine.engine import Engine
 from ...engine.figures import ranked
@@ -27,6 +28,7 @@ from ...errors import BalcliError, InputError
 from ...file.edit import set_keys
 from ...file.model import EngineFile
 from ...file.plain_tables import change_tables
+from ...file.units import Dimension, convert
 from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity
 from ...limits import MOST_DESIGNS_ONE_BY_ONE
@@ -57,11 +59,13 @@ class Found:
             of a number, and its value.
         objective: Value of the objective.
         quantities: Value of each quantity by its name.
+        line: Another design of a line of equally good ones; itself or None where there is none.
     """
 
     design: Annotated[Design, INLINE]
     objective: float
     quantities: Mapping[str, float]
+    line: Annotated[Design | None, HIDDEN] = None
 
 
 def list_changes(design: Design) -> dict[str, Any]:
@@ -243,7 +247,8 @@ def parse_objective(
                 f'--limit "{text}": give a quantity and what it must stay below, such as '
                 '"moment.2.major<100"'
             )
-        bounds |= dict.fromkeys(_parse_sizes(name, with_gas), _parse_positive(bound, text))
+        limited = _parse_sizes(name, with_gas)
+        bounds |= dict.fromkeys(limited, _parse_positive(bound, text, limited[0].unit))
     return Objective(weights, bounds, maximise is not None)
 
 
@@ -277,12 +282,19 @@ def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
     return found
 
 
-def _parse_positive(text: str, whole: str) -> float:
-    """Return a positive number; `whole` is the text that it stands in."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
+def _parse_positive(text: str, whole: str, unit: str = "") -> float:
+    """Return a positive number, in this unit where it has none.
+
+    Args:
+        text: Number, or a figure with a unit such as `60 N/mm^2`.
+        whole: Text that it stands in, for messages.
+        unit: Unit of the result.
+    """
+    number = math.nan
+    for read in (float, lambda each: convert(each, Dimension(unit.replace("·", " "), "a limit"))):
+        with suppress(ValueError):
+            number = read(text)
+            break
     if not 0 < number < math.inf:
         raise BalcliError(f'"{whole}": {text.strip() or "nothing"} is no positive number')
     return number
@@ -407,7 +419,10 @@ def rank_throws(model: EngineFile, throws: Array, objective: Objective) -> Itera
 
 
 def rank_designs(
-    designs: Sequence[Design], values: Mapping[AnyQuantity, Array], objective: Objective
+    designs: Sequence[Design],
+    values: Mapping[AnyQuantity, Array],
+    objective: Objective,
+    lines: Sequence[Design] = (),
 ) -> Iterator[Found]:
     """Yield the designs that keep the limits, best first, with their figures.
 
@@ -415,13 +430,14 @@ def rank_designs(
         designs: Arrangements.
         values: Each quantity, shape (designs,).
         objective: Objective of the search.
+        lines: For each design `Found.line`.
     """
     merit = objective.judge(values)
     for k in Merit(merit.excess, ranked(merit.cost)).rank():
         if merit.excess[k] == 0 and np.isfinite(merit.cost[k]):
             figures = {q.name: float(value[k]) for q, value in values.items()}
             total = -merit.cost[k] if objective.maximise else merit.cost[k]
-            yield Found(designs[k], float(total), figures)
+            yield Found(designs[k], float(total), figures, lines[k] if lines else None)
 
 
 def rank_one_by_one(
@@ -441,8 +457,8 @@ def rank_one_by_one(
     every = list(islice(designs, MOST_DESIGNS_ONE_BY_ONE + 1))
     if len(every) > MOST_DESIGNS_ONE_BY_ONE:
         raise BalcliError(
-            f"there are more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, and each takes a "
-            "computation of its own: give crank.throws, or look for what inertia alone does"
+            f"more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, too many to compute one by one; "
+            "give crank.throws, or search by quantities of inertia such as moment.1.major"
         )
     rows: list[list[Array]] = []
     for k, design in enumerate(every, 1):

@@ -47,8 +47,8 @@ class Slots:
     def __post_init__(self) -> None:
         if len(self.cells) > MOST_CYLINDERS_FIRED:
             raise BalcliError(
-                f"{len(self.cells)} cylinders are too many to look for firing orders; up to "
-                f"{MOST_CYLINDERS_FIRED} are allowed"
+                f"firing orders of {len(self.cells)} cylinders are too many to search; at most "
+                f"{MOST_CYLINDERS_FIRED} cylinders are searched"
             )
 
     def find_cranks(self) -> list[tuple[float, ...]]:
@@ -154,7 +154,7 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
 
 def _tell_that_none_is_even(model: EngineFile) -> str:
     """With the split of the pins by which the file's own order were even, if there is one."""
-    told = "these throws allow no even firing order, and no others are looked for"
+    told = "crank.throws allow no even firing order, and only even ones are searched"
     splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
     return told if splay is None else f"{told}; with split pins they do: crank.splay = {splay:g}"
 

@@ -24,8 +24,8 @@ from .designs import Merit
 
 Judge = Callable[[Array], Merit]  # of points, shape (points, numbers)
 _GOLDEN = (math.sqrt(5) - 1) / 2
-_SAME = 1e-5  # share of the box: closer optima are one
 _DIGITS = 12  # of numbers
+_LEVEL, _ROUNDING = 1e-9, 1e-12  # relative difference of costs that are equal; of the largest
 
 
 @dataclass(frozen=True)
@@ -79,12 +79,16 @@ class Effort:
         starts: of local searches, at most.
         exact: share of the box to which an optimum is found.
         as_good: relative difference of costs that a rounder number may make.
+        same: share of the box: closer optima are one.
+        steps: points that are looked at between two optima.
     """
 
     points: int
     starts: int
     exact: float
     as_good: float = 1e-13  # a smooth minimum is flat to rounding
+    same: float = 1e-5
+    steps: int = 31
 
     def count_evaluations(self, numbers: int) -> int:
         """Return about how many candidates are evaluated."""
@@ -98,10 +102,13 @@ class LocalOptima(NamedTuple):
     Attributes:
         places: local optima that keep all limits, best first, shape (optima, numbers); each is the
             roundest point that is as good.
+        lines: for each, another end of a line of equally good points; itself where there is none,
+            shape (optima, numbers).
         points, merits: the points that were spread over the box.
     """
 
     places: Array
+    lines: Array
     points: Array
     merits: Merit
 
@@ -115,7 +122,7 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     if box.size == 1:
         found = _divide(judge, points[starts], step * box.span, effort.exact * box.span)
     else:
-        found = _adapt(judge, box, points[starts], 0.5 * step, effort.exact)
+        found = _adapt(judge, box, points[starts], 0.5 * step, effort)
     found = box.bring_inside(found)
     ends = judge(found)
     better = ends.is_at_most(merits.take(starts))[:, None]
@@ -124,13 +131,60 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     slack = effort.as_good * np.abs(judge(found).cost)
     rounded = [_round_off(judge, box, x, each) for x, each in zip(found, slack, strict=True)]
     found = np.array(rounded).reshape(-1, box.size)
+    costs = merits.cost[np.isfinite(merits.cost)]
+    noise = _ROUNDING * np.abs(costs).max(initial=0)
+    places, lines = _separate(judge, box, found, effort, noise)
+    return LocalOptima(places, lines, points, merits)
+
+
+def _separate(
+    judge: Judge, box: Box, found: Array, effort: Effort, noise: float
+) -> tuple[Array, Array]:
+    """Return the optima from which none of the others can be reached without going uphill, best
+    first; and the ends of lines of equally good points, as of `LocalOptima`.
+
+    A search that stops on a line, such as one on which limits are kept, reaches a better point of
+    the line without going uphill.
+    """
     best: list[Array] = []
+    lines: list[Array] = []
     ends = judge(found)
     for k in Merit(ends.excess, ranked(ends.cost)).rank():
-        new = all(np.abs(box.subtract(found[k], other)).max() > _SAME for other in best)
-        if new and ends.excess[k] == 0 and np.isfinite(ends.cost[k]):
+        if ends.excess[k] > 0 or not np.isfinite(ends.cost[k]):
+            continue
+        for n, other in enumerate(best):
+            way = box.subtract(found[k], other)
+            if np.abs(way).max() <= effort.same:
+                break
+            line = other + np.linspace(0, 1, effort.steps + 2)[:, None] * way * box.span
+            along = judge(box.bring_inside(line))
+            level = along.cost[-1] + _LEVEL * abs(along.cost[-1]) + noise
+            if not along.excess.any() and along.cost.max() <= level:
+                if along.cost[0] >= 2 * along.cost[-1] - level:
+                    lines[n] = found[k]
+                else:
+                    best[n] = lines[n] = _slide(judge, box, other, way, effort)
+                break
+        else:
             best.append(found[k])
-    return LocalOptima(np.array(best).reshape(-1, box.size), points, merits)
+            lines.append(found[k])
+    places = np.array(best).reshape(-1, box.size)
+    ends = judge(places)
+    order = Merit(ends.excess, ranked(ends.cost)).rank()
+    return places[order], np.array(lines).reshape(-1, box.size)[order]
+
+
+def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> Array:
+    """Return the best point on the line through a point in a direction (shares of the box)."""
+    farthest = 1 / np.abs(way).max(keepdims=True)
+    line = Box(-farthest, farthest, np.array([False]))
+
+    def find(along: Array) -> Array:
+        return box.bring_inside(point + along * way * box.span)
+
+    finer = Effort(effort.steps, 2, effort.exact)
+    places = find_local_optima(lambda along: judge(find(along)), line, finer).places
+    return find(places[0]) if len(places) else point
 
 
 def _find_starts(points: Array, merits: Merit, box: Box) -> Array:
@@ -175,10 +229,11 @@ def _choose(where: NDArray[np.bool_], one: Merit, other: Merit) -> Merit:
     return Merit(*(np.where(where, a, b) for a, b in zip(one, other, strict=True)))
 
 
-def _adapt(judge: Judge, box: Box, mean: Array, step: float, exact: float) -> Array:
+def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> Array:
     """Return an optimum for each start (starts, numbers) by evolution strategies that run side by
     side: each draws candidates, moves to the mean of the better half, and adapts its step and its
-    covariance. Lengths are shares of the box. Starts that do not converge return their best.
+    covariance. Lengths are shares of the box. Starts that do not converge return their best; one
+    that comes near a better one, when both have narrowed down, stops there.
     """
     count, k = mean.shape
     drawn, most = 8 + 4 * k, 300 + 100 * k
@@ -191,7 +246,13 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, exact: float) -> Ar
     for _ in range(most):
         squares, axes = np.linalg.eigh(covariance)
         widths = np.sqrt(np.maximum(squares, 1e-28))
-        live = np.flatnonzero(size * widths[:, -1] > exact)
+        wide = size * widths[:, -1]
+        for n in np.flatnonzero((wide > effort.exact) & (wide < effort.same / 10)):
+            near = np.abs(box.subtract(mean, mean[n])).max(axis=1) < effort.same
+            near &= (wide < effort.same / 10) & reached.is_at_most(reached.take(n)) & (size > 0)
+            if near.sum() > 1:  # another one than itself
+                size[n] = wide[n] = 0.0
+        live = np.flatnonzero(wide > effort.exact)
         if not len(live):
             break
         sizes = size[live, None] * np.exp(

@@ -29,6 +29,7 @@ from ...forces.quantity import Quantity
 from ...forces.spectrum import compute_spectra, with_only
 from ...limits import MOST_ARRANGEMENTS
 from ...process import Tell, tell_nobody
+from ...show.sheet import count_name
 from ..quantities import AnyQuantity, choose_of_engine
 from .designs import Design, Found, Objective, fires_evenly, name_throws, rank_throws
 
@@ -75,8 +76,8 @@ def list_throws(model: EngineFile) -> Iterator[Design]:
     """
     if model.gas is not None and model.layout.strokes == 4:
         raise BalcliError(
-            "with [gas] in four strokes the firing order decides, too: search --over firing_order "
-            "(without crank.throws in the file it tries all cranks)"
+            "with [gas] in four strokes the result depends on the firing order as well; use "
+            "--over firing_order (without crank.throws in the file it tries all cranks)"
         )
     every = (np.asarray(row, float) for row in permutations(model.crank.throws or ()))
     turned = (tuple(count_from(row[:1], row).tolist()) for row in every)
@@ -197,8 +198,8 @@ def find_best_throws(
     given = np.mod(np.asarray(model.crank.throws, float), 360.0)
     if _count_sequences(np.unique(given, return_counts=True)[1]) > MOST_ARRANGEMENTS:
         raise BalcliError(
-            f"crank.throws: {len(given)} throws can be arranged in more than "
-            f"{MOST_ARRANGEMENTS:g} ways, too many to search"
+            f"crank.throws: {len(given)} throws have more than {count_name(MOST_ARRANGEMENTS)} "
+            "arrangements, too many to search"
         )
     turned: dict[bytes, Array] = {}  # counted from each angle that can be cylinder 1's, once
     for row in np.sort(count_from(given[:, None], given)):
