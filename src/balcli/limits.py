@@ -66,8 +66,6 @@ MOST_TABLE_VALUES = 100_000  # steps of a range of a printed table, and figures 
 LARGEST_TABLE_VALUE = 10**9  # in such a range
 HIGHEST_POWER = 200  # of lambda in a table of series: exact fractions, a second or two
 
-# Advice --------------------------------------------------------------------------------------
-
 # Variants ------------------------------------------------------------------------------------
 MOST_PARAMETERS = 16  # that vary at once: each is an axis of arrays, which have up to 32
 MOST_PARAMETER_VALUES = 10_000_000  # of one parameter: all are kept, 80 MB; grids may have more
