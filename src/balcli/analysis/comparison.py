@@ -17,6 +17,7 @@ from ..forces.kinds import EVERY_KIND, GAS, MOMENT, TORQUE, VECTORS, Kind
 from ..forces.spectrum import merge_orders
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import tell_speed
+from ..show.figures import list_assumed
 from ..show.formats import Renderer
 from ..show.result import Result
 from ..show.sheet import (
@@ -26,6 +27,7 @@ from ..show.sheet import (
     Grid,
     Sheet,
     Text,
+    assumed_facts,
     capitalized,
     number,
     order_name,
@@ -93,6 +95,8 @@ class Comparison(Result):
         format: Name and version of the document.
         engines: Names of the engines.
         speeds_rpm: Speed at which each is compared.
+        assumed: What is taken because the files leave it out; after the name of one where it does
+            not hold for all.
         figures: Figures of all engines.
         compared: The engines.
         whole: Whether people are shown negligible orders as well.
@@ -101,6 +105,7 @@ class Comparison(Result):
     format: Literal["balcli.compare/1"] = "balcli.compare/1"
     engines: tuple[str, ...]
     speeds_rpm: tuple[float, ...]
+    assumed: tuple[str, ...] | None = None
     figures: tuple[Line, ...]
     compared: Annotated[tuple[Engine, ...], HIDDEN]
     whole: Annotated[bool, HIDDEN]
@@ -142,6 +147,7 @@ def compare_engines(
     return Comparison(
         engines=tuple(names),
         speeds_rpm=tuple(float(engine.speed_rpm) for engine in engines),
+        assumed=list_assumed(names, engines, [GAS.name] if GAS.name in wanted else []),
         figures=lines,
         compared=tuple(engines),
         whole=whole or orders is not None,
@@ -343,7 +349,8 @@ def sheet(result: Comparison, system: System) -> Sheet:
         )
     if nothing:
         grids.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
-    return Sheet("Engines side by side", (_tell_speeds(result), *grids))
+    head = (_tell_speeds(result), *assumed_facts(result.assumed))
+    return Sheet("Engines side by side", (*head, *grids))
 
 
 def _tell_speeds(result: Comparison) -> Facts:

@@ -27,10 +27,10 @@ from ..forces.rod_forces import compute_rod_forces
 from ..forces.spectrum import take_gas
 from ..shell.arguments import check_count, tell_arguments
 from ..show.csv import Columns, Rows
-from ..show.figures import list_assumed
 from ..show.formats import Columnar
 from ..show.result import Result
 
+_IN_ONE_PLANE = "crank.spacing = 0"
 _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
@@ -45,8 +45,8 @@ class Curves(Result):
         speed_rpm: Crank speed.
         crank_deg: Crank angles, shape (angles,).
         curves: Figures by name with unit (`force_x_N`), each of the shape of `crank_deg`.
-        assumed: What is taken because the engine file leaves it out: moments are those of throws in
-            one plane where it does not say where the throws stand.
+        assumed: What is taken because the engine file leaves it out: with `crank.spacing = 0`,
+            moments are those of throws in one plane.
     """
 
     format: Literal["balcli.curves/1"] = "balcli.curves/1"
@@ -63,7 +63,7 @@ class Curves(Result):
 
     def known(self) -> dict[str, Array]:
         """The curves without moments that are not known."""
-        unknown = () if self.assumed is None else _MOMENTS
+        unknown = _MOMENTS if _IN_ONE_PLANE in (self.assumed or ()) else ()
         return {name: values for name, values in self.curves.items() if name not in unknown}
 
 
@@ -76,7 +76,7 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
         crank_deg: shape (angles,).
     """
     curves = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
-    return replace(curves, assumed=list_assumed(engine.places_known))
+    return replace(curves, assumed=engine.list_assumed())
 
 
 def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:

@@ -25,7 +25,7 @@ from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..show.csv import Columns, Rows
-from ..show.figures import figure_rows, list_assumed
+from ..show.figures import figure_rows
 from ..show.formats import Renderer
 from ..show.sheet import (
     NAMELESS,
@@ -36,12 +36,12 @@ from ..show.sheet import (
     Grid,
     Sheet,
     Text,
+    assumed_facts,
     degrees,
     number,
     order_name,
     sentence,
     size_cell,
-    tell_assumed_speed,
 )
 from ..show.units import SI, ShownUnit, System
 from ..sizing.planes import find_unbalance, name_kind
@@ -60,7 +60,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     remedy, engine = result.remedy, result.before.engine
     known, steady = result.before.moments_known, " at steady speed" * bool(engine.ripple)
     order = "" if remedy.order is None else f", order {remedy.order}"
-    parts: list[Grid | Facts | Text] = []
+    parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if change := tell_change(result, system):
         parts.append(Text("", (change,)))
     if remedy.reasons and not remedy.devices and not remedy.beyond:
@@ -82,7 +82,6 @@ def sheet(result: Balance, system: System) -> Sheet:
         _tell_negligible(result),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),
-        tell_assumed_speed(engine.model) if engine.speed_assumed else "",
     )
     if any(notes):
         parts.append(Text("Note", tuple(filter(None, notes))))
@@ -268,7 +267,7 @@ def document(result: Balance) -> Node:
         reasons=remedy.reasons,
         practical=result.practical,
         details=details_document(result),
-        assumed=list_assumed(result.before.moments_known),
+        assumed=result.before.assumed,
         before=_shorten(result.before),
         after=_shorten(result.after),
         permitted=result.permitted,

@@ -152,6 +152,24 @@ def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
     raise InputError([Problem(path, f"there is no {key}; the file has {there}")])
 
 
+def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
+    """Yield defaults that count in torsion and on mounts, with the list of tables in place of its
+    member: `mount.dynamic_factor = 1`.
+    """
+    if model.torsion is not None:
+        yield from model.torsion.list_assumed()
+    if model.body is None:
+        return
+    if not model.body.has("gravity"):
+        yield "body.gravity = [-1, 0, 0]"
+    if model.gas is not None and not model.body.has("carries_load"):
+        yield "body.carries_load = false"
+    if not all(one.has("loss") or one.has("damping") for one in model.mount):
+        yield "mount.loss = 0"
+    if not all(one.has("dynamic_factor") for one in model.mount):
+        yield "mount.dynamic_factor = 1"
+
+
 _TABLES = ("crank", "rod", "piston", "layout", "operation", "frame")
 _TOLD = "left out: "  # in the description of a key: what follows is taken
 

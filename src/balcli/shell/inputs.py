@@ -79,9 +79,12 @@ def read_engine(
         _tell_unknown(name_file(path), asked)
     if "gas" in (asked or ()):
         require_gas(engine, path)
+    if speed_rpm is not None:
+        turned = engine.model and engine.model.with_table("operation", speed=speed_rpm)
+        engine = replace(engine, speed_rpm=speed_rpm, model=turned)
     warn_each(engine.unlikely, name_file(path))
     if speed_rpm is not None:
-        engine = replace(engine, speed_rpm=speed_rpm, model=None)
+        engine = replace(engine, model=None)
     return LoadedEngine(text, model, engine)
 
 

@@ -14,7 +14,7 @@ from ..engine.engine import Engine, SilentCylinders
 from ..file.fields import count_lambda_digits
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
-from .sheet import Facts, get_digits, given, number
+from .sheet import Facts, get_digits, given, number, tell_assumed
 from .units import System
 
 AXES_SHOWN = 9  # of banks
@@ -82,11 +82,13 @@ def _has_arm(device: Device) -> bool:
 
 def _tell_inferred(engine: Engine) -> str:
     """Return keys that the file leaves out; throws and intervals without their values, which stand
-    in lines of their own.
+    in lines of their own, as the speed does.
     """
     shown = {"crank.throws", "layout.firing_intervals"}
-    pairs = (line.split(" = ") for line in engine.inferred)
-    return ", ".join(key if key in shown else f"{key} = {value}" for key, value in pairs)
+    pairs = (
+        line.split(" = ") for line in engine.list_assumed("gas", without=["operation.speed"]) or ()
+    )
+    return tell_assumed(key if key in shown else f"{key} = {value}" for key, value in pairs)
 
 
 def tell_speed(engine: Engine, *, steady: bool = False) -> str:

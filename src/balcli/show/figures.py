@@ -213,14 +213,17 @@ def describe_state(engine: Engine) -> EngineState:
     )
 
 
-def list_assumed(known: bool, inferred: Sequence[str] = ()) -> tuple[str, ...] | None:
-    """Return what is taken because the engine file leaves it out; None: nothing.
-
-    Args:
-        known: Whether the file says where the throws stand.
-        inferred: What else was taken.
+def list_assumed(
+    names: Sequence[str], engines: Sequence[Engine], chapters: Sequence[str] = ("gas",)
+) -> tuple[str, ...] | None:
+    """Return what is taken of several engines because their files leave it out: what holds for all,
+    then that of single ones, after their names; None: nothing.
     """
-    return (*inferred, *([] if known else ["crank.spacing = 0"])) or None
+    each = [engine.list_assumed(*chapters) or () for engine in engines]
+    common = [line for line in each[0] if all(line in lines for lines in each)]
+    own = zip(names, each, strict=True)
+    others = [f"{name}: {line}" for name, lines in own for line in lines if line not in common]
+    return (*common, *others) or None
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:

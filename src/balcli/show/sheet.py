@@ -5,10 +5,11 @@ analysis it shows.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
+from itertools import groupby
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
-    from ..file.model import EngineFile
     from .units import ShownUnit
 
 
@@ -197,8 +198,17 @@ class NamedResult(NamedTuple, Generic[R]):
     view: View
 
 
-def tell_assumed_speed(model: EngineFile | None) -> str:
-    """A sentence, where there is a file that gives no speed."""
-    if model is None or "speed" in model.operation.model_fields_set:
-        return ""
-    return f"The file gives no speed: figures are those at {model.operation.speed:g} rpm."
+def assumed_facts(assumed: Sequence[str] | None) -> tuple[Facts, ...]:
+    """What is taken because the file leaves it out, for the head of a sheet."""
+    return (Facts((("assumed", tell_assumed(assumed)),)),) if assumed else ()
+
+
+def tell_assumed(assumed: Iterable[str]) -> str:
+    """The same in words: the name of an engine, and that of [gas], once before all its keys."""
+    parts = []
+    for owner, lines in groupby(assumed, lambda line: line.rpartition(": ")[0]):
+        keys = [line.rpartition(": ")[2] for line in lines]
+        later = [key for key in keys if key.startswith("gas.")][1:]
+        text = ", ".join(key.removeprefix("gas.") if key in later else key for key in keys)
+        parts.append(f"{owner}: {text}" if owner else text)
+    return "; ".join(parts)

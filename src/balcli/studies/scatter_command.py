@@ -17,7 +17,7 @@ from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
 from ..show.csv import Rows
 from ..show.formats import Renderer
-from ..show.sheet import NAMELESS, Grid, Sheet, number, tell_assumed_speed
+from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, number
 from .quantity_names import tell_speeds
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def sheet(result: Scatter, system: System) -> Sheet:
     table = rows(result, system)
     names = [", ".join(filter(None, (name, result.units[name]))) for name in result.quantities]
     bound = BOUND + (_NORMAL if result.distribution == "normal" else "")
-    notes = (bound, tell_speeds(result.quantities), tell_assumed_speed(result.model))
+    notes = (bound, tell_speeds(result.quantities))
     spread = Grid(
         f"Spread of {result.samples} {result.varied}",
         tuple(table.header[:-1]),
@@ -74,7 +74,7 @@ def sheet(result: Scatter, system: System) -> Sheet:
         ),
         words=tuple(range(SHOWN + 1)),
     )
-    return Sheet(result.model.name or NAMELESS, (spread, shares))
+    return Sheet(result.model.name or NAMELESS, (*assumed_facts(result.assumed), spread, shares))
 
 
 RENDERER = Renderer(sheet=sheet, document=document, rows=rows)

@@ -30,7 +30,7 @@ from ...shell.arguments import Words, check_count, check_mapping, join_names, te
 from ...show.figures import name_engine
 from ...show.result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
-from ..quantities import choose_of_engine, refuse_unknown_of_chapters
+from ..quantities import choose_of_engine, list_assumed, refuse_unknown_of_chapters
 from .designs import (
     PATHS,
     Design,
@@ -50,6 +50,10 @@ from .local import Box, Effort, find_local_optima
 from .throws import give_throws, list_throws, search_throws
 
 ARRANGED = ("throws", "firing_order")
+_REPLACED = {  # keys in whose place the arrangement stands
+    "throws": {"crank.throws", "layout.firing_intervals"},
+    "firing_order": {"crank.throws", "layout.firing_intervals", "layout.numbering"},
+}
 ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # deg
 NEAR_AN_END = 1e-4  # of a range
 _ROUNDING = 1e-13  # relative difference of equal objectives
@@ -80,6 +84,7 @@ class Search(Result):
 
     Attributes:
         model: The engine file.
+        assumed: What is taken because the engine file leaves it out.
         over: What was arranged: `throws`, `firing_order`, or numbers with commas between.
         results: Arrangements, best first.
         objective: The quantities, their weights and limits.
@@ -90,6 +95,7 @@ class Search(Result):
 
     format: Literal["balcli.search/1"] = "balcli.search/1"
     model: Annotated[EngineFile, WrittenAs(name_engine, "engine")]
+    assumed: tuple[str, ...] | None = None
     over: str
     results: tuple[Found, ...]
     objective: Annotated[Objective, HIDDEN]
@@ -189,6 +195,11 @@ def search_arrangements(
         raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
     return Search(
         model=model,
+        assumed=list_assumed(
+            model,
+            [q.name for q in objective.quantities],
+            _REPLACED.get(named) or {one.number.path for one in ranges},
+        ),
         over=named,
         results=found,
         objective=objective,

@@ -19,7 +19,7 @@ from ...shell.progress import exit_if_cut_short, reporting, reporting_until_stop
 from ...shell.values import optional
 from ...show.csv import Columns, Rows
 from ...show.formats import Renderer
-from ...show.sheet import NAMELESS, Grid, Sheet, number, tell_assumed_speed
+from ...show.sheet import NAMELESS, Grid, Sheet, assumed_facts, number
 from ...show.units import name_with_unit
 from ..quantity_names import tell_speeds
 
@@ -67,7 +67,7 @@ def sheet(result: Search, _system: System) -> Sheet:
         note=" ".join(_notes(result)),
         words=tuple(range(len(first.design))),
     )
-    return Sheet(result.model.name or NAMELESS, (grid,))
+    return Sheet(result.model.name or NAMELESS, (*assumed_facts(result.assumed), grid))
 
 
 def _in_words(over: str) -> str:
@@ -83,9 +83,6 @@ def _notes(result: Search) -> Iterator[str]:
         yield f"{result.over} changes nothing of what is {done}: it is the same at every value."
     for key in result.at_ends:
         yield (f"The best {key} is an end of the range that was searched: beyond it may be better.")
-    assumed = tell_assumed_speed(result.model)
-    if assumed and "operation.speed" not in result.over.split(", "):
-        yield assumed
     if speeds := tell_speeds(
         (q.name for q in result.objective.quantities), result.over.split(", ")
     ):
