@@ -271,7 +271,7 @@ def check_numbering(parts: Parts) -> Iterator[Problem]:
     if is_open(parts):
         parts = Parts(parts.model) if parts.varies and not parts.throws_given else parts
     else:
-        named = ", or correct layout.numbering" * _is_numbered(parts)
+        named = ", or correct layout.numbering" * (parts.model.layout.numbering is not None)
         yield from (p._replace(message=p.message + named + _suggest(parts)) for p in missed)
         return
     if parts.throws_given and not missed:
@@ -380,11 +380,6 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
 
 
 # ------------------------------------------------------------------ a numbering that does not fit
-def _is_numbered(parts: Parts) -> bool:
-    """Return whether the file numbers the cylinders of several banks."""
-    return parts.plan.banks > 1 and parts.model.layout.numbering is not None
-
-
 def _suggest(parts: Parts) -> str:
     """Return other keys with which every cylinder fires at its dead centre, in words: intervals
     begun one later, a usual numbering in place of the file's, throws counted the other way round,
@@ -398,7 +393,7 @@ def _suggest(parts: Parts) -> str:
         later = (*intervals[1:], intervals[0])
         keys = f"layout.firing_intervals = [{_join(later)}]"
         ways.append(Candidate(model.with_table("layout", firing_intervals=later), [], keys))
-    usual = find_engines_meant(parts)[0][:1] if _is_numbered(parts) else []
+    usual = find_engines_meant(parts)[0][:1] if model.layout.numbering else []
     for one in usual:
         one.change = f"layout.numbering = {write_rows(one.numberings[0])}"
     ways += usual
@@ -413,13 +408,13 @@ def _suggest(parts: Parts) -> str:
     if "splay" not in model.crank.model_fields_set:
         ways += _split_pins(Candidate(model, []))
     fitting = [way for way in ways if not find_missed(way.parts)]
-    keys = dict.fromkeys(way.change for way in (*fitting[:1], *usual))
-    return f". It fits with {' or with '.join(keys)}" if keys else ""
+    hints = dict.fromkeys(way.change for way in (*fitting[:1], *usual))
+    return f". It fits with {' or with '.join(hints)}" if hints else ""
 
 
 # ------------------------------------------------------------------ what a file leaves out
 _OF_CHAPTERS = {"gas", "torsion", "body", "mount"}  # tables that count in some subjects alone
-PLACES = ("crank.spacing", "layout.stagger")  # keys that count for moments alone
+STEADY = ("crank.spacing", "layout.stagger", "crank.inertia")  # no part of a torque at steady speed
 
 
 def list_inferred(parts: Parts) -> Iterator[str]:

@@ -156,16 +156,11 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     """Yield defaults that count in torsion and on mounts, with the list of tables in place of its
     member: `mount.dynamic_factor = 1`.
     """
-    if model.torsion is not None:
-        yield from model.torsion.list_assumed()
-    if model.body is None:
-        return
-    if not model.body.has("gravity"):
+    for end in ("front", "rear") if model.torsion else ():
+        if any(part.is_of_unnamed_steel for part in getattr(model.torsion, end)):
+            yield f"torsion.{end}.shear_modulus = 79.3"
+    if model.body is not None and not model.body.has("gravity"):
         yield "body.gravity = [-1, 0, 0]"
-    if model.gas is not None and not model.body.has("carries_load"):
-        yield "body.carries_load = false"
-    if not all(one.has("loss") or one.has("damping") for one in model.mount):
-        yield "mount.loss = 0"
     if not all(one.has("dynamic_factor") for one in model.mount):
         yield "mount.dynamic_factor = 1"
 

@@ -3,7 +3,7 @@ between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm
 """
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -63,7 +63,7 @@ _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
 
 
-STEEL, STEEL_MODULUS = 7.85, 79.3  # g/cm3, GPa
+STEEL = 7.85  # g/cm3
 
 
 class ShaftKeys(FileTable):
@@ -77,7 +77,7 @@ class ShaftKeys(FileTable):
     """Length of a plain shaft, instead of stiffness. Example: 400"""
     bore: Size | None = None
     """Diameter of its bore, if it has one. Example: 30"""
-    shear_modulus: Modulus = STEEL_MODULUS
+    shear_modulus: Modulus = 79.3
     """Of what a plain shaft is made of; default: steel. Example: 79.3"""
     density: Density | None = None
     """Of a plain shaft: half of its inertia counts at either end; left out: it has none.
@@ -86,6 +86,11 @@ class ShaftKeys(FileTable):
     """Loss factor, imaginary over real part of the stiffness. Example: 0.035"""
     damping: Damping = 0.0
     """Of a dashpot between the ends of the shaft. Example: 20"""
+
+    @property
+    def is_of_unnamed_steel(self) -> bool:
+        """Whether the default shear modulus counts: that of a plain shaft without one."""
+        return self.length is not None and not self.has("shear_modulus")
 
     def _check_length(self) -> Iterator[str]:
         if self.stiffness is not None and self.length is not None:
@@ -171,12 +176,6 @@ class ChainKeys(FileTable):
     angle_limit: AngleLimit | None = None
     """Angle by which the free end (of a chain the first node) may swing either way; above, a
     speed is barred. Example: 0.3"""
-
-
-def list_shaft_defaults(path: str, shafts: Iterable[ShaftKeys]) -> Iterator[str]:
-    """Yield the shear modulus, once, if a plain shaft gives none."""
-    if any(shaft.length is not None and not shaft.has("shear_modulus") for shaft in shafts):
-        yield f"{path}.shear_modulus = {STEEL_MODULUS:g}"
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:
@@ -277,10 +276,3 @@ class Torsion(ChainKeys):
             self.throw_diameter is None or self.throw_bore >= self.throw_diameter
         ):
             yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"
-
-    def list_assumed(self) -> Iterator[str]:
-        """Yield defaults that count in torsion."""
-        if self.throw_inertia is None:
-            yield "torsion.throw_inertia = equal shares of crank.inertia"
-        yield from list_shaft_defaults("torsion.front", self.front)
-        yield from list_shaft_defaults("torsion.rear", self.rear)

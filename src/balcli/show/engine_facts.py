@@ -82,24 +82,21 @@ def _has_arm(device: Device) -> bool:
 
 def _tell_inferred(engine: Engine) -> str:
     """Return keys that the file leaves out; throws and intervals without their values, which stand
-    in lines of their own, as the speed does.
+    in lines of their own.
     """
     shown = {"crank.throws", "layout.firing_intervals"}
-    pairs = (
-        line.split(" = ") for line in engine.list_assumed("gas", without=["operation.speed"]) or ()
-    )
+    pairs = (line.split(" = ") for line in engine.list_assumed("gas") or ())
     return tell_assumed(key if key in shown else f"{key} = {value}" for key, value in pairs)
 
 
 def tell_speed(engine: Engine, *, steady: bool = False) -> str:
-    """Its mean speed, and whether that is assumed or uneven; `steady`: of figures in which an
-    uneven speed does not count.
+    """Its mean speed, and whether that is uneven; `steady`: of figures in which an uneven speed
+    does not count.
     """
     counts = "uneven: figures are those of the uneven speed"
     counts = "the file's uneven one does not count" if steady else counts
     uneven = f", {counts}" if engine.ripple else ""
-    assumed = ", assumed: the file gives none" if engine.speed_assumed else ""
-    return f"{given(float(engine.speed_rpm))} rpm{assumed}{uneven}"
+    return f"{given(float(engine.speed_rpm))} rpm{uneven}"
 
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:

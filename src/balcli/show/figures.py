@@ -18,7 +18,7 @@ from ..engine.engine import Engine, SilentCylinders
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.spectrum import Spectra
-from .sheet import order_number
+from .sheet import order_number, tell_assumed
 from .units import ShownUnit, System
 
 
@@ -221,9 +221,9 @@ def list_assumed(
     """
     each = [engine.list_assumed(*chapters) or () for engine in engines]
     common = [line for line in each[0] if all(line in lines for lines in each)]
-    own = zip(names, each, strict=True)
-    others = [f"{name}: {line}" for name, lines in own for line in lines if line not in common]
-    return (*common, *others) or None
+    own = ([line for line in lines if line not in common] for lines in each)
+    others = zip(names, map(tell_assumed, own), strict=True)
+    return (*common, *(f"{name}: {keys}" for name, keys in others if keys)) or None
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:

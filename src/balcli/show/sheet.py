@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from itertools import groupby
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
@@ -204,11 +203,7 @@ def assumed_facts(assumed: Sequence[str] | None) -> tuple[Facts, ...]:
 
 
 def tell_assumed(assumed: Iterable[str]) -> str:
-    """The same in words: the name of an engine, and that of [gas], once before all its keys."""
-    parts = []
-    for owner, lines in groupby(assumed, lambda line: line.rpartition(": ")[0]):
-        keys = [line.rpartition(": ")[2] for line in lines]
-        later = [key for key in keys if key.startswith("gas.")][1:]
-        text = ", ".join(key.removeprefix("gas.") if key in later else key for key in keys)
-        parts.append(f"{owner}: {text}" if owner else text)
-    return "; ".join(parts)
+    """The same in words, the name of [gas] once before all its keys."""
+    lines = list(assumed)
+    later = [line for line in lines if line.startswith("gas.")][1:]
+    return ", ".join(line.removeprefix("gas.") if line in later else line for line in lines)

@@ -15,7 +15,6 @@ from ..engine.parts import Parts
 from ..errors import BalcliError
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile, Override
-from ..file.plain_tables import list_chapter_defaults
 from ..file.table import FileTable, document_keys
 from ..forces.quantity import Quantity, parse_quantity
 from ..names import QUANTITIES, import_name
@@ -131,14 +130,9 @@ def refuse_unknown_of_chapters(model: EngineFile, wanted: Iterable[AnyQuantity])
         load_chapter(chapter).refuse_unknown(model, members)
 
 
-_TABLES = {  # of the file, whose defaults count in the quantities of a chapter
-    "guide": {"gas"},
-    "cycle": {"gas"},
-    "mounts": {"gas", "body", "mount"},
-    "torsion": {"gas", "torsion"},
-}
+_MOUNTS, _TORSION = {"gas", "body", "mount"}, {"gas", "torsion"}  # tables whose defaults count
+_TABLES = {"mounts": _MOUNTS, "torsion": _TORSION, "guide": {"gas"}, "cycle": {"gas"}}
 _OF_INERTIA = {"force", "moment", "couple", "roll", "peak"}  # kinds that no gas changes
-_NATURAL = ("mode.", "torsion.")  # begin names of what does not depend on the running engine
 
 
 def list_assumed(
@@ -157,9 +151,7 @@ def list_assumed(
         chapter = find_chapter(name) or ENGINE
         of_gas = chapter is ENGINE and name.partition(".")[0] not in _OF_INERTIA
         tables |= {"gas"} if of_gas else _TABLES.get(chapter.name, set())
-    natural = all(name.startswith(_NATURAL) for name in names)
-    lines = list_chapter_defaults(model) if natural else list_inferred(Parts(model))
-    return choose_assumed(lines, tables, tuple(varied)) or None
+    return choose_assumed(list_inferred(Parts(model)), tables, tuple(varied)) or None
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:

@@ -23,7 +23,7 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
-from ..engine.numbering import PLACES
+from ..engine.numbering import STEADY
 from ..errors import InputError, Problem
 from ..file.fields import counted, join_words, printable, shorten, suggest_nearest
 from ..file.model import EngineFile
@@ -35,7 +35,6 @@ from ..file.torsion_tables import (
     Torsion,
     find_shaft_inertia,
     find_stiffness,
-    list_shaft_defaults,
 )
 from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
@@ -243,7 +242,7 @@ def build_chain(
         name=file.name or "",
         ends=(0, len(nodes) - 1),
         excitation=excitation,
-        assumed=tuple(list_shaft_defaults("shaft", file.shaft)),
+        assumed=("shaft.shear_modulus = 79.3",) * any(s.is_of_unnamed_steel for s in file.shaft),
         file=name,
     )
 
@@ -411,7 +410,7 @@ def build_engine_system(
         reference=front,
         ends=(place[foremost], place[_find_end(joints[front:], gears, throws[-1])]),
         silent=engine.silent,
-        assumed=engine.list_assumed("gas", "torsion", without=(*PLACES, "operation.speed")) or (),
+        assumed=engine.list_assumed("gas", "torsion", without=(*STEADY, "operation.speed")) or (),
         file=name,
     )
 

@@ -50,10 +50,7 @@ from .local import Box, Effort, find_local_optima
 from .throws import give_throws, list_throws, search_throws
 
 ARRANGED = ("throws", "firing_order")
-_REPLACED = {  # keys in whose place the arrangement stands
-    "throws": {"crank.throws", "layout.firing_intervals"},
-    "firing_order": {"crank.throws", "layout.firing_intervals", "layout.numbering"},
-}
+_ARRANGED = {"crank.throws", "layout.firing_intervals"}  # with throws or the firing order
 ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # deg
 NEAR_AN_END = 1e-4  # of a range
 _ROUNDING = 1e-13  # relative difference of equal objectives
@@ -175,6 +172,7 @@ def search_arrangements(
     refuse_unknown_of_chapters(model, objective.quantities)
     ranges = read_ranges(model, wanted)
     named = ", ".join(one.key for one in ranges) or wanted[0]
+    asked = [q.name for q in objective.quantities]
     constant, refused = False, ""
     if ranges:
         candidates, constant, refused = _search_numbers(model, ranges, objective, even_firing, tell)
@@ -190,16 +188,12 @@ def search_arrangements(
         candidates = rank_one_by_one(base, designs, objective, tell)
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
-        asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
+        limits = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         words = named if "." in named else named.replace("_", " ")
-        raise BalcliError(f"no {words} can {' and '.join(asked or ['be computed'])}")
+        raise BalcliError(f"no {words} can {' and '.join(limits or ['be computed'])}")
     return Search(
         model=model,
-        assumed=list_assumed(
-            model,
-            [q.name for q in objective.quantities],
-            _REPLACED.get(named) or {one.number.path for one in ranges},
-        ),
+        assumed=list_assumed(model, asked, {one.number.path for one in ranges} or _ARRANGED),
         over=named,
         results=found,
         objective=objective,
