@@ -189,6 +189,7 @@ class Variants:
         if names is None:
             asked = leave_out_unknown(build(model), choose_of_engine(asked))
         self.asked, of_engine = asked, choose_of_engine(asked)
+        self.assumed = list_assumed(model, [q.name for q in asked])
         kinds = {find_chapter(q.name) for q in asked}
         apart = kinds & {MOUNTS, TORSION}
         if apart and len(kinds) > 1:
@@ -280,7 +281,7 @@ class Variants:
         names = [q.name for q in self.asked]
         return Scatter(
             engine=NamedEngine(self.model.name),
-            assumed=list_assumed(self.model, names),
+            assumed=self.assumed,
             samples=len(values),
             distribution=drawing.shape,
             quantities=dict(zip(names, spreads, strict=True)),
