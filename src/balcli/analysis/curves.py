@@ -30,7 +30,6 @@ from ..show.csv import Columns, Rows
 from ..show.formats import Columnar
 from ..show.result import Result
 
-_IN_ONE_PLANE = "crank.spacing = 0"
 _MOMENTS = (MOMENT.key_along("x"), MOMENT.key_along("y"))
 
 _EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
@@ -63,7 +62,7 @@ class Curves(Result):
 
     def known(self) -> dict[str, Array]:
         """The curves without moments that are not known."""
-        unknown = _MOMENTS if _IN_ONE_PLANE in (self.assumed or ()) else ()
+        unknown = _MOMENTS if "crank.spacing = 0" in (self.assumed or ()) else ()
         return {name: values for name, values in self.curves.items() if name not in unknown}
 
 

@@ -157,8 +157,8 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     member: `mount.dynamic_factor = 1`.
     """
     for end in ("front", "rear") if model.torsion else ():
-        if any(part.is_of_unnamed_steel for part in getattr(model.torsion, end)):
-            yield f"torsion.{end}.shear_modulus = 79.3"
+        of_steel = (part for part in getattr(model.torsion, end) if part.is_of_unnamed_steel)
+        yield from {f"torsion.{end}.shear_modulus = {part.shear_modulus:g}" for part in of_steel}
     if model.body is not None and not model.body.has("gravity"):
         yield "body.gravity = [-1, 0, 0]"
     if not all(one.has("dynamic_factor") for one in model.mount):

@@ -242,7 +242,13 @@ def build_chain(
         name=file.name or "",
         ends=(0, len(nodes) - 1),
         excitation=excitation,
-        assumed=("shaft.shear_modulus = 79.3",) * any(s.is_of_unnamed_steel for s in file.shaft),
+        assumed=tuple(
+            {
+                f"shaft.shear_modulus = {s.shear_modulus:g}"
+                for s in file.shaft
+                if s.is_of_unnamed_steel
+            }
+        ),
         file=name,
     )
 
